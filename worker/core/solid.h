@@ -17,8 +17,8 @@ struct SolidOptions {
 struct MeshNote {
   enum class Severity { kRepaired, kWarning };
   Severity severity = Severity::kWarning;
-  std::string code;     ///< stable: "welded", "unused-vertices", "reoriented", "turned-out", "split-vertices",
-                        ///< "polygons-cut", "degenerate-triangles", "self-intersecting"
+  std::string code;  ///< stable: "welded", "unused-vertices", "reoriented", "turned-out", "split-vertices",
+                     ///< "polygons-cut", "degenerate-triangles", "self-intersecting"
   std::string message;  ///< counts and the first place
 };
 
@@ -27,8 +27,8 @@ struct Shell {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
   std::int64_t genus = 0;
-  double volume = 0;           ///< signed, mesh units cubed: < 0 for a cavity's wall
-  std::uint32_t solid = 0;     ///< index of the solid it bounds
+  double volume = 0;        ///< signed, mesh units cubed: < 0 for a cavity's wall
+  std::uint32_t solid = 0;  ///< index of the solid it bounds
   bool cavity = false;
 };
 
@@ -38,10 +38,10 @@ struct Shell {
 /// longest side lies in (1/2, 1].  The scaling is exact, the shift rounds once; all further stages work in
 /// inner coordinates and give volumes times 2^(3 exponent), areas times 2^(2 exponent).
 struct Solid {
-  Mesh mesh;                ///< inner coordinates
-  Vec3 centre;              ///< of the bounding box, mesh units
-  int exponent = 0;         ///< see above
-  Vec3 bbox_min, bbox_max;  ///< mesh units
+  Mesh mesh;                                  ///< inner coordinates
+  Vec3 centre;                                ///< of the bounding box, mesh units
+  int exponent = 0;                           ///< see above
+  Vec3 bbox_min, bbox_max;                    ///< mesh units
   std::vector<Shell> shells;                  ///< by first triangle
   std::vector<std::uint32_t> triangle_shell;  ///< per triangle
   std::vector<double> solid_volume;           ///< per connected solid, mesh units cubed, > 0

@@ -1,0 +1,198 @@
+#include "core/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/error.h"
+#include "core/scan_conversion.h"
+
+namespace affskel::core {
+namespace {
+
+// Lines beyond this would fill the memory before any point is found (16 bytes of bookkeeping each).
+constexpr double kMaxLines = 4e8;
+
+std::string in_words(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
+class LatticeBuilder {
+ public:
+  LatticeBuilder(const Solid& solid, const LatticeFrame& frame) : mesh_(solid.mesh) {
+    lattice_.frame = frame;
+  }
+
+  Lattice run() {
+    fill_axis_2();
+    fill_axis(0);
+    fill_axis(1);
+    return std::move(lattice_);
+  }
+
+ private:
+  // Axis 2 decides what is inside and numbers the points.
+  void fill_axis_2() {
+    const LatticeFrame& frame = lattice_.frame;
+    const LineCrossings lines = scan_convert(mesh_, frame, 2);
+    std::uint64_t points = 0;
+    for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
+      for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
+        const std::size_t line = std::size_t{i} * frame.dims[1] + j;
+        std::int32_t winding = 0;
+        for (std::uint64_t c = lines.begin[line]; c + 1 < lines.begin[line + 1]; ++c) {
+          const Crossing &low = lines.crossings[c], &high = lines.crossings[c + 1];
+          winding -= low.exits;
+          if (winding <= 0) continue;
+          const std::uint32_t k = clip(low.depth), end = clip(high.depth);
+          if (k >= end) continue;
+          lattice_.axis[2].runs.push_back(
+              {static_cast<std::uint32_t>(points), end - k, low.triangle, high.triangle, {i, j, k}});
+          points += end - k;
+          if (points > 0xFFFFFFFEU) {
+            throw CoreError(CoreError::Code::kLimit,
+                            "the lattice has more than 2^32 points inside the solid");
+          }
+        }
+      }
+    }
+    lattice_.points = static_cast<std::uint32_t>(points);
+  }
+
+  std::uint32_t clip(double depth) const {
+    return static_cast<std::uint32_t>(std::ceil(std::clamp(depth, 0.0, double{lattice_.frame.dims[2]})));
+  }
+
+  // Sorts the points into the lines of another axis and cuts these into runs.
+  void fill_axis(int axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const LineCrossings lines = scan_convert(mesh_, lattice_.frame, axis);
+    const std::size_t line_count = lines.begin.size() - 1;
+    std::vector<std::uint32_t> begin(line_count + 1, 0), run_of(lattice_.points);
+    for_each_point([&](std::uint32_t, const Run& run, const std::array<std::uint32_t, 3>& at) {
+      static_cast<void>(run);
+      ++begin[line_of(axis, at) + 1];
+    });
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::uint32_t> order(lattice_.points), cursor(begin.begin(), begin.end() - 1);
+    const Run* first_run = lattice_.axis[2].runs.data();
+    for_each_point([&](std::uint32_t point, const Run& run, const std::array<std::uint32_t, 3>& at) {
+      order[cursor[line_of(axis, at)]++] = point;
+      run_of[point] = static_cast<std::uint32_t>(&run - first_run);
+    });
+    std::vector<std::uint32_t>& kept = lattice_.axis[a].order;
+    kept.reserve(lattice_.points);
+    for (std::size_t line = 0; line < line_count; ++line) {
+      cut_line(a, lines, line, order, begin[line], begin[line + 1], run_of);
+    }
+  }
+
+  // Lines are numbered as in LineCrossings.
+  std::size_t line_of(int axis, const std::array<std::uint32_t, 3>& at) const {
+    const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
+    return std::size_t{at[u]} * lattice_.frame.dims[v] + at[v];
+  }
+
+  template <class Visit>
+  void for_each_point(Visit visit) const {
+    for (const Run& run : lattice_.axis[2].runs) {
+      std::array<std::uint32_t, 3> at = run.start;
+      for (std::uint32_t p = run.first; p < run.first + run.length; ++p, ++at[2]) visit(p, run, at);
+    }
+  }
+
+  // Points come in lattice order, so each line's are ascending along the axis.
+  void cut_line(std::size_t a, const LineCrossings& lines, std::size_t line,
+                const std::vector<std::uint32_t>& order, std::uint32_t from, std::uint32_t to,
+                const std::vector<std::uint32_t>& run_of) {
+    std::uint64_t next = lines.begin[line];
+    const std::uint64_t end = lines.begin[line + 1];
+    std::int32_t winding = 0;
+    Run* open = nullptr;
+    for (std::uint32_t o = from; o < to; ++o) {
+      const std::uint32_t point = order[o];
+      const Run& column = lattice_.axis[2].runs[run_of[point]];
+      std::array<std::uint32_t, 3> at = column.start;
+      at[2] += point - column.first;
+      while (next < end && lines.crossings[next].depth <= at[a]) {
+        winding -= lines.crossings[next++].exits;
+        open = nullptr;
+      }
+      AxisRuns& axis = lattice_.axis[a];
+      if (winding <= 0 || next == end) {
+        axis.strays.push_back({point, 1, column.low, column.high, at});
+        open = nullptr;
+        continue;
+      }
+      if (open == nullptr) {
+        axis.runs.push_back({static_cast<std::uint32_t>(axis.order.size()), 0,
+                             lines.crossings[next - 1].triangle, lines.crossings[next].triangle, at});
+        open = &axis.runs.back();
+      }
+      ++open->length;
+      axis.order.push_back(point);
+    }
+  }
+
+  const Mesh& mesh_;
+  Lattice lattice_;
+};
+
+double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
+  if (options.spacing == 0 && options.target_points > 0) {
+    return std::cbrt(solid.volume / static_cast<double>(options.target_points));
+  }
+  if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
+    throw CoreError(CoreError::Code::kBadInput, "the spacing must be a finite number > 0");
+  }
+  return options.spacing;
+}
+
+}  // namespace
+
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame) {
+  for (std::uint32_t n : frame.dims) {
+    if (n == 0 || n > (1U << 30))
+      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
+  }
+  return LatticeBuilder(solid, frame).run();
+}
+
+Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
+  const double spacing = wanted_spacing(solid, options);
+  const Vec3 sides = solid.bbox_max - solid.bbox_min;
+  const double lines = (sides.x / spacing + 1) * (sides.y / spacing + 1) +
+                       (sides.y / spacing + 1) * (sides.z / spacing + 1) +
+                       (sides.z / spacing + 1) * (sides.x / spacing + 1);
+  const double estimate = solid.volume / spacing / spacing / spacing;
+  if (!(estimate <= static_cast<double>(options.max_points)) || !(lines <= kMaxLines)) {
+    throw CoreError(CoreError::Code::kLimit,
+                    "spacing " + in_words(spacing) + " would give about " + in_words(estimate) +
+                        " sample points on " + in_words(lines) + " lattice lines; at most " +
+                        in_words(static_cast<double>(options.max_points)) + " points on " +
+                        in_words(kMaxLines) + " lines are supported");
+  }
+  LatticeFrame frame;
+  const double step = std::ldexp(spacing, -solid.exponent);
+  frame.axes = {Vec3{step, 0, 0}, Vec3{0, step, 0}, Vec3{0, 0, step}};
+  std::array<double, 3> origin{};
+  for (int k = 0; k < 3; ++k) {
+    const double count = std::max(1.0, std::ceil(sides[k] / spacing));
+    frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
+    origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
+  }
+  frame.origin = {origin[0], origin[1], origin[2]};
+  Lattice lattice = make_lattice(solid, frame);
+  lattice.spacing = spacing;
+  if (lattice.points == 0) {
+    throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
+                                                    in_words(spacing) + " is too coarse for a volume of " +
+                                                    in_words(solid.volume));
+  }
+  return lattice;
+}
+
+}  // namespace affskel::core

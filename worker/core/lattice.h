@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/solid.h"
+#include "core/vec3.h"
+
+namespace affskel::core {
+
+/// Lattice point (i, j, k) lies at origin + i axes[0] + j axes[1] + k axes[2], 0 <= i < dims[0] etc.
+struct LatticeFrame {
+  Vec3 origin;
+  std::array<Vec3, 3> axes;
+  std::array<std::uint32_t, 3> dims{};
+
+  Vec3 at(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+    return origin + (i * axes[0] + (j * axes[1] + k * axes[2]));
+  }
+};
+
+/// Consecutive sample points of a lattice line with no surface crossing between them.
+struct Run {
+  std::uint32_t first =
+      0;  ///< place of its first point in AxisRuns::order (the point itself if that is empty)
+  std::uint32_t length = 0;              ///< number of points, >= 1
+  std::uint32_t low = 0;                 ///< the triangle that ends the run below its first point
+  std::uint32_t high = 0;                ///< the triangle that ends it above its last point
+  std::array<std::uint32_t, 3> start{};  ///< lattice indices of the first point
+};
+
+/// All sample points, in runs along one axis.
+struct AxisRuns {
+  std::vector<Run> runs;
+  std::vector<std::uint32_t> order;  ///< sample points run by run; empty for axis 2, where it is 0, 1, 2, ...
+  /// Points within rounding of the surface whose line along this axis says "outside": runs of one point
+  /// along axis 2 (low and high belong to that axis; `first` is the point).
+  std::vector<Run> strays;
+};
+
+/// The sample points of a solid: lattice points inside it, numbered in lattice order (axis 2 fastest).
+struct Lattice {
+  LatticeFrame frame;  ///< inner coordinates of the solid
+  double spacing = 0;  ///< mesh units; 0 when the frame was given
+  std::uint32_t points = 0;
+  std::array<AxisRuns, 3> axis;
+};
+
+struct LatticeOptions {
+  double spacing = 0;                                 ///< dT, mesh units; > 0, or 0 to use target_points
+  std::uint64_t target_points = 0;                    ///< sets dT = (v0 / target_points)^(1/3)
+  std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
+};
+
+/// Axis-parallel lattice, centred on the solid's bounding box, ceil(side / dT) points per side, and the
+/// watertight scan conversion of the solid in it: a point is inside when the surfaces below it along
+/// axis 2 enter more often than they leave (half-open, decided the same way from both triangles of every
+/// edge, so that the count of crossings of a line is always even).
+/// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
+///   more than max_points would.
+Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
+
+/// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame);
+
+}  // namespace affskel::core

@@ -1,0 +1,126 @@
+#include "core/scan_conversion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace affskel::core {
+namespace {
+
+// Where an edge meets a row: coordinate u, depth w, and whether it runs towards greater v.
+struct RowHit {
+  double u = 0, w = 0;
+  bool upward = false;
+};
+
+struct Corner {
+  double u = 0, v = 0, w = 0;
+};
+
+class Scanner {
+ public:
+  Scanner(const Mesh& mesh, const LatticeFrame& frame, int axis)
+      : mesh_(mesh), u_((axis + 1) % 3), v_((axis + 2) % 3), w_(axis) {
+    u_count_ = frame.dims[static_cast<std::size_t>(u_)];
+    v_count_ = frame.dims[static_cast<std::size_t>(v_)];
+    transform(frame);
+  }
+
+  LineCrossings run() {
+    LineCrossings result;
+    result.begin.assign(std::size_t{u_count_} * v_count_ + 1, 0);
+    for_each_crossing([&](std::size_t line, const Crossing&) { ++result.begin[line + 1]; });
+    for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
+    result.crossings.resize(result.begin.back());
+    std::vector<std::uint64_t> cursor(result.begin.begin(), result.begin.end() - 1);
+    for_each_crossing([&](std::size_t line, const Crossing& c) { result.crossings[cursor[line]++] = c; });
+    for (std::size_t line = 0; line + 1 < result.begin.size(); ++line) {
+      std::sort(result.crossings.begin() + static_cast<std::ptrdiff_t>(result.begin[line]),
+                result.crossings.begin() + static_cast<std::ptrdiff_t>(result.begin[line + 1]),
+                [](const Crossing& a, const Crossing& b) {
+                  return a.depth != b.depth ? a.depth < b.depth : a.triangle < b.triangle;
+                });
+    }
+    return result;
+  }
+
+ private:
+  // Lattice coordinates of all vertices: rows of the inverse of the axes' matrix (Cramer).
+  void transform(const LatticeFrame& frame) {
+    const auto& a = frame.axes;
+    const double det = dot(a[0], cross(a[1], a[2]));
+    if (det == 0) throw CoreError(CoreError::Code::kBadInput, "the axes of the lattice are not independent");
+    const std::array<Vec3, 3> rows = {cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
+    left_handed_ = det < 0;
+    coordinates_.reserve(mesh_.points.size());
+    for (const Vec3& p : mesh_.points) {
+      const Vec3 q = p - frame.origin;
+      coordinates_.push_back({dot(q, rows[0]) / det, dot(q, rows[1]) / det, dot(q, rows[2]) / det});
+    }
+  }
+
+  Corner corner(std::uint32_t vertex) const {
+    const Vec3& g = coordinates_[vertex];
+    return {g[u_], g[v_], g[w_]};
+  }
+
+  // The integers n with low <= n < high, cut to 0 .. count - 1, as [first, last).
+  static std::array<std::int64_t, 2> integers_in(double low, double high, std::uint32_t count) {
+    const double limit = count;
+    return {static_cast<std::int64_t>(std::ceil(std::clamp(low, 0.0, limit))),
+            static_cast<std::int64_t>(std::ceil(std::clamp(high, 0.0, limit)))};
+  }
+
+  template <class Visit>
+  void for_each_crossing(Visit visit) const {
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Triangle& c = mesh_.triangles[t];
+      const std::array<Corner, 3> p = {corner(c[0]), corner(c[1]), corner(c[2])};
+      const auto rows =
+          integers_in(std::min({p[0].v, p[1].v, p[2].v}), std::max({p[0].v, p[1].v, p[2].v}), v_count_);
+      for (std::int64_t row = rows[0]; row < rows[1]; ++row) scan_row(t, p, row, visit);
+    }
+  }
+
+  template <class Visit>
+  void scan_row(std::uint32_t t, const std::array<Corner, 3>& p, std::int64_t row, Visit visit) const {
+    std::array<RowHit, 2> hit;
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner &a = p[i], &b = p[(i + 1) % 3];
+      const auto v = static_cast<double>(row);
+      if ((a.v <= v) == (b.v <= v) || hits == 2) continue;
+      const Corner &low = a.v < b.v ? a : b, &high = a.v < b.v ? b : a;
+      const double s = (v - low.v) / (high.v - low.v);
+      hit[hits++] = {low.u + s * (high.u - low.u), low.w + s * (high.w - low.w), a.v < b.v};
+    }
+    if (hits != 2) return;
+    if (hit[1].u < hit[0].u) std::swap(hit[0], hit[1]);
+    // Seen from the tip of the axis a triangle is counter-clockwise, hence faces up, when its right edge
+    // runs towards greater v.
+    const std::int32_t exits = hit[1].upward != left_handed_ ? 1 : -1;
+    const auto columns = integers_in(hit[0].u, hit[1].u, u_count_);
+    for (std::int64_t column = columns[0]; column < columns[1]; ++column) {
+      const double s = (static_cast<double>(column) - hit[0].u) / (hit[1].u - hit[0].u);
+      const double depth = hit[0].w + s * (hit[1].w - hit[0].w);
+      visit(static_cast<std::size_t>(column) * v_count_ + static_cast<std::size_t>(row),
+            Crossing{depth, t, exits});
+    }
+  }
+
+  const Mesh& mesh_;
+  int u_, v_, w_;
+  std::uint32_t u_count_ = 0, v_count_ = 0;
+  bool left_handed_ = false;
+  std::vector<Vec3> coordinates_;
+};
+
+}  // namespace
+
+LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis) {
+  return Scanner(mesh, frame, axis).run();
+}
+
+}  // namespace affskel::core
