@@ -69,6 +69,12 @@ bool same_bytes(const Computed& a, const Computed& b) {
   return true;
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 TEST(Erosion, BoxCornersFollowTheirClosedForm) {
   const Computed box = compute(make_box(1, 1, 1), 0.05, "random:10000:1");
   std::vector<double> excess;
@@ -97,7 +103,7 @@ TEST(Erosion, TetrahedronFollowsItsClosedForm) {
   const Computed t = compute(mesh, 0.04, "random:4000:1");
   const auto& p = mesh.points;
   const double volume = t.solid.volume;
-  std::size_t tested = 0;
+  std::vector<double> excess;
   for (std::size_t i = 0; i < t.place.size(); ++i) {
     std::array<double, 4> bary{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -111,10 +117,10 @@ TEST(Erosion, TetrahedronFollowsItsClosedForm) {
     if (bary[2] > 1.0 / 3) continue;
     const double infimum = 27 * volume * bary[0] * bary[1] * bary[2];
     ASSERT_GE(t.value[i].erosion, infimum - 1e-9 * volume);
-    ASSERT_LE(t.value[i].erosion, infimum * 1.2 + 1e-3 * volume);
-    ++tested;
+    excess.push_back(t.value[i].erosion / infimum - 1);
   }
-  EXPECT_GT(tested, 500U);
+  ASSERT_GT(excess.size(), 500U);
+  EXPECT_LT(median(excess), 0.02);
 }
 
 double ball_infimum(double r, double p) {
@@ -127,7 +133,7 @@ TEST(Erosion, BallFollowsItsClosedForm) {
   const Mesh mesh = make_sphere(1, 5120);
   const Computed ball = compute(mesh, 0.11, "sphere:2000");
   const double missing = 4 * kPi / 3 - ball.solid.volume;
-  ASSERT_LT(missing, 0.006);
+  ASSERT_LT(missing, 0.01);
   for (std::size_t i = 0; i < ball.place.size(); ++i) {
     const double infimum = ball_infimum(1, norm(ball.place[i]));
     ASSERT_GE(ball.value[i].erosion, infimum - missing);

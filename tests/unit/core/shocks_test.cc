@@ -63,7 +63,8 @@ TEST(ZuckerHummel, AJumpShowsOnBothSidesAndNowhereElse) {
   for (std::uint32_t k = 0; k < 9; ++k) {
     EXPECT_NEAR(h[Slab::at(4, 4, k)], k == 3 || k == 4 ? -2 * kPlane : 0, 1e-12);
   }
-  EXPECT_EQ(skeleton_points(h).size(), 2U * 81);
+  // The corners of the two layers have too few neighbours to reach 7: 2 (1 + sqrt(2) + sqrt(3)/3) = 5.98.
+  EXPECT_EQ(skeleton_points(h).size(), 2U * (81 - 4));
 }
 
 TEST(ZuckerHummel, ANeighbourOutsideCountsAsTheCentre) {
