@@ -1,0 +1,81 @@
+#include "core/box_tree.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace affskel::core {
+
+void Box::include(const Box& other) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], other.low[k]);
+    high[k] = std::max(high[k], other.high[k]);
+  }
+}
+
+Box box_of(const Mesh& mesh, const Triangle& triangle) {
+  const auto at = [&](std::size_t corner) {
+    const Vec3& p = mesh.points[triangle[corner]];
+    return Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}};
+  };
+  Box box = at(0);
+  box.include(at(1));
+  box.include(at(2));
+  return box;
+}
+
+BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), items_(boxes_.size()) {
+  std::iota(items_.begin(), items_.end(), 0u);
+  nodes_.reserve(boxes_.size());
+  if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(items_.size()));
+}
+
+std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t count) {
+  constexpr std::uint32_t kLeaf = 4;
+  Box box = boxes_[items_[first]];
+  std::uint32_t greatest = items_[first];
+  for (std::uint32_t i = first + 1; i < first + count; ++i) {
+    box.include(boxes_[items_[i]]);
+    greatest = std::max(greatest, items_[i]);
+  }
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({box, first, count, 0, greatest});
+  if (count <= kLeaf) return index;
+
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
+  }
+  const auto centre = [&](std::uint32_t i) { return boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2; };
+  const auto begin = items_.begin() + first;
+  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t i, std::uint32_t j) {
+    return std::pair(centre(i), i) < std::pair(centre(j), j);
+  });
+  build(first, count / 2);
+  nodes_[index].right = build(first + count / 2, count - count / 2);
+  return index;
+}
+
+void BoxTree::find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const {
+  out.clear();
+  if (nodes_.empty()) return;
+  std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes_[index];
+    if (node.greatest <= above || !node.box.meets(query)) continue;
+    if (node.right != 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (items_[i] > above && boxes_[items_[i]].meets(query)) out.push_back(items_[i]);
+    }
+  }
+  std::sort(out.begin(), out.end());
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <charconv>
+#include <string>
+
+namespace affskel::core {
+
+/// The shortest decimal text that reads back as `value`, for messages.
+inline std::string to_text(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return std::string(buffer, result.ptr);
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,134 @@
+#include "core/self_intersection.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
+#include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/box_tree.h"
+#include "core/error.h"
+
+namespace affskel::core {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+[[noreturn]] void refuse(std::size_t triangle, std::uint32_t vertex, const std::string& cause) {
+  throw CoreError(CoreError::Code::kBadInput, "triangle " + std::to_string(triangle) + ", vertex " +
+                                                  std::to_string(vertex) + ": " + cause);
+}
+
+void check(const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (v >= mesh.points.size()) {
+        refuse(i, v, "there are only " + std::to_string(mesh.points.size()) + " vertices");
+      }
+      const Vec3& p = mesh.points[v];
+      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) {
+        refuse(i, v, "a coordinate is not finite");
+      }
+    }
+  }
+}
+
+/// Triangle t with its corners turned so that the ones it shares with another come first.
+struct Turned {
+  std::array<std::uint32_t, 3> corner;
+  std::size_t shared = 0;
+};
+
+Turned shared_first(const Triangle& t, const Triangle& other) {
+  Turned turned{};
+  std::size_t from_back = 3;
+  for (const std::uint32_t v : t) {
+    const bool common = v == other[0] || v == other[1] || v == other[2];
+    turned.corner[common ? turned.shared++ : --from_back] = v;
+  }
+  return turned;
+}
+
+class PairTest {
+ public:
+  explicit PairTest(const Mesh& mesh) : mesh_(mesh) {}
+
+  bool degenerate(const Triangle& t) const {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] ||
+           CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
+  }
+
+  /// Whether two triangles, neither degenerate, meet beyond what they share.
+  bool operator()(const Triangle& s, const Triangle& t) const {
+    const Turned a = shared_first(s, t), b = shared_first(t, s);
+    switch (a.shared) {
+      case 0:
+        return CGAL::do_intersect(triangle(s), triangle(t));
+      case 1:
+        // Whatever they share besides the vertex is convex and reaches the side opposite to the vertex
+        // in one of the two.
+        return CGAL::do_intersect(segment(a.corner[1], a.corner[2]), triangle(t)) ||
+               CGAL::do_intersect(segment(b.corner[1], b.corner[2]), triangle(s));
+      case 2:
+        return folded(a.corner, b.corner[2]);
+      default:
+        return true;
+    }
+  }
+
+ private:
+  Point point(std::uint32_t v) const {
+    const Vec3& p = mesh_.points[v];
+    return {p.x, p.y, p.z};
+  }
+  Kernel::Segment_3 segment(std::uint32_t v, std::uint32_t w) const { return {point(v), point(w)}; }
+  Kernel::Triangle_3 triangle(const Triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
+
+  /// Triangles over the same edge overlap only when they lie in one plane, on the same side of the edge.
+  bool folded(const std::array<std::uint32_t, 3>& a, std::uint32_t apex) const {
+    const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(apex);
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+
+  const Mesh& mesh_;
+};
+
+std::vector<Box> boxes_of(const Mesh& mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) boxes.push_back(box_of(mesh, t));
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
+    const Mesh& mesh, const SelfIntersectionOptions& options) {
+  check(mesh);
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  const PairTest meet(mesh);
+  std::vector<bool> degenerate(count);
+  for (std::uint32_t i = 0; i < count; ++i) degenerate[i] = meet.degenerate(mesh.triangles[i]);
+
+  const std::vector<Box> boxes = boxes_of(mesh);
+  const BoxTree tree(boxes);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  std::vector<std::uint32_t> candidates;
+  for (std::uint32_t i = 0; i < count && pairs.size() < options.max_pairs; ++i) {
+    if (degenerate[i]) {
+      if (options.degenerate_triangles) pairs.emplace_back(i, i);
+      continue;
+    }
+    tree.find(boxes[i], i, candidates);
+    for (const std::uint32_t j : candidates) {
+      if (pairs.size() == options.max_pairs) break;
+      if (!degenerate[j] && meet(mesh.triangles[i], mesh.triangles[j])) pairs.emplace_back(i, j);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace affskel::core
