@@ -1,0 +1,129 @@
+#include "core/erosion.h"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "core/join_tree.h"
+
+namespace affskel::core {
+namespace {
+
+// Relative to v0: far above what rounding does to monotonicity (the trees' invariant), far below what
+// matters.
+constexpr double kPruneMargin = 2e-9;
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+class Erosion::Engine {
+ public:
+  Engine(const Solid& solid, const Lattice& lattice, const DirectionSet& directions,
+         const ErosionOptions& options)
+      : directions_(directions),
+        trees_(solid),
+        field_(lattice.points, options.track_changes),
+        // Volumes may fall along a run where a mesh crosses itself: nothing can be left out there.
+        sweeper_(lattice, field_,
+                 {options.prune && !solid.self_intersecting, kPruneMargin * inner_volume(solid)}) {
+    const JoinTreeOptions tree_options{!solid.self_intersecting};
+    for (unsigned i = 0; i < std::max(1U, options.threads); ++i) {
+      builders_.push_back(std::make_unique<JoinTreeBuilder>(trees_, tree_options));
+    }
+  }
+
+  void run(std::span<const std::uint32_t> list, ExecutionContext& context) {
+    std::atomic<std::uint64_t> next{0};
+    std::atomic<bool> failed{false};
+    std::exception_ptr error;
+    const auto work = [&](JoinTreeBuilder& builder) {
+      try {
+        work_off(builder, list, next, failed, context);
+      } catch (...) {
+        const std::lock_guard<std::mutex> guard(mutex_);
+        if (!error) error = std::current_exception();
+        failed = true;
+      }
+    };
+    std::vector<std::thread> helpers;
+    for (std::size_t i = 1; i < builders_.size(); ++i) helpers.emplace_back(work, std::ref(*builders_[i]));
+    work(*builders_[0]);
+    for (std::thread& helper : helpers) helper.join();
+    if (error) std::rethrow_exception(error);
+  }
+
+  ErosionField& field() { return field_; }
+
+  ErosionCost cost() const {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    return cost_;
+  }
+
+ private:
+  static double inner_volume(const Solid& solid) { return std::ldexp(solid.volume, -3 * solid.exponent); }
+
+  void work_off(JoinTreeBuilder& builder, std::span<const std::uint32_t> list,
+                std::atomic<std::uint64_t>& next, const std::atomic<bool>& failed,
+                ExecutionContext& context) {
+    ErosionCost spent;
+    Stopwatch watch;
+    while (!failed && !context.stop_requested()) {
+      const std::uint64_t item = next++;
+      if (item >= list.size()) break;
+      const Vec3& d = directions_[list[item]];
+      if (d != Vec3{}) {
+        watch.lap();
+        const JoinTree& tree = builder.build(d);
+        spent.trees_s += watch.lap();
+        spent.counts += sweeper_.sweep(tree, d, list[item]);
+        spent.sweep_s += watch.lap();
+      }
+      context.item_done(item);
+    }
+    const std::lock_guard<std::mutex> guard(mutex_);
+    cost_.trees_s += spent.trees_s;
+    cost_.sweep_s += spent.sweep_s;
+    cost_.counts += spent.counts;
+  }
+
+  const DirectionSet& directions_;
+  TreeInput trees_;
+  ErosionField field_;
+  Sweeper sweeper_;
+  std::vector<std::unique_ptr<JoinTreeBuilder>> builders_;
+  mutable std::mutex mutex_;
+  ErosionCost cost_;
+};
+
+Erosion::Erosion(const Solid& solid, const Lattice& lattice, const DirectionSet& directions,
+                 const ErosionOptions& options)
+    : engine_(std::make_unique<Engine>(solid, lattice, directions, options)) {}
+Erosion::~Erosion() = default;
+
+void Erosion::run(std::span<const std::uint32_t> list, ExecutionContext& context) {
+  engine_->run(list, context);
+}
+ErosionField& Erosion::field() {
+  return engine_->field();
+}
+ErosionCost Erosion::cost() const {
+  return engine_->cost();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,48 @@
+#include "core/field.h"
+
+namespace affskel::core {
+
+ErosionField::ErosionField(std::uint32_t points, bool track_changes)
+    : erosion_(points, std::numeric_limits<double>::infinity()),
+      area_(points, 0),
+      direction_(points, FieldValue::kNoDirection),
+      changed_(track_changes ? points : 0, 0) {}
+
+void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
+  bool first_change = false;
+  {
+    const std::lock_guard<std::mutex> guard(lock_of(point));
+    if (!offered.improves({erosion_[point], area_[point], direction_[point]})) return;
+    std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
+    area_[point] = offered.area;
+    direction_[point] = offered.direction;
+    if (!changed_.empty() && changed_[point] == 0) {
+      changed_[point] = 1;
+      first_change = true;
+    }
+  }
+  if (!first_change) return;
+  const std::lock_guard<std::mutex> guard(changes_mutex_);
+  changes_.push_back(point);
+}
+
+FieldValue ErosionField::value(std::uint32_t point) const {
+  const std::lock_guard<std::mutex> guard(lock_of(point));
+  return {erosion_[point], area_[point], direction_[point]};
+}
+
+std::vector<std::uint32_t> ErosionField::take_changes() {
+  std::vector<std::uint32_t> taken;
+  {
+    const std::lock_guard<std::mutex> guard(changes_mutex_);
+    taken.swap(changes_);
+  }
+  // A point that improves again from here on is listed again; its value read later is at least as new.
+  for (std::uint32_t point : taken) {
+    const std::lock_guard<std::mutex> guard(lock_of(point));
+    changed_[point] = 0;
+  }
+  return taken;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <vector>
+
+namespace affskel::core {
+
+/// Value of the erosion field at one point.
+struct FieldValue {
+  static constexpr std::uint32_t kNoDirection = 0xFFFFFFFFU;
+  double erosion = std::numeric_limits<double>::infinity();  ///< E, volume
+  double area = 0;                                           ///< of the section at the optimum
+  std::uint32_t direction = kNoDirection;                    ///< the one that attains E
+
+  /// Lexicographic order of (E, direction): the field's merge keeps the lesser.
+  bool improves(const FieldValue& other) const {
+    return erosion != other.erosion ? erosion < other.erosion : direction < other.direction;
+  }
+};
+
+/// The E field while it is computed: per sample point the least (E, direction) offered so far, with its
+/// area.  A semilattice (design section 3): offers commute, repeat without effect and may come from any
+/// thread.  Volumes and areas in inner units of the solid.
+///
+/// Threads: offer(), erosion() and value() from any; take_changes() from one at a time.
+class ErosionField {
+ public:
+  /// @param track_changes remember which points improved, for take_changes().
+  ErosionField(std::uint32_t points, bool track_changes);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(erosion_.size()); }
+
+  /// E as of some moment not long ago: never less than the present one.
+  double erosion(std::uint32_t point) const {
+    return std::atomic_ref<double>(const_cast<double&>(erosion_[point])).load(std::memory_order_relaxed);
+  }
+
+  /// Whether (erosion, direction) could improve the point; a quick test before offer().
+  bool may_improve(std::uint32_t point, double erosion_value) const {
+    return erosion_value <= erosion(point);
+  }
+
+  void offer(std::uint32_t point, const FieldValue& value);
+
+  /// A consistent copy of one value.
+  FieldValue value(std::uint32_t point) const;
+
+  /// Points improved since the last call, each once, in no particular order.
+  std::vector<std::uint32_t> take_changes();
+
+ private:
+  static constexpr std::size_t kLocks = 1024;
+  // A run's points share a lock, which keeps neighbouring offers in one cache line.
+  std::mutex& lock_of(std::uint32_t point) const { return locks_[(point >> 4) % kLocks]; }
+
+  std::vector<double> erosion_;
+  std::vector<double> area_;
+  std::vector<std::uint32_t> direction_;
+  std::vector<std::uint8_t> changed_;  // per point, empty when not tracked
+  mutable std::array<std::mutex, kLocks> locks_;
+  std::mutex changes_mutex_;
+  std::vector<std::uint32_t> changes_;
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/shocks.h"
+
+namespace affskel::core {
+
+struct SkeletonOptions {
+  double threshold = 7;  ///< keep points with |H| above this; > 0
+};
+
+struct SkeletonPoint {
+  std::uint32_t point = 0;  ///< sample point
+  double divergence = 0;    ///< H
+};
+
+/// The thresholded affine skeleton (Zografos 2003, section 3.4): sample points where the normals of the
+/// level surfaces of E jump, |H| > threshold, in lattice order.
+/// @throws CoreError kBadInput when the threshold is not a finite number > 0.
+std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence,
+                                           const SkeletonOptions& options = {});
+
+}  // namespace affskel::core
