@@ -30,12 +30,10 @@ namespace {
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A triangle lower than this (inner units; the solid's size is 1) is a jump of A at its top; V stays exact
-// above it, inside its height range V is off by less than p times this.
-constexpr double kLevelTriangle = 1e-10;
-// An edge with (height range)^2 below this times the triangle's range is a jump of A'; error of V < p times
-// it.
-constexpr double kLevelEdge = 1e-13;
+// A triangle lower than this (inner units; the solid's size is 1) is a jump of A at its top, an edge a jump
+// of A'.  V is exact above them and off by less than p times this inside their height range.  Smaller
+// values cost accuracy too: bends reach p / kLevel^2, of which the double-double sums keep 2^-104.
+constexpr double kLevel = 1e-11;
 // Bends up to this times v0 are added in plain doubles: 2^-53 of it, integrated three times over heights
 // below 2, is less than 1e-13 v0.
 constexpr double kPlainBend = 500;
@@ -112,7 +110,8 @@ inline Ranked sort3(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 // What the pass over the triangles leaves per vertex, by rank.
 struct VertexData {
-  std::vector<Sum2> bend;
+  std::vector<double> plain_bend;   // of A'', the moderate part
+  std::vector<Sum2> bend;           // and the rest: huge parts would swallow moderate ones added to them
   std::vector<std::uint32_t> down;  // some lower neighbour, kNone at a minimum
   std::vector<std::uint8_t>
       middles;  // triangles of which it is the middle corner: 2 per lower link component
@@ -161,17 +160,16 @@ AFFSKEL_CLONES void pass_triangles(const TreeInput::Data& input, const HeightOrd
     const double a = height[r.lo], b = height[r.mid], c = height[r.hi];
     const double p = -dot(d, input.area_vector[t]);
     const double ba = b - a, cb = c - b, ca = c - a;
-    const double level = kLevelEdge * ca;
     const double start = p / (ba * ca), end = p / (cb * ca);
-    if (std::abs(start) <= plain && std::abs(end) <= plain && ba * ba > level && cb * cb > level) {
-      out.bend[r.lo].hi += start;
-      out.bend[r.mid].hi -= start + end;
-      out.bend[r.hi].hi += end;
-    } else if (ca <= kLevelTriangle) {
+    if (std::abs(start) <= plain && std::abs(end) <= plain && ba > kLevel && cb > kLevel) {
+      out.plain_bend[r.lo] += start;
+      out.plain_bend[r.mid] -= start + end;
+      out.plain_bend[r.hi] += end;
+    } else if (ca <= kLevel) {
       add_level_triangle(r, a, b, c, p, out);
-    } else if (ba * ba <= level) {
+    } else if (ba <= kLevel) {
       add_level_low_edge(r, a, b, c, p, out);
-    } else if (cb * cb <= level) {
+    } else if (cb <= kLevel) {
       add_level_high_edge(r, a, b, c, p, out);
     } else {
       add_exactly(r, a, b, c, p, out);
@@ -209,6 +207,7 @@ AFFSKEL_CLONES double pass_volumes(const HeightOrder& heights, const VertexData&
       advance(state, height[r]);
     }
     state.bend.add(vertices.bend[r]);
+    state.bend.add(vertices.plain_bend[r]);
     for (; jump != vertices.jumps.end() && jump->rank == r; ++jump) {
       state.volume.add(jump->volume);
       state.area.add(jump->area);
@@ -261,6 +260,7 @@ class JoinTreeBuilder::Work {
   void reset() {
     const std::size_t vertices = heights_.order().size();
     vertex_.bend.assign(vertices, {});
+    vertex_.plain_bend.assign(vertices, 0);
     vertex_.down.assign(vertices, kNone);
     vertex_.middles.assign(vertices, 0);
     vertex_.jumps.clear();

@@ -63,7 +63,7 @@ class LatticeBuilder {
   }
 
   std::uint32_t clip(double depth) const {
-    return static_cast<std::uint32_t>(std::ceil(std::clamp(depth, 0.0, double{lattice_.frame.dims[2]})));
+    return static_cast<std::uint32_t>(std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.frame.dims[2]))));
   }
 
   // Sorts the points into the lines of another axis and cuts these into runs.

@@ -1,0 +1,115 @@
+#include "compute.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "core/directions.h"
+#include "core/erosion.h"
+#include "core/lattice.h"
+#include "core/mesh_io.h"
+#include "core/solid.h"
+#include "wire/direction_order.h"
+
+namespace affskel::worker {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be opened for reading");
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  if (file.bad()) throw std::runtime_error(path + ": reading failed");
+  return std::move(bytes).str();
+}
+
+double peak_rss_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+// All directions in the order that the service works in.
+std::vector<std::uint32_t> work_order(std::size_t count) {
+  const std::uint64_t stride = wire::direction_stride(count);
+  std::vector<std::uint32_t> list(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    list[p] = static_cast<std::uint32_t>(wire::direction_at(p, stride, count));
+  }
+  return list;
+}
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+void write_field(const std::string& path, const core::Solid& solid, const core::Lattice& lattice,
+                 const core::DirectionSet& directions, const core::ErosionField& field) {
+  File file(std::fopen(path.c_str(), "w"), &std::fclose);
+  if (!file) throw std::runtime_error(path + ": cannot be opened for writing");
+  std::fputs("x,y,z,E,nx,ny,nz,direction\n", file.get());
+  const double scale = solid.scale(), volume_scale = std::ldexp(1.0, 3 * solid.exponent);
+  for (const core::Run& run : lattice.axis[2].runs) {
+    for (std::uint32_t n = 0; n < run.length; ++n) {
+      const core::Vec3 x =
+          solid.centre + scale * lattice.frame.at(run.start[0], run.start[1], run.start[2] + n);
+      const core::FieldValue value = field.value(run.first + n);
+      const core::Vec3& d = directions[value.direction];
+      std::fprintf(file.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%u\n", x.x, x.y, x.z,
+                   value.erosion * volume_scale, d.x, d.y, d.z, value.direction);
+    }
+  }
+  if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
+    throw std::runtime_error(path + ": writing failed");
+  }
+}
+
+}  // namespace
+
+void compute(const ComputeOptions& options) {
+  const Stopwatch wall;
+  const core::OffMesh off = core::read_off(read_file(options.file));
+  const core::Solid solid =
+      core::make_solid(off.mesh, {options.repair, true}, off.vertex_line, off.triangle_line);
+  for (const core::MeshNote& note : solid.notes) {
+    std::fprintf(stderr, "%s: %s\n", options.file.c_str(), note.message.c_str());
+  }
+  core::LatticeOptions lattice_options;
+  lattice_options.spacing = options.spacing;
+  lattice_options.target_points = options.points;
+  const core::Lattice lattice = core::make_lattice(solid, lattice_options);
+  const core::DirectionSet directions = core::make_directions(solid, options.directions);
+  core::ErosionOptions erosion_options;
+  erosion_options.threads = options.threads;
+  erosion_options.prune = options.prune;
+  core::Erosion erosion(solid, lattice, directions, erosion_options);
+  const double prepare_s = wall.seconds();
+  core::ExecutionContext context;
+  erosion.run(work_order(directions.size()), context);
+  const core::ErosionCost cost = erosion.cost();
+  const double wall_s = wall.seconds();
+  if (!options.output.empty()) write_field(options.output, solid, lattice, directions, erosion.field());
+  std::fprintf(
+      stderr,
+      "N=%zu R=%u K=%zu v0=%.17g prepare_s=%.6f trees_s=%.6f sweep_s=%.6f wall_s=%.6f peak_rss_mb=%.1f\n",
+      solid.mesh.triangles.size(), lattice.points, directions.size(), solid.volume, prepare_s, cost.trees_s,
+      cost.sweep_s, wall_s, peak_rss_mb());
+}
+
+}  // namespace affskel::worker

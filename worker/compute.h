@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace affskel::worker {
+
+struct ComputeOptions {
+  std::string file;                      ///< OFF file to read
+  double spacing = 0;                    ///< dT, mesh units; 0 = use points
+  std::uint64_t points = 100000;         ///< sample points aimed at when spacing is 0
+  std::string directions = "triangles";  ///< see core::make_directions
+  unsigned threads = 1;
+  bool repair = true;
+  bool prune = true;
+  std::string output;  ///< field file (.csv), empty = none
+};
+
+/// `affskel-worker compute`: prepare and erode in this process, without a server.  Prints one line of
+/// figures on stderr; writes the field when asked to.
+/// @throws core::CoreError for bad input; std::runtime_error when a file cannot be read or written.
+void compute(const ComputeOptions& options);
+
+}  // namespace affskel::worker
