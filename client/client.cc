@@ -38,8 +38,11 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   GlobalOptions global;
   global.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   if (arguments.empty()) io.err << app.help();
+  const bool no_command =
+      end.get_name() == "RequiredError" && std::string(end.what()).find("subcommand") != std::string::npos;
+  const std::string cause = no_command ? "no command was given" : end.what();
   Console console(io.out, io.err, style_for(global, io));
-  console.error(ClientError(ExitCode::kUsage, std::string(end.what()) + "; see " + command + " --help"));
+  console.error(ClientError(ExitCode::kUsage, cause + "; see " + command + " --help"));
   return static_cast<int>(ExitCode::kUsage);
 }
 

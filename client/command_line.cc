@@ -4,6 +4,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "client/help_format.h"
+#include "core/directions.h"
+#include "core/error.h"
 #include "wire/version.h"
 
 namespace affskel::client {
@@ -30,6 +33,33 @@ void note_own_skeleton(CLI::App* sub, Options& options, Command which) {
   });
 }
 
+CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
+  return CLI::Validator(
+      [low, high](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc{} && end == text.data() + text.size();
+        return whole && value >= low && value <= high
+                   ? ""
+                   : "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+                         ", not '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator direction_set() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        try {
+          text = core::canonical_directions(text);
+          return {};
+        } catch (const core::CoreError& error) {
+          return error.what();
+        }
+      },
+      "");
+}
+
 CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
                   const std::string& description, const std::string& examples) {
   CLI::App* sub = parent.add_subcommand(name, description);
@@ -54,7 +84,7 @@ void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
       ->capture_default_str()
       ->type_name("OP");
   sub->add_option("--threshold", skeleton.threshold,
-                  "Keep points with |H| above this (default: the operator's, 7)")
+                  "Keep points with |H| above this (default: the operator's)")
       ->check(positive_number())
       ->type_name("T");
 }
@@ -75,24 +105,24 @@ void add_submit(CLI::App& app, Options& options) {
                              ->check(positive_number())
                              ->type_name("DT");
   sub->add_option("--points", o.points, "Aim at this many sample points")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+      ->check(whole_in(1, std::uint64_t{1} << 31))
       ->capture_default_str()
       ->type_name("R")
       ->excludes(spacing);
   sub->add_option("--directions", o.directions, "triangles, sphere:N, random:N:SEED, joined by +")
-      ->check(CLI::Validator([](std::string& text) { return check_direction_set(text); }, ""))
+      ->check(direction_set())
       ->capture_default_str()
       ->type_name("SET");
   add_skeleton_options(sub, o.skeleton);
   sub->add_option("--name", o.name, "Name for people (default: the file's)")->type_name("NAME");
   sub->add_option("--priority", o.priority, "0 .. 9, higher first")
-      ->check(CLI::Range(0u, 9u))
+      ->check(whole_in(0, 9))
       ->capture_default_str()
       ->type_name("P");
   sub->add_option("--request-id", o.request_id,
                   "Submitting again with the same key and content gives the same job")
       ->type_name("KEY");
-  sub->add_option("--repair", o.repair, "auto: weld, turn and drop what needs it, and say so; none: refuse")
+  sub->add_option("--repair", o.repair, "Weld, turn and drop what needs it, and say so, or refuse")
       ->check(CLI::IsMember({"auto", "none"}))
       ->capture_default_str()
       ->type_name("");
@@ -109,7 +139,7 @@ void add_job_commands(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   list->add_option("--owner", options.list.owner, "Only this user's jobs")->type_name("USER");
   list->add_option("--limit", options.list.limit, "At most this many")
-      ->check(CLI::Range(1u, 1000u))
+      ->check(whole_in(1, 1000))
       ->capture_default_str()
       ->type_name("N");
   add_job(command(app, options, "status", Command::kStatus, "State, progress and facts of a job",
@@ -168,7 +198,7 @@ void add_result_commands(CLI::App& app, Options& options) {
               "  affskel-client render @last -o body.png --width 2400");
   add_job(render, options);
   render->add_option("--width", options.job.width, "Pixels")
-      ->check(CLI::Range(200, 8000))
+      ->check(whole_in(200, 8000))
       ->capture_default_str()
       ->type_name("W");
   add_output(render, options, "PNG file to write");
@@ -200,6 +230,13 @@ void triple(CLI::App* sub, const std::string& name, std::vector<double>& values,
       ->check(positive_number())
       ->capture_default_str()
       ->type_name("A,B,C");
+}
+
+void add_inspect(CLI::App& app, Options& options) {
+  CLI::App* sub = command(app, options, "inspect", Command::kInspect,
+                          "What a mesh is, and every defect with its place; needs no server",
+                          "  affskel-client inspect body.off\n  affskel-client --json inspect body.off");
+  sub->add_option("FILE", options.inspect_file, "Geomview OFF text")->required()->type_name("");
 }
 
 void add_make(CLI::App& app, Options& options) {
@@ -241,10 +278,6 @@ void add_make(CLI::App& app, Options& options) {
 void add_other_commands(CLI::App& app, Options& options) {
   command(app, options, "server-info", Command::kServerInfo, "Version, workers and queue of the server",
           "  affskel-client server-info\n  affskel-client --server 127.0.0.1:7340 server-info");
-  CLI::App* inspect = command(app, options, "inspect", Command::kInspect,
-                              "What a mesh is, and every defect with its place; needs no server",
-                              "  affskel-client inspect body.off\n  affskel-client --json inspect body.off");
-  inspect->add_option("FILE", options.inspect_file, "Geomview OFF text")->required()->type_name("");
   CLI::App* completions = command(
       app, options, "completions", Command::kCompletions, "Completion script for a shell",
       "  affskel-client completions bash > ~/.local/share/bash-completion/completions/affskel-client\n"
@@ -255,35 +288,7 @@ void add_other_commands(CLI::App& app, Options& options) {
       ->type_name("");
 }
 
-bool whole_number(std::string_view text, std::uint64_t least) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && value >= least;
-}
-
-bool good_direction_part(std::string_view part) {
-  if (part == "triangles") return true;
-  if (part.starts_with("sphere:")) return whole_number(part.substr(7), 1);
-  if (!part.starts_with("random:")) return false;
-  const std::string_view rest = part.substr(7);
-  const std::size_t colon = rest.find(':');
-  return colon != std::string_view::npos && whole_number(rest.substr(0, colon), 1) &&
-         whole_number(rest.substr(colon + 1), 0);
-}
-
 }  // namespace
-
-std::string check_direction_set(const std::string& set) {
-  for (std::size_t begin = 0; begin <= set.size();) {
-    const std::size_t end = std::min(set.find('+', begin), set.size());
-    const std::string part = set.substr(begin, end - begin);
-    if (!good_direction_part(part)) {
-      return "'" + part + "' is no direction set; expected triangles, sphere:N or random:N:SEED, joined by +";
-    }
-    begin = end + 1;
-  }
-  return {};
-}
 
 void build_command_line(CLI::App& app, Options& options) {
   app.name("affskel-client");
@@ -291,7 +296,7 @@ void build_command_line(CLI::App& app, Options& options) {
   app.set_version_flag("--version", std::string("affskel-client ") + wire::kVersion);
   app.fallthrough();  // global options may also follow the command
   app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.add_option(
          "--server", options.global.server,
          "unix:PATH or HOST:PORT (default: $AFFSKEL_SERVER, the configuration file, or a private server that "
@@ -302,8 +307,9 @@ void build_command_line(CLI::App& app, Options& options) {
   add_submit(app, options);
   add_job_commands(app, options);
   add_result_commands(app, options);
-  add_other_commands(app, options);
+  add_inspect(app, options);
   add_make(app, options);
+  add_other_commands(app, options);
   app.footer(
       "Examples:\n"
       "  affskel-client make body -o body.off\n"

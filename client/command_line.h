@@ -12,8 +12,4 @@ void build_command_line(CLI::App& app, Options& options);
 /// A completion script for "bash", "zsh" or "fish", made from the tree.
 std::string completion_script(const CLI::App& app, const std::string& shell);
 
-/// Whether SET is `triangles`, `sphere:N`, `random:N:SEED` or several of these joined by `+`, N >= 1; empty,
-/// or what is wrong with it.
-std::string check_direction_set(const std::string& set);
-
 }  // namespace affskel::client

@@ -5,6 +5,7 @@
 
 #include "client/command_line.h"
 #include "client/error.h"
+#include "client/help_format.h"
 
 namespace affskel::client {
 namespace {
@@ -27,16 +28,8 @@ struct CompletedCommand {
   std::vector<std::pair<std::string, std::string>> subcommands;  // name, description
 };
 
-// CLI11 shows the values of IsMember as {a,b,c} in the type's name.
-std::vector<std::string> possible_values(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t open = type.find('{'), close = type.find('}');
-  if (open == std::string::npos || close == std::string::npos || close < open) return {};
-  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
-}
-
 bool wants_file(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+  const std::string type = placeholder(option);
   return type == "FILE" || type == "DIR" || option.get_name() == "FILE";
 }
 

@@ -21,57 +21,57 @@ std::string dump(const ordered_json& value) {
 
 }  // namespace
 
-void Console::result(std::string_view text) {
-  if (style_.json) return;
-  clear_transient();
-  out_ << text;
-  out_.flush();
-}
-
-void Console::document(const ordered_json& value) {
-  if (!style_.json) return;
-  out_ << dump(value) << '\n';
-  out_.flush();
-}
-
-void Console::transient(std::string_view text) {
-  err_ << kClearLine << (style_.colour ? kCyan : "") << printable(text) << (style_.colour ? kReset : "");
-  err_.flush();
-  transient_shown_ = true;
-}
-
-void Console::clear_transient() {
+void Console::erase_transient() {
   if (transient_shown_) err_ << kClearLine << std::flush;
   transient_shown_ = false;
 }
 
+void Console::line(const char* colour, std::string_view label, std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  erase_transient();
+  if (!label.empty()) err_ << (style_.colour ? colour : "") << label << (style_.colour ? kReset : "") << ' ';
+  err_ << text << '\n' << std::flush;
+}
+
+void Console::result(std::string_view text) {
+  if (style_.json) return;
+  const std::lock_guard lock(mutex_);
+  erase_transient();
+  out_ << text << std::flush;
+}
+
+void Console::document(const ordered_json& value) {
+  if (!style_.json) return;
+  const std::lock_guard lock(mutex_);
+  out_ << dump(value) << '\n' << std::flush;
+}
+
+void Console::transient(std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  err_ << kClearLine << (style_.colour ? kCyan : "") << printable(text) << (style_.colour ? kReset : "")
+       << std::flush;
+  transient_shown_ = true;
+}
+
+void Console::clear_transient() {
+  const std::lock_guard lock(mutex_);
+  erase_transient();
+}
+
 void Console::note(std::string_view text) {
-  if (style_.quiet) return;
-  clear_transient();
-  err_ << printable(text) << '\n';
-  err_.flush();
+  if (!style_.quiet) line("", "", printable(text));
 }
 
 void Console::warning(std::string_view text) {
-  clear_transient();
-  err_ << (style_.colour ? kYellow : "") << "warning:" << (style_.colour ? kReset : "") << ' '
-       << printable(text) << '\n';
-  err_.flush();
+  line(kYellow, "warning:", printable(text));
 }
 
 void Console::error(const ClientError& error) {
-  clear_transient();
-  if (!style_.json) {
-    err_ << (style_.colour ? kRed : "") << "error:" << (style_.colour ? kReset : "") << ' '
-         << printable(error.for_people()) << '\n';
-    err_.flush();
-    return;
-  }
+  if (!style_.json) return line(kRed, "error:", printable(error.for_people()));
   ordered_json body = {{"code", exit_code_name(error.exit_code())}, {"message", error.what()}};
   if (!error.file().empty()) body["file"] = error.file();
   if (error.line() > 0) body["line"] = error.line();
-  err_ << dump({{"error", body}}) << '\n';
-  err_.flush();
+  line("", "", dump({{"error", body}}));
 }
 
 void Console::finish() {

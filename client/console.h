@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -16,7 +17,8 @@ struct ConsoleStyle {
   bool colour = false;    ///< ANSI colours on standard error
 };
 
-/// Results go to `out`, everything for people to `err`.  Not thread-safe.
+/// Results go to `out`, everything for people to `err`.  Notes may come from any thread, everything else from
+/// one.
 class Console {
  public:
   Console(std::ostream& out, std::ostream& err, const ConsoleStyle& style)
@@ -40,6 +42,10 @@ class Console {
   void finish();
 
  private:
+  void line(const char* colour, std::string_view label, std::string_view text);
+  void erase_transient();
+
+  std::mutex mutex_;  // of both streams
   std::ostream& out_;
   std::ostream& err_;
   ConsoleStyle style_;

@@ -99,7 +99,11 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
     case core::CoreError::Code::kInternal:
       break;
   }
-  return {code, error.what(), file, error.line()};
+  std::string message = error.what();
+  // The place is told apart from the message here, and once is enough.
+  const std::string place = "line " + std::to_string(error.line()) + ": ";
+  if (error.line() > 0 && message.starts_with(place)) message.erase(0, place.size());
+  return {code, message, file, error.line()};
 }
 
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
