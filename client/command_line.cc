@@ -63,7 +63,9 @@ CLI::Validator direction_set() {
 CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
                   const std::string& description, const std::string& examples) {
   CLI::App* sub = parent.add_subcommand(name, description);
-  sub->footer("Examples:\n" + examples);
+  sub->group("Commands");
+  sub->footer("Examples:\n" + examples +
+              "\nOptions for all commands (--server, --json, --quiet): affskel-client --help");
   sub->callback([&options, which] { options.command = which; });
   return sub;
 }
@@ -125,7 +127,7 @@ void add_submit(CLI::App& app, Options& options) {
   sub->add_option("--repair", o.repair, "Weld, turn and drop what needs it, and say so, or refuse")
       ->check(CLI::IsMember({"auto", "none"}))
       ->capture_default_str()
-      ->type_name("");
+      ->type_name("MODE");
 }
 
 void add_job_commands(CLI::App& app, Options& options) {
@@ -135,7 +137,7 @@ void add_job_commands(CLI::App& app, Options& options) {
               "  affskel-client --json list | jq -r .jobs[].id");
   list->add_option("--state", options.list.states, "Only jobs in this state; may be repeated")
       ->check(CLI::IsMember({"queued", "running", "done", "failed", "cancelled"}))
-      ->type_name("")
+      ->type_name("STATE")
       ->allow_extra_args(false);
   list->add_option("--owner", options.list.owner, "Only this user's jobs")->type_name("USER");
   list->add_option("--limit", options.list.limit, "At most this many")
@@ -207,6 +209,7 @@ void add_result_commands(CLI::App& app, Options& options) {
 CLI::App* shape(CLI::App* make, Options& options, const std::string& name, Shape which,
                 const std::string& description) {
   CLI::App* sub = make->add_subcommand(name, description);
+  sub->group("Shapes");
   sub->callback([&options, which] { options.make.shape = which; });
   sub->add_option("-o,--output", options.make.output,
                   "File to write (.off .ply .obj .stl), or - for OFF on stdout")
@@ -297,10 +300,9 @@ void build_command_line(CLI::App& app, Options& options) {
   app.fallthrough();  // global options may also follow the command
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormatter>());
-  app.add_option(
-         "--server", options.global.server,
-         "unix:PATH or HOST:PORT (default: $AFFSKEL_SERVER, the configuration file, or a private server that "
-         "starts and leaves by itself)")
+  app.add_option("--server", options.global.server,
+                 "unix:PATH or HOST:PORT; else $AFFSKEL_SERVER, else the configuration file,\n"
+                 "else a private server that starts and leaves by itself")
       ->type_name("ADDR");
   app.add_flag("--json", options.global.json, "One JSON document on stdout; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.global.quiet, "No notes and no progress");
