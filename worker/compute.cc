@@ -2,18 +2,20 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <numeric>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "core/directions.h"
 #include "core/erosion.h"
+#include "core/error.h"
 #include "core/lattice.h"
 #include "core/mesh_io.h"
 #include "core/solid.h"
@@ -47,32 +49,50 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-// All directions in the order that the service works in.
-std::vector<std::uint32_t> work_order(std::size_t count) {
+// All directions in the order that the service works in, or in a random one.
+std::vector<std::uint32_t> work_order(std::size_t count, bool shuffle) {
   const std::uint64_t stride = wire::direction_stride(count);
   std::vector<std::uint32_t> list(count);
   for (std::size_t p = 0; p < count; ++p) {
     list[p] = static_cast<std::uint32_t>(wire::direction_at(p, stride, count));
   }
+  if (shuffle) std::shuffle(list.begin(), list.end(), std::mt19937_64(std::random_device{}()));
   return list;
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
+bool ends_with(const std::string& text, const std::string& tail) {
+  return text.size() >= tail.size() && text.compare(text.size() - tail.size(), tail.size(), tail) == 0;
+}
+
+void check_output(const std::string& path) {
+  if (path.empty() || ends_with(path, ".csv") || ends_with(path, ".dat")) return;
+  throw core::CoreError(core::CoreError::Code::kBadInput,
+                        "output " + path + ": the extension must be .csv or .dat");
+}
+
 void write_field(const std::string& path, const core::Solid& solid, const core::Lattice& lattice,
                  const core::DirectionSet& directions, const core::ErosionField& field) {
-  File file(std::fopen(path.c_str(), "w"), &std::fclose);
+  const File file(std::fopen(path.c_str(), "w"), &std::fclose);
   if (!file) throw std::runtime_error(path + ": cannot be opened for writing");
-  std::fputs("x,y,z,E,nx,ny,nz,direction\n", file.get());
-  const double scale = solid.scale(), volume_scale = std::ldexp(1.0, 3 * solid.exponent);
+  const bool csv = ends_with(path, ".csv");
+  if (csv) std::fputs("x,y,z,E,nx,ny,nz,direction\n", file.get());
+  const core::SamplePlaces places(solid, lattice);
+  const double volume_unit = std::ldexp(1.0, 3 * solid.exponent);
   for (const core::Run& run : lattice.axis[2].runs) {
     for (std::uint32_t n = 0; n < run.length; ++n) {
-      const core::Vec3 x =
-          solid.centre + scale * lattice.frame.at(run.start[0], run.start[1], run.start[2] + n);
+      const core::Vec3 x = places.at(run.start[0], run.start[1], run.start[2] + n);
       const core::FieldValue value = field.value(run.first + n);
       const core::Vec3& d = directions[value.direction];
-      std::fprintf(file.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%u\n", x.x, x.y, x.z,
-                   value.erosion * volume_scale, d.x, d.y, d.z, value.direction);
+      const double erosion = value.erosion * volume_unit;
+      if (csv) {
+        std::fprintf(file.get(), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%u\n", x.x, x.y, x.z, erosion,
+                     d.x, d.y, d.z, value.direction);
+      } else {
+        std::fprintf(file.get(), "%.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", x.x, x.y, x.z, erosion, d.x,
+                     d.y, d.z);
+      }
     }
   }
   if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
@@ -83,10 +103,11 @@ void write_field(const std::string& path, const core::Solid& solid, const core::
 }  // namespace
 
 void compute(const ComputeOptions& options) {
+  check_output(options.output);
   const Stopwatch wall;
   const core::OffMesh off = core::read_off(read_file(options.file));
   const core::Solid solid =
-      core::make_solid(off.mesh, {options.repair, true}, off.vertex_line, off.triangle_line);
+      core::make_solid(off.mesh, {options.repair_mode == "auto", true}, off.vertex_line, off.triangle_line);
   for (const core::MeshNote& note : solid.notes) {
     std::fprintf(stderr, "%s: %s\n", options.file.c_str(), note.message.c_str());
   }
@@ -101,7 +122,7 @@ void compute(const ComputeOptions& options) {
   core::Erosion erosion(solid, lattice, directions, erosion_options);
   const double prepare_s = wall.seconds();
   core::ExecutionContext context;
-  erosion.run(work_order(directions.size()), context);
+  erosion.run(work_order(directions.size(), options.shuffle), context);
   const core::ErosionCost cost = erosion.cost();
   const double wall_s = wall.seconds();
   if (!options.output.empty()) write_field(options.output, solid, lattice, directions, erosion.field());

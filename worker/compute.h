@@ -11,9 +11,10 @@ struct ComputeOptions {
   std::uint64_t points = 100000;         ///< sample points aimed at when spacing is 0
   std::string directions = "triangles";  ///< see core::make_directions
   unsigned threads = 1;
-  bool repair = true;
+  std::string repair_mode = "auto";  ///< "auto" or "none"
   bool prune = true;
-  std::string output;  ///< field file (.csv), empty = none
+  bool shuffle = false;  ///< work in a random order
+  std::string output;    ///< field file (.csv or .dat), empty = none
 };
 
 /// `affskel-worker compute`: prepare and erode in this process, without a server.  Prints one line of

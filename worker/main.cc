@@ -1,53 +1,143 @@
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <thread>
 
 #include "compute.h"
 #include "core/error.h"
+#include "lease_loop.h"
+#include "stop_signal.h"
+#include "wire/address.h"
 #include "wire/version.h"
 
 namespace {
 
+using affskel::core::CoreError;
+
 // Exit codes of the command-line contract.
+constexpr int kUsage = 2;
 constexpr int kBadInput = 3;
 constexpr int kLimit = 8;
 constexpr int kInternal = 70;
 
-int exit_code(const affskel::core::CoreError& error) {
+int exit_code(const CoreError& error) {
   switch (error.code()) {
-    case affskel::core::CoreError::Code::kBadInput:
+    case CoreError::Code::kBadInput:
       return kBadInput;
-    case affskel::core::CoreError::Code::kLimit:
+    case CoreError::Code::kLimit:
       return kLimit;
     default:
       return kInternal;
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("affskel-worker computes erosion fields.");
-  app.set_version_flag("--version", affskel::wire::kVersion);
-  app.require_subcommand(1);
-  affskel::worker::ComputeOptions options;
-  CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
-  compute->add_option("FILE", options.file, "OFF mesh")->required();
-  compute->add_option("--spacing", options.spacing, "lattice spacing in mesh units");
-  compute->add_option("--points", options.points, "aim at this many sample points")->capture_default_str();
-  compute->add_option("--directions", options.directions, "direction set")->capture_default_str();
-  compute->add_option("--threads", options.threads, "threads")->capture_default_str();
-  compute->add_flag("!--no-prune", options.prune, "evaluate every point for every direction (a yardstick)");
-  compute->add_option("-o", options.output, "write the field as CSV");
-  CLI11_PARSE(app, argc, argv);
+int run_compute(const affskel::worker::ComputeOptions& options) {
   try {
     affskel::worker::compute(options);
     return 0;
-  } catch (const affskel::core::CoreError& error) {
+  } catch (const CoreError& error) {
     std::fprintf(stderr, "affskel-worker: %s: %s\n", options.file.c_str(), error.what());
     return exit_code(error);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "affskel-worker: %s: not enough memory\n", options.file.c_str());
+    return kLimit;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return kBadInput;
   }
+}
+
+int run_worker(const affskel::worker::LeaseLoopOptions& options) {
+  try {
+    affskel::wire::parse_address(options.server);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "affskel-worker: %s\n", error.what());
+    return kUsage;
+  }
+  const affskel::worker::StopSignal stop;
+  try {
+    return run_lease_loop(options, stop.token());
+  } catch (const std::exception& error) {
+    spdlog::critical("msg=\"unexpected\" cause=\"{}\"", error.what());
+    return kInternal;
+  }
+}
+
+struct Flags {
+  affskel::worker::LeaseLoopOptions loop;
+  affskel::worker::ComputeOptions compute;
+  std::string log_level = "info";
+  std::int64_t idle_exit_s = 0;
+  std::int64_t patience_s = 60;
+};
+
+CLI::App* declare(CLI::App& app, Flags& flags) {
+  app.set_version_flag("--version", affskel::wire::kVersion);
+  app.footer(
+      "Examples:\n"
+      "  affskel-worker --server unix:/run/affskel/server.sock --threads 4\n"
+      "  affskel-worker compute body.off --spacing 200 -o body.csv");
+  app.add_option("--server", flags.loop.server, "server to work for: unix:PATH or HOST:PORT");
+  app.add_option("--threads", flags.loop.threads, "computing threads")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--max-jobs", flags.loop.max_jobs, "leave after work on this many jobs; 0 = never")
+      ->capture_default_str();
+  app.add_option("--patience", flags.patience_s,
+                 "leave when the server does not answer for this many seconds")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--log-level", flags.log_level, "trace, debug, info, warning, error")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
+      ->capture_default_str();
+  CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
+  compute->add_option("FILE", flags.compute.file, "mesh (OFF)")->required();
+  compute->add_option("--spacing", flags.compute.spacing, "lattice spacing in mesh units")
+      ->check(CLI::PositiveNumber);
+  compute
+      ->add_option("--points", flags.compute.points,
+                   "aim at this many sample points, unless --spacing is given")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  compute
+      ->add_option("--directions", flags.compute.directions,
+                   "triangles, sphere:N, random:N:SEED, joined by +")
+      ->capture_default_str();
+  compute->add_option("--threads", flags.compute.threads, "computing threads")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  compute->add_option("--repair", flags.compute.repair_mode, "auto or none")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str();
+  compute->add_flag("!--no-prune", flags.compute.prune,
+                    "evaluate every point for every direction (a yardstick)");
+  compute->add_flag("--shuffle", flags.compute.shuffle, "work in a random order (the field must not change)");
+  compute->add_option("-o,--output", flags.compute.output, "write the field: .csv or .dat");
+  return compute;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("affskel-worker: computes erosion fields for a server, or by itself.");
+  Flags flags;
+  const CLI::App* compute = declare(app, flags);
+  try {
+    app.parse(argc, argv);
+    if (!*compute && flags.loop.server.empty()) throw CLI::RequiredError("--server or the command compute");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  if (*compute) return run_compute(flags.compute);
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("affskel-worker"));
+  spdlog::set_level(spdlog::level::from_str(flags.log_level));
+  flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
+  flags.loop.patience = std::chrono::seconds(flags.patience_s);
+  return run_worker(flags.loop);
 }

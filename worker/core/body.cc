@@ -8,6 +8,7 @@
 #include "core/edge_collapse.h"
 #include "core/error.h"
 #include "core/implicit_mesh.h"
+#include "core/mirror.h"
 #include "core/number_text.h"
 #include "core/self_intersection.h"
 
@@ -28,34 +29,42 @@ void check(const MakeBodyOptions& options) {
   }
 }
 
-/// The body with at least `triangles` triangles, nearly equilateral and of equal size.
-Mesh fine_body(double triangles) {
-  // Measured: the body has kPerSquare / spacing^2 triangles.
-  constexpr double kPerSquare = 9.0e6;
+/// The right half (x >= 0) of the body with about `triangles` triangles, nearly equilateral and of equal
+/// size but for those cut at the plane of symmetry, where it is open.
+Mesh fine_half(double triangles) {
+  // Measured: the half has kPerSquare / spacing^2 triangles.
+  constexpr double kPerSquare = 1.19e7;
   const double spacing = std::sqrt(kPerSquare / triangles);
-  Mesh mesh = mesh_zero_set(body_function, {kBodyLow, kBodyHigh, spacing});
+  const Vec3 low{-4 * spacing, kBodyLow.y, kBodyLow.z};
+  Mesh mesh = mesh_zero_set(body_function, {low, kBodyHigh, spacing});
   fair_onto(body_function, 0.05, 4, mesh);
-  return mesh;
+  return positive_x_part(mesh, 0.15 * spacing);
 }
 
-/// Moves the soles to z = 0 and scales the whole to the height.
+/// Takes a reduced body to its height.  The vertices of a coarse mesh stand out of the surface they stand
+/// for (that keeps the volume): those below the soles are moved level with them first, so that the feet
+/// stay flat; the crown is let in by a height that the whole body shares.
 void scale_to_height(double height, Mesh& mesh) {
-  const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end(),
-                                               [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
-  const double sole = low->z, scale = height / (high->z - low->z);
-  for (Vec3& p : mesh.points) p = {scale * p.x, scale * p.y, scale * (p.z - sole)};
+  double low = kBodyHeight, high = 0;
+  for (Vec3& p : mesh.points) {
+    p.z = std::max(p.z, 0.0);
+    low = std::min(low, p.z);
+    high = std::max(high, p.z);
+  }
+  const double scale = height / kBodyHeight, upright = height / (high - low);
+  for (Vec3& p : mesh.points) p = {scale * p.x, scale * p.y, upright * (p.z - low)};
 }
 
 }  // namespace
 
 Mesh make_body(const MakeBodyOptions& options) {
   check(options);
-  double fine = std::max(60000.0, 2.2 * options.triangles);
+  double fine = std::max(45000.0, 1.1 * options.triangles);
   constexpr int kAttempts = 8;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    Mesh mesh = collapse_edges(fine_body(fine), options.triangles);
+    Mesh mesh = with_mirror_image(collapse_edges(fine_half(fine), options.triangles / 2));
+    scale_to_height(options.height, mesh);
     if (mesh.triangles.size() == options.triangles && self_intersections(mesh, {.max_pairs = 1}).empty()) {
-      scale_to_height(options.height, mesh);
       return mesh;
     }
     fine *= 1.07;  // another lattice, another order of collapses

@@ -14,10 +14,6 @@ struct LatticeFrame {
   Vec3 origin;
   std::array<Vec3, 3> axes;
   std::array<std::uint32_t, 3> dims{};
-
-  Vec3 at(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
-    return origin + (i * axes[0] + (j * axes[1] + k * axes[2]));
-  }
 };
 
 /// Consecutive sample points of a lattice line with no surface crossing between them.
@@ -45,6 +41,26 @@ struct Lattice {
   double spacing = 0;  ///< mesh units; 0 when the frame was given
   std::uint32_t points = 0;
   std::array<AxisRuns, 3> axis;
+};
+
+/// Places of the sample points in mesh units: o + (i a + (j b + k c)), the vectors rounded once.
+class SamplePlaces {
+ public:
+  SamplePlaces(const Solid& solid, const Lattice& lattice)
+      : origin_(solid.centre + solid.scale() * lattice.frame.origin),
+        axes_{solid.scale() * lattice.frame.axes[0], solid.scale() * lattice.frame.axes[1],
+              solid.scale() * lattice.frame.axes[2]} {}
+
+  const Vec3& origin() const { return origin_; }
+  const std::array<Vec3, 3>& axes() const { return axes_; }
+
+  Vec3 at(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+    return origin_ + (i * axes_[0] + (j * axes_[1] + k * axes_[2]));
+  }
+
+ private:
+  Vec3 origin_;
+  std::array<Vec3, 3> axes_;
 };
 
 struct LatticeOptions {

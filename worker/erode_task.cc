@@ -1,0 +1,156 @@
+#include "erode_task.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "wire/direction_order.h"
+
+namespace affskel::worker {
+namespace {
+
+// Shared by the computing threads and the reporting one.
+class Progress : public core::ExecutionContext {
+ public:
+  explicit Progress(const v1::Lease& lease) {
+    const std::uint64_t count = lease.job().directions_total();
+    for (const v1::PositionRange& range : lease.positions()) {
+      for (std::uint64_t p = range.begin(); p < range.end(); ++p) {
+        positions_.push_back(p);
+        directions_.push_back(
+            static_cast<std::uint32_t>(wire::direction_at(p, lease.job().order_stride(), count)));
+      }
+    }
+  }
+
+  const std::vector<std::uint32_t>& directions() const { return directions_; }
+
+  bool stop_requested() override { return stop_; }
+  void stop() { stop_ = true; }
+
+  void item_done(std::uint64_t item) override {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    done_.push_back(positions_[item]);
+    ++done_in_all_;
+  }
+
+  void finish() {
+    {
+      const std::lock_guard<std::mutex> guard(mutex_);
+      finished_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  // Waits for the computation to end or the time to pass; true when it has ended.
+  bool wait_for_end(std::chrono::milliseconds time, const std::stop_token& stop) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait_for(lock, stop, time, [this] { return finished_; });
+    return finished_;
+  }
+
+  void wait_for_end() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return finished_; });
+  }
+
+  // Moves what was finished since the last call into the header, as ranges.
+  void take_done(v1::ReportErosionHeader& header) {
+    std::vector<std::uint64_t> done;
+    {
+      const std::lock_guard<std::mutex> guard(mutex_);
+      done.swap(done_);
+      header.set_block_done(finished_ && done_in_all_ == positions_.size());
+    }
+    std::sort(done.begin(), done.end());
+    for (std::uint64_t p : done) {
+      const int last = header.positions_done_size() - 1;
+      if (last >= 0 && header.positions_done(last).end() == p) {
+        header.mutable_positions_done(last)->set_end(p + 1);
+      } else {
+        v1::PositionRange* range = header.add_positions_done();
+        range->set_begin(p);
+        range->set_end(p + 1);
+      }
+    }
+  }
+
+ private:
+  std::vector<std::uint64_t> positions_;
+  std::vector<std::uint32_t> directions_;
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::vector<std::uint64_t> done_;  // guarded by mutex_
+  std::uint64_t done_in_all_ = 0;    // guarded by mutex_
+  bool finished_ = false;            // guarded by mutex_
+};
+
+v1::FieldRecords take_records(PreparedJob& job, core::ErosionField& field) {
+  std::vector<std::uint32_t> points = field.take_changes();
+  std::sort(points.begin(), points.end());
+  v1::FieldRecords records;
+  const int count = static_cast<int>(points.size());
+  records.mutable_point()->Reserve(count);
+  records.mutable_direction()->Reserve(count);
+  records.mutable_erosion()->Reserve(count);
+  records.mutable_area()->Reserve(count);
+  const double volume_unit = job.volume_unit(), area_unit = job.area_unit();
+  for (std::uint32_t p : points) {
+    const core::FieldValue value = field.value(p);
+    records.add_point(p);
+    records.add_direction(value.direction);
+    records.add_erosion(value.erosion * volume_unit);
+    records.add_area(value.area * area_unit);
+  }
+  return records;
+}
+
+}  // namespace
+
+ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion, ServerLink& link,
+               std::stop_token stop) {
+  Progress progress(lease);
+  std::exception_ptr error;
+  std::jthread computing([&] {
+    try {
+      erosion.run(progress.directions(), progress);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    progress.finish();
+  });
+  // Whatever ends this function, the computation ends first.
+  struct Joiner {
+    Progress& progress;
+    ~Joiner() { progress.stop(); }
+  } joiner{progress};
+
+  std::chrono::milliseconds interval(lease.report_interval_ms());
+  for (;;) {
+    bool ended = progress.wait_for_end(interval, stop);
+    const bool stopping = !ended && stop.stop_requested();
+    if (stopping) {
+      progress.stop();
+      progress.wait_for_end();
+      ended = true;
+    }
+    if (ended) computing.join();
+    if (ended && error) std::rethrow_exception(error);
+    v1::ReportErosionHeader header;
+    header.set_token(lease.token());
+    progress.take_done(header);
+    const v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
+    if (header.block_done()) return ErodeEnd::kBlockDone;
+    if (response.cancelled()) return ErodeEnd::kCancelled;
+    if (ended) return ErodeEnd::kStopped;
+    if (response.report_interval_ms() != 0)
+      interval = std::chrono::milliseconds(response.report_interval_ms());
+  }
+}
+
+}  // namespace affskel::worker

@@ -1,0 +1,281 @@
+#include "lease_loop.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <array>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "core/error.h"
+#include "core/version.h"
+#include "derive_task.h"
+#include "erode_task.h"
+#include "prepared_job.h"
+#include "server_link.h"
+#include "wire/direction_order.h"
+
+namespace affskel::worker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::uint32_t kLeaseWaitMs = 2000;
+constexpr int kExitServerGone = 5;
+
+std::string random_id() {
+  std::random_device device;
+  std::string id;
+  for (int i = 0; i < 4; ++i) {
+    std::array<char, 9> digits{};
+    std::snprintf(digits.data(), digits.size(), "%08x", device());
+    id += digits.data();
+  }
+  return id;
+}
+
+v1::WorkerIdentity own_identity(unsigned threads) {
+  v1::WorkerIdentity identity;
+  identity.set_id(random_id());
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  identity.set_host(host.data());
+  identity.set_pid(static_cast<std::uint32_t>(getpid()));
+  identity.set_threads(threads);
+  identity.set_core_version(core::kCoreVersion);
+  return identity;
+}
+
+// Renews a lease in the background while a task computes that has nothing to report in between.
+class LeaseKeeper {
+ public:
+  LeaseKeeper(ServerLink& link, const v1::Lease& lease)
+      : thread_(
+            [&link, token = lease.token(),
+             interval = std::chrono::milliseconds(lease.report_interval_ms())](const std::stop_token& stop) {
+              std::mutex mutex;
+              std::condition_variable_any wake;
+              std::unique_lock<std::mutex> lock(mutex);
+              while (!wake.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
+                try {
+                  if (link.renew(token).cancelled()) return;
+                } catch (const std::exception&) {
+                  return;  // handing in the result will tell why
+                }
+              }
+            }) {}
+
+ private:
+  std::jthread thread_;
+};
+
+v1::JobError describe(const core::CoreError& error) {
+  v1::JobError message;
+  switch (error.code()) {
+    case core::CoreError::Code::kBadInput:
+      message.set_code("BAD_INPUT");
+      break;
+    case core::CoreError::Code::kLimit:
+      message.set_code("LIMIT");
+      break;
+    default:
+      message.set_code("INTERNAL");
+  }
+  message.set_message(error.what());
+  message.set_line(error.line());
+  return message;
+}
+
+class LeaseLoop {
+ public:
+  LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
+      : options_(options), stop_(stop), link_({options.server, options.patience}, stop) {
+    *request_.mutable_worker() = own_identity(options.threads);
+    request_.set_wait_ms(kLeaseWaitMs);
+  }
+
+  int run() {
+    spdlog::info("worker={} server={} threads={} msg=\"ready\"", request_.worker().id(), options_.server,
+                 options_.threads);
+    Clock::time_point last_work = Clock::now();
+    while (!stop_.stop_requested()) {
+      request_.set_preferred_job(job_id_);
+      const std::optional<v1::Lease> lease = link_.lease(request_);
+      if (lease) {
+        if (!accept(*lease)) break;
+        work_on(*lease);
+        last_work = Clock::now();
+      } else if (options_.idle_exit.count() > 0 && Clock::now() - last_work >= options_.idle_exit) {
+        spdlog::info("worker={} msg=\"idle, leaving\"", request_.worker().id());
+        break;
+      }
+    }
+    return 0;
+  }
+
+ private:
+  bool accept(const v1::Lease& lease) {
+    if (options_.max_jobs != 0 && jobs_.count(lease.job().id()) == 0 && jobs_.size() == options_.max_jobs) {
+      link_.give_back(lease.token());
+      return false;
+    }
+    jobs_.insert(lease.job().id());
+    return true;
+  }
+
+  void work_on(const v1::Lease& lease) {
+    spdlog::debug("job={} lease={} task={} msg=\"leased\"", lease.job().id(), lease.token(),
+                  v1::TaskKind_Name(lease.kind()));
+    try {
+      dispatch(lease);
+    } catch (const LeaseLost& lost) {
+      spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(),
+                   lost.what());
+      forget();
+    } catch (const core::CoreError& error) {
+      fail(lease, describe(error), false);
+    } catch (const std::bad_alloc&) {
+      v1::JobError error;
+      error.set_code("LIMIT");
+      error.set_message("not enough memory on worker " + request_.worker().host());
+      fail(lease, error, false);
+    } catch (const ServerGone&) {
+      throw;
+    } catch (const std::exception& problem) {
+      v1::JobError error;
+      error.set_code("INTERNAL");
+      error.set_message(problem.what());
+      fail(lease, error, true);
+    }
+  }
+
+  void fail(const v1::Lease& lease, const v1::JobError& error, bool retryable) {
+    spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", lease.job().id(), lease.token(),
+                  error.code(), error.message());
+    forget();
+    v1::FailTaskRequest request;
+    request.set_token(lease.token());
+    *request.mutable_error() = error;
+    request.set_retryable(retryable);
+    try {
+      link_.fail(request);
+    } catch (const LeaseLost&) {
+      // Somebody else works on it already.
+    }
+  }
+
+  void dispatch(const v1::Lease& lease) {
+    switch (lease.kind()) {
+      case v1::TASK_KIND_PREPARE:
+        return prepare(lease);
+      case v1::TASK_KIND_ERODE:
+        return erode_block(lease);
+      case v1::TASK_KIND_SKELETON:
+      case v1::TASK_KIND_SURFACE:
+        return derive(lease);
+      default:
+        throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
+    }
+  }
+
+  void prepare(const v1::Lease& lease) {
+    const LeaseKeeper keeper(link_, lease);
+    const PreparedJob& job = obtain(lease);
+    v1::CompleteTaskHeader header;
+    header.set_token(lease.token());
+    *header.mutable_prepared() = job.summary();
+    header.set_order_stride(wire::direction_stride(job.directions().size()));
+    std::string data = job.lattice_message().SerializeAsString();
+    header.set_lattice_bytes(data.size());
+    data += job.directions_message().SerializeAsString();
+    link_.complete(header, data);
+  }
+
+  void erode_block(const v1::Lease& lease) {
+    core::Erosion* erosion = nullptr;
+    {
+      const LeaseKeeper keeper(link_, lease);
+      PreparedJob& job = obtain(lease);
+      if (job.lattice().points != lease.job().prepared().points() ||
+          job.directions().size() != lease.job().directions_total()) {
+        throw core::CoreError(core::CoreError::Code::kInternal,
+                              "this worker's core lays another lattice than the one that prepared the job");
+      }
+      const std::string stored =
+          job.has_erosion() ? std::string() : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
+      erosion = &job.erosion(options_.threads, stored);
+    }
+    switch (erode(lease, *job_, *erosion, link_, stop_)) {
+      case ErodeEnd::kBlockDone:
+        break;
+      case ErodeEnd::kStopped:
+        link_.give_back(lease.token());
+        break;
+      case ErodeEnd::kCancelled:
+        forget();
+        break;
+    }
+  }
+
+  void derive(const v1::Lease& lease) {
+    const LeaseKeeper keeper(link_, lease);
+    const PreparedJob& job = obtain(lease);
+    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
+    v1::CompleteTaskHeader header;
+    header.set_token(lease.token());
+    std::string data;
+    if (lease.kind() == v1::TASK_KIND_SKELETON) {
+      const v1::SkeletonPoints skeleton = derive_skeleton(job, stored, lease.skeleton());
+      header.set_points(static_cast<std::uint64_t>(skeleton.point_size()));
+      data = skeleton.SerializeAsString();
+    } else {
+      const v1::TriangleMesh surface = derive_surface(job, stored, lease.surface());
+      header.set_points(static_cast<std::uint64_t>(surface.corners_size()) / 3);
+      data = surface.SerializeAsString();
+    }
+    link_.complete(header, data);
+  }
+
+  // The prepared job of the lease: the one in hand, or made from the mesh.
+  PreparedJob& obtain(const v1::Lease& lease) {
+    if (job_ && job_id_ == lease.job().id()) return *job_;
+    forget();
+    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH);
+    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params());
+    job_id_ = lease.job().id();
+    return *job_;
+  }
+
+  void forget() {
+    job_.reset();
+    job_id_.clear();
+  }
+
+  LeaseLoopOptions options_;
+  std::stop_token stop_;
+  ServerLink link_;
+  v1::LeaseTaskRequest request_;
+  std::set<std::string> jobs_;
+  // Kept between tasks of the same job.  Dropped whenever the erosion's field may hold work that the
+  // server did not acknowledge: such points would not be reported again.
+  std::unique_ptr<PreparedJob> job_;
+  std::string job_id_;
+};
+
+}  // namespace
+
+int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
+  try {
+    return LeaseLoop(options, stop).run();
+  } catch (const ServerGone& gone) {
+    if (stop.stop_requested()) return 0;
+    spdlog::error("server={} msg=\"the server does not answer, leaving\" cause=\"{}\"", options.server,
+                  gone.what());
+    return kExitServerGone;
+  }
+}
+
+}  // namespace affskel::worker

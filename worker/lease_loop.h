@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <stop_token>
+#include <string>
+
+namespace affskel::worker {
+
+struct LeaseLoopOptions {
+  std::string server;                 ///< unix:PATH or HOST:PORT
+  unsigned threads = 1;               ///< computing threads
+  std::chrono::seconds idle_exit{0};  ///< leave after this long without work; 0 = never
+  std::uint64_t max_jobs =
+      0;  ///< leave when work on another job than the first max_jobs is offered; 0 = never
+  std::chrono::seconds patience{60};  ///< leave when the server does not answer for this long
+};
+
+/// Leases tasks and works on them until told to stop, idle for too long, or left by the server.  On a
+/// stop the direction in hand is finished and reported and the lease given back.
+/// Returns the exit code: 0, or 5 when the server stayed away.
+int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop);
+
+}  // namespace affskel::worker

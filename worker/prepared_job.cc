@@ -1,0 +1,152 @@
+#include "prepared_job.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/mesh_io.h"
+#include "wire/address.h"
+
+namespace affskel::worker {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "field records are little-endian on disk and on the wire");
+
+core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, std::uint64_t& polygons_cut) {
+  const core::OffMesh off = core::read_off(bytes);
+  polygons_cut = off.polygons_cut;
+  core::SolidOptions options;
+  options.repair = params.repair();
+  return core::make_solid(off.mesh, options, off.vertex_line, off.triangle_line);
+}
+
+core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling) {
+  core::LatticeOptions options;
+  if (sampling.has_spacing()) {
+    options.spacing = sampling.spacing();
+  } else {
+    options.target_points = sampling.target_points();
+  }
+  return core::make_lattice(solid, options);
+}
+
+void add(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
+  list->Add(v.x);
+  list->Add(v.y);
+  list->Add(v.z);
+}
+
+}  // namespace
+
+PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params)
+    : solid_(read_solid(mesh_bytes, params, polygons_cut_)),
+      lattice_(lay_lattice(solid_, params.sampling())),
+      directions_(
+          core::make_directions(solid_, params.directions().empty() ? "triangles" : params.directions())) {}
+
+v1::PreparedSummary PreparedJob::summary() const {
+  v1::PreparedSummary summary;
+  summary.set_triangles(solid_.mesh.triangles.size());
+  summary.set_vertices(solid_.mesh.points.size());
+  summary.set_components(solid_.shells.size());
+  summary.set_solids(solid_.solid_volume.size());
+  std::int64_t genus = 0;
+  for (const core::Shell& shell : solid_.shells) genus += shell.genus;
+  summary.set_cavities(solid_.shells.size() - solid_.solid_volume.size());
+  summary.set_genus(genus);
+  summary.set_volume(solid_.volume);
+  add(solid_.bbox_min, summary.mutable_bbox_min());
+  add(solid_.bbox_max, summary.mutable_bbox_max());
+  summary.set_points(lattice_.points);
+  summary.set_directions(directions_.size());
+  summary.set_spacing(lattice_.spacing);
+  if (polygons_cut_ != 0) {
+    v1::MeshNote* note = summary.add_notes();
+    note->set_severity("repaired");
+    note->set_code("polygons-cut");
+    note->set_message(std::to_string(polygons_cut_) +
+                      " faces with more than three sides were cut into triangles");
+  }
+  for (const core::MeshNote& found : solid_.notes) {
+    v1::MeshNote* note = summary.add_notes();
+    note->set_severity(found.severity == core::MeshNote::Severity::kRepaired ? "repaired" : "warning");
+    note->set_code(found.code);
+    note->set_message(found.message);
+  }
+  return summary;
+}
+
+v1::Lattice PreparedJob::lattice_message() const {
+  v1::Lattice message;
+  const core::SamplePlaces places(solid_, lattice_);
+  add(places.origin(), message.mutable_origin());
+  for (const core::Vec3& axis : places.axes()) add(axis, message.mutable_axes());
+  for (std::uint32_t n : lattice_.frame.dims) message.add_dims(n);
+  const std::uint64_t ny = lattice_.frame.dims[1], nz = lattice_.frame.dims[2];
+  std::uint64_t end = 0;
+  for (const core::Run& run : lattice_.axis[2].runs) {
+    const std::uint64_t start = (run.start[0] * ny + run.start[1]) * nz + run.start[2];
+    // Runs that touch (a surface passes between their points) are one run of the message.
+    if (message.run_start_size() > 0 && start == end && run.start[2] != 0) {
+      message.set_run_length(message.run_length_size() - 1,
+                             message.run_length(message.run_length_size() - 1) + run.length);
+    } else {
+      message.add_run_start(start);
+      message.add_run_length(run.length);
+    }
+    end = start + run.length;
+  }
+  return message;
+}
+
+v1::Directions PreparedJob::directions_message() const {
+  v1::Directions message;
+  message.mutable_xyz()->Reserve(static_cast<int>(3 * directions_.size()));
+  for (const core::Vec3& d : directions_) add(d, message.mutable_xyz());
+  return message;
+}
+
+double PreparedJob::volume_unit() const {
+  return std::ldexp(1.0, 3 * solid_.exponent);
+}
+double PreparedJob::area_unit() const {
+  return std::ldexp(1.0, 2 * solid_.exponent);
+}
+
+core::Erosion& PreparedJob::erosion(unsigned threads, std::string_view stored) {
+  if (erosion_) return *erosion_;
+  core::ErosionOptions options;
+  options.threads = threads;
+  options.track_changes = true;
+  auto erosion = std::make_unique<core::Erosion>(solid_, lattice_, directions_, options);
+  const std::vector<core::FieldValue> values = unpack_field(stored, lattice_.points);
+  for (std::uint32_t p = 0; p < values.size(); ++p) {
+    if (values[p].direction == core::FieldValue::kNoDirection) continue;
+    erosion->field().offer(
+        p, {values[p].erosion / volume_unit(), values[p].area / area_unit(), values[p].direction});
+  }
+  erosion->field().take_changes();  // the server knows these
+  erosion_ = std::move(erosion);
+  return *erosion_;
+}
+
+std::vector<core::FieldValue> unpack_field(std::string_view bytes, std::uint64_t points) {
+  if (bytes.size() != points * wire::kFieldRecordBytes) {
+    throw core::CoreError(core::CoreError::Code::kInternal, "the stored field has " +
+                                                                std::to_string(bytes.size()) + " bytes for " +
+                                                                std::to_string(points) + " points");
+  }
+  std::vector<core::FieldValue> values(points);
+  const char* at = bytes.data();
+  for (core::FieldValue& value : values) {
+    std::memcpy(&value.erosion, at, 8);
+    std::memcpy(&value.area, at + 8, 8);
+    std::memcpy(&value.direction, at + 16, 4);
+    at += wire::kFieldRecordBytes;
+  }
+  return values;
+}
+
+}  // namespace affskel::worker

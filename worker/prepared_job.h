@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "affskel/v1/types.pb.h"
+#include "core/directions.h"
+#include "core/erosion.h"
+#include "core/lattice.h"
+#include "core/solid.h"
+
+namespace affskel::worker {
+
+/// A job's mesh read, its lattice laid and its directions made: a function of the bytes, the parameters
+/// and the core version alone, so any worker can make it again.  The erosion keeps references into the
+/// members: neither copied nor moved.
+class PreparedJob {
+ public:
+  /// @throws core::CoreError when the mesh or a parameter is wrong.
+  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params);
+  PreparedJob(const PreparedJob&) = delete;
+  PreparedJob& operator=(const PreparedJob&) = delete;
+
+  const core::Solid& solid() const { return solid_; }
+  const core::Lattice& lattice() const { return lattice_; }
+  const core::DirectionSet& directions() const { return directions_; }
+
+  v1::PreparedSummary summary() const;
+  v1::Lattice lattice_message() const;
+  v1::Directions directions_message() const;
+
+  /// The field's engine, made at the first call; its field starts from `stored`, the server's bytes of the
+  /// field merged so far (see ARTIFACT_KIND_FIELD), which is used only then.
+  core::Erosion& erosion(unsigned threads, std::string_view stored);
+  bool has_erosion() const { return erosion_ != nullptr; }
+
+  /// Mesh units cubed per inner unit cubed, and squared.
+  double volume_unit() const;
+  double area_unit() const;
+
+ private:
+  std::uint64_t polygons_cut_ = 0;  // before solid_, whose making sets it
+  core::Solid solid_;
+  core::Lattice lattice_;
+  core::DirectionSet directions_;
+  std::unique_ptr<core::Erosion> erosion_;
+};
+
+/// A field in the server's form, unpacked: E in mesh units cubed.
+/// @throws core::CoreError kInternal when the number of bytes does not fit `points`.
+std::vector<core::FieldValue> unpack_field(std::string_view bytes, std::uint64_t points);
+
+}  // namespace affskel::worker

@@ -1,0 +1,182 @@
+#include "server_link.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+
+#include "wire/address.h"
+#include "wire/sha256.h"
+
+namespace affskel::worker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kFirstPause = std::chrono::milliseconds(20);
+constexpr auto kLongestPause = std::chrono::milliseconds(500);
+constexpr auto kCallTimeout = std::chrono::seconds(120);
+
+std::shared_ptr<grpc::Channel> connect(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(16 << 20);
+  // Come back quickly after a server restart.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 50);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
+  return grpc::CreateCustomChannel(wire::parse_address(address).target(), grpc::InsecureChannelCredentials(),
+                                   arguments);
+}
+
+// The records from..to of `all`.
+v1::FieldRecords slice(const v1::FieldRecords& all, int from, int to) {
+  v1::FieldRecords part;
+  part.mutable_point()->Add(all.point().begin() + from, all.point().begin() + to);
+  part.mutable_direction()->Add(all.direction().begin() + from, all.direction().begin() + to);
+  part.mutable_erosion()->Add(all.erosion().begin() + from, all.erosion().begin() + to);
+  part.mutable_area()->Add(all.area().begin() + from, all.area().begin() + to);
+  return part;
+}
+
+}  // namespace
+
+ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
+    : stub_(v1::WorkerService::NewStub(connect(options.address))),
+      options_(options),
+      stop_(std::move(stop)) {}
+
+template <class Call>
+void ServerLink::with_retries(const char* what, Call call) {
+  const Clock::time_point give_up = Clock::now() + options_.patience;
+  auto pause = kFirstPause;
+  for (;;) {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
+    const grpc::Status status = call(context);
+    if (status.ok()) return;
+    const std::string message = std::string(what) + ": " + status.error_message();
+    switch (status.error_code()) {
+      case grpc::StatusCode::UNAVAILABLE:
+      case grpc::StatusCode::DEADLINE_EXCEEDED:
+      case grpc::StatusCode::RESOURCE_EXHAUSTED:  // the server's disk is full: somebody may make room
+        break;
+      case grpc::StatusCode::ABORTED:
+      case grpc::StatusCode::NOT_FOUND:
+        throw LeaseLost(message);
+      default:
+        throw std::runtime_error(message);
+    }
+    if (Clock::now() + pause > give_up) throw ServerGone(message);
+    std::mutex mutex;
+    std::unique_lock<std::mutex> lock(mutex);
+    std::condition_variable_any().wait_for(lock, stop_, pause, [] { return false; });
+    if (stop_.stop_requested()) throw ServerGone(message);
+    pause = std::min(2 * pause, kLongestPause);
+  }
+}
+
+std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) {
+  v1::LeaseTaskResponse response;
+  bool stopped = false;
+  with_retries("asking for work", [&](grpc::ClientContext& context) {
+    // Prompt at SIGTERM: the server then takes back a lease whose reply it cannot deliver.
+    const std::stop_callback cancel(stop_, [&context] { context.TryCancel(); });
+    const grpc::Status status = stub_->LeaseTask(&context, request, &response);
+    stopped = stop_.stop_requested() && status.error_code() == grpc::StatusCode::CANCELLED;
+    return stopped ? grpc::Status::OK : status;
+  });
+  if (stopped || !response.has_lease()) return std::nullopt;
+  return response.lease();
+}
+
+std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind) {
+  v1::FetchInputRequest request;
+  request.set_token(token);
+  request.set_kind(kind);
+  std::string bytes;
+  with_retries("fetching an input", [&](grpc::ClientContext& context) {
+    bytes.clear();
+    v1::ArtifactHeader header;
+    v1::FetchArtifactResponse part;
+    const auto reader = stub_->FetchInput(&context, request);
+    while (reader->Read(&part)) {
+      if (part.has_header()) {
+        header = part.header();
+        bytes.reserve(header.bytes());
+      } else {
+        bytes += part.data();
+      }
+    }
+    const grpc::Status status = reader->Finish();
+    if (status.ok() && (bytes.size() != header.bytes() || wire::sha256_hex(bytes) != header.sha256())) {
+      return grpc::Status(grpc::StatusCode::UNAVAILABLE,
+                          "the bytes that arrived are not those that were sent");
+    }
+    return status;
+  });
+  return bytes;
+}
+
+v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
+                                      const v1::FieldRecords& records) {
+  v1::ReportResponse response;
+  with_retries("reporting", [&](grpc::ClientContext& context) {
+    response.Clear();
+    const auto writer = stub_->ReportErosion(&context, &response);
+    v1::ReportErosionRequest message;
+    *message.mutable_header() = header;
+    bool open = writer->Write(message);
+    for (int from = 0; open && from < records.point_size(); from += wire::kRecordsPerMessage) {
+      *message.mutable_records() =
+          slice(records, from, std::min(records.point_size(), from + wire::kRecordsPerMessage));
+      open = writer->Write(message);
+    }
+    writer->WritesDone();
+    return writer->Finish();
+  });
+  return response;
+}
+
+v1::ReportResponse ServerLink::complete(v1::CompleteTaskHeader header, std::string_view data) {
+  header.set_bytes(data.size());
+  header.set_sha256(wire::sha256_hex(data));
+  v1::ReportResponse response;
+  with_retries("handing in a result", [&](grpc::ClientContext& context) {
+    response.Clear();
+    const auto writer = stub_->CompleteTask(&context, &response);
+    v1::CompleteTaskRequest message;
+    *message.mutable_header() = header;
+    bool open = writer->Write(message);
+    for (std::size_t from = 0; open && from < data.size(); from += wire::kChunkBytes) {
+      message.set_data(std::string(data.substr(from, wire::kChunkBytes)));
+      open = writer->Write(message);
+    }
+    writer->WritesDone();
+    return writer->Finish();
+  });
+  return response;
+}
+
+v1::ReportResponse ServerLink::renew(const std::string& token) {
+  v1::RenewLeaseRequest request;
+  request.set_token(token);
+  v1::ReportResponse response;
+  with_retries("renewing a lease",
+               [&](grpc::ClientContext& context) { return stub_->RenewLease(&context, request, &response); });
+  return response;
+}
+
+void ServerLink::fail(const v1::FailTaskRequest& request) {
+  v1::ReportResponse response;
+  with_retries("reporting a failure",
+               [&](grpc::ClientContext& context) { return stub_->FailTask(&context, request, &response); });
+}
+
+void ServerLink::give_back(const std::string& token) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(2));
+  v1::ReturnLeaseRequest request;
+  request.set_token(token);
+  v1::ReportResponse response;
+  static_cast<void>(stub_->ReturnLease(&context, request, &response));
+}
+
+}  // namespace affskel::worker

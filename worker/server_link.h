@@ -1,0 +1,69 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "affskel/v1/worker_service.grpc.pb.h"
+
+namespace affskel::worker {
+
+/// The lease is not ours any more (fenced, expired or cancelled): drop the task.
+class LeaseLost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The server refuses or stays away; the worker cannot go on.
+class ServerGone : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct ServerLinkOptions {
+  std::string address;                ///< unix:PATH or HOST:PORT
+  std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
+};
+
+/// The worker's side of WorkerService.  Calls that the server can repeat safely are retried while it is
+/// UNAVAILABLE, with growing pauses, until patience ends.  Any thread.
+class ServerLink {
+ public:
+  ServerLink(const ServerLinkOptions& options, std::stop_token stop);
+
+  /// Waits for work up to request.wait_ms; nothing when there was none or the worker is to stop.
+  /// @throws ServerGone.
+  std::optional<v1::Lease> lease(const v1::LeaseTaskRequest& request);
+
+  /// The bytes of one input of the leased task, checked against their SHA-256.
+  /// @throws LeaseLost, ServerGone.
+  std::string fetch(const std::string& token, v1::ArtifactKind kind);
+
+  /// Reports finished positions and field records.  @throws LeaseLost, ServerGone.
+  v1::ReportResponse report(const v1::ReportErosionHeader& header, const v1::FieldRecords& records);
+
+  /// Hands in the result of a prepare or derive task.  @throws LeaseLost, ServerGone.
+  v1::ReportResponse complete(v1::CompleteTaskHeader header, std::string_view data);
+
+  v1::ReportResponse renew(const std::string& token);
+  void fail(const v1::FailTaskRequest& request);
+
+  /// Gives a lease back; errors are ignored, the lease expires anyway.
+  void give_back(const std::string& token);
+
+ private:
+  template <class Call>
+  void with_retries(const char* what, Call call);
+
+  std::unique_ptr<v1::WorkerService::Stub> stub_;
+  ServerLinkOptions options_;
+  std::stop_token stop_;
+};
+
+}  // namespace affskel::worker
