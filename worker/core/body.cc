@@ -42,17 +42,17 @@ Mesh fine_half(double triangles) {
 }
 
 /// Takes a reduced body to its height.  The vertices of a coarse mesh stand out of the surface they stand
-/// for (that keeps the volume): those below the soles are moved level with them first, so that the feet
-/// stay flat; the crown is let in by a height that the whole body shares.
+/// for (that keeps the volume): those near the ground are moved onto it first, so that the soles stay flat;
+/// the crown is let in by a height that the whole body shares.
 void scale_to_height(double height, Mesh& mesh) {
-  double low = kBodyHeight, high = 0;
+  constexpr double kGround = 4;  // mm
+  double high = 0;
   for (Vec3& p : mesh.points) {
-    p.z = std::max(p.z, 0.0);
-    low = std::min(low, p.z);
+    if (p.z < kGround) p.z = 0;
     high = std::max(high, p.z);
   }
-  const double scale = height / kBodyHeight, upright = height / (high - low);
-  for (Vec3& p : mesh.points) p = {scale * p.x, scale * p.y, upright * (p.z - low)};
+  const double scale = height / kBodyHeight, upright = height / high;
+  for (Vec3& p : mesh.points) p = {scale * p.x, scale * p.y, upright * p.z};
 }
 
 }  // namespace

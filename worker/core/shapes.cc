@@ -115,12 +115,12 @@ class GeodesicVertices {
     for (std::size_t k = 0; k < 3; ++k) {
       if (weight[k] > 0) corner[used++] = {t[k], weight[k]};
     }
-    if (used == 3) return add(corner, used);
     // In order of the corner's index, so that both faces at an edge compute the same key and point.
-    std::sort(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>(used));
-    const std::uint64_t low = used == 2 ? corner[1].first : corner[0].first;
-    const std::uint64_t key = (std::uint64_t{corner[0].first} << 40) | (low << 32) | corner[0].second;
-    const auto [place, is_new] = shared_.try_emplace(key, 0);
+    if (used < 3) std::sort(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>(used));
+    const std::uint64_t name = used == 3 ? 0x8000 | face : (corner[0].first << 8) | corner[used - 1].first;
+    const std::uint64_t key =
+        (name << 48) | (std::uint64_t{corner[0].second} << 24) | corner[used - 1].second;
+    const auto [place, is_new] = vertex_.try_emplace(key, 0);
     if (is_new) place->second = add(corner, used);
     return place->second;
   }
@@ -136,7 +136,7 @@ class GeodesicVertices {
   const Mesh& coarse_;
   std::uint32_t frequency_;
   Mesh& out_;
-  std::unordered_map<std::uint64_t, std::uint32_t> shared_;
+  std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
 };
 
 Mesh icosahedron() {

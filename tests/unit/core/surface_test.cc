@@ -98,20 +98,19 @@ TEST(AlphaSurfaceTest, CoversAnObliqueSheetOnce) {
   EXPECT_EQ(mesh.triangles.size(), 2u * 14 * 14);
 }
 
-TEST(AlphaSurfaceTest, CoversTwoCrossingSheetsOnce) {
-  std::vector<Vec3> points = nodes(13, [](int i, int j, int) { return i == 6 || j == 6; });
+TEST(AlphaSurfaceTest, ThickensTheCrossingOfTwoSheetsOnly) {
+  // Across the sheets the empty circles that touch both, of squared radius 1/2 and 5/2, are
+  // below 3 - 1/4: the crossing becomes the prism |x| + |y| <= 2, 12 long, and hides its 5 x 11 inner nodes.
+  const std::vector<Vec3> points = nodes(13, [](int i, int j, int) { return i == 6 || j == 6; });
   const Mesh mesh = lattice_surface(points);
-  // In the four corners along the common line, three points at right angles also span the cells of a
-  // thin wedge; the sheets themselves are covered once.
-  const MeshFacts facts = mesh_facts(mesh);
-  EXPECT_EQ(facts.components, 1u);
-  EXPECT_EQ(mesh.points.size(), points.size());
-  EXPECT_GT(squares(mesh), 2 * 12 * 12 - 4 * 3 * 12);
+  const double sheets = 4 * 4 * 12, prism = 4 * std::sqrt(8.0) * 12 + 2 * 8;
+  EXPECT_NEAR(squares(mesh), sheets + prism, 1e-9);
+  EXPECT_EQ(mesh.points.size(), points.size() - 5 * 11);
 }
 
 TEST(AlphaSurfaceTest, LeavesAHoleWiderThanAlphaOpen) {
   // A block of 5 x 5 missing nodes.  At each of its corners the empty circles of squared radius 1/2 and
-  // 5/2 fit below 3, the next, of 13/2, does not: a right triangle of area 2 is covered.
+  // 5/2 are below 3, the next, of 13/2, is not: a right triangle of area 2 is covered.
   const Mesh mesh = lattice_surface(
       nodes(16, [](int i, int j, int k) { return k == 0 && !(i >= 5 && i < 10 && j >= 5 && j < 10); }));
   EXPECT_NEAR(squares(mesh), 15 * 15 - (6 * 6 - 4 * 2), 1e-9);
