@@ -97,7 +97,7 @@ ProgressRate ProgressView::measure(const v1::Job& job) {
   rate.directions_per_second = rate_;
   const double left =
       double(job.directions_total() - std::min(job.directions_done(), job.directions_total())) / rate_;
-  if (left < 1e8) rate.remaining = std::chrono::milliseconds(std::llround(1000 * left));
+  if (left > 0 && left < 1e8) rate.remaining = std::chrono::milliseconds(std::llround(1000 * left));
   return rate;
 }
 

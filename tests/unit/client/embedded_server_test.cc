@@ -97,7 +97,8 @@ TEST_F(EnsureEmbeddedServer, StartsOneAndSaysSo) {
   EXPECT_EQ(address.target(), "unix:" + paths_.socket.string());
   EXPECT_TRUE(socket_answers(paths_.socket));
   EXPECT_NE(err_.str().find(paths_.home.string()), std::string::npos);
-  EXPECT_EQ(std::count(err_.str().begin(), err_.str().end(), '\n'), 1);
+  const std::string said = err_.str();
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
   EXPECT_EQ(out_.str(), "");
   EXPECT_EQ(slurp(dir_ / "home/arguments"), "--data-dir\n" + paths_.home.string() +
                                                 "\n--listen\nunix:" + paths_.socket.string() +

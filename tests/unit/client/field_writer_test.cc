@@ -56,7 +56,9 @@ void expect_sample(const std::vector<std::vector<double>>& rows, std::size_t col
     for (int c = 0; c < 3; ++c) {
       EXPECT_EQ(rows[p][4 + std::size_t(c)], directions.xyz(3 * int(kSampleDirection[p]) + c));
     }
-    if (columns > 7) EXPECT_EQ(rows[p][7], kSampleDirection[p]);
+    if (columns > 7) {
+      EXPECT_EQ(rows[p][7], kSampleDirection[p]);
+    }
   }
 }
 

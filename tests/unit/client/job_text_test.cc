@@ -117,8 +117,8 @@ TEST_F(ProgressViewTest, PlainLinesComeAtStagesAndTenths) {
   queued.set_state(v1::JOB_STATE_QUEUED);
   show({}, {queued, queued, eroding(0), eroding(10), eroding(39), eroding(40), eroding(400)});
   EXPECT_EQ(err_.str(),
-            "queued\nerode: 0/400 directions\nerode: 40/400 directions, 14/s, 26 s left\n"
-            "erode: 400/400 directions, 182/s, 0.0 s left\n");
+            "queued\nerode: 0/400 directions\nerode: 40/400 directions, 10/s, 34 s left\n"
+            "erode: 400/400 directions, 180/s\n");
 }
 
 TEST_F(ProgressViewTest, ASteadyRateIsMeasuredExactly) {

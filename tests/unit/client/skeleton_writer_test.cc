@@ -76,7 +76,8 @@ TEST(SkeletonWriter, OffAndXyzHoldTheCoordinates) {
   const std::string xyz = written(FileFormat::kXyz, sample_skeleton());
   EXPECT_EQ(written(FileFormat::kOff, sample_skeleton()), "OFF\n2 0 0\n" + xyz);
   std::istringstream in(xyz);
-  for (const double expected : sample_skeleton().xyz()) {
+  const v1::SkeletonPoints skeleton = sample_skeleton();
+  for (const double expected : skeleton.xyz()) {
     double value = 0;
     ASSERT_TRUE(in >> value);
     EXPECT_EQ(value, expected);
