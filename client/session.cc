@@ -151,19 +151,20 @@ void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode no
   const bool retries = proven_ || choice_.embedded;
   const auto patience = proven_ ? policy_.patience : std::min(policy_.patience, kStartPatience);
   std::optional<Clock::time_point> deadline;  // counted from the first failure: calls may take long
-  for (bool first = true;; first = false) {
+  while (true) {
     if (!stub_) connect();
     const grpc::Status status = attempt(*stub_);
     if (status.ok()) break;
     const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE;
     if (!deadline) deadline = Clock::now() + patience;
     if (!away || !retries || Clock::now() >= *deadline) fail(status, not_yet);
-    if (first) tell_away();
+    tell_away();
     stub_.reset();
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, policy_.longest_pause);
   }
   proven_ = true;
+  told_away_ = false;
 }
 
 void Session::fail(const grpc::Status& status, ExitCode not_yet) const {
@@ -172,8 +173,9 @@ void Session::fail(const grpc::Status& status, ExitCode not_yet) const {
   throw ClientError(error.exit_code(), std::string(error.what()) + " (address from " + choice_.origin + ")");
 }
 
-void Session::tell_away() const {
-  if (proven_) console_.note("the server went away; trying to reach it again");
+void Session::tell_away() {
+  if (proven_ && !told_away_) console_.note("the server went away; trying to reach it again");
+  told_away_ = true;
 }
 
 template <typename Request, typename Response>
@@ -214,6 +216,7 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   bool any = false;
   for (v1::Job now; reader->Read(&now);) {
     any = proven_ = true;
+    told_away_ = false;
     last = now;
     seen(last);
   }

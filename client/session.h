@@ -69,7 +69,7 @@ class Session {
   grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
                           const std::function<void(const v1::Job&)>& seen);
   [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
-  void tell_away() const;
+  void tell_away();
   template <typename Request, typename Response>
   Response unary(const Request& request,
                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
@@ -80,7 +80,8 @@ class Session {
   RetryPolicy policy_;
   std::string target_;
   std::unique_ptr<Stub> stub_;
-  bool proven_ = false;  // the server answered at least once
+  bool proven_ = false;     // the server answered at least once
+  bool told_away_ = false;  // that it went away; until it is back
 };
 
 /// Whether nothing more will happen to the job by itself.
