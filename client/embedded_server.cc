@@ -81,6 +81,7 @@ class DetachedSpawn {
 
   pid_t run(const std::vector<std::string>& arguments) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     pid_t pid = 0;
@@ -95,6 +96,19 @@ class DetachedSpawn {
   posix_spawn_file_actions_t actions_;
   posix_spawnattr_t attributes_;
 };
+
+fs::path own_directory() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+// One old log is kept.
+void rotate(const fs::path& log) {
+  constexpr std::uintmax_t kLargest = 8u << 20;
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(log, error);
+  if (!error && size > kLargest) fs::rename(log, log.string() + ".1", error);
+}
 
 pid_t start_server(const EmbeddedPaths& paths, const fs::path& program) {
   return DetachedSpawn(paths.log).run({program, "--data-dir", paths.home, "--listen",
@@ -165,10 +179,8 @@ void make_private_directory(const fs::path& directory, bool only_ours) {
   }
 }
 
-fs::path find_server_program(const Environment& environment) {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  if (!error && is_program(self.parent_path() / kServerName)) return self.parent_path() / kServerName;
+fs::path find_server_program(const fs::path& beside, const Environment& environment) {
+  if (is_program(beside / kServerName)) return beside / kServerName;
   std::istringstream path(environment.get("PATH").value_or(""));
   for (std::string directory; std::getline(path, directory, ':');) {
     if (fs::path(directory).is_absolute() && is_program(fs::path(directory) / kServerName)) {
@@ -176,7 +188,7 @@ fs::path find_server_program(const Environment& environment) {
     }
   }
   throw ClientError(ExitCode::kUnreachable, "no server is configured, and affskel-server is neither in " +
-                                                self.parent_path().string() +
+                                                beside.string() +
                                                 " nor in $PATH; name a server with --server ADDR");
 }
 
@@ -197,9 +209,11 @@ wire::Address ensure_embedded_server(const EmbeddedPaths& paths, const EmbeddedO
   make_private_directory(paths.home, false);
   if (!paths.socket_dir.empty()) make_private_directory(paths.socket_dir, true);
   if (!socket_answers(paths.socket)) {
-    const fs::path program = options.program.empty() ? find_server_program(environment) : options.program;
+    const fs::path program =
+        options.program.empty() ? find_server_program(own_directory(), environment) : options.program;
     console.note("starting a private server; its data is in " + paths.home.string() +
                  ", it leaves by itself when idle");
+    rotate(paths.log);
     wait_for_socket(paths, options, start_server(paths, program));
   }
   wire::Address address;

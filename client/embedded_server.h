@@ -29,12 +29,13 @@ EmbeddedPaths embedded_paths(const Environment& environment);
 /// @throws ClientError kNotAllowed with the cause.
 void make_private_directory(const std::filesystem::path& directory, bool only_ours);
 
-/// `affskel-server` next to this program, else the first in $PATH.
+/// `affskel-server` in the directory `beside`, else the first in $PATH.
 /// @throws ClientError kUnreachable when there is none.
-std::filesystem::path find_server_program(const Environment& environment);
+std::filesystem::path find_server_program(const std::filesystem::path& beside,
+                                          const Environment& environment);
 
 struct EmbeddedOptions {
-  std::filesystem::path program;  ///< the server; empty = find_server_program
+  std::filesystem::path program;  ///< the server; empty = next to this program, else in $PATH
   std::chrono::milliseconds patience{15000};
   std::chrono::milliseconds poll{10};
   /// How long to wait for another server after our own gave up (it lost the race for the data directory).

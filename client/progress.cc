@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kDefaultWidth = 80;
 constexpr int kLongestBar = 40;
-constexpr double kSmoothing = 1.5;  // seconds over which the rate forgets
+constexpr std::chrono::seconds kShortestSilence{1};  // between plain lines of one stage
+constexpr double kSmoothing = 1.5;                   // seconds over which the rate forgets
 
 int terminal_width() {
   winsize size{};
@@ -114,9 +115,11 @@ void ProgressView::update(const v1::Job& job) {
 void ProgressView::print(const v1::Job& job, const ProgressRate& rate) {
   const std::string now = label(job) + reason_text(job);
   const auto tenth = static_cast<std::uint64_t>(10 * done_share(job));
-  if (now == last_label_ && tenth == last_tenth_) return;
+  const bool news = tenth != last_tenth_ && (!last_print_ || now_() - *last_print_ >= kShortestSilence);
+  if (now == last_label_ && !news) return;
   last_label_ = now;
   last_tenth_ = tenth;
+  last_print_ = now_();
   console_.note(progress_line(job, rate));
 }
 

@@ -23,7 +23,8 @@ std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width
 std::string progress_line(const v1::Job& job, const ProgressRate& rate);
 
 /// Shows the progress of one job on the console: a bar that is redrawn in place on a terminal, otherwise a
-/// plain line when the stage or state changes and at every tenth of the directions; nothing when quiet.
+/// plain line when the stage or state changes and at tenths of the directions, at most one a second; nothing
+/// when quiet.
 class ProgressView {
  public:
   using Clock = std::chrono::steady_clock;
@@ -44,6 +45,7 @@ class ProgressView {
   std::optional<Clock::time_point> last_time_;
   std::uint64_t last_done_ = 0;
   double rate_ = 0;
+  std::optional<Clock::time_point> last_print_;
   std::string last_label_;
   std::uint64_t last_tenth_ = 0;
 };

@@ -17,6 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kUnaryDeadline{30};
+// How long an embedded server that never answered may keep us.
+constexpr std::chrono::milliseconds kStartPatience{10000};
 constexpr int kMaxMessageBytes = 64 << 20;  // long job lists; pieces of streams are far smaller
 // Servers refuse pings more often than every five minutes.
 constexpr int kKeepaliveMs = 330 * 1000;
@@ -145,29 +147,35 @@ void Session::connect() {
 
 void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet) {
   std::chrono::milliseconds pause = policy_.first_pause;
-  const auto deadline = Clock::now() + policy_.patience;
-  bool told = false;
-  // The embedded server may leave, idle, in the moment we connect: one attempt more even if never reached.
-  bool once_more = choice_.embedded;
+  // The embedded server may leave, idle, in the moment we come: that is no reason to give up.
+  const bool retries = proven_ || choice_.embedded;
+  const auto patience = proven_ ? policy_.patience : std::min(policy_.patience, kStartPatience);
+  std::optional<Clock::time_point> deadline;  // counted from the first failure: calls may take long
   while (true) {
     if (!stub_) connect();
     const grpc::Status status = attempt(*stub_);
     if (status.ok()) break;
     const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE;
-    if (!away || (!proven_ && !once_more) || Clock::now() >= deadline) {
-      ClientError error = error_from_status(status, target_, not_yet);
-      if (!away || choice_.embedded) throw error;
-      throw ClientError(error.exit_code(),
-                        std::string(error.what()) + " (address from " + choice_.origin + ")");
-    }
-    if (!proven_) once_more = false;
-    if (proven_ && !told) console_.note("the server went away; trying to reach it again");
-    told = true;
+    if (!deadline) deadline = Clock::now() + patience;
+    if (!away || !retries || Clock::now() >= *deadline) fail(status, not_yet);
+    tell_away();
     stub_.reset();
-    if (proven_) std::this_thread::sleep_for(pause);
+    std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, policy_.longest_pause);
   }
   proven_ = true;
+  told_away_ = false;
+}
+
+void Session::fail(const grpc::Status& status, ExitCode not_yet) const {
+  const ClientError error = error_from_status(status, target_, not_yet);
+  if (status.error_code() != grpc::StatusCode::UNAVAILABLE || choice_.embedded) throw error;
+  throw ClientError(error.exit_code(), std::string(error.what()) + " (address from " + choice_.origin + ")");
+}
+
+void Session::tell_away() {
+  if (proven_ && !told_away_) console_.note("the server went away; trying to reach it again");
+  told_away_ = true;
 }
 
 template <typename Request, typename Response>
@@ -201,34 +209,40 @@ std::vector<v1::Job> Session::list_jobs(const v1::ListJobsRequest& request) {
   return {response.jobs().begin(), response.jobs().end()};
 }
 
+grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
+                                 const std::function<void(const v1::Job&)>& seen) {
+  grpc::ClientContext context;
+  const auto reader = stub.WatchJob(&context, request);
+  bool any = false;
+  for (v1::Job now; reader->Read(&now);) {
+    any = proven_ = true;
+    told_away_ = false;
+    last = now;
+    seen(last);
+  }
+  const grpc::Status status = reader->Finish();
+  if (is_final(last.state())) return grpc::Status::OK;
+  // We cancel nothing, and a job without a final state has no last message: the server is shutting down.
+  const bool broken = status.ok() || status.error_code() == grpc::StatusCode::UNAVAILABLE ||
+                      status.error_code() == grpc::StatusCode::CANCELLED;
+  if (!broken) return status;
+  // Whatever arrived is a success, from which the patience counts anew.
+  if (any) return grpc::Status::OK;
+  return {grpc::StatusCode::UNAVAILABLE, status.ok() ? "the server ended the watch" : status.error_message()};
+}
+
 v1::Job Session::watch(const std::string& job, const std::function<void(const v1::Job&)>& seen) {
   v1::WatchJobRequest request;
   request.set_job(job);
   v1::Job last;
-  // Each message is a success: the patience counts from the last one.
-  while (!is_final(last.state())) {
-    run([&](Stub& stub) {
-      grpc::ClientContext context;
-      const auto reader = stub.WatchJob(&context, request);
-      bool any = false;
-      for (v1::Job now; reader->Read(&now);) {
-        any = proven_ = true;
-        last = now;
-        request.set_job(last.id());  // "@last" may mean another job after a reconnection
-        seen(last);
-      }
-      grpc::Status status = reader->Finish();
-      if (is_final(last.state()) || (any && status.error_code() == grpc::StatusCode::UNAVAILABLE)) {
-        if (!is_final(last.state())) stub_.reset();
-        return grpc::Status::OK;
-      }
-      // Ended without a final state: the server is shutting down in an orderly way.
-      if (status.ok()) return grpc::Status(grpc::StatusCode::UNAVAILABLE, "the server ended the watch");
-      return status;
-    });
-    if (!is_final(last.state())) std::this_thread::sleep_for(policy_.first_pause);
+  while (true) {
+    run([&](Stub& stub) { return watch_once(stub, request, last, seen); });
+    if (is_final(last.state())) return last;
+    request.set_job(last.id());  // "@last" may mean another job by now
+    tell_away();
+    stub_.reset();
+    std::this_thread::sleep_for(policy_.first_pause);
   }
-  return last;
 }
 
 v1::Job Session::cancel(const std::string& job) {

@@ -65,6 +65,11 @@ class Session {
   void connect();
   // Runs `attempt` until it succeeds or fails for good.
   void run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet = ExitCode::kNotAllowed);
+  // One stream; OK when it ended with a final state, or broke after something had arrived.
+  grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
+                          const std::function<void(const v1::Job&)>& seen);
+  [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
+  void tell_away();
   template <typename Request, typename Response>
   Response unary(const Request& request,
                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
@@ -75,7 +80,8 @@ class Session {
   RetryPolicy policy_;
   std::string target_;
   std::unique_ptr<Stub> stub_;
-  bool proven_ = false;  // the server answered at least once
+  bool proven_ = false;     // the server answered at least once
+  bool told_away_ = false;  // that it went away; until it is back
 };
 
 /// Whether nothing more will happen to the job by itself.

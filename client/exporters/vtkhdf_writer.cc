@@ -196,11 +196,11 @@ class VtkHdfWriter : public FieldWriter {
     set_attribute(root, "Origin", std::array<double, 3>{o.x, o.y, o.z});
     std::array<double, 3> spacing{};
     std::array<double, 9> direction{};  // row by row; column a is the direction of lattice axis a
-    for (int a = 0; a < 3; ++a) {
-      spacing[static_cast<std::size_t>(a)] = core::norm(points.axis(a));
-      for (int row = 0; row < 3; ++row) {
-        direction[static_cast<std::size_t>(3 * row + a)] =
-            points.axis(a)[row] / spacing[static_cast<std::size_t>(a)];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const core::Vec3& axis = points.axis(static_cast<int>(a));
+      spacing[a] = core::norm(axis);
+      for (std::size_t row = 0; row < 3; ++row) {
+        direction[3 * row + a] = axis[static_cast<int>(row)] / spacing[a];
       }
     }
     set_attribute(root, "Spacing", spacing);

@@ -102,18 +102,16 @@ void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normal
 
 Image Panel::resolve() const {
   Image image(columns_ / kSamples, rows_ / kSamples);
-  constexpr float share = 1.0f / (kSamples * kSamples);
+  constexpr float kShare = 1.0f / (kSamples * kSamples);
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       Rgb sum;
       for (int s = 0; s < kSamples * kSamples; ++s) {
-        const auto column = std::size_t(x * kSamples + s % kSamples);
-        const auto row = std::size_t(y * kSamples + s / kSamples);
-        const Sample& sample = samples_[row * std::size_t(columns_) + column];
+        const Sample& sample = at(x * kSamples + s % kSamples, y * kSamples + s / kSamples);
         const Rgb behind = sample.covered ? sample.ball : sample.back.over(kWhite);
         sum = sum + sample.front.over(behind);
       }
-      image.at(x, y) = share * sum;
+      image.at(x, y) = kShare * sum;
     }
   }
   return image;

@@ -58,6 +58,9 @@ class Panel {
     double x, y, depth;
   };
   Projected project(const core::Vec3& point) const;
+  const Sample& at(int x, int y) const {
+    return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+  }
   Sample& at(int x, int y) { return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)]; }
 
   int columns_, rows_;  // of samples

@@ -176,12 +176,19 @@ TEST_F(ClientTest, WatchReattachesWhenTheStreamBreaks) {
   EXPECT_EQ(states, (std::vector<std::string>{"queued", "running", "queued", "running", "done"}));
 }
 
+TEST_F(ClientTest, WatchReattachesWhenTheStreamEndsTooEarly) {
+  service_.watch_ends_after = 2;
+  const Outcome done = run({"watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "done\n");
+  EXPECT_NE(done.err.find("the server went away"), std::string::npos);
+}
+
 TEST_F(ClientTest, WatchGivesUpWhenTheServerStaysAway) {
-  service_.watch = {sample_job(v1::JOB_STATE_RUNNING)};
+  service_.watch_stays_away = true;
   service_.watch_breaks_after = 1;
-  // From the second attempt on the stream ends, in order but without a final state.
-  const Outcome outcome = run({"watch", "@last"});
-  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_EQ(run({"watch", "@last"}).exit_code, 5);
+  EXPECT_GT(service_.watches, 2);
 }
 
 TEST_F(ClientTest, WatchPrintsTheFinalState) {

@@ -142,6 +142,13 @@ TEST_F(EnsureEmbeddedServer, ReportsTheLogOfAServerThatCannotStart) {
   }
 }
 
+TEST_F(EnsureEmbeddedServer, KeepsTheLogFromGrowingForEver) {
+  spit(paths_.log, std::string(9 << 20, 'x'));
+  ensure_embedded_server(paths_, options_, environment_, console_);
+  EXPECT_LT(std::filesystem::file_size(paths_.log), 1u << 20);
+  EXPECT_EQ(std::filesystem::file_size(paths_.log.string() + ".1"), 9u << 20);
+}
+
 TEST_F(EnsureEmbeddedServer, ReportsAProgramThatCannotRun) {
   options_.program = dir_ / "nothing";
   EXPECT_THROW(ensure_embedded_server(paths_, options_, environment_, console_), ClientError);
@@ -150,16 +157,26 @@ TEST_F(EnsureEmbeddedServer, ReportsAProgramThatCannotRun) {
 TEST(FindServerProgram, LooksInThePath) {
   const TempDir dir;
   try {
-    find_server_program(test_environment({{"PATH", dir.path()}}));
+    find_server_program("/nowhere", test_environment({{"PATH", dir.path()}}));
     FAIL() << "found although it is nowhere";
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kUnreachable);
   }
   spit(dir / "affskel-server", "");
-  EXPECT_THROW(find_server_program(test_environment({{"PATH", dir.path()}})), ClientError)
+  EXPECT_THROW(find_server_program("/nowhere", test_environment({{"PATH", dir.path()}})), ClientError)
       << "not executable";
   chmod((dir / "affskel-server").c_str(), 0700);
-  EXPECT_EQ(find_server_program(test_environment({{"PATH", "relative:" + dir.path().string()}})),
+  const Environment found = test_environment({{"PATH", "relative:" + dir.path().string()}});
+  EXPECT_EQ(find_server_program("/nowhere", found), dir / "affskel-server");
+}
+
+TEST(FindServerProgram, PrefersItsOwnDirectory) {
+  const TempDir dir, other;
+  for (const std::string& program : {dir / "affskel-server", other / "affskel-server"}) {
+    spit(program, "");
+    chmod(program.c_str(), 0700);
+  }
+  EXPECT_EQ(find_server_program(dir.path(), test_environment({{"PATH", other.path()}})),
             dir / "affskel-server");
 }
 

@@ -17,9 +17,11 @@ namespace affskel::client {
 /// A server in this process that answers as it is told.  What a test sets before the calls needs no lock.
 class FakeService final : public v1::ErosionService::Service {
  public:
-  v1::Job job;                  ///< answers every question about a job
-  std::vector<v1::Job> watch;   ///< what WatchJob sends, one after the other
-  int watch_breaks_after = -1;  ///< ends the first watch UNAVAILABLE after this many
+  v1::Job job;                    ///< answers every question about a job
+  std::vector<v1::Job> watch;     ///< what WatchJob sends, one after the other
+  int watch_breaks_after = -1;    ///< ends the first watch UNAVAILABLE after this many
+  int watch_ends_after = -1;      ///< the same, ending it in order
+  bool watch_stays_away = false;  ///< all further watches are UNAVAILABLE
   std::map<v1::ArtifactKind, std::string> artifacts;
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
   bool damage = false;                    ///< flip a byte of every artefact
@@ -59,8 +61,11 @@ class FakeService final : public v1::ErosionService::Service {
                         grpc::ServerWriter<v1::Job>* writer) override {
     const bool first = watches++ == 0;
     int sent = 0;
+    if (!first && watch_stays_away) return {grpc::StatusCode::UNAVAILABLE, "restarting"};
     for (const v1::Job& state : watch) {
-      if (first && sent++ == watch_breaks_after) return {grpc::StatusCode::UNAVAILABLE, "restarting"};
+      if (first && sent == watch_breaks_after) return {grpc::StatusCode::UNAVAILABLE, "restarting"};
+      if (first && sent == watch_ends_after) return grpc::Status::OK;
+      ++sent;
       writer->Write(state);
     }
     return grpc::Status::OK;
