@@ -80,7 +80,7 @@ void write_field(const std::string& path, const core::Solid& solid, const core::
   if (csv) std::fputs("x,y,z,E,nx,ny,nz,direction\n", file.get());
   const core::SamplePlaces places(solid, lattice);
   const double volume_unit = std::ldexp(1.0, 3 * solid.exponent);
-  for (const core::Run& run : lattice.axis[2].runs) {
+  for (const core::LatticeRun& run : lattice.axis[2].runs) {
     for (std::uint32_t n = 0; n < run.length; ++n) {
       const core::Vec3 x = places.at(run.start[0], run.start[1], run.start[2] + n);
       const core::FieldValue value = field.value(run.first + n);

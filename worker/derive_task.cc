@@ -15,9 +15,9 @@ class Walker {
   explicit Walker(const PreparedJob& job) : job_(job), places_(job.solid(), job.lattice()) {}
 
   core::Vec3 place(std::uint32_t point) {
-    const std::vector<core::Run>& runs = job_.lattice().axis[2].runs;
+    const std::vector<core::LatticeRun>& runs = job_.lattice().axis[2].runs;
     while (point >= runs[at_].first + runs[at_].length) ++at_;
-    const core::Run& run = runs[at_];
+    const core::LatticeRun& run = runs[at_];
     return places_.at(run.start[0], run.start[1], run.start[2] + (point - run.first));
   }
 

@@ -86,7 +86,7 @@ v1::Lattice PreparedJob::lattice_message() const {
   for (std::uint32_t n : lattice_.frame.dims) message.add_dims(n);
   const std::uint64_t ny = lattice_.frame.dims[1], nz = lattice_.frame.dims[2];
   std::uint64_t end = 0;
-  for (const core::Run& run : lattice_.axis[2].runs) {
+  for (const core::LatticeRun& run : lattice_.axis[2].runs) {
     const std::uint64_t start = (run.start[0] * ny + run.start[1]) * nz + run.start[2];
     // Runs that touch (a surface passes between their points) are one run of the message.
     if (message.run_start_size() > 0 && start == end && run.start[2] != 0) {

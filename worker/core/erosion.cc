@@ -41,7 +41,7 @@ class Erosion::Engine {
         field_(lattice.points, options.track_changes),
         // Volumes may fall along a run where a mesh crosses itself: nothing can be left out there.
         sweeper_(lattice, field_,
-                 {options.prune && !solid.self_intersecting, kPruneMargin * inner_volume(solid)}) {
+                 {options.prune && !solid.self_intersecting, 2 * trees_.volume_tolerance()}) {
     const JoinTreeOptions tree_options{!solid.self_intersecting};
     for (unsigned i = 0; i < std::max(1U, options.threads); ++i) {
       builders_.push_back(std::make_unique<JoinTreeBuilder>(trees_, tree_options));
@@ -76,8 +76,6 @@ class Erosion::Engine {
   }
 
  private:
-  static double inner_volume(const Solid& solid) { return std::ldexp(solid.volume, -3 * solid.exponent); }
-
   void work_off(JoinTreeBuilder& builder, std::span<const std::uint32_t> list,
                 std::atomic<std::uint64_t>& next, const std::atomic<bool>& failed,
                 ExecutionContext& context) {

@@ -37,9 +37,6 @@ constexpr double kLevel = 1e-11;
 // Bends up to this times v0 are added in plain doubles: 2^-53 of it, integrated three times over heights
 // below 2, is less than 1e-13 v0.
 constexpr double kPlainBend = 500;
-// What the invariants allow, relative to v0.
-constexpr double kVolumeTolerance = 1e-9;
-
 struct Sum2 {
   double hi = 0, lo = 0;
 
@@ -228,7 +225,10 @@ AFFSKEL_CLONES double pass_volumes(const HeightOrder& heights, const VertexData&
 class JoinTreeBuilder::Work {
  public:
   Work(const TreeInput& input, const JoinTreeOptions& options)
-      : input_(input.data()), options_(options), heights_(input_.solid.mesh.points) {
+      : input_(input.data()),
+        tolerance_(input.volume_tolerance()),
+        options_(options),
+        heights_(input_.solid.mesh.points) {
     const std::size_t vertices = input_.solid.mesh.points.size(),
                       triangles = input_.solid.mesh.triangles.size();
     vertex_.lowest.resize(triangles);
@@ -379,12 +379,11 @@ class JoinTreeBuilder::Work {
   }
 
   void check() const {
-    const double tolerance = kVolumeTolerance * input_.volume;
     if (tree_.roots != input_.solid_volume.size()) {
       throw_invariant(std::to_string(tree_.roots) + " roots for " +
                       std::to_string(input_.solid_volume.size()) + " solids");
     }
-    if (tree_.least_step < -tolerance) {
+    if (tree_.least_step < -tolerance_) {
       throw_invariant("the volume falls by " + std::to_string(-tree_.least_step / input_.volume) +
                       " v0 along an arc");
     }
@@ -392,7 +391,7 @@ class JoinTreeBuilder::Work {
       if (tree_.arcs[a].parent != Arc::kNone) continue;
       const double volume = tree_.pieces[tree_.arcs[a].last_piece].volume;
       const double expected = input_.solid_volume[topology_.arc_solid[a]];
-      if (!(std::abs(volume - expected) <= tolerance)) {
+      if (!(std::abs(volume - expected) <= tolerance_)) {
         throw_invariant("the tree of solid " + std::to_string(topology_.arc_solid[a]) + " holds " +
                         std::to_string(volume / expected) + " of its volume");
       }
@@ -409,6 +408,7 @@ class JoinTreeBuilder::Work {
   }
 
   const TreeInput::Data& input_;
+  double tolerance_;
   JoinTreeOptions options_;
   Vec3 d_;
   HeightOrder heights_;

@@ -87,13 +87,17 @@ class TreeInput {
   struct Data;
   const Data& data() const { return *data_; }
 
+  /// By how much a computed volume may be off or fall along a run, inner units: 1e-9 v0 and what the
+  /// rounding of heights to 2^-44 moves the surface.
+  double volume_tolerance() const;
+
  private:
   std::unique_ptr<Data> data_;
 };
 
 struct JoinTreeOptions {
   /// Check that the roots are as many as the solids and that every root's volume at its top is its
-  /// solid's, to 1e-9 v0, and that volumes never fall by more than that; off for meshes that cross
+  /// solid's, and that volumes never fall, both within TreeInput::volume_tolerance(); off for meshes that cross
   /// themselves, where it need not hold.
   bool check_invariants = true;
 };

@@ -63,7 +63,8 @@ class LatticeBuilder {
   }
 
   std::uint32_t clip(double depth) const {
-    return static_cast<std::uint32_t>(std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.frame.dims[2]))));
+    return static_cast<std::uint32_t>(
+        std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.frame.dims[2]))));
   }
 
   // Sorts the points into the lines of another axis and cuts these into runs.
@@ -72,14 +73,14 @@ class LatticeBuilder {
     const LineCrossings lines = scan_convert(mesh_, lattice_.frame, axis);
     const std::size_t line_count = lines.begin.size() - 1;
     std::vector<std::uint32_t> begin(line_count + 1, 0), run_of(lattice_.points);
-    for_each_point([&](std::uint32_t, const Run& run, const std::array<std::uint32_t, 3>& at) {
+    for_each_point([&](std::uint32_t, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
       static_cast<void>(run);
       ++begin[line_of(axis, at) + 1];
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     std::vector<std::uint32_t> order(lattice_.points), cursor(begin.begin(), begin.end() - 1);
-    const Run* first_run = lattice_.axis[2].runs.data();
-    for_each_point([&](std::uint32_t point, const Run& run, const std::array<std::uint32_t, 3>& at) {
+    const LatticeRun* first_run = lattice_.axis[2].runs.data();
+    for_each_point([&](std::uint32_t point, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
       order[cursor[line_of(axis, at)]++] = point;
       run_of[point] = static_cast<std::uint32_t>(&run - first_run);
     });
@@ -98,7 +99,7 @@ class LatticeBuilder {
 
   template <class Visit>
   void for_each_point(Visit visit) const {
-    for (const Run& run : lattice_.axis[2].runs) {
+    for (const LatticeRun& run : lattice_.axis[2].runs) {
       std::array<std::uint32_t, 3> at = run.start;
       for (std::uint32_t p = run.first; p < run.first + run.length; ++p, ++at[2]) visit(p, run, at);
     }
@@ -111,10 +112,10 @@ class LatticeBuilder {
     std::uint64_t next = lines.begin[line];
     const std::uint64_t end = lines.begin[line + 1];
     std::int32_t winding = 0;
-    Run* open = nullptr;
+    LatticeRun* open = nullptr;
     for (std::uint32_t o = from; o < to; ++o) {
       const std::uint32_t point = order[o];
-      const Run& column = lattice_.axis[2].runs[run_of[point]];
+      const LatticeRun& column = lattice_.axis[2].runs[run_of[point]];
       std::array<std::uint32_t, 3> at = column.start;
       at[2] += point - column.first;
       while (next < end && lines.crossings[next].depth <= at[a]) {

@@ -17,7 +17,7 @@ struct LatticeFrame {
 };
 
 /// Consecutive sample points of a lattice line with no surface crossing between them.
-struct Run {
+struct LatticeRun {
   std::uint32_t first =
       0;  ///< place of its first point in AxisRuns::order (the point itself if that is empty)
   std::uint32_t length = 0;              ///< number of points, >= 1
@@ -28,11 +28,11 @@ struct Run {
 
 /// All sample points, in runs along one axis.
 struct AxisRuns {
-  std::vector<Run> runs;
+  std::vector<LatticeRun> runs;
   std::vector<std::uint32_t> order;  ///< sample points run by run; empty for axis 2, where it is 0, 1, 2, ...
   /// Points within rounding of the surface whose line along this axis says "outside": runs of one point
   /// along axis 2 (low and high belong to that axis; `first` is the point).
-  std::vector<Run> strays;
+  std::vector<LatticeRun> strays;
 };
 
 /// The sample points of a solid: lattice points inside it, numbered in lattice order (axis 2 fastest).

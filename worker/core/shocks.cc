@@ -34,9 +34,9 @@ class SlabIndex {
   void fill(std::uint32_t i) {
     auto& slab = slabs_[i % 3];
     std::fill(slab.begin(), slab.end(), kOutside);
-    const std::vector<Run>& runs = lattice_.axis[2].runs;
+    const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
     for (; next_ < runs.size() && runs[next_].start[0] == i; ++next_) {
-      const Run& run = runs[next_];
+      const LatticeRun& run = runs[next_];
       const std::size_t row = std::size_t{run.start[1]} * lattice_.frame.dims[2] + run.start[2];
       for (std::uint32_t n = 0; n < run.length; ++n) slab[row + n] = run.first + n;
     }
@@ -58,7 +58,7 @@ class Divergence {
   std::vector<double> run() {
     std::vector<double> result(lattice_.points, 0);
     std::uint32_t reached = kOutside;
-    for (const Run& run : lattice_.axis[2].runs) {
+    for (const LatticeRun& run : lattice_.axis[2].runs) {
       while (reached != run.start[0]) slabs_.move_to(++reached);
       for (std::uint32_t n = 0; n < run.length; ++n) {
         result[run.first + n] =

@@ -38,9 +38,9 @@ class Sweeper::Pass {
     if (owner_.options_.prune) {
       for (std::size_t r = 0; r < axis.runs.size(); ++r) pruned_run(a, r);
     } else {
-      for (const Run& run : axis.runs) whole_run(a, run);
+      for (const LatticeRun& run : axis.runs) whole_run(a, run);
     }
-    for (const Run& stray : axis.strays) whole_run(2, stray);
+    for (const LatticeRun& stray : axis.strays) whole_run(2, stray);
     return counts_;
   }
 
@@ -66,18 +66,18 @@ class Sweeper::Pass {
   }
 
   // Height of the point `offset` points above the run's first.
-  double height(std::size_t a, const Run& run, std::uint32_t offset) const {
+  double height(std::size_t a, const LatticeRun& run, std::uint32_t offset) const {
     std::array<std::uint32_t, 3> at = run.start;
     at[a] += offset;
     return ((base_ + at[0] * step_[0]) + at[1] * step_[1]) + at[2] * step_[2];
   }
 
   // Offset of the n-th point upward.
-  static std::uint32_t upward(const Run& run, bool rising, std::uint32_t n) {
+  static std::uint32_t upward(const LatticeRun& run, bool rising, std::uint32_t n) {
     return rising ? n : run.length - 1 - n;
   }
 
-  std::uint32_t point(std::size_t a, const Run& run, std::uint32_t offset) const {
+  std::uint32_t point(std::size_t a, const LatticeRun& run, std::uint32_t offset) const {
     const std::vector<std::uint32_t>& order = owner_.lattice_.axis[a].order;
     return order.empty() ? run.first + offset : order[run.first + offset];
   }
@@ -97,7 +97,7 @@ class Sweeper::Pass {
     owner_.field_.offer(p, {cursor.volume, area > 0 ? area : 0, index_});
   }
 
-  void whole_run(std::size_t a, const Run& run) {
+  void whole_run(std::size_t a, const LatticeRun& run) {
     const bool rising = step_[a] >= 0;
     Cursor cursor{tree_.triangle_arc[rising ? run.low : run.high]};
     for (std::uint32_t n = 0; n < run.length; ++n) {
@@ -110,7 +110,7 @@ class Sweeper::Pass {
   }
 
   void pruned_run(std::size_t a, std::size_t r) {
-    const Run& run = owner_.lattice_.axis[a].runs[r];
+    const LatticeRun& run = owner_.lattice_.axis[a].runs[r];
     AxisBounds& bounds = owner_.bounds_[a];
     const double bound = load(bounds.run[r]);
     const bool rising = step_[a] >= 0;
@@ -131,7 +131,7 @@ class Sweeper::Pass {
   }
 
   // Segment s holds the points of offsets [s kSegment, (s + 1) kSegment).
-  void pruned_segment(std::size_t a, const Run& run, bool rising, std::uint32_t s, Cursor& cursor,
+  void pruned_segment(std::size_t a, const LatticeRun& run, bool rising, std::uint32_t s, Cursor& cursor,
                       double& bound) {
     const std::uint32_t begin = s * kSegment, end = std::min(begin + kSegment, run.length);
     const auto nth = [&](std::uint32_t n) { return rising ? begin + n : end - 1 - n; };
@@ -172,7 +172,7 @@ Sweeper::Sweeper(const Lattice& lattice, ErosionField& field, const SweepOptions
   for (std::size_t a = 0; a < 3; ++a) {
     AxisBounds& bounds = bounds_[a];
     std::uint32_t segments = 0;
-    for (const Run& run : lattice.axis[a].runs) {
+    for (const LatticeRun& run : lattice.axis[a].runs) {
       bounds.first_segment.push_back(segments);
       segments += (run.length + kSegment - 1) / kSegment;
     }

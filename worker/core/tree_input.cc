@@ -27,6 +27,7 @@ TreeInput::Data::Data(const Solid& s)
     const Vec3 twice = cross(p[1] - p[0], p[2] - p[0]);
     area_vector.push_back(0.5 * twice);
     const double length = norm(twice);
+    surface_area += 0.5 * length;
     for (std::size_t i = 0; i < 3; ++i) {
       ++fan_begin[c[i] + 2];
       vertex_solid[c[i]] = s.shells[s.triangle_shell[t]].solid;
@@ -47,6 +48,11 @@ TreeInput::Data::Data(const Solid& s)
 
 TreeInput::TreeInput(const Solid& solid) : data_(std::make_unique<Data>(solid)) {}
 TreeInput::~TreeInput() = default;
+
+double TreeInput::volume_tolerance() const {
+  return 1e-9 * data_->volume + 0x1p-42 * data_->surface_area;
+}
+
 TreeInput::TreeInput(TreeInput&&) noexcept = default;
 
 }  // namespace affskel::core

@@ -27,6 +27,7 @@ struct TreeInput::Data {
   std::vector<std::uint32_t> vertex_solid;  ///< per vertex: the solid its surface bounds
   std::vector<double> solid_volume;         ///< inner units
   double volume = 0;                        ///< all solids, inner units
+  double surface_area = 0;                  ///< inner units
   RayShooter rays;
 };
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "client/commands/context.h"
+#include "client/options.h"
+
+namespace affskel::client {
+
+/// The commands.  Each prints its results and throws ClientError when it fails; a job that ended badly is a
+/// failure of the commands that wait for it.
+
+void run_submit(Context& context, const SubmitOptions& options);
+void run_list(Context& context, const ListOptions& options);
+void run_status(Context& context, const JobOptions& options);
+void run_watch(Context& context, const JobOptions& options);
+void run_cancel(Context& context, const JobOptions& options);
+void run_resume(Context& context, const JobOptions& options);
+void run_delete(Context& context, const JobOptions& options);
+void run_server_info(Context& context);
+void run_fetch(Context& context, const JobOptions& options);
+void run_skeleton(Context& context, const JobOptions& options);
+void run_surface(Context& context, const JobOptions& options);
+void run_render(Context& context, const JobOptions& options);
+/// Needs no server.
+void run_inspect(Console& console, const std::string& file);
+/// Needs no server.
+void run_make(Console& console, const MakeOptions& options);
+
+}  // namespace affskel::client

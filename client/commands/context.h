@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "client/console.h"
+#include "client/environment.h"
+#include "client/options.h"
+#include "client/session.h"
+
+namespace affskel::client {
+
+/// What every command works with.  The server is looked for when it is first needed.
+class Context {
+ public:
+  Context(Console& console, Environment environment, GlobalOptions global, RetryPolicy policy = {})
+      : console_(console),
+        environment_(std::move(environment)),
+        global_(std::move(global)),
+        policy_(policy) {}
+
+  Console& console() { return console_; }
+  const Environment& environment() const { return environment_; }
+  Session& session();
+
+ private:
+  Console& console_;
+  Environment environment_;
+  GlobalOptions global_;
+  RetryPolicy policy_;
+  std::optional<Session> session_;
+};
+
+}  // namespace affskel::client

@@ -1,0 +1,68 @@
+#include "client/commands/follow.h"
+
+#include <unistd.h>
+
+#include "client/exporters/numbers.h"
+#include "client/interrupt.h"
+#include "client/job_json.h"
+#include "client/job_text.h"
+#include "client/progress.h"
+
+namespace affskel::client {
+
+Session& Context::session() {
+  if (!session_)
+    session_.emplace(choose_server(global_.server, environment_), environment_, console_, policy_);
+  return *session_;
+}
+
+v1::Job follow(Context& context, const std::string& job, bool stream) {
+  ProgressView view(context.console());
+  std::string told_for;
+  const v1::Job last = context.session().watch(job, [&](const v1::Job& now) {
+    if (told_for != now.id()) {
+      told_for = now.id();
+      set_interrupt_message("\njob " + now.id() + " goes on; follow it again with: affskel-client watch " +
+                            now.id() + "\n");
+    }
+    view.update(now);
+    if (stream) context.console().document(to_json(now));
+  });
+  set_interrupt_message("");
+  return last;
+}
+
+void throw_unless_done(const v1::Job& job) {
+  if (job.state() == v1::JOB_STATE_FAILED) {
+    throw ClientError(ExitCode::kJobFailed, "job " + job.id() + " failed: " + failure_text(job.error()));
+  }
+  if (job.state() == v1::JOB_STATE_CANCELLED) {
+    throw ClientError(ExitCode::kCancelled,
+                      "job " + job.id() + " was cancelled; go on with: affskel-client resume " + job.id());
+  }
+}
+
+void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::Job& job) {
+  if (skeleton_points > 0) return;
+  constexpr std::uint64_t kCoarse = 2000;  // below this a solid is only a few points thick
+  const std::uint64_t points = job.prepared().points();
+  const bool coarse = points < kCoarse;
+  console.warning("the skeleton is empty: no |H| is above the threshold" +
+                  (coarse ? ", and the lattice has only " + std::to_string(points) +
+                                " points in the solid; submit again with a smaller --spacing than " +
+                                shortest(job.prepared().spacing())
+                          : "; try: affskel-client skeleton " + job.id() + " --threshold 3 -o FILE"));
+}
+
+v1::SkeletonParams skeleton_params(const SkeletonOptions& options) {
+  v1::SkeletonParams params;
+  if (options.operator_name != "zucker-hummel") {
+    throw ClientError(ExitCode::kUsage,
+                      "no operator '" + options.operator_name + "'; possible is zucker-hummel");
+  }
+  params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  params.set_threshold(options.threshold);
+  return params;
+}
+
+}  // namespace affskel::client

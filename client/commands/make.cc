@@ -1,0 +1,60 @@
+#include <nlohmann/json.hpp>
+
+#include "client/commands/commands.h"
+#include "client/exporters/atomic_file.h"
+#include "client/exporters/format.h"
+#include "client/exporters/mesh_writer.h"
+#include "core/body.h"
+#include "core/mesh_io.h"
+#include "core/shapes.h"
+
+namespace affskel::client {
+namespace {
+
+core::Mesh make_shape(const MakeOptions& o) {
+  switch (o.shape) {
+    case Shape::kTorus:
+      return core::make_torus(o.major, o.minor, o.torus_triangles);
+    case Shape::kSphere:
+      return core::make_sphere(o.radius, o.triangles);
+    case Shape::kEllipsoid:
+      return core::make_ellipsoid(o.axes.at(0), o.axes.at(1), o.axes.at(2), o.triangles);
+    case Shape::kBox:
+      return core::make_box(o.size.at(0), o.size.at(1), o.size.at(2), o.divisions);
+    case Shape::kCylinder:
+      return core::make_cylinder(o.cylinder_radius, o.cylinder_height, o.segments);
+    case Shape::kCone:
+      return core::make_cone(o.cone_radius, o.cone_height, o.segments);
+    case Shape::kTetrahedron:
+      return core::make_tetrahedron(o.edge);
+    case Shape::kBody:
+      break;
+  }
+  return core::make_body({o.body_triangles, o.body_height});
+}
+
+}  // namespace
+
+void run_make(Console& console, const MakeOptions& options) {
+  const bool to_stdout = options.output == "-";
+  if (to_stdout && console.style().json) {
+    throw ClientError(ExitCode::kUsage, "--json and -o - both want standard output");
+  }
+  const FileFormat format =
+      to_stdout ? FileFormat::kOff : choose_format(options.output, surface_formats(), "shape");
+  core::Mesh mesh;
+  try {
+    mesh = make_shape(options);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, "");
+  }
+  if (to_stdout) return console.result(core::write_off(mesh));
+  AtomicFile file(options.output);
+  write_mesh(format, mesh, {}, [&](std::string_view bytes) { file.write(bytes); });
+  file.commit();
+  console.note("wrote " + options.output + " (" + std::to_string(mesh.triangles.size()) + " triangles)");
+  console.document(
+      {{"file", options.output}, {"vertices", mesh.points.size()}, {"triangles", mesh.triangles.size()}});
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+
+#include "client/commands/context.h"
+#include "client/exporters/format.h"
+
+namespace affskel::client {
+
+/// What a transfer wrote.
+struct Written {
+  std::filesystem::path file;
+  std::string kind;         ///< "field", "skeleton", "surface", "mesh"
+  std::uint64_t items = 0;  ///< points, triangles or bytes
+  v1::Job job;              ///< as the server sent it along
+};
+
+/// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
+/// parameters.
+Written transfer_field(Context& context, const std::string& job, const std::filesystem::path& file);
+Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
+                          const std::filesystem::path& file);
+Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
+                         const std::filesystem::path& file);
+Written transfer_mesh(Context& context, const std::string& job, const std::filesystem::path& file);
+
+/// Runs a fetch that may have to wait for a worker; says so after a moment.
+std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+                            v1::ArtifactHeader& header, const std::string& what);
+
+/// Tells people and scripts what was written.
+nlohmann::ordered_json written_json(const Written& written);
+void tell_written(Console& console, const Written& written);
+
+}  // namespace affskel::client

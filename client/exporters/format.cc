@@ -1,0 +1,51 @@
+#include "client/exporters/format.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "client/error.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
+constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz};
+constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl};
+
+}  // namespace
+
+std::span<const FileFormat> field_formats() {
+  return kField;
+}
+std::span<const FileFormat> skeleton_formats() {
+  return kSkeleton;
+}
+std::span<const FileFormat> surface_formats() {
+  return kSurface;
+}
+
+std::string_view extension_of(FileFormat format) {
+  constexpr std::array<std::string_view, 8> kNames = {".csv", ".dat", ".vtkhdf", ".ply",
+                                                      ".off", ".xyz", ".obj",    ".stl"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
+                         const std::string& what) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string names;
+  for (const FileFormat format : possible) {
+    if (extension == extension_of(format)) return format;
+    names += (names.empty() ? "" : ", ") + std::string(extension_of(format));
+  }
+  throw ClientError(
+      ExitCode::kUsage,
+      (extension.empty() ? "no extension" : "cannot write " + what + " as '" + extension + "'") + "; a " +
+          what + " can be written as " + names,
+      file);
+}
+
+}  // namespace affskel::client

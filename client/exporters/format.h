@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace affskel::client {
+
+enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl };
+
+/// What can be written as which formats.
+std::span<const FileFormat> field_formats();     // csv dat vtkhdf
+std::span<const FileFormat> skeleton_formats();  // csv ply off xyz
+std::span<const FileFormat> surface_formats();   // off ply obj stl
+
+/// With the dot, e.g. ".csv".
+std::string_view extension_of(FileFormat format);
+
+/// The format that the file's extension (in any case) stands for, if it is one of `possible`.
+/// @throws ClientError kUsage naming the possible extensions.
+FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
+                         const std::string& what);
+
+}  // namespace affskel::client

@@ -1,0 +1,99 @@
+#include "client/exporters/skeleton_writer.h"
+
+#include "client/console.h"
+#include "client/error.h"
+#include "client/exporters/numbers.h"
+
+namespace affskel::client {
+namespace {
+
+// Coordinates of point p, each followed by `separator`.
+void append_position(std::string& row, const v1::SkeletonPoints& s, int p, char separator) {
+  for (int c = 0; c < 3; ++c) {
+    append_exact(row, s.xyz(3 * p + c));
+    row.push_back(separator);
+  }
+}
+
+void write_csv(const v1::SkeletonPoints& s, AtomicFile& file) {
+  file.write("x,y,z,E,nx,ny,nz,direction,H\n");
+  std::string row;
+  for (int p = 0; p < s.point_size(); ++p) {
+    row.clear();
+    append_position(row, s, p, ',');
+    append_exact(row, s.erosion(p));
+    for (int c = 0; c < 3; ++c) {
+      row.push_back(',');
+      append_exact(row, s.normal(3 * p + c));
+    }
+    row.push_back(',');
+    append_integer(row, s.direction(p));
+    row.push_back(',');
+    append_exact(row, s.divergence(p));
+    row.push_back('\n');
+    file.write(row);
+  }
+}
+
+void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comments, AtomicFile& file) {
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : comments) header += "comment " + printable(comment) + "\n";
+  header += "element vertex " + std::to_string(s.point_size()) + "\n";
+  for (const char* name : {"x", "y", "z", "E", "nx", "ny", "nz", "H"}) {
+    header += std::string("property double ") + name + "\n";
+  }
+  header += "property int direction\nend_header\n";
+  file.write(header);
+  std::string row;
+  for (int p = 0; p < s.point_size(); ++p) {
+    row.clear();
+    for (int c = 0; c < 3; ++c) append_bytes(row, s.xyz(3 * p + c));
+    append_bytes(row, s.erosion(p));
+    for (int c = 0; c < 3; ++c) append_bytes(row, s.normal(3 * p + c));
+    append_bytes(row, s.divergence(p));
+    append_bytes(row, static_cast<std::int32_t>(s.direction(p)));
+    file.write(row);
+  }
+}
+
+void write_coordinates(const v1::SkeletonPoints& s, AtomicFile& file) {
+  std::string row;
+  for (int p = 0; p < s.point_size(); ++p) {
+    row.clear();
+    append_position(row, s, p, ' ');
+    row.back() = '\n';
+    file.write(row);
+  }
+}
+
+}  // namespace
+
+v1::SkeletonPoints parse_skeleton(const std::string& bytes) {
+  v1::SkeletonPoints s;
+  const bool parsed = s.ParseFromString(bytes);
+  const int n = s.point_size();
+  if (!parsed || s.xyz_size() != 3 * n || s.erosion_size() != n || s.normal_size() != 3 * n ||
+      s.direction_size() != n || s.divergence_size() != n) {
+    throw ClientError(ExitCode::kInternal, "the server sent a damaged skeleton");
+  }
+  return s;
+}
+
+void write_skeleton(FileFormat format, const v1::SkeletonPoints& skeleton,
+                    const std::vector<std::string>& comments, AtomicFile& file) {
+  switch (format) {
+    case FileFormat::kCsv:
+      return write_csv(skeleton, file);
+    case FileFormat::kPly:
+      return write_ply(skeleton, comments, file);
+    case FileFormat::kOff:
+      file.write("OFF\n" + std::to_string(skeleton.point_size()) + " 0 0\n");
+      return write_coordinates(skeleton, file);
+    case FileFormat::kXyz:
+      return write_coordinates(skeleton, file);
+    default:
+      throw ClientError(ExitCode::kInternal, "no skeleton writer for " + std::string(extension_of(format)));
+  }
+}
+
+}  // namespace affskel::client

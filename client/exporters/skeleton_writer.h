@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "affskel/v1/types.pb.h"
+#include "client/exporters/atomic_file.h"
+#include "client/exporters/format.h"
+
+namespace affskel::client {
+
+/// Parses a SKELETON artefact.
+/// @throws ClientError kInternal when its arrays differ in length.
+v1::SkeletonPoints parse_skeleton(const std::string& bytes);
+
+/// Writes skeleton points in one of skeleton_formats(): .csv `x,y,z,E,nx,ny,nz,direction,H`; .ply binary with
+/// the same as properties; .off and .xyz coordinates alone.
+/// @param comments lines for formats that have comments (PLY), without line breaks.
+void write_skeleton(FileFormat format, const v1::SkeletonPoints& skeleton,
+                    const std::vector<std::string>& comments, AtomicFile& file);
+
+}  // namespace affskel::client

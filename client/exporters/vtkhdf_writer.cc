@@ -1,0 +1,222 @@
+// The VTKHDF file format, ImageData, version 1.0: a group VTKHDF with attributes that place the image and
+// a group PointData with one dataset per array.  VTK's x is fastest, so dataset dimensions are (z, y, x)
+// while the points arrive with x slowest: planes of constant x are collected in slabs as thick as a chunk.
+#include <hdf5.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "client/error.h"
+#include "client/exporters/field_writer.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::uint32_t kSlab = 8;  // planes of constant x per slab; a chunk is kSlab thick in x
+constexpr hsize_t kChunk = 32;      // edge of a chunk in y and z
+constexpr unsigned kCompression = 4;
+
+// An HDF5 identifier with its closing function.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close, const char* what) : id_(id), close_(close) {
+    if (id_ < 0) throw ClientError(ExitCode::kInternal, std::string("HDF5 failed: ") + what);
+  }
+  ~Handle() { release(); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  herr_t release() {
+    const hid_t id = id_;
+    id_ = -1;
+    return id < 0 ? 0 : close_(id);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+// HDF5 prints its error stack by default; ours go through ClientError.
+void silence_hdf5() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+template <std::size_t N, typename T>
+void set_attribute(hid_t group, const char* name, const std::array<T, N>& values) {
+  const bool real = std::is_floating_point_v<T>;
+  const hsize_t size = N;
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
+  const Handle attribute(
+      H5Acreate2(group, name, real ? H5T_IEEE_F64LE : H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, name);
+  const hid_t memory = real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+  if (H5Awrite(attribute, memory, values.data()) < 0)
+    throw ClientError(ExitCode::kInternal, "HDF5 failed: attribute");
+}
+
+void set_text_attribute(hid_t group, const char* name, std::string_view text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
+  H5Tset_size(type, text.size());
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_ASCII);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle attribute(H5Acreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  if (H5Awrite(attribute, type, text.data()) < 0)
+    throw ClientError(ExitCode::kInternal, "HDF5 failed: attribute");
+}
+
+// One array over the lattice: `components` values per point, kept for one slab.
+template <typename T>
+class Array {
+ public:
+  Array(hid_t group, const char* name, hid_t file_type, hid_t memory_type,
+        const std::array<std::uint32_t, 3>& dims, hsize_t components, T outside)
+      : memory_type_(memory_type),
+        dims_(dims),
+        components_(components),
+        outside_(outside),
+        dataset_(create(group, name, file_type), H5Dclose, name) {
+    slab_.assign(std::size_t{kSlab} * dims[1] * dims[2] * components, outside);
+  }
+
+  // Value of component c at (x, y, z), x counted from the slab's first plane of `width` planes.
+  T& at(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t width, hsize_t c = 0) {
+    return slab_[((std::size_t{z} * dims_[1] + y) * width + x) * components_ + c];
+  }
+
+  void write(std::uint32_t first_x, std::uint32_t width) {
+    const std::array<hsize_t, 4> start = {0, 0, first_x, 0};
+    const std::array<hsize_t, 4> count = {dims_[2], dims_[1], width, components_};
+    const Handle file_space(H5Dget_space(dataset_), H5Sclose, "dataspace");
+    const Handle memory_space(H5Screate_simple(rank(), count.data(), nullptr), H5Sclose, "dataspace");
+    if (H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
+        H5Dwrite(dataset_, memory_type_, memory_space, file_space, H5P_DEFAULT, slab_.data()) < 0) {
+      throw ClientError(ExitCode::kLimit, "HDF5 cannot write (disk full?)");
+    }
+    std::fill(slab_.begin(), slab_.end(), outside_);
+  }
+
+ private:
+  int rank() const { return components_ > 1 ? 4 : 3; }
+
+  hid_t create(hid_t group, const char* name, hid_t file_type) const {
+    const std::array<hsize_t, 4> size = {dims_[2], dims_[1], dims_[0], components_};
+    const std::array<hsize_t, 4> chunk = {std::min<hsize_t>(kChunk, dims_[2]),
+                                          std::min<hsize_t>(kChunk, dims_[1]),
+                                          std::min<hsize_t>(kSlab, dims_[0]), components_};
+    const Handle space(H5Screate_simple(rank(), size.data(), nullptr), H5Sclose, name);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+    H5Pset_chunk(properties, rank(), chunk.data());
+    H5Pset_shuffle(properties);
+    H5Pset_deflate(properties, kCompression);
+    H5Pset_obj_track_times(properties, false);  // equal fields are equal files
+    return H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+  }
+
+  hid_t memory_type_;
+  std::array<std::uint32_t, 3> dims_;
+  hsize_t components_;
+  T outside_;
+  Handle dataset_;
+  std::vector<T> slab_;
+};
+
+// Everything that is open while a file is written.
+struct OpenFile {
+  OpenFile(const std::string& path, const std::array<std::uint32_t, 3>& dims)
+      : file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+             "cannot create the file"),
+        root(H5Gcreate2(file, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "group"),
+        points(H5Gcreate2(root, "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "group"),
+        erosion(points, "E", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dims, 1,
+                std::numeric_limits<double>::quiet_NaN()),
+        normal(points, "normal", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dims, 3, 0.0),
+        direction(points, "direction", H5T_STD_I32LE, H5T_NATIVE_INT32, dims, 1, -1),
+        inside(points, "inside", H5T_STD_U8LE, H5T_NATIVE_UINT8, dims, 1, 0) {}
+
+  Handle file, root, points;
+  Array<double> erosion, normal;
+  Array<std::int32_t> direction;
+  Array<std::uint8_t> inside;
+};
+
+class VtkHdfWriter : public FieldWriter {
+ public:
+  VtkHdfWriter(AtomicFile& file, const LatticePoints& points) : file_(file), dims_(points.dims()) {
+    if (!file.is_regular()) {
+      throw ClientError(ExitCode::kUsage, "HDF5 can only be written to a regular file", file.target());
+    }
+    if (points.count() == 0) throw ClientError(ExitCode::kNotFound, "the field has no points");
+    silence_hdf5();
+    open_ = std::make_unique<OpenFile>(file.path(), dims_);
+    place(points);
+  }
+
+  void put(const FieldPoint& p) override {
+    while (p.i >= first_x_ + width()) flush_slab();
+    const std::uint32_t x = p.i - first_x_;
+    open_->erosion.at(x, p.j, p.k, width()) = p.erosion;
+    open_->direction.at(x, p.j, p.k, width()) = static_cast<std::int32_t>(p.direction);
+    open_->inside.at(x, p.j, p.k, width()) = 1;
+    for (int c = 0; c < 3; ++c) {
+      open_->normal.at(x, p.j, p.k, width(), static_cast<hsize_t>(c)) = p.normal[c];
+    }
+  }
+
+  void finish() override {
+    while (first_x_ < dims_[0]) flush_slab();
+    const hid_t id = open_->file;
+    if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0)
+      throw ClientError(ExitCode::kLimit, "HDF5 cannot write (disk full?)");
+    open_.reset();
+  }
+
+ private:
+  std::uint32_t width() const { return std::min(kSlab, dims_[0] - first_x_); }
+
+  void flush_slab() {
+    const std::uint32_t planes = width();
+    open_->erosion.write(first_x_, planes);
+    open_->normal.write(first_x_, planes);
+    open_->direction.write(first_x_, planes);
+    open_->inside.write(first_x_, planes);
+    first_x_ += planes;
+  }
+
+  void place(const LatticePoints& points) {
+    const hid_t root = open_->root;
+    set_attribute(root, "Version", std::array<std::int64_t, 2>{1, 0});
+    set_text_attribute(root, "Type", "ImageData");
+    set_attribute(root, "WholeExtent",
+                  std::array<std::int64_t, 6>{0, std::int64_t{dims_[0]} - 1, 0, std::int64_t{dims_[1]} - 1, 0,
+                                              std::int64_t{dims_[2]} - 1});
+    const core::Vec3& o = points.origin();
+    set_attribute(root, "Origin", std::array<double, 3>{o.x, o.y, o.z});
+    std::array<double, 3> spacing{};
+    std::array<double, 9> direction{};  // row by row; column a is the direction of lattice axis a
+    for (std::size_t a = 0; a < 3; ++a) {
+      const core::Vec3& axis = points.axis(static_cast<int>(a));
+      spacing[a] = core::norm(axis);
+      for (std::size_t row = 0; row < 3; ++row) {
+        direction[3 * row + a] = axis[static_cast<int>(row)] / spacing[a];
+      }
+    }
+    set_attribute(root, "Spacing", spacing);
+    set_attribute(root, "Direction", direction);
+  }
+
+  AtomicFile& file_;
+  std::array<std::uint32_t, 3> dims_;
+  std::unique_ptr<OpenFile> open_;
+  std::uint32_t first_x_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldWriter> make_vtkhdf_writer(AtomicFile& file, const LatticePoints& points) {
+  return std::make_unique<VtkHdfWriter>(file, points);
+}
+
+}  // namespace affskel::client

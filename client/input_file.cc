@@ -1,0 +1,100 @@
+#include "client/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "client/error.h"
+
+namespace affskel::client {
+namespace {
+
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path) : fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (fd_ >= 0) close(fd_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+ClientError too_large(const std::string& path, std::uint64_t max_bytes) {
+  return {ExitCode::kLimit, "is larger than " + std::to_string(max_bytes) + " bytes", path};
+}
+
+[[noreturn]] void unreadable(const std::string& path) {
+  throw ClientError(ExitCode::kBadInput, "cannot read: " + std::system_category().message(errno), path);
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path, std::uint64_t max_bytes) {
+  const OpenFile file(path);
+  if (file.fd() < 0) unreadable(path);
+  struct stat info {};
+  if (fstat(file.fd(), &info) != 0) unreadable(path);
+  if (S_ISREG(info.st_mode) && static_cast<std::uint64_t>(info.st_size) > max_bytes)
+    throw too_large(path, max_bytes);
+  std::string bytes;
+  std::size_t size = 0;
+  std::size_t step = std::max<std::size_t>(static_cast<std::size_t>(info.st_size) + 1, 1 << 16);
+  while (true) {
+    bytes.resize(size + step);
+    const ssize_t got = read(file.fd(), bytes.data() + size, step);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) unreadable(path);
+    if (got == 0) break;
+    size += static_cast<std::size_t>(got);
+    if (size > max_bytes) throw too_large(path, max_bytes);
+    step = std::max<std::size_t>(size, 1 << 16);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+core::OffMesh parse_mesh(const std::string& bytes, const std::string& path) {
+  try {
+    return core::read_off(bytes);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, path);
+  }
+}
+
+InputFile read_input(const std::string& path) {
+  InputFile input;
+  input.path = path;
+  input.bytes = read_file(path);
+  input.off = parse_mesh(input.bytes, path);
+  return input;
+}
+
+core::Solid check_solid(const InputFile& input, bool repair) {
+  core::SolidOptions options;
+  options.repair = repair;
+  try {
+    return core::make_solid(input.off.mesh, options, input.off.vertex_line, input.off.triangle_line);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, input.path);
+  }
+}
+
+void tell_notes(const core::Solid& solid, const InputFile& input, Console& console) {
+  for (const core::MeshNote& note : solid.notes) {
+    const bool repaired = note.severity == core::MeshNote::Severity::kRepaired;
+    const std::string text = input.path + ": " + (repaired ? "repaired: " : "") + note.message;
+    if (repaired) {
+      console.note(text);
+    } else {
+      console.warning(text);
+    }
+  }
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "client/console.h"
+#include "core/mesh_io.h"
+#include "core/solid.h"
+
+namespace affskel::client {
+
+/// A mesh file that was read and parsed.
+struct InputFile {
+  std::string path;
+  std::string bytes;  ///< as they are in the file
+  core::OffMesh off;
+};
+
+/// Largest file that is read at all.
+inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
+
+/// The bytes of a regular file or of a pipe.
+/// @throws ClientError kBadInput when it cannot be read, kLimit when it has more than `max_bytes`.
+std::string read_file(const std::string& path, std::uint64_t max_bytes = kMaxFileBytes);
+
+/// Reads and parses. @throws ClientError as read_file, and kBadInput with the line for malformed text.
+InputFile read_input(const std::string& path);
+
+/// Parses bytes that came from `path`, or from the server when `path` names no file.
+core::OffMesh parse_mesh(const std::string& bytes, const std::string& path);
+
+/// Checks that the mesh bounds a solid. @throws ClientError kBadInput with the place.
+core::Solid check_solid(const InputFile& input, bool repair);
+
+/// Tells the notes of the solid: repairs as notes, oddities as warnings.
+void tell_notes(const core::Solid& solid, const InputFile& input, Console& console);
+
+}  // namespace affskel::client

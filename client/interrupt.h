@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace affskel::client {
+
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP that remove an unfinished temporary file, print the
+/// message set below and exit with 128 + signal.  Call once, early.
+void install_interrupt_handlers();
+
+/// What a person who interrupts now should know, e.g. that the job goes on; empty = nothing.
+void set_interrupt_message(const std::string& text);
+
+/// A file to remove if the process is interrupted before `release_temporary_file`.
+/// One at a time; the last one set counts.
+void guard_temporary_file(const std::string& path);
+void release_temporary_file();
+
+}  // namespace affskel::client

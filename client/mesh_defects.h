@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/mesh_io.h"
+
+namespace affskel::client {
+
+/// A kind of defect that keeps a mesh from bounding a solid.
+struct MeshDefect {
+  std::string code;  ///< "open-edges", "crowded-edges", "repeated-triangles", "degenerate-triangles"
+  std::uint64_t count = 0;
+  std::string message;               ///< count, cause and the first places
+  std::vector<std::uint64_t> lines;  ///< lines of the first places, at most five
+};
+
+/// Every kind of topological defect, with its first places, after vertices at the same place were taken as
+/// one (as the repair does).
+std::vector<MeshDefect> find_defects(const core::OffMesh& off);
+
+}  // namespace affskel::client

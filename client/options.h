@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace affskel::client {
+
+enum class Command {
+  kSubmit,
+  kList,
+  kStatus,
+  kWatch,
+  kFetch,
+  kSkeleton,
+  kSurface,
+  kCancel,
+  kResume,
+  kDelete,
+  kServerInfo,
+  kInspect,
+  kMake,
+  kRender,
+  kCompletions,
+};
+
+enum class Shape { kTorus, kSphere, kEllipsoid, kBox, kCylinder, kCone, kTetrahedron, kBody };
+
+struct GlobalOptions {
+  std::string server;  ///< empty = environment, configuration, embedded
+  bool json = false;
+  bool quiet = false;
+};
+
+struct SkeletonOptions {
+  std::string operator_name = "zucker-hummel";
+  double threshold = 0;  ///< 0 = the operator's default
+};
+
+struct SubmitOptions {
+  std::string file;
+  bool wait = false;
+  std::string output_dir;  ///< empty = fetch nothing; otherwise implies wait
+  double spacing = 0;      ///< mesh units; 0 = by points
+  std::uint64_t points = 100000;
+  std::string directions = "triangles";
+  SkeletonOptions skeleton;
+  std::string name;  ///< empty = the file's stem
+  unsigned priority = 5;
+  std::string request_id;
+  std::string repair = "auto";
+};
+
+struct ListOptions {
+  std::vector<std::string> states;
+  std::string owner;
+  unsigned limit = 50;
+};
+
+/// For every command about one job.
+struct JobOptions {
+  std::string job;
+  std::string artifact;      ///< fetch
+  std::string output;        ///< fetch, skeleton, surface, render
+  SkeletonOptions skeleton;  ///< skeleton, surface
+  bool own_skeleton = true;  ///< neither --operator nor --threshold was given: the job's own
+  double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
+  int width = 1600;          ///< render; pixels
+};
+
+struct MakeOptions {
+  Shape shape = Shape::kTorus;
+  std::string output;
+  // Lengths in mesh units, sized so that a lattice spacing of 200 suits.
+  std::uint32_t torus_triangles = 256;
+  double major = 4000, minor = 2000;
+  double radius = 3000;
+  std::uint32_t triangles = 1280;                 ///< sphere, ellipsoid: at least
+  std::vector<double> axes = {4000, 3000, 2000};  ///< ellipsoid
+  std::vector<double> size = {5000, 4000, 3000};  ///< box
+  std::uint32_t divisions = 1;                    ///< box
+  double cylinder_radius = 2000, cylinder_height = 6000;
+  double cone_radius = 3000, cone_height = 6000;
+  std::uint32_t segments = 64;  ///< cylinder, cone
+  double edge = 8000;           ///< tetrahedron
+  std::uint32_t body_triangles = 500;
+  double body_height = 18000;
+};
+
+/// Everything the command line can say.
+struct Options {
+  GlobalOptions global;
+  Command command = Command::kList;
+  SubmitOptions submit;
+  ListOptions list;
+  JobOptions job;
+  std::string inspect_file;
+  MakeOptions make;
+  std::string shell;
+};
+
+}  // namespace affskel::client

@@ -1,0 +1,72 @@
+#include "client/render/image.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "client/error.h"
+
+namespace affskel::client {
+namespace {
+
+std::uint8_t to_byte(float value) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+}
+
+std::vector<std::uint8_t> to_bytes(const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * std::size_t(image.width()) * std::size_t(image.height()));
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const Rgb& pixel = image.at(x, y);
+      for (const float value : {pixel.r, pixel.g, pixel.b}) bytes.push_back(to_byte(value));
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  const std::vector<std::uint8_t> pixels = to_bytes(image);
+  png_image description{};
+  description.version = PNG_IMAGE_VERSION;
+  description.width = static_cast<png_uint_32>(image.width());
+  description.height = static_cast<png_uint_32>(image.height());
+  description.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = 0;
+  std::string bytes;
+  bool good = png_image_write_get_memory_size(description, size, 0, pixels.data(), 0, nullptr) != 0;
+  if (good) {
+    bytes.resize(size);
+    good = png_image_write_to_memory(&description, bytes.data(), &size, 0, pixels.data(), 0, nullptr) != 0;
+    bytes.resize(size);
+  }
+  if (!good) throw ClientError(ExitCode::kInternal, std::string("libpng: ") + description.message);
+  return bytes;
+}
+
+Rgb viridis(float t) {
+  // Samples of van der Walt and Smith's map at equal distances.
+  static constexpr std::array<std::array<int, 3>, 10> kTable = {{{68, 1, 84},
+                                                                 {72, 40, 120},
+                                                                 {62, 74, 137},
+                                                                 {49, 104, 142},
+                                                                 {38, 130, 142},
+                                                                 {31, 158, 137},
+                                                                 {53, 183, 121},
+                                                                 {110, 206, 88},
+                                                                 {181, 222, 43},
+                                                                 {253, 231, 37}}};
+  const float place = std::clamp(t, 0.0f, 1.0f) * float(kTable.size() - 1);
+  const auto low = std::min(static_cast<std::size_t>(place), kTable.size() - 2);
+  const auto colour = [](const std::array<int, 3>& c) {
+    return Rgb{float(c[0]) / 255, float(c[1]) / 255, float(c[2]) / 255};
+  };
+  return mix(colour(kTable[low]), colour(kTable[low + 1]), place - float(low));
+}
+
+}  // namespace affskel::client

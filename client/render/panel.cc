@@ -1,0 +1,143 @@
+#include "client/render/panel.h"
+
+#include <cmath>
+#include <limits>
+
+#include "client/render/raster.h"
+
+namespace affskel::client {
+namespace {
+
+using core::Vec3;
+
+constexpr double kCreaseCosine = 0.643;  // of 50 degrees
+constexpr Rgb kSurfaceDark{0.30f, 0.38f, 0.50f};
+constexpr Rgb kSurfaceLight{0.80f, 0.86f, 0.93f};
+
+Vec3 unit(const Vec3& v) {
+  const double length = core::norm(v);
+  return length > 0 ? (1 / length) * v : Vec3{};
+}
+
+float clamp01(double v) {
+  return static_cast<float>(std::min(1.0, std::max(0.0, v)));
+}
+
+// Light from the viewer's upper left.
+double lambert(double right, double up, double toward) {
+  return std::max(0.0, -0.42 * right + 0.55 * up + 0.72 * toward);
+}
+
+}  // namespace
+
+void Panel::Layers::add(float opacity, Rgb layer) {
+  transmittance *= 1 - opacity;
+  weight += opacity;
+  colour = colour + opacity * layer;
+}
+
+Rgb Panel::Layers::over(Rgb behind) const {
+  if (weight <= 0) return behind;
+  return mix((1 / weight) * colour, behind, transmittance);
+}
+
+Panel::Panel(int width, int height, const View& view, const Vec3& centre, double scale)
+    : columns_(width * kSamples),
+      rows_(height * kSamples),
+      view_(view),
+      centre_(centre),
+      scale_(scale * kSamples) {
+  samples_.assign(std::size_t(columns_) * std::size_t(rows_), Sample{});
+}
+
+Panel::Projected Panel::project(const Vec3& point) const {
+  const Vec3 p = point - centre_;
+  return {columns_ / 2.0 + scale_ * core::dot(view_.right, p), rows_ / 2.0 - scale_ * core::dot(view_.up, p),
+          scale_ * core::dot(view_.toward, p)};
+}
+
+void Panel::draw_ball(const Ball& ball, double radius) {
+  const Projected c = project(ball.centre);
+  const double r = radius * kSamples;
+  const int x_end = std::min(columns_ - 1, static_cast<int>(std::ceil(c.x + r)));
+  const int y_end = std::min(rows_ - 1, static_cast<int>(std::ceil(c.y + r)));
+  for (int y = std::max(0, static_cast<int>(std::floor(c.y - r))); y <= y_end; ++y) {
+    for (int x = std::max(0, static_cast<int>(std::floor(c.x - r))); x <= x_end; ++x) {
+      const double dx = (x + 0.5 - c.x) / r, dy = (y + 0.5 - c.y) / r;
+      const double rest = 1 - dx * dx - dy * dy;
+      if (rest < 0) continue;
+      const double height = std::sqrt(rest);
+      const auto depth = static_cast<float>(c.depth + height * r);
+      Sample& sample = at(x, y);
+      if (sample.covered && depth <= sample.depth) continue;
+      sample.covered = true;
+      sample.depth = depth;
+      sample.ball = static_cast<float>(0.55 + 0.45 * lambert(dx, -dy, height)) * ball.colour;
+    }
+  }
+}
+
+void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normals) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<Projected, 3> p{};
+    for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[mesh.triangles[t][c]]);
+    const std::array<ScreenPoint, 3> corners = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
+    const Vec3* n = &normals[3 * t];
+    for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
+      const Vec3 normal = unit((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
+      double facing = core::dot(normal, view_.toward);
+      const double side = facing < 0 ? -1 : 1;
+      facing *= side;
+      const double light =
+          lambert(side * core::dot(normal, view_.right), side * core::dot(normal, view_.up), facing);
+      // Glass: clear where it faces the viewer, denser towards the outline.
+      const float opacity = clamp01(0.10 + 0.42 * std::pow(1 - facing, 2.5));
+      const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
+      Sample& sample = at(x, y);
+      Layers& layers = sample.covered && depth > sample.depth ? sample.front : sample.back;
+      layers.add(opacity, mix(kSurfaceDark, kSurfaceLight, clamp01(light)));
+    });
+  }
+}
+
+Image Panel::resolve() const {
+  Image image(columns_ / kSamples, rows_ / kSamples);
+  constexpr float kShare = 1.0f / (kSamples * kSamples);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      Rgb sum;
+      for (int s = 0; s < kSamples * kSamples; ++s) {
+        const Sample& sample = at(x * kSamples + s % kSamples, y * kSamples + s / kSamples);
+        const Rgb behind = sample.covered ? sample.ball : sample.back.over(kWhite);
+        sum = sum + sample.front.over(behind);
+      }
+      image.at(x, y) = kShare * sum;
+    }
+  }
+  return image;
+}
+
+std::vector<Vec3> corner_normals(const core::Mesh& mesh) {
+  std::vector<Vec3> area(mesh.triangles.size());  // normal, length = twice the area
+  std::vector<std::vector<std::uint32_t>> around(mesh.points.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const core::Triangle& corners = mesh.triangles[t];
+    const Vec3& a = mesh.points[corners[0]];
+    area[t] = core::cross(mesh.points[corners[1]] - a, mesh.points[corners[2]] - a);
+    for (const std::uint32_t v : corners) around[v].push_back(static_cast<std::uint32_t>(t));
+  }
+  std::vector<Vec3> normals(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 own = unit(area[t]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Vec3 sum = area[t];
+      for (const std::uint32_t other : around[mesh.triangles[t][c]]) {
+        if (other != t && core::dot(own, unit(area[other])) > kCreaseCosine) sum = sum + area[other];
+      }
+      normals[3 * t + c] = unit(sum);
+    }
+  }
+  return normals;
+}
+
+}  // namespace affskel::client

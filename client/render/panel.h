@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "client/render/image.h"
+#include "core/mesh.h"
+
+namespace affskel::client {
+
+/// An orthographic view of the scene.
+struct View {
+  core::Vec3 right;   ///< unit, to the right of the picture
+  core::Vec3 up;      ///< unit
+  core::Vec3 toward;  ///< unit, from the scene to the viewer
+};
+
+/// A ball to draw.
+struct Ball {
+  core::Vec3 centre;
+  Rgb colour;
+};
+
+/// Draws one view: opaque balls, depth-buffered, inside a translucent surface.  Works on a grid of 2 x 2
+/// samples per pixel.  The surface is composed without sorting: each of its layers takes a share of the
+/// light, and the layers in front of a ball and those behind it are kept apart.
+class Panel {
+ public:
+  static constexpr int kSamples = 2;  ///< per pixel and axis
+
+  /// @param scale pixels per mesh unit; @param centre is shown in the middle of the picture.
+  Panel(int width, int height, const View& view, const core::Vec3& centre, double scale);
+
+  /// All balls first, then the surface.
+  void draw_ball(const Ball& ball, double radius);
+  /// @param normals one per triangle and corner, unit or zero.
+  void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals);
+
+  /// The finished picture on white.
+  Image resolve() const;
+
+ private:
+  struct Layers {
+    float transmittance = 1;  // share of the light from behind that passes all layers
+    float weight = 0;         // sum of the layers' opacities
+    Rgb colour{0, 0, 0};      // their colours, weighted by opacity
+    void add(float opacity, Rgb layer);
+    Rgb over(Rgb behind) const;
+  };
+  struct Sample {
+    float depth;  // of the nearest ball, along the view; larger is nearer
+    Rgb ball;
+    bool covered = false;
+    Layers front, back;
+  };
+
+  struct Projected {
+    double x, y, depth;
+  };
+  Projected project(const core::Vec3& point) const;
+  const Sample& at(int x, int y) const {
+    return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+  }
+  Sample& at(int x, int y) { return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)]; }
+
+  int columns_, rows_;  // of samples
+  View view_;
+  core::Vec3 centre_;
+  double scale_;  // samples per mesh unit
+  std::vector<Sample> samples_;
+};
+
+/// Normals per triangle and corner: the area-weighted mean over the triangles around the vertex that bend
+/// away by less than 50 degrees, so that round parts look round and edges stay edges.
+std::vector<core::Vec3> corner_normals(const core::Mesh& mesh);
+
+}  // namespace affskel::client

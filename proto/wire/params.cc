@@ -1,0 +1,135 @@
+#include "wire/params.h"
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace affskel::wire {
+namespace {
+
+// Directions are numbered in 32 bits, 2^32 - 1 meaning "none".
+constexpr std::uint64_t kMaxDirections = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxTargetPoints = std::uint64_t{1} << 31;
+
+std::string bits(double value) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(std::bit_cast<std::uint64_t>(value)));
+  return text;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+std::invalid_argument bad_directions(std::string_view part, const char* why) {
+  return std::invalid_argument("directions '" + std::string(part) + "': " + why +
+                               "; expected triangles, sphere:N or random:N:SEED, joined by +");
+}
+
+std::uint64_t parse_number(std::string_view text, std::string_view part, const char* why) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size())
+    throw bad_directions(part, why);
+  return value;
+}
+
+std::string canonical_direction_part(std::string_view part) {
+  const std::vector<std::string_view> words = split(part, ':');
+  if (words[0] == "triangles" && words.size() == 1) return "triangles";
+  const bool sphere = words[0] == "sphere" && words.size() == 2;
+  const bool random = words[0] == "random" && words.size() == 3;
+  if (!sphere && !random) throw bad_directions(part, "not a direction set");
+  const std::uint64_t count = parse_number(words[1], part, "N is not a number");
+  if (count < 1 || count > kMaxDirections) throw bad_directions(part, "N must be 1 .. 2^31");
+  std::string text = std::string(words[0]) + ":" + std::to_string(count);
+  if (random)
+    text.append(":").append(std::to_string(parse_number(words[2], part, "SEED must be 0 .. 2^64 - 1")));
+  return text;
+}
+
+std::string canonical_directions(std::string_view text) {
+  if (text.empty()) return "triangles";
+  std::string joined;
+  for (std::string_view part : split(text, '+')) {
+    if (!joined.empty()) joined += '+';
+    joined += canonical_direction_part(part);
+  }
+  return joined;
+}
+
+}  // namespace
+
+v1::ErosionParams canonical(const v1::ErosionParams& params) {
+  v1::ErosionParams result = params;
+  const v1::Sampling& sampling = params.sampling();
+  switch (sampling.density_case()) {
+    case v1::Sampling::kSpacing:
+      if (!std::isfinite(sampling.spacing()) || sampling.spacing() <= 0) {
+        throw std::invalid_argument("spacing must be a finite number > 0");
+      }
+      break;
+    case v1::Sampling::kTargetPoints:
+      if (sampling.target_points() < 1 || sampling.target_points() > kMaxTargetPoints) {
+        throw std::invalid_argument("the number of sample points aimed at must be 1 .. 2^31");
+      }
+      break;
+    case v1::Sampling::DENSITY_NOT_SET:
+      throw std::invalid_argument("neither a spacing nor a number of sample points is given");
+  }
+  result.set_directions(canonical_directions(params.directions()));
+  return result;
+}
+
+v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
+  v1::SkeletonParams result = params;
+  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) result.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  if (!v1::Operator_IsValid(result.operator_())) throw std::invalid_argument("unknown skeleton operator");
+  if (!std::isfinite(params.threshold()) || params.threshold() < 0) {
+    throw std::invalid_argument("the skeleton threshold must be a finite number > 0, or 0 for the default");
+  }
+  // == also catches -0.
+  if (params.threshold() == 0) result.set_threshold(kZuckerHummelThreshold);
+  return result;
+}
+
+v1::SurfaceParams canonical(const v1::SurfaceParams& params) {
+  v1::SurfaceParams result = params;
+  if (!std::isfinite(params.alpha()) || params.alpha() < 0) {
+    throw std::invalid_argument("alpha must be a finite number > 0, or 0 for the default");
+  }
+  if (params.alpha() == 0) result.set_alpha(0.0);
+  *result.mutable_skeleton() = canonical(params.skeleton());
+  return result;
+}
+
+std::string cache_key(const v1::ErosionParams& params) {
+  const v1::Sampling& sampling = params.sampling();
+  const std::string density = sampling.density_case() == v1::Sampling::kSpacing
+                                  ? "spacing=" + bits(sampling.spacing())
+                                  : "points=" + std::to_string(sampling.target_points());
+  return density + " directions=" + params.directions() + " repair=" + (params.repair() ? "1" : "0");
+}
+
+std::string cache_key(const v1::SkeletonParams& params) {
+  return "operator=" + std::to_string(static_cast<int>(params.operator_())) +
+         " threshold=" + bits(params.threshold());
+}
+
+std::string cache_key(const v1::SurfaceParams& params) {
+  return cache_key(params.skeleton()) + " alpha=" + bits(params.alpha());
+}
+
+}  // namespace affskel::wire

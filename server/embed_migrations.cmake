@@ -1,0 +1,16 @@
+# Writes OUTPUT, a C++ source that holds the SQL files of INPUTS (named NNNN_name.sql) as string literals.
+# Call: cmake -DOUTPUT=FILE "-DINPUTS=A;B" -P embed_migrations.cmake
+set(text "#include \"store/migrate.h\"\n\nnamespace affskel::server {\n\n")
+string(APPEND text "const std::vector<Migration>& embedded_migrations() {\n")
+string(APPEND text "  static const std::vector<Migration> all = {\n")
+foreach(input IN LISTS INPUTS)
+  get_filename_component(name ${input} NAME_WE)
+  if(NOT name MATCHES "^([0-9][0-9][0-9][0-9])_[a-z0-9_]+$")
+    message(FATAL_ERROR "${input}: the name must be NNNN_name.sql")
+  endif()
+  math(EXPR number "1${CMAKE_MATCH_1} - 10000")
+  file(READ ${input} sql)
+  string(APPEND text "      {${number}, \"${name}\", R\"affskel(${sql})affskel\"},\n")
+endforeach()
+string(APPEND text "  };\n  return all;\n}\n\n}  // namespace affskel::server\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,84 @@
+#include "process/data_dir.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "wire/version.h"
+
+namespace affskel::server {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw std::runtime_error("data directory " + path + ": " + why);
+}
+
+std::string make_directory(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  if (error) refuse(path, error.message());
+  if (absolute.has_parent_path()) std::filesystem::create_directories(absolute.parent_path(), error);
+  if (mkdir(absolute.c_str(), 0700) != 0 && errno != EEXIST) refuse(path, std::strerror(errno));
+  if (!std::filesystem::is_directory(absolute, error)) refuse(path, "not a directory");
+  return absolute.lexically_normal().string();
+}
+
+std::string read_pid(int fd) {
+  std::array<char, 32> text{};
+  const ssize_t size = pread(fd, text.data(), text.size() - 1, 0);
+  return size > 0 ? std::string(text.data(), std::strcspn(text.data(), "\n")) : "unknown";
+}
+
+}  // namespace
+
+DataDir::DataDir(const std::string& path) : path_(make_directory(path)) {
+  const std::string file = path_ + "/server.lock";
+  lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (lock_ < 0) refuse(path_, "server.lock: " + std::string(std::strerror(errno)));
+  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    const std::string why = errno == EWOULDBLOCK
+                                ? "another affskel-server uses it (pid " + read_pid(lock_) + ")"
+                                : "server.lock: " + std::string(std::strerror(errno));
+    close(lock_);
+    refuse(path_, why);
+  }
+  // For people and for the message above only; the lock itself is what counts.
+  const std::string pid = std::to_string(getpid()) + "\n";
+  if (ftruncate(lock_, 0) != 0 || pwrite(lock_, pid.data(), pid.size(), 0) < 0) {
+    const std::string why = std::strerror(errno);
+    close(lock_);
+    refuse(path_, "server.lock: " + why);
+  }
+}
+
+DataDir::~DataDir() {
+  close(lock_);
+}
+
+void DataDir::publish(const std::vector<std::string>& addresses, std::int64_t started_ms) const {
+  const nlohmann::json json = {
+      {"pid", getpid()}, {"version", wire::kVersion}, {"started_ms", started_ms}, {"addresses", addresses}};
+  const std::string file = path_ + "/server.json";
+  const std::string temporary = file + ".new";
+  std::ofstream out(temporary, std::ios::trunc);
+  out << json.dump() << '\n';
+  out.close();
+  if (!out || rename(temporary.c_str(), file.c_str()) != 0) {
+    refuse(path_, "cannot write server.json: " + std::string(std::strerror(errno)));
+  }
+}
+
+void DataDir::withdraw() const {
+  unlink((path_ + "/server.json").c_str());
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace affskel::server {
+
+/// The data directory, held by this process alone: server.lock is locked as long as the object lives.
+class DataDir {
+ public:
+  /// Makes the directory (mode 0700) when it is absent, and locks it.
+  /// @throws std::runtime_error naming the directory: not usable, or held by another server.
+  explicit DataDir(const std::string& path);
+  ~DataDir();
+  DataDir(const DataDir&) = delete;
+  DataDir& operator=(const DataDir&) = delete;
+
+  /// Absolute path.
+  const std::string& path() const { return path_; }
+
+  /// Writes server.json, atomically: {"pid", "version", "started_ms", "addresses"}.
+  void publish(const std::vector<std::string>& addresses, std::int64_t started_ms) const;
+
+  /// Removes server.json.
+  void withdraw() const;
+
+ private:
+  std::string path_;
+  int lock_ = -1;
+};
+
+}  // namespace affskel::server

@@ -1,0 +1,166 @@
+#include "process/run.h"
+
+#include <signal.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "process/data_dir.h"
+#include "process/supervisor.h"
+#include "rpc/server.h"
+#include "store/errors.h"
+#include "wire/version.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr int kConfigurationError = 2;
+constexpr int kDiskFull = 8;
+constexpr int kInternalError = 70;
+
+// Between looks at workers that are due and at idleness; signals are noticed at once.
+constexpr long kTickNs = 100'000'000;
+
+// Workers finish the direction in hand and report; whoever needs longer loses at most that.
+constexpr std::chrono::milliseconds kWorkerGrace{5000};
+
+void start_logging(const std::string& level) {
+  const auto logger =
+      std::make_shared<spdlog::logger>("affskel", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+  logger->set_level(spdlog::level::from_str(level));
+  spdlog::set_default_logger(logger);
+}
+
+/// Signals wait for wait_for_signal, in this thread and all that it starts.
+sigset_t block_signals() {
+  signal(SIGPIPE, SIG_IGN);
+  sigset_t set;
+  sigemptyset(&set);
+  for (int number : {SIGTERM, SIGINT, SIGCHLD}) sigaddset(&set, number);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  return set;
+}
+
+/// The next signal, or 0 after a tick.
+int wait_for_signal(const sigset_t& set) {
+  const timespec tick{0, kTickNs};
+  const int number = sigtimedwait(&set, nullptr, &tick);
+  return number > 0 ? number : 0;
+}
+
+std::vector<wire::Address> listen_addresses(const Options& options, const std::string& data_dir) {
+  std::vector<wire::Address> addresses;
+  for (const std::string& text : options.listen) addresses.push_back(wire::parse_address(text));
+  if (addresses.empty()) addresses.push_back(wire::parse_address("unix:" + data_dir + "/server.sock"));
+  // The working directory may be another one for the workers and for whoever reads server.json.
+  for (wire::Address& address : addresses) {
+    if (address.is_unix && address.path[0] != '/') {
+      address = wire::parse_address("unix:" + std::filesystem::absolute(address.path).string());
+    }
+  }
+  return addresses;
+}
+
+SupervisorOptions supervisor_options(const Options& options, const Server& server) {
+  SupervisorOptions result;
+  result.workers = options.workers;
+  if (options.workers == 0) return result;
+  const auto& addresses = server.addresses();
+  const auto best = std::find_if(addresses.begin(), addresses.end(), [](const auto& a) { return a.is_unix; });
+  const std::string target = (best != addresses.end() ? *best : addresses.front()).target();
+  unsigned threads = options.worker_threads;
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency() / options.workers);
+  result.command = {find_worker_binary(options.worker_binary), "--server", target, "--threads",
+                    std::to_string(threads)};
+  return result;
+}
+
+/// Until a signal says so, or nobody needs the server any more.
+void serve(const Options& options, const sigset_t& signals, Server& server, Supervisor& supervisor) {
+  for (;;) {
+    supervisor.tick();
+    const int number = wait_for_signal(signals);
+    if (number == SIGTERM || number == SIGINT) {
+      spdlog::info("event=stopping signal={}", number);
+      return;
+    }
+    if (options.idle_exit_s && server.idle_time() >= std::chrono::duration<double>(*options.idle_exit_s)) {
+      spdlog::info("event=stopping reason=idle");
+      return;
+    }
+  }
+}
+
+void run_server(const Options& options) {
+  umask(0077);  // meshes and results are this user's alone
+  const sigset_t signals = block_signals();
+  const DataDir data_dir(options.data_dir);
+  ServerOptions server_options;
+  server_options.data_dir = data_dir.path();
+  server_options.listen = listen_addresses(options, data_dir.path());
+  server_options.store.lease_ms = options.lease_ms;
+  server_options.store.report_interval_ms = options.report_interval_ms;
+  server_options.store.max_mesh_bytes = options.max_mesh_mb << 20;
+  Server server(server_options);
+  Supervisor supervisor(
+      supervisor_options(options, server),
+      [&](pid_t pid) { server.registry().add_supervised(static_cast<std::uint32_t>(pid)); },
+      [&](pid_t pid) {
+        server.registry().remove_supervised(static_cast<std::uint32_t>(pid));
+        try {
+          server.store().release_worker(host_name(), pid);
+        } catch (const std::exception& error) {
+          // The leases end at their deadline instead.
+          spdlog::error("event=release_failed pid={} message=\"{}\"", pid, error.what());
+        }
+      });
+  std::vector<std::string> targets;
+  for (const wire::Address& address : server.addresses()) {
+    targets.push_back(address.target());
+    spdlog::info("event=listening address={} version={} data_dir={}", targets.back(), wire::kVersion,
+                 data_dir.path());
+  }
+  data_dir.publish(targets, SystemClock().wall_ms());
+  serve(options, signals, server, supervisor);
+  data_dir.withdraw();
+  server.drain();
+  supervisor.terminate(kWorkerGrace);
+  server.stop();
+  spdlog::info("event=stopped");
+}
+
+int fail(int code, const std::exception& error) {
+  std::cerr << "affskel-server: " << error.what() << '\n';
+  return code;
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  start_logging(options.log_level);
+  try {
+    run_server(options);
+    return 0;
+  } catch (const StoreError& error) {
+    return fail(kConfigurationError, error);
+  } catch (const SqliteError& error) {
+    return fail(error.primary_code() == SQLITE_FULL ? kDiskFull : kInternalError, error);
+  } catch (const std::runtime_error& error) {
+    return fail(kConfigurationError, error);
+  } catch (const std::invalid_argument& error) {
+    return fail(kConfigurationError, error);
+  } catch (const std::exception& error) {
+    return fail(kInternalError, error);
+  }
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,163 @@
+#include "process/supervisor.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace affskel::server {
+namespace {
+
+constexpr std::chrono::milliseconds kReapPause{10};
+
+/// The child between fork and exec: only async-signal-safe calls, other threads' locks are lost here.
+[[noreturn]] void become_worker(char* const* arguments, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(0);  // the server died before the line above
+  // A group of its own: Ctrl-C is for the server, which tells its workers.
+  setpgid(0, 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  signal(SIGPIPE, SIG_DFL);
+  const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (null >= 0) dup2(null, STDIN_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
+
+std::string describe(int status) {
+  if (WIFEXITED(status)) return "exit=" + std::to_string(WEXITSTATUS(status));
+  return "signal=" + std::to_string(WTERMSIG(status));
+}
+
+bool executable(const std::filesystem::path& file) {
+  return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(SupervisorOptions options, Callback on_start, Callback on_end)
+    : options_(std::move(options)),
+      on_start_(std::move(on_start)),
+      on_end_(std::move(on_end)),
+      slots_(options_.workers) {}
+
+Supervisor::~Supervisor() {
+  terminate(std::chrono::milliseconds(0));
+}
+
+void Supervisor::tick() {
+  reap();
+  const Time now = std::chrono::steady_clock::now();
+  for (Slot& slot : slots_) {
+    if (!terminating_ && slot.pid == 0 && slot.due <= now) start(slot);
+  }
+}
+
+void Supervisor::reap() {
+  for (Slot& slot : slots_) {
+    if (slot.pid == 0) continue;
+    int status = 0;
+    if (waitpid(slot.pid, &status, WNOHANG) == slot.pid) ended(slot, status);
+  }
+}
+
+void Supervisor::start(Slot& slot) {
+  std::vector<char*> arguments;
+  for (const std::string& word : options_.command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t self = getpid();
+  const pid_t child = fork();
+  if (child == 0) become_worker(arguments.data(), self);
+  slot.started = std::chrono::steady_clock::now();
+  if (child < 0) {
+    slot.delay = std::clamp(slot.delay * 2, options_.first_delay, options_.last_delay);
+    slot.due = slot.started + slot.delay;
+    spdlog::error("event=worker_start_failed message=\"fork: {}\"", std::strerror(errno));
+    return;
+  }
+  slot.pid = child;
+  spdlog::info("event=worker_started pid={}", child);
+  on_start_(child);
+}
+
+void Supervisor::ended(Slot& slot, int status) {
+  const pid_t pid = std::exchange(slot.pid, 0);
+  const Time now = std::chrono::steady_clock::now();
+  if (now - slot.started >= options_.healthy) {
+    slot.delay = std::chrono::milliseconds(0);
+  } else {
+    slot.delay = std::clamp(slot.delay * 2, options_.first_delay, options_.last_delay);
+  }
+  slot.due = now + slot.delay;
+  if (terminating_) {
+    spdlog::info("event=worker_ended pid={} {}", pid, describe(status));
+  } else if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    spdlog::error("event=worker_ended pid={} message=\"cannot run {}\" restart_ms={}", pid,
+                  options_.command[0], slot.delay.count());
+  } else {
+    spdlog::warn("event=worker_ended pid={} {} restart_ms={}", pid, describe(status), slot.delay.count());
+  }
+  on_end_(pid);
+}
+
+void Supervisor::terminate(std::chrono::milliseconds grace) {
+  terminating_ = true;
+  for (const Slot& slot : slots_) {
+    if (slot.pid != 0) kill(slot.pid, SIGTERM);
+  }
+  const Time deadline = std::chrono::steady_clock::now() + grace;
+  for (reap(); running() > 0 && std::chrono::steady_clock::now() < deadline; reap()) {
+    std::this_thread::sleep_for(kReapPause);
+  }
+  for (Slot& slot : slots_) {
+    if (slot.pid == 0) continue;
+    spdlog::warn("event=worker_killed pid={} message=\"did not end within {} ms\"", slot.pid, grace.count());
+    kill(slot.pid, SIGKILL);
+    int status = 0;
+    if (waitpid(slot.pid, &status, 0) == slot.pid) ended(slot, status);
+  }
+}
+
+unsigned Supervisor::running() const {
+  return static_cast<unsigned>(
+      std::count_if(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.pid != 0; }));
+}
+
+std::string find_worker_binary(const std::string& given) {
+  if (!given.empty()) {
+    if (!executable(given)) throw std::runtime_error("--worker-binary " + given + ": not a program");
+    return std::filesystem::absolute(given).string();
+  }
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error && executable(self.parent_path() / "affskel-worker")) {
+    return (self.parent_path() / "affskel-worker").string();
+  }
+  const char* path = std::getenv("PATH");
+  std::istringstream directories(path == nullptr ? "" : path);
+  for (std::string directory; std::getline(directories, directory, ':');) {
+    if (!directory.empty() && executable(std::filesystem::path(directory) / "affskel-worker")) {
+      return directory + "/affskel-worker";
+    }
+  }
+  throw std::runtime_error(
+      "--workers: no program affskel-worker next to affskel-server or on the PATH; give --worker-binary "
+      "FILE");
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,110 @@
+#include "rpc/event_hub.h"
+
+#include <utility>
+#include <vector>
+
+#include "rpc/status.h"
+
+namespace affskel::server {
+
+EventHub::Subscription::Subscription(EventHub* hub, std::string job, std::uint64_t number)
+    : hub_(hub), job_(std::move(job)), number_(number) {}
+
+EventHub::Subscription::Subscription(Subscription&& other) noexcept
+    : hub_(std::exchange(other.hub_, nullptr)), job_(std::move(other.job_)), number_(other.number_) {}
+
+EventHub::Subscription& EventHub::Subscription::operator=(Subscription&& other) noexcept {
+  if (this != &other) {
+    end();
+    hub_ = std::exchange(other.hub_, nullptr);
+    job_ = std::move(other.job_);
+    number_ = other.number_;
+  }
+  return *this;
+}
+
+EventHub::Subscription::~Subscription() {
+  end();
+}
+
+void EventHub::Subscription::end() {
+  if (hub_ != nullptr) std::exchange(hub_, nullptr)->unsubscribe(job_, number_);
+}
+
+EventHub::~EventHub() {
+  stop();
+}
+
+void EventHub::start(Loader load, std::function<void()> on_work) {
+  load_ = std::move(load);
+  on_work_ = std::move(on_work);
+  thread_ = std::thread([this] { run(); });
+}
+
+void EventHub::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+EventHub::Subscription EventHub::subscribe(const std::string& job_id, JobCallback callback) {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t number = next_number_++;
+  subscribers_[job_id][number] = std::make_shared<JobCallback>(std::move(callback));
+  return {this, job_id, number};
+}
+
+void EventHub::unsubscribe(const std::string& job_id, std::uint64_t number) {
+  std::shared_ptr<JobCallback> last;  // destroyed after the lock is gone: it may own a subscription
+  const std::lock_guard lock(mutex_);
+  const auto of_job = subscribers_.find(job_id);
+  if (of_job == subscribers_.end()) return;
+  const auto found = of_job->second.find(number);
+  if (found == of_job->second.end()) return;
+  last = std::move(found->second);
+  of_job->second.erase(found);
+  if (of_job->second.empty()) subscribers_.erase(of_job);
+}
+
+void EventHub::on_change(const Changes& changes) {
+  if (changes.jobs.empty() && !changes.work) return;
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.insert(changes.jobs.begin(), changes.jobs.end());
+    work_ = work_ || changes.work;
+  }
+  changed_.notify_all();
+}
+
+void EventHub::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return stopping_ || work_ || !jobs_.empty(); });
+    if (stopping_) return;
+    const bool work = std::exchange(work_, false);
+    const std::set<std::string> jobs = std::exchange(jobs_, {});
+    lock.unlock();
+    if (work) on_work_();
+    for (const std::string& job : jobs) tell(job);
+    lock.lock();
+  }
+}
+
+void EventHub::tell(const std::string& job_id) {
+  std::vector<std::shared_ptr<JobCallback>> callbacks;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = subscribers_.find(job_id);
+    if (found == subscribers_.end()) return;
+    for (const auto& [number, callback] : found->second) callbacks.push_back(callback);
+  }
+  guarded([&] {
+    const JobPtr job = load_(job_id);
+    for (const auto& callback : callbacks) (*callback)(job);
+  });
+}
+
+}  // namespace affskel::server

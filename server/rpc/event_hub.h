@@ -1,0 +1,74 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "affskel/v1/types.pb.h"
+#include "store/tx.h"
+
+namespace affskel::server {
+
+/// Tells those who wait what the store has committed.  Changes of one job that come faster than they are
+/// told are told once, with the newest state.  Thread-safe.
+class EventHub final : public ChangeListener {
+ public:
+  /// The job as it is now; null when it was deleted.
+  using JobPtr = std::shared_ptr<const v1::Job>;
+  using JobCallback = std::function<void(const JobPtr&)>;
+  using Loader = std::function<JobPtr(const std::string& id)>;
+
+  /// Ends a subscription on destruction.  A call that is under way may still come to its end after that:
+  /// callbacks own what they use.
+  class Subscription {
+   public:
+    Subscription() = default;
+    Subscription(Subscription&& other) noexcept;
+    Subscription& operator=(Subscription&& other) noexcept;
+    ~Subscription();
+
+   private:
+    friend class EventHub;
+    Subscription(EventHub* hub, std::string job, std::uint64_t number);
+    void end();
+    EventHub* hub_ = nullptr;
+    std::string job_;
+    std::uint64_t number_ = 0;
+  };
+
+  EventHub() = default;
+  ~EventHub() override;
+
+  /// Starts telling.  `load` and `on_work` are called on the hub's own thread; a change whose job cannot
+  /// be read is told with the next one.
+  void start(Loader load, std::function<void()> on_work);
+  void stop();
+
+  Subscription subscribe(const std::string& job_id, JobCallback callback);
+  void on_change(const Changes& changes) override;
+
+ private:
+  void run();
+  void tell(const std::string& job_id);
+  void unsubscribe(const std::string& job_id, std::uint64_t number);
+
+  Loader load_;
+  std::function<void()> on_work_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, std::map<std::uint64_t, std::shared_ptr<JobCallback>>> subscribers_;
+  std::set<std::string> jobs_;  // changed and not told yet
+  bool work_ = false;
+  bool stopping_ = false;
+  std::uint64_t next_number_ = 1;
+  std::thread thread_;
+};
+
+}  // namespace affskel::server

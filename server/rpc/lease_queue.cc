@@ -1,0 +1,205 @@
+#include "rpc/lease_queue.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "rpc/status.h"
+
+namespace affskel::server {
+namespace {
+
+using Time = std::chrono::steady_clock::time_point;
+
+constexpr std::uint32_t kMaxWaitMs = 30000;
+
+grpc::Status shutting_down() {
+  return {grpc::StatusCode::UNAVAILABLE, "the server is shutting down"};
+}
+
+}  // namespace
+
+/// One waiting call.
+class LeaseQueue::Poll final : public grpc::ServerUnaryReactor {
+ public:
+  Poll(LeaseQueue& queue, grpc::CallbackServerContext* context, const v1::LeaseTaskRequest& request,
+       v1::LeaseTaskResponse* response)
+      : queue_(queue),
+        context_(context),
+        request_(request),
+        response_(response),
+        deadline_(std::chrono::steady_clock::now() +
+                  std::chrono::milliseconds(std::min(request.wait_ms(), kMaxWaitMs))) {}
+
+  const v1::LeaseTaskRequest& request() const { return request_; }
+  Time deadline() const { return deadline_; }
+
+  /// Ends the call unless it has ended; false when it had.
+  bool end(const grpc::Status& status, std::optional<v1::Lease> lease = std::nullopt) {
+    const std::lock_guard lock(mutex_);
+    if (ended_) return false;
+    ended_ = true;
+    if (lease) {
+      token_ = lease->token();
+      *response_->mutable_lease() = *std::move(lease);
+    }
+    Finish(status);
+    return true;
+  }
+
+  void OnCancel() override { queue_.withdraw(self_); }  // never after OnDone
+
+  void OnDone() override {
+    // A lease whose answer did not reach the worker would lie idle until its deadline.
+    if (!token_.empty() && context_->IsCancelled()) {
+      guarded([&] { queue_.store_.give_back(token_); });
+    }
+    self_.reset();  // the last use of this object
+  }
+
+  /// Keeps the object alive until OnDone.
+  void hold(const PollPtr& self) { self_ = self; }
+
+  bool fresh = true;  // not tried yet; guarded by the queue's lock
+
+ private:
+  LeaseQueue& queue_;
+  grpc::CallbackServerContext* context_;
+  const v1::LeaseTaskRequest request_;
+  v1::LeaseTaskResponse* response_;
+  const Time deadline_;
+  std::mutex mutex_;
+  bool ended_ = false;
+  std::string token_;
+  PollPtr self_;
+};
+
+LeaseQueue::LeaseQueue(Store& store, WorkerRegistry& registry)
+    : store_(store), registry_(registry), thread_([this] { run(); }) {}
+
+LeaseQueue::~LeaseQueue() {
+  stop();
+}
+
+grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context,
+                                            const v1::LeaseTaskRequest* request,
+                                            v1::LeaseTaskResponse* response) {
+  const auto poll = std::make_shared<Poll>(*this, context, *request, response);
+  poll->hold(poll);
+  registry_.seen(request->worker());
+  bool refused = false;
+  {
+    const std::lock_guard lock(mutex_);
+    refused = stopping_;
+    if (!refused) waiting_.push_back(poll);
+  }
+  if (refused) poll->end(shutting_down());
+  changed_.notify_all();
+  return poll.get();
+}
+
+void LeaseQueue::on_work() {
+  {
+    const std::lock_guard lock(mutex_);
+    work_ = true;
+  }
+  changed_.notify_all();
+}
+
+void LeaseQueue::stop() {
+  std::list<PollPtr> waiting;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    waiting.swap(waiting_);
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  for (const PollPtr& poll : waiting) poll->end(shutting_down());
+}
+
+void LeaseQueue::withdraw(const PollPtr& poll) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.remove(poll);
+  }
+  poll->end(grpc::Status::CANCELLED);
+}
+
+void LeaseQueue::run() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    std::list<PollPtr> candidates;
+    for (const PollPtr& poll : waiting_) {
+      if (work_ || poll->fresh) candidates.push_back(poll);
+      poll->fresh = false;
+    }
+    work_ = false;
+    lock.unlock();
+    serve(candidates);
+    end_expired();
+    lock.lock();
+    const auto something_to_do = [this] {
+      return stopping_ || work_ ||
+             std::any_of(waiting_.begin(), waiting_.end(), [](const PollPtr& poll) { return poll->fresh; });
+    };
+    if (waiting_.empty()) {
+      changed_.wait(lock, something_to_do);
+      continue;
+    }
+    const auto first =
+        std::min_element(waiting_.begin(), waiting_.end(),
+                         [](const PollPtr& a, const PollPtr& b) { return a->deadline() < b->deadline(); });
+    const Time deadline = (*first)->deadline();
+    changed_.wait_until(lock, deadline, something_to_do);
+  }
+}
+
+void LeaseQueue::serve(const std::list<PollPtr>& polls) {
+  for (const PollPtr& poll : polls) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (stopping_) return;
+      if (std::find(waiting_.begin(), waiting_.end(), poll) == waiting_.end()) continue;
+    }
+    std::optional<v1::Lease> lease;
+    const v1::LeaseTaskRequest& request = poll->request();
+    const grpc::Status status = guarded([&] {
+      lease =
+          store_.lease(request.worker(), request.preferred_job(), registry_.is_supervised(request.worker()));
+    });
+    if (status.ok() && !lease) continue;
+    {
+      const std::lock_guard lock(mutex_);
+      waiting_.remove(poll);
+    }
+    if (!lease) {
+      poll->end(status);
+      continue;
+    }
+    registry_.granted(request.worker(), *lease);
+    const std::string token = lease->token();
+    if (!poll->end(grpc::Status::OK, std::move(lease))) {
+      registry_.ended(token);
+      guarded([&] { store_.give_back(token); });
+    }
+  }
+}
+
+void LeaseQueue::end_expired() {
+  std::list<PollPtr> expired;
+  {
+    const std::lock_guard lock(mutex_);
+    const Time now = std::chrono::steady_clock::now();
+    for (auto poll = waiting_.begin(); poll != waiting_.end();) {
+      const auto next = std::next(poll);
+      if ((*poll)->deadline() <= now && !(*poll)->fresh) expired.splice(expired.end(), waiting_, poll);
+      poll = next;
+    }
+  }
+  for (const PollPtr& poll : expired) poll->end(grpc::Status::OK);
+}
+
+}  // namespace affskel::server

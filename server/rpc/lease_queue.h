@@ -1,0 +1,54 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <condition_variable>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "affskel/v1/worker_service.grpc.pb.h"
+#include "rpc/worker_registry.h"
+#include "store/store.h"
+
+namespace affskel::server {
+
+/// Workers that wait for work; none of them holds a thread.  One thread leases for all of them, in the
+/// order in which they came.  Thread-safe.
+class LeaseQueue {
+ public:
+  LeaseQueue(Store& store, WorkerRegistry& registry);
+  ~LeaseQueue();
+
+  /// A LeaseTask call.
+  grpc::ServerUnaryReactor* lease(grpc::CallbackServerContext* context, const v1::LeaseTaskRequest* request,
+                                  v1::LeaseTaskResponse* response);
+
+  /// A task became available.
+  void on_work();
+
+  /// Ends all waiting calls with UNAVAILABLE and grants nothing more.
+  void stop();
+
+ private:
+  class Poll;
+  using PollPtr = std::shared_ptr<Poll>;
+
+  void run();
+  void serve(const std::list<PollPtr>& polls);
+  void end_expired();
+  void withdraw(const PollPtr& poll);
+
+  Store& store_;
+  WorkerRegistry& registry_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::list<PollPtr> waiting_;
+  bool work_ = false;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace affskel::server

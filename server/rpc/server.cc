@@ -1,0 +1,139 @@
+#include "rpc/server.h"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+
+#include "rpc/listen.h"
+#include "rpc/status.h"
+
+namespace affskel::server {
+namespace {
+
+// The largest message of the contract is a piece of data of 1 MiB and its framing.
+constexpr int kMaxReceiveBytes = 4 << 20;
+// A job with many finished ranges and notes, or a long list of jobs.
+constexpr int kMaxSendBytes = 64 << 20;
+
+/// New sockets belong to this user alone, from the first moment on.
+class PrivateFiles {
+ public:
+  PrivateFiles() : before_(umask(0177)) {}
+  ~PrivateFiles() { umask(before_); }
+  PrivateFiles(const PrivateFiles&) = delete;
+  PrivateFiles& operator=(const PrivateFiles&) = delete;
+
+ private:
+  mode_t before_;
+};
+
+/// Leases of a predecessor's workers that died with it need not wait for their deadline.
+void release_dead_workers(Store& store) {
+  for (const Store::Holder& holder : store.supervised_holders()) {
+    const bool dead = kill(static_cast<pid_t>(holder.pid), 0) != 0 && errno == ESRCH;
+    if (holder.host == host_name() && dead) store.release_worker(holder.host, holder.pid);
+  }
+}
+
+}  // namespace
+
+Server::Server(const ServerOptions& options) {
+  prepare_addresses(options.listen);
+  store_ = std::make_unique<Store>(options.data_dir + "/affskel.db", options.store, clock_, &hub_);
+  release_dead_workers(*store_);
+  queue_ = std::make_unique<LeaseQueue>(*store_, registry_);
+  worker_service_ = std::make_unique<WorkerServiceImpl>(*store_, registry_, *queue_);
+  erosion_service_ = std::make_unique<ErosionServiceImpl>(
+      *store_, registry_, hub_, activity_,
+      ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
+  hub_.start([this](const std::string& id) { return erosion_service_->load(id); },
+             [this] { queue_->on_work(); });
+  listen(options.listen);
+  maintenance_ = std::thread([this] { maintain(); });
+}
+
+Server::~Server() {
+  stop();
+}
+
+void Server::listen(const std::vector<wire::Address>& addresses) {
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  // Two servers must never share a port by accident.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.SetMaxReceiveMessageSize(kMaxReceiveBytes);
+  builder.SetMaxSendMessageSize(kMaxSendBytes);
+  builder.RegisterService(worker_service_.get());
+  builder.RegisterService(erosion_service_.get());
+  std::vector<int> ports(addresses.size(), 0);
+  for (std::size_t i = 0; i < addresses.size(); ++i) {
+    builder.AddListeningPort(addresses[i].target(), grpc::InsecureServerCredentials(), &ports[i]);
+  }
+  {
+    const PrivateFiles guard;
+    grpc_ = builder.BuildAndStart();
+  }
+  for (std::size_t i = 0; i < addresses.size(); ++i) {
+    if (grpc_ == nullptr || ports[i] == 0) {
+      throw std::runtime_error("cannot listen on " + addresses[i].target() +
+                               ": the address is in use, or cannot be bound (see the log above)");
+    }
+    addresses_.push_back(addresses[i]);
+    if (!addresses[i].is_unix) addresses_.back().port = ports[i];
+  }
+}
+
+void Server::maintain() {
+  // Often enough that an expired lease waits a fraction of its own length.
+  const auto pause =
+      std::chrono::milliseconds(std::clamp<std::int64_t>(store_->options().lease_ms / 10, 20, 500));
+  std::unique_lock lock(mutex_);
+  while (!stopped_.wait_for(lock, pause, [this] { return stopping_; })) {
+    lock.unlock();
+    guarded([this] { store_->expire_leases(); });
+    lock.lock();
+  }
+}
+
+std::chrono::steady_clock::duration Server::idle_time() {
+  const Store::Counts counts = store_->counts();
+  if (counts.queued > 0 || counts.running > 0 || counts.requests > 0) activity_.touch();
+  return activity_.idle_time();
+}
+
+void Server::drain() {
+  if (grpc_ != nullptr && grpc_->GetHealthCheckService() != nullptr) {
+    grpc_->GetHealthCheckService()->SetServingStatus(false);
+  }
+  if (queue_ != nullptr) queue_->stop();
+  if (erosion_service_ != nullptr) erosion_service_->stop();
+}
+
+void Server::stop(std::chrono::milliseconds grace) {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  stopped_.notify_all();
+  if (maintenance_.joinable()) maintenance_.join();
+  drain();
+  if (grpc_ != nullptr) {
+    grpc_->Shutdown(std::chrono::system_clock::now() + grace);
+    grpc_->Wait();
+  }
+  hub_.stop();
+  for (const wire::Address& address : addresses_) {
+    if (address.is_unix) unlink(address.path.c_str());
+  }
+  addresses_.clear();
+}
+
+}  // namespace affskel::server

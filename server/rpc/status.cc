@@ -1,0 +1,71 @@
+#include "rpc/status.h"
+
+#include <spdlog/spdlog.h>
+
+#include <new>
+
+#include "store/errors.h"
+#include "store/sqlite.h"
+
+namespace affskel::server {
+namespace {
+
+grpc::StatusCode code_of(StoreError::Code code) {
+  switch (code) {
+    case StoreError::Code::kInvalid:
+      return grpc::StatusCode::INVALID_ARGUMENT;
+    case StoreError::Code::kNotFound:
+      return grpc::StatusCode::NOT_FOUND;
+    case StoreError::Code::kExists:
+      return grpc::StatusCode::ALREADY_EXISTS;
+    case StoreError::Code::kPrecondition:
+      return grpc::StatusCode::FAILED_PRECONDITION;
+    case StoreError::Code::kFenced:
+      return grpc::StatusCode::ABORTED;
+    case StoreError::Code::kLimit:
+      return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case StoreError::Code::kUnusable:
+      return grpc::StatusCode::INTERNAL;
+  }
+  return grpc::StatusCode::INTERNAL;
+}
+
+grpc::StatusCode code_of(const SqliteError& error) {
+  switch (error.primary_code()) {
+    case SQLITE_FULL:
+      return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return grpc::StatusCode::UNAVAILABLE;
+    case SQLITE_TOOBIG:
+    case SQLITE_NOMEM:
+      return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    default:
+      return grpc::StatusCode::INTERNAL;
+  }
+}
+
+}  // namespace
+
+grpc::Status status_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const CallEnded& ended) {
+    return ended.status;
+  } catch (const StoreError& e) {
+    if (e.code() == StoreError::Code::kUnusable)
+      spdlog::error("event=internal_error message=\"{}\"", e.what());
+    return {code_of(e.code()), e.what()};
+  } catch (const SqliteError& e) {
+    spdlog::error("event=database_error code={} message=\"{}\"", e.extended_code(), e.what());
+    return {code_of(e), e.what()};
+  } catch (const std::bad_alloc&) {
+    spdlog::error("event=out_of_memory");
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
+  } catch (const std::exception& e) {
+    spdlog::error("event=internal_error message=\"{}\"", e.what());
+    return {grpc::StatusCode::INTERNAL, e.what()};
+  }
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include <exception>
+#include <utility>
+
+namespace affskel::server {
+
+/// Thrown to end a call with a status of its own.
+struct CallEnded : std::exception {
+  explicit CallEnded(grpc::Status with) : status(std::move(with)) {}
+  grpc::Status status;
+};
+
+/// The one place where errors become gRPC statuses.  Internal errors are logged.
+grpc::Status status_of(const std::exception_ptr& error);
+
+/// Runs the body of a call; OK unless it throws.
+template <typename Body>
+grpc::Status guarded(Body&& body) {
+  try {
+    std::forward<Body>(body)();
+    return grpc::Status::OK;
+  } catch (...) {
+    return status_of(std::current_exception());
+  }
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "affskel/v1/client_service.grpc.pb.h"
+#include "rpc/activity.h"
+#include "rpc/event_hub.h"
+
+namespace affskel::server {
+
+/// All WatchJob streams of a server; none of them holds a thread.  Thread-safe.
+class Watches {
+ public:
+  /// @param load the job as it is now; throws when there is none.
+  Watches(EventHub& hub, Activity& activity, EventHub::Loader load);
+
+  /// Starts a stream for the job of this full id.
+  grpc::ServerWriteReactor<v1::Job>* watch(const std::string& job_id);
+
+  /// Ends all streams with UNAVAILABLE, so that their clients come back to the next server.
+  void stop();
+
+ private:
+  class Stream;
+
+  EventHub& hub_;
+  Activity& activity_;
+  EventHub::Loader load_;
+  std::mutex mutex_;
+  std::set<std::shared_ptr<Stream>> streams_;
+  bool stopping_ = false;
+};
+
+/// A stream that ends at once with `status`.
+grpc::ServerWriteReactor<v1::Job>* refused_watch(const grpc::Status& status);
+
+}  // namespace affskel::server

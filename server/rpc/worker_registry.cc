@@ -1,0 +1,102 @@
+#include "rpc/worker_registry.h"
+
+#include <unistd.h>
+
+#include <array>
+
+#include "store/tasks.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::int64_t kForgetMs = 60000;
+
+}  // namespace
+
+void WorkerRegistry::add_supervised(std::uint32_t pid) {
+  const std::lock_guard lock(mutex_);
+  supervised_.insert(pid);
+}
+
+void WorkerRegistry::remove_supervised(std::uint32_t pid) {
+  const std::lock_guard lock(mutex_);
+  supervised_.erase(pid);
+  std::erase_if(workers_, [pid](const auto& entry) {
+    return entry.second.info.supervised() && entry.second.info.pid() == pid;
+  });
+}
+
+bool WorkerRegistry::is_supervised(const v1::WorkerIdentity& worker) const {
+  const std::lock_guard lock(mutex_);
+  return supervised_.contains(worker.pid()) && worker.host() == host_name();
+}
+
+void WorkerRegistry::seen(const v1::WorkerIdentity& worker) {
+  const bool supervised = is_supervised(worker);
+  const std::lock_guard lock(mutex_);
+  v1::WorkerInfo& info = workers_[worker.id()].info;
+  info.set_id(worker.id());
+  info.set_host(worker.host());
+  info.set_pid(worker.pid());
+  info.set_threads(worker.threads());
+  info.set_core_version(worker.core_version());
+  info.set_supervised(supervised);
+  info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+  forget_silent();
+}
+
+void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& lease) {
+  const std::lock_guard lock(mutex_);
+  const auto found = workers_.find(worker.id());
+  if (found == workers_.end()) return;
+  found->second.tasks[lease.token()] = std::string(kind_name(lease.kind())) + " " + lease.job().id();
+  holders_[lease.token()] = worker.id();
+}
+
+void WorkerRegistry::used(const std::string& token) {
+  const std::lock_guard lock(mutex_);
+  const auto holder = holders_.find(token);
+  if (holder == holders_.end()) return;
+  const auto found = workers_.find(holder->second);
+  if (found != workers_.end())
+    found->second.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+}
+
+void WorkerRegistry::ended(const std::string& token) {
+  const std::lock_guard lock(mutex_);
+  const auto holder = holders_.find(token);
+  if (holder == holders_.end()) return;
+  if (const auto found = workers_.find(holder->second); found != workers_.end())
+    found->second.tasks.erase(token);
+  holders_.erase(holder);
+}
+
+void WorkerRegistry::forget_silent() {
+  std::erase_if(workers_, [this](const auto& entry) {
+    return static_cast<std::int64_t>(entry.second.info.last_seen_ms()) < oldest_ms();
+  });
+  std::erase_if(holders_, [this](const auto& holder) { return !workers_.contains(holder.second); });
+}
+
+std::int64_t WorkerRegistry::oldest_ms() const {
+  return clock_.wall_ms() - kForgetMs;
+}
+
+std::vector<v1::WorkerInfo> WorkerRegistry::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<v1::WorkerInfo> infos;
+  for (const auto& [id, entry] : workers_) {
+    if (static_cast<std::int64_t>(entry.info.last_seen_ms()) < oldest_ms()) continue;
+    infos.push_back(entry.info);
+    if (!entry.tasks.empty()) infos.back().set_task(entry.tasks.rbegin()->second);
+  }
+  return infos;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
+  return name.data();
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "affskel/v1/client_service.pb.h"
+#include "affskel/v1/worker_service.pb.h"
+#include "clock.h"
+
+namespace affskel::server {
+
+/// Who was heard from lately.  Only for people to look at: scheduling relies on leases alone.  Thread-safe.
+class WorkerRegistry {
+ public:
+  explicit WorkerRegistry(const Clock& clock) : clock_(clock) {}
+
+  /// A worker process that this server has started, or that has ended.
+  void add_supervised(std::uint32_t pid);
+  void remove_supervised(std::uint32_t pid);
+  /// Whether a worker is one of ours: started by us, on this host.
+  bool is_supervised(const v1::WorkerIdentity& worker) const;
+
+  /// A worker asks for work.
+  void seen(const v1::WorkerIdentity& worker);
+  /// A worker got a lease, uses it, has ended it.
+  void granted(const v1::WorkerIdentity& worker, const v1::Lease& lease);
+  void used(const std::string& token);
+  void ended(const std::string& token);
+
+  /// Heard from in the last minute.
+  std::vector<v1::WorkerInfo> list() const;
+
+ private:
+  struct Entry {
+    v1::WorkerInfo info;
+    std::map<std::string, std::string> tasks;  // by token: what for people
+  };
+  std::int64_t oldest_ms() const;
+  void forget_silent();
+
+  const Clock& clock_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Entry> workers_;        // by id
+  std::map<std::string, std::string> holders_;  // token -> id
+  std::set<std::uint32_t> supervised_;
+};
+
+/// Name of this machine, as workers report theirs.
+std::string host_name();
+
+}  // namespace affskel::server

@@ -1,0 +1,132 @@
+#include "store/blobs.h"
+
+#include "store/errors.h"
+#include "store/field.h"
+#include "wire/address.h"
+#include "wire/sha256.h"
+
+namespace affskel::server {
+namespace {
+
+/// Calls put(index, piece) for the pieces of `bytes`.
+template <typename Put>
+void cut(std::string_view bytes, Put put) {
+  for (std::size_t index = 0; index * wire::kChunkBytes < bytes.size(); ++index) {
+    put(index, bytes.substr(index * wire::kChunkBytes, wire::kChunkBytes));
+  }
+}
+
+StoreError gone() {
+  return {StoreError::Code::kNotFound, "what was asked for has been deleted"};
+}
+
+/// A read transaction of its own.
+struct View {
+  explicit View(const std::string& file)
+      : db(file, Database::Mode::kReadOnly), transaction(db, Transaction::Kind::kRead) {}
+  Database db;
+  Transaction transaction;
+};
+
+/// Pieces that lie in a table by index.
+class ChunkReader final : public BlobReader {
+ public:
+  ChunkReader(const std::string& file, const char* about, const char* piece, const auto& key)
+      : view_(file), pieces_(open(about, piece, key)) {}
+
+  std::string next() override {
+    if (!pieces_.step()) return {};
+    return std::string(pieces_.blob(0));
+  }
+
+ private:
+  Statement open(const char* about, const char* piece, const auto& key) {
+    Statement row = view_.db.query(about, key);
+    if (!row.step()) throw gone();
+    bytes_ = static_cast<std::uint64_t>(row.integer(0));
+    sha256_ = row.text(1);
+    return view_.db.query(piece, key);
+  }
+
+  View view_;
+  Statement pieces_;
+};
+
+class FieldReader final : public BlobReader {
+ public:
+  FieldReader(const std::string& file, std::int64_t erosion_id) : view_(file), erosion_id_(erosion_id) {
+    const std::optional<std::int64_t> points =
+        view_.db.integer("SELECT points FROM erosions WHERE id = ?", erosion_id);
+    if (!points) throw gone();
+    points_ = *points;
+    bytes_ = static_cast<std::uint64_t>(points_) * wire::kFieldRecordBytes;
+    // The header of a transfer carries the hash, so the field is read twice, from one view.
+    wire::Sha256 hash;
+    for (std::int64_t i = 0; i < field_chunk_count(points_); ++i) {
+      hash.update(read_field_chunk(view_.db, erosion_id_, points_, i));
+    }
+    sha256_ = hash.hex_digest();
+  }
+
+  std::string next() override {
+    if (index_ >= field_chunk_count(points_)) return {};
+    // Several chunks to a message: each is far below the limit.
+    std::string bytes;
+    while (index_ < field_chunk_count(points_) &&
+           bytes.size() + kChunkPoints * wire::kFieldRecordBytes <= wire::kChunkBytes) {
+      bytes += read_field_chunk(view_.db, erosion_id_, points_, index_++);
+    }
+    return bytes;
+  }
+
+ private:
+  View view_;
+  std::int64_t erosion_id_;
+  std::int64_t points_ = 0;
+  std::int64_t index_ = 0;
+};
+
+}  // namespace
+
+void put_mesh(Tx& tx, const std::string& sha256, std::string_view bytes) {
+  if (tx.db.integer("SELECT 1 FROM meshes WHERE sha256 = ?", sha256)) return;
+  tx.db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, ?, ?)", sha256, bytes.size(),
+            tx.wall_ms);
+  cut(bytes, [&](std::size_t index, std::string_view piece) {
+    tx.db.run("INSERT INTO mesh_chunks (sha256, idx, data) VALUES (?, ?, ?)", sha256, index, Blob{piece});
+  });
+}
+
+void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items) {
+  if (find_artifact(tx.db, key)) return;
+  tx.db.run(
+      "INSERT INTO artifacts (erosion_id, kind, params_key, bytes, sha256, items) VALUES (?, ?, ?, ?, ?, ?)",
+      key.erosion_id, key.kind, key.params_key, bytes.size(), wire::sha256_hex(bytes), items);
+  const std::int64_t id = tx.db.last_insert_rowid();
+  cut(bytes, [&](std::size_t index, std::string_view piece) {
+    tx.db.run("INSERT INTO artifact_chunks (artifact_id, idx, data) VALUES (?, ?, ?)", id, index,
+              Blob{piece});
+  });
+}
+
+std::optional<std::int64_t> find_artifact(Database& db, const ArtifactKey& key) {
+  return db.integer("SELECT id FROM artifacts WHERE erosion_id = ? AND kind = ? AND params_key = ?",
+                    key.erosion_id, key.kind, key.params_key);
+}
+
+std::unique_ptr<BlobReader> read_mesh(const std::string& file, const std::string& sha256) {
+  return std::make_unique<ChunkReader>(file, "SELECT bytes, sha256 FROM meshes WHERE sha256 = ?",
+                                       "SELECT data FROM mesh_chunks WHERE sha256 = ? ORDER BY idx", sha256);
+}
+
+std::unique_ptr<BlobReader> read_artifact(const std::string& file, std::int64_t artifact_id) {
+  return std::make_unique<ChunkReader>(file, "SELECT bytes, sha256 FROM artifacts WHERE id = ?",
+                                       "SELECT data FROM artifact_chunks WHERE artifact_id = ? ORDER BY idx",
+                                       artifact_id);
+}
+
+std::unique_ptr<BlobReader> read_field(const std::string& file, std::int64_t erosion_id) {
+  return std::make_unique<FieldReader>(file, erosion_id);
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "store/sqlite.h"
+#include "store/tx.h"
+
+namespace affskel::server {
+
+/// Stores a mesh unless its bytes are there already.  Requires `sha256` to be theirs.
+void put_mesh(Tx& tx, const std::string& sha256, std::string_view bytes);
+
+/// What an artefact is about.
+struct ArtifactKey {
+  std::int64_t erosion_id = 0;
+  std::string kind;        ///< "lattice", "directions", "skeleton", "surface"
+  std::string params_key;  ///< empty for lattice and directions
+};
+
+/// Stores an artefact; an equal key that is there already stays as it is.
+void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items);
+
+/// Its row, if stored.
+std::optional<std::int64_t> find_artifact(Database& db, const ArtifactKey& key);
+
+/// Bytes of something stored, in pieces of at most 1 MiB, from one consistent view of the database.  Has
+/// its own connection: reading does not hold up writers.  Not thread-safe.
+class BlobReader {
+ public:
+  virtual ~BlobReader() = default;
+  std::uint64_t bytes() const { return bytes_; }
+  const std::string& sha256() const { return sha256_; }
+  /// The next piece; empty at the end.
+  virtual std::string next() = 0;
+
+ protected:
+  std::uint64_t bytes_ = 0;
+  std::string sha256_;
+};
+
+/// @throws StoreError kNotFound when it is not (or no longer) there.
+std::unique_ptr<BlobReader> read_mesh(const std::string& file, const std::string& sha256);
+std::unique_ptr<BlobReader> read_artifact(const std::string& file, std::int64_t artifact_id);
+
+/// The field as merged so far.
+/// @throws StoreError kNotFound when the erosion is gone or was not prepared yet.
+std::unique_ptr<BlobReader> read_field(const std::string& file, std::int64_t erosion_id);
+
+}  // namespace affskel::server

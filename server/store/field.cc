@@ -1,0 +1,169 @@
+#include "store/field.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "store/errors.h"
+#include "wire/address.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
+static_assert(std::endian::native == std::endian::little, "fields are stored as they lie in memory");
+
+// A chunk is written back in stretches of this many points, and only those that changed: late in a job
+// few points of a chunk still improve, and each page written costs its place in the log.
+constexpr std::size_t kStretchPoints = 256;
+
+// A worker sends a point once per report and thread; anything above this is a bug or an attack.
+constexpr std::int64_t kMaxRecordsPerPoint = 64;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw StoreError(StoreError::Code::kInvalid, "report: " + why);
+}
+
+std::size_t chunk_points(std::int64_t points, std::int64_t index) {
+  return static_cast<std::size_t>(std::min(kChunkPoints, points - index * kChunkPoints));
+}
+
+std::string empty_chunk(std::size_t count) {
+  char record[kRecordBytes] = {};
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::memcpy(record, &infinity, sizeof infinity);
+  std::memcpy(record + 16, &kNoDirection, sizeof kNoDirection);
+  std::string chunk;
+  chunk.reserve(count * kRecordBytes);
+  for (std::size_t i = 0; i < count; ++i) chunk.append(record, kRecordBytes);
+  return chunk;
+}
+
+/// Replaces the record at `to` when (E, direction) of `record` is smaller.
+bool merge_one(char* to, const FieldRecord& record) {
+  double erosion = 0;
+  std::uint32_t direction = 0;
+  std::memcpy(&erosion, to, sizeof erosion);
+  std::memcpy(&direction, to + 16, sizeof direction);
+  if (!(record.erosion < erosion || (record.erosion == erosion && record.direction < direction)))
+    return false;
+  std::memcpy(to, &record.erosion, sizeof erosion);
+  std::memcpy(to + 8, &record.area, sizeof record.area);
+  std::memcpy(to + 16, &record.direction, sizeof direction);
+  return true;
+}
+
+using Records = std::vector<FieldRecord>::const_iterator;
+
+/// Merges [begin, end), all of chunk `index`; marks the stretches that changed.
+std::vector<bool> merge_into(std::string& chunk, std::int64_t index, Records begin, Records end) {
+  const std::size_t count = chunk.size() / kRecordBytes;
+  std::vector<bool> changed((count + kStretchPoints - 1) / kStretchPoints);
+  for (Records record = begin; record != end; ++record) {
+    const std::size_t at = record->point - static_cast<std::size_t>(index * kChunkPoints);
+    if (merge_one(chunk.data() + at * kRecordBytes, *record)) changed[at / kStretchPoints] = true;
+  }
+  return changed;
+}
+
+void write_changed(BlobHandle& blob, const std::string& chunk, const std::vector<bool>& changed) {
+  const std::size_t stretch_bytes = kStretchPoints * kRecordBytes;
+  for (std::size_t first = 0; first < changed.size(); ++first) {
+    if (!changed[first]) continue;
+    std::size_t last = first;
+    while (last + 1 < changed.size() && changed[last + 1]) ++last;
+    const std::size_t begin = first * stretch_bytes;
+    const std::size_t end = std::min(chunk.size(), (last + 1) * stretch_bytes);
+    blob.write(chunk.data() + begin, static_cast<int>(end - begin), static_cast<int>(begin));
+    first = last;
+  }
+}
+
+std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std::int64_t index) {
+  return db.integer("SELECT id FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index);
+}
+
+}  // namespace
+
+RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions)
+    : points_(points), directions_(directions) {}
+
+void RecordBatch::append(const v1::FieldRecords& records) {
+  const int count = records.point_size();
+  if (records.direction_size() != count || records.erosion_size() != count || records.area_size() != count) {
+    refuse("the four arrays of records differ in length");
+  }
+  if (static_cast<std::int64_t>(records_.size()) + count > kMaxRecordsPerPoint * points_) {
+    refuse("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
+  }
+  for (int i = 0; i < count; ++i) {
+    FieldRecord record{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
+    if (record.point >= points_)
+      refuse("point " + std::to_string(record.point) + " of " + std::to_string(points_));
+    if (record.direction >= directions_) {
+      refuse("direction " + std::to_string(record.direction) + " of " + std::to_string(directions_));
+    }
+    if (!std::isfinite(record.erosion) || record.erosion < 0 || !std::isfinite(record.area) ||
+        record.area < 0) {
+      refuse("E or area of point " + std::to_string(record.point) + " is negative or not finite");
+    }
+    // One zero only: equal values must be equal bytes, whatever the order of merging.
+    record.erosion += 0.0;
+    record.area += 0.0;
+    records_.push_back(record);
+  }
+}
+
+void RecordBatch::sort() {
+  const auto by_chunk = [](const FieldRecord& a, const FieldRecord& b) {
+    return a.point / kChunkPoints < b.point / kChunkPoints;
+  };
+  if (!std::is_sorted(records_.begin(), records_.end(), by_chunk)) {
+    std::sort(records_.begin(), records_.end(), by_chunk);
+  }
+}
+
+void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
+                   const std::vector<FieldRecord>& records) {
+  std::optional<BlobHandle> blob;
+  std::string chunk;
+  for (auto begin = records.begin(); begin != records.end();) {
+    const std::int64_t index = begin->point / kChunkPoints;
+    const auto end = std::find_if(begin, records.end(),
+                                  [&](const FieldRecord& r) { return r.point / kChunkPoints != index; });
+    if (const std::optional<std::int64_t> row = chunk_row(db, erosion_id, index)) {
+      if (blob) {
+        blob->reopen(*row);
+      } else {
+        blob.emplace(db, "field_chunks", "data", *row);
+      }
+      chunk.resize(static_cast<std::size_t>(blob->size()));
+      blob->read(chunk.data(), blob->size(), 0);
+      write_changed(*blob, chunk, merge_into(chunk, index, begin, end));
+    } else {
+      // An INSERT would make the open handle stale.
+      blob.reset();
+      chunk = empty_chunk(chunk_points(points, index));
+      merge_into(chunk, index, begin, end);
+      db.run("INSERT INTO field_chunks (erosion_id, idx, data) VALUES (?, ?, ?)", erosion_id, index,
+             Blob{chunk});
+    }
+    begin = end;
+  }
+}
+
+std::int64_t field_chunk_count(std::int64_t points) {
+  return (points + kChunkPoints - 1) / kChunkPoints;
+}
+
+std::string read_field_chunk(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t index) {
+  Statement row =
+      db.query("SELECT data FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index);
+  if (!row.step()) return empty_chunk(chunk_points(points, index));
+  return std::string(row.blob(0));
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,45 @@
+#include "store/migrate.h"
+
+#include <spdlog/spdlog.h>
+
+#include "store/errors.h"
+
+namespace affskel::server {
+namespace {
+
+int schema_version(Database& db) {
+  return static_cast<int>(db.integer("PRAGMA user_version").value_or(0));
+}
+
+void check_ours(Database& db, int newest) {
+  const std::int64_t application = db.integer("PRAGMA application_id").value_or(0);
+  const bool empty = db.integer("SELECT count(*) FROM sqlite_schema") == 0;
+  if (application != kApplicationId && !(application == 0 && empty)) {
+    throw StoreError(StoreError::Code::kUnusable, db.file() + ": not a database of affskel-server");
+  }
+  const int version = schema_version(db);
+  if (version > newest) {
+    throw StoreError(StoreError::Code::kUnusable, db.file() + ": written by a newer affskel-server (schema " +
+                                                      std::to_string(version) + ", this one knows up to " +
+                                                      std::to_string(newest) +
+                                                      "); start that version instead");
+  }
+}
+
+}  // namespace
+
+int migrate(Database& db, const std::vector<Migration>& migrations) {
+  const int newest = migrations.empty() ? 0 : migrations.back().number;
+  check_ours(db, newest);
+  for (const Migration& step : migrations) {
+    Transaction transaction(db);
+    if (schema_version(db) >= step.number) continue;
+    db.execute(step.sql);
+    db.execute("PRAGMA user_version = " + std::to_string(step.number));
+    transaction.commit();
+    spdlog::info("event=migrated schema={} name={}", step.number, step.name);
+  }
+  return schema_version(db);
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "store/sqlite.h"
+
+namespace affskel::server {
+
+/// One step of the schema: server/migrations/NNNN_name.sql.
+struct Migration {
+  int number;  ///< 1, 2, 3, ...; becomes user_version
+  const char* name;
+  const char* sql;
+};
+
+/// application_id of our files: "AFSK".
+inline constexpr std::int64_t kApplicationId = 0x4146534B;
+
+/// The migrations compiled into this program, in order.
+const std::vector<Migration>& embedded_migrations();
+
+/// Brings the schema up to date, each step in a transaction of its own.  Returns the version reached.
+/// @throws StoreError kUnusable when the file is not ours or was written by a newer server; SqliteError.
+int migrate(Database& db, const std::vector<Migration>& migrations = embedded_migrations());
+
+}  // namespace affskel::server

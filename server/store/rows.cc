@@ -1,0 +1,266 @@
+#include "store/rows.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "store/errors.h"
+#include "wire/version.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::array<std::pair<v1::JobState, const char*>, 5> kStates = {{
+    {v1::JOB_STATE_QUEUED, "queued"},
+    {v1::JOB_STATE_RUNNING, "running"},
+    {v1::JOB_STATE_DONE, "done"},
+    {v1::JOB_STATE_FAILED, "failed"},
+    {v1::JOB_STATE_CANCELLED, "cancelled"},
+}};
+
+constexpr std::array<std::pair<v1::JobStage, const char*>, 4> kStages = {{
+    {v1::JOB_STAGE_PREPARE, "prepare"},
+    {v1::JOB_STAGE_ERODE, "erode"},
+    {v1::JOB_STAGE_DERIVE, "derive"},
+    {v1::JOB_STAGE_COMPLETE, "complete"},
+}};
+
+template <typename Table, typename Value>
+const char* name_of(const Table& table, Value value) {
+  for (const auto& [entry, name] : table) {
+    if (entry == value) return name;
+  }
+  throw std::logic_error("a state without a name");
+}
+
+template <typename Table>
+auto value_of(const Table& table, const std::string& name) {
+  for (const auto& [entry, text] : table) {
+    if (name == text) return entry;
+  }
+  throw StoreError(StoreError::Code::kUnusable, "unknown state '" + name + "' in the database");
+}
+
+constexpr const char* kJobColumns =
+    "SELECT j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton, e.mesh_sha256, "
+    "m.bytes,"
+    " e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms, j.finished_ms, j.error_code,"
+    " j.error_message, j.error_line, j.directions_reported, j.directions_repeated, j.reports, "
+    "j.leases_granted,"
+    " j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested, j.skeleton_points, e.stride,"
+    " j.erosion_id"
+    " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
+
+void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
+  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    throw StoreError(StoreError::Code::kUnusable, "a stored message cannot be read");
+  }
+}
+
+std::uint64_t natural(const Statement& row, int column) {
+  return static_cast<std::uint64_t>(row.integer(column));
+}
+
+void read_counters(const Statement& row, v1::JobCounters& counters) {
+  counters.set_directions_reported(natural(row, 19));
+  counters.set_directions_repeated(natural(row, 20));
+  counters.set_reports(natural(row, 21));
+  counters.set_leases_granted(natural(row, 22));
+  counters.set_leases_lost(natural(row, 23));
+  counters.set_longest_report_gap_ms(natural(row, 24));
+  counters.set_directions_lost_estimate(row.real(25));
+}
+
+v1::Job read_job(const Statement& row) {
+  v1::Job job;
+  job.set_id(row.text(0));
+  job.set_name(row.text(1));
+  job.set_owner(row.text(2));
+  job.set_priority(static_cast<std::uint32_t>(row.integer(3)));
+  job.set_state(value_of(kStates, row.text(4)));
+  job.set_stage(value_of(kStages, row.text(5)));
+  parse(*job.mutable_params(), row.blob(6));
+  parse(*job.mutable_skeleton(), row.blob(7));
+  job.set_mesh_sha256(row.text(8));
+  job.set_mesh_bytes(natural(row, 9));
+  if (!row.is_null(10)) parse(*job.mutable_prepared(), row.blob(10));
+  job.set_directions_done(natural(row, 11));
+  job.set_directions_total(natural(row, 12));
+  job.set_created_ms(natural(row, 13));
+  job.set_started_ms(natural(row, 14));
+  job.set_finished_ms(natural(row, 15));
+  if (!row.is_null(16)) {
+    job.mutable_error()->set_code(row.text(16));
+    job.mutable_error()->set_message(row.text(17));
+    job.mutable_error()->set_line(natural(row, 18));
+  }
+  read_counters(row, *job.mutable_counters());
+  job.set_cancel_requested(row.flag(26));
+  job.set_skeleton_points(natural(row, 27));
+  job.set_order_stride(natural(row, 28));
+  return job;
+}
+
+void require_hex(const std::string& reference) {
+  const bool hex = std::all_of(reference.begin(), reference.end(),
+                               [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+  if (reference.size() < 6 || reference.size() > 32 || !hex) {
+    throw StoreError(
+        StoreError::Code::kInvalid,
+        "job '" + reference + "': expected an id, a prefix of at least 6 of its digits, or @last");
+  }
+}
+
+}  // namespace
+
+const char* state_name(v1::JobState state) {
+  return name_of(kStates, state);
+}
+const char* stage_name(v1::JobStage stage) {
+  return name_of(kStages, stage);
+}
+
+std::optional<JobRow> find_job(Database& db, const std::string& id) {
+  Statement row = db.query(
+      "SELECT j.state, j.stage, j.cancel_requested, j.erosion_id, j.skeleton, j.skeleton_key, e.mesh_sha256,"
+      " e.params_key, e.core_version, e.points, e.directions, e.directions_done, e.finished"
+      " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?",
+      id);
+  if (!row.step()) return std::nullopt;
+  JobRow job;
+  job.id = id;
+  job.state = value_of(kStates, row.text(0));
+  job.stage = value_of(kStages, row.text(1));
+  job.cancel_requested = row.flag(2);
+  job.erosion_id = row.integer(3);
+  job.skeleton = std::string(row.blob(4));
+  job.skeleton_key = row.text(5);
+  job.mesh_sha256 = row.text(6);
+  job.params_key = row.text(7);
+  job.core_version = row.text(8);
+  job.points = row.integer(9);
+  job.directions = row.integer(10);
+  job.directions_done = row.integer(11);
+  job.finished = row.flag(12);
+  return job;
+}
+
+JobRow get_job(Database& db, const std::string& id) {
+  std::optional<JobRow> job = find_job(db, id);
+  if (!job) throw StoreError(StoreError::Code::kNotFound, "no job " + id);
+  return *std::move(job);
+}
+
+std::string resolve_job(Database& db, const std::string& reference) {
+  if (reference == "@last") {
+    Statement row = db.query("SELECT id FROM jobs ORDER BY seq DESC LIMIT 1");
+    if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job @last: there are no jobs");
+    return row.text(0);
+  }
+  require_hex(reference);
+  // 'g' follows the last hexadecimal digit, so this range is exactly the ids that begin so.
+  Statement row = db.query("SELECT id FROM jobs WHERE id >= ? AND id < ? || 'g' ORDER BY id LIMIT 2",
+                           reference, reference);
+  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + reference);
+  std::string id = row.text(0);
+  if (row.step()) {
+    throw StoreError(StoreError::Code::kInvalid, "job '" + reference + "': more than one job's id begins so");
+  }
+  return id;
+}
+
+/// Fields of different core versions are never mixed, so a job begun by one version waits for it.
+std::string missing_core(Database& db, const std::string& id) {
+  Statement row = db.query(
+      "SELECT e.core_version FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
+      " WHERE j.id = ? AND j.stage = 'erode' AND j.state IN ('queued', 'running')"
+      " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased')",
+      id);
+  if (!row.step()) return {};
+  const std::string needed = row.text(0);
+  const std::string current = current_core_version(db);
+  if (current.empty() || current == needed) return {};
+  return "begun with core version " + needed + ", the workers now have version " + current +
+         "; connect such a worker, or cancel the job and submit it anew";
+}
+
+v1::Job job_message(Database& db, const std::string& id) {
+  static const std::string sql = std::string(kJobColumns) + "WHERE j.id = ?";
+  Statement row = db.query(sql.c_str(), id);
+  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + id);
+  v1::Job job = read_job(row);
+  for (const Range& range : done_ranges(db, row.integer(29))) {
+    v1::PositionRange* done = job.add_done_positions();
+    done->set_begin(static_cast<std::uint64_t>(range.begin));
+    done->set_end(static_cast<std::uint64_t>(range.end));
+  }
+  job.set_waiting_reason(missing_core(db, id));
+  return job;
+}
+
+std::vector<v1::Job> list_jobs(Database& db, const ListFilter& filter) {
+  // States as a bit set, so that one statement serves every filter.
+  std::int64_t mask = filter.states.empty() ? -1 : 0;
+  for (v1::JobState state : filter.states) mask |= std::int64_t{1} << static_cast<int>(state);
+  static const std::string sql =
+      std::string(kJobColumns) +
+      "WHERE (?1 = '' OR j.owner = ?1) AND (?2 >> CASE j.state WHEN 'queued' THEN 1 WHEN 'running' THEN 2"
+      " WHEN 'done' THEN 3 WHEN 'failed' THEN 4 ELSE 5 END) & 1 ORDER BY j.seq DESC LIMIT ?3";
+  Statement row = db.query(sql.c_str(), filter.owner, mask, filter.limit);
+  std::vector<v1::Job> jobs;
+  while (row.step()) jobs.push_back(read_job(row));
+  return jobs;
+}
+
+std::string current_core_version(Database& db) {
+  // Remembered with the version of the programs: after an upgrade the old answer says nothing.
+  Statement row = db.query("SELECT value FROM server_state WHERE key = 'core_version/' || ?", wire::kVersion);
+  return row.step() ? row.text(0) : std::string();
+}
+
+std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id) {
+  Statement row = db.query(
+      "SELECT first_position, end_position FROM done_ranges WHERE erosion_id = ? ORDER BY first_position",
+      erosion_id);
+  std::vector<Range> ranges;
+  while (row.step()) ranges.push_back({row.integer(0), row.integer(1)});
+  return ranges;
+}
+
+std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range block) {
+  std::vector<Range> left;
+  std::int64_t at = block.begin;
+  for (const Range& done : done_ranges(db, erosion_id)) {
+    if (done.end <= at) continue;
+    if (done.begin >= block.end) break;
+    if (done.begin > at) left.push_back({at, done.begin});
+    at = done.end;
+  }
+  if (at < block.end) left.push_back({at, block.end});
+  return left;
+}
+
+std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range) {
+  Range joined = range;
+  std::int64_t repeated = 0;
+  {
+    Statement row = db.query(
+        "SELECT first_position, end_position FROM done_ranges"
+        " WHERE erosion_id = ? AND first_position <= ? AND end_position >= ?",
+        erosion_id, range.end, range.begin);
+    while (row.step()) {
+      const Range old{row.integer(0), row.integer(1)};
+      repeated += std::max<std::int64_t>(0, std::min(old.end, range.end) - std::max(old.begin, range.begin));
+      joined = {std::min(joined.begin, old.begin), std::max(joined.end, old.end)};
+    }
+  }
+  const std::int64_t added = range.end - range.begin - repeated;
+  if (added == 0) return 0;
+  db.run("DELETE FROM done_ranges WHERE erosion_id = ? AND first_position >= ? AND first_position <= ?",
+         erosion_id, joined.begin, joined.end);
+  db.run("INSERT INTO done_ranges (erosion_id, first_position, end_position) VALUES (?, ?, ?)", erosion_id,
+         joined.begin, joined.end);
+  return added;
+}
+
+}  // namespace affskel::server

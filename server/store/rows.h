@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "affskel/v1/types.pb.h"
+#include "store/sqlite.h"
+
+namespace affskel::server {
+
+/// Half-open range of positions in the order of work.
+struct Range {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// A job with its erosion, as the scheduler needs them.
+struct JobRow {
+  std::string id;
+  v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
+  v1::JobStage stage = v1::JOB_STAGE_UNSPECIFIED;
+  bool cancel_requested = false;
+  std::int64_t erosion_id = 0;
+  std::string skeleton;  // serialized SkeletonParams
+  std::string skeleton_key;
+  std::string mesh_sha256;
+  std::string params_key;
+  std::string core_version;  // empty before the prepare stage is done
+  std::int64_t points = 0;
+  std::int64_t directions = 0;
+  std::int64_t directions_done = 0;
+  bool finished = false;
+
+  /// QUEUED or RUNNING.
+  bool active() const { return state == v1::JOB_STATE_QUEUED || state == v1::JOB_STATE_RUNNING; }
+};
+
+/// Names of states and stages in the database.
+const char* state_name(v1::JobState state);
+const char* stage_name(v1::JobStage stage);
+
+/// Reads one job; nothing when there is none of this id.
+std::optional<JobRow> find_job(Database& db, const std::string& id);
+
+/// Reads a job that must exist.  @throws StoreError kNotFound.
+JobRow get_job(Database& db, const std::string& id);
+
+/// Full id of an id, a unique prefix of at least 6 characters, or "@last".
+/// @throws StoreError kNotFound; kInvalid when the prefix is too short or not unique.
+std::string resolve_job(Database& db, const std::string& reference);
+
+/// The wire form of one job, with its finished positions and what it waits for in vain.
+v1::Job job_message(Database& db, const std::string& id);
+
+/// The core version of the workers of this program's version, "" when none was heard from yet.
+std::string current_core_version(Database& db);
+
+struct ListFilter {
+  std::vector<v1::JobState> states;  ///< empty = all
+  std::string owner;                 ///< empty = all
+  std::int64_t limit = 50;
+};
+
+/// Newest first, without finished positions.
+std::vector<v1::Job> list_jobs(Database& db, const ListFilter& filter);
+
+/// Finished ranges of an erosion in ascending order.
+std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id);
+
+/// What is left of `block`.
+std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range block);
+
+/// Adds one finished range, keeping the stored ones disjoint and coalesced.  Returns how many of its
+/// positions were new.
+std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range);
+
+}  // namespace affskel::server

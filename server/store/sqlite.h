@@ -1,0 +1,172 @@
+#pragma once
+
+#include <sqlite3.h>
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace affskel::server {
+
+/// An error of SQLite itself: a bug, a damaged file or a full disk.
+class SqliteError : public std::runtime_error {
+ public:
+  SqliteError(int extended_code, const std::string& message)
+      : std::runtime_error(message), extended_code_(extended_code) {}
+  int extended_code() const { return extended_code_; }
+  int primary_code() const { return extended_code_ & 0xff; }
+
+ private:
+  int extended_code_;
+};
+
+/// Bytes to bind as a BLOB; text is bound as TEXT.
+struct Blob {
+  std::string_view bytes;
+};
+
+/// A prepared statement on loan from its database's cache; given back, reset, on destruction.
+class Statement {
+ public:
+  Statement(sqlite3_stmt* handle, bool* busy) : handle_(handle), busy_(busy) {}
+  Statement(Statement&& other) noexcept;
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+  ~Statement();
+
+  /// Binds parameter `index` (from 1).  Text is copied; the bytes of a Blob must live until the statement
+  /// is given back.
+  void bind(int index, std::string_view text);
+  void bind(int index, const std::string& text) { bind(index, std::string_view(text)); }
+  void bind(int index, const char* text) { bind(index, std::string_view(text)); }
+  void bind(int index, Blob blob);
+  void bind(int index, double value);
+  void bind(int index, std::nullptr_t);
+  void bind(int index, std::integral auto value) { bind_integer(index, static_cast<std::int64_t>(value)); }
+  template <typename T>
+  void bind(int index, const std::optional<T>& value) {
+    if (value) {
+      bind(index, *value);
+    } else {
+      bind(index, nullptr);
+    }
+  }
+
+  /// Runs to the next row; false at the end.
+  bool step();
+
+  /// Values of the current row, columns from 0.
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+  /// Bytes that live until the next step.
+  std::string_view blob(int column) const;
+  bool is_null(int column) const;
+  bool flag(int column) const { return integer(column) != 0; }
+
+ private:
+  void bind_integer(int index, std::int64_t value);
+  void check(int code) const;
+
+  sqlite3_stmt* handle_;
+  bool* busy_;  // the cache's mark; null when the statement is this object's own
+};
+
+/// One connection.  Not thread-safe: its user holds a lock.
+class Database {
+ public:
+  enum class Mode { kReadWrite, kReadOnly };
+
+  /// Opens (and creates, when read-write) a file in WAL mode with full synchronisation and foreign keys.
+  /// @throws SqliteError naming the file.
+  Database(const std::string& file, Mode mode);
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  /// A statement with its parameters bound in order.
+  template <typename... Args>
+  Statement query(const char* sql, const Args&... args) {
+    Statement statement = prepare(sql);
+    [[maybe_unused]] int index = 0;
+    (statement.bind(++index, args), ...);
+    return statement;
+  }
+
+  /// Runs a statement to its end; returns the number of rows it changed.
+  template <typename... Args>
+  std::int64_t run(const char* sql, const Args&... args) {
+    Statement statement = query(sql, args...);
+    while (statement.step()) {
+    }
+    return sqlite3_changes64(handle_);
+  }
+
+  /// First column of the first row as an integer; nothing when there is no row or it is NULL.
+  template <typename... Args>
+  std::optional<std::int64_t> integer(const char* sql, const Args&... args) {
+    Statement statement = query(sql, args...);
+    if (!statement.step() || statement.is_null(0)) return std::nullopt;
+    return statement.integer(0);
+  }
+
+  /// Runs a script of statements without parameters.
+  void execute(const std::string& script);
+
+  std::int64_t last_insert_rowid() const { return sqlite3_last_insert_rowid(handle_); }
+  sqlite3* handle() const { return handle_; }
+  const std::string& file() const { return file_; }
+
+ private:
+  struct Cached;
+  Statement prepare(const char* sql);
+  sqlite3_stmt* compile(const char* sql);
+  void close() noexcept;
+
+  std::string file_;
+  sqlite3* handle_ = nullptr;
+  std::unordered_map<std::string, std::unique_ptr<Cached>> cache_;
+};
+
+/// A transaction that rolls back unless committed.
+class Transaction {
+ public:
+  enum class Kind { kImmediate, kRead };
+  explicit Transaction(Database& db, Kind kind = Kind::kImmediate);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Database& db_;
+  bool open_ = true;
+};
+
+/// In-place access to one BLOB cell of an open transaction.
+class BlobHandle {
+ public:
+  BlobHandle(Database& db, const char* table, const char* column, std::int64_t rowid);
+  ~BlobHandle();
+  BlobHandle(const BlobHandle&) = delete;
+  BlobHandle& operator=(const BlobHandle&) = delete;
+
+  /// Moves to another row of the same table and column.
+  void reopen(std::int64_t rowid);
+  int size() const { return sqlite3_blob_bytes(handle_); }
+  void read(void* to, int bytes, int offset) const;
+  void write(const void* from, int bytes, int offset);
+
+ private:
+  void check(int code) const;
+
+  Database& db_;
+  sqlite3_blob* handle_ = nullptr;
+};
+
+}  // namespace affskel::server

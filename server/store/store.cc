@@ -1,0 +1,79 @@
+#include "store/store.h"
+
+#include <openssl/rand.h>
+
+#include <array>
+#include <utility>
+
+#include "store/errors.h"
+#include "store/migrate.h"
+#include "store/store_impl.h"
+#include "store/tasks.h"
+
+namespace affskel::server {
+
+Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener)
+    : file_(std::move(file)),
+      options_(options),
+      clock_(clock),
+      listener_(listener),
+      db_(file_, Database::Mode::kReadWrite),
+      schema_version_(migrate(db_)) {
+  write([](Tx& tx) {
+    return tx.db.run("UPDATE tasks SET deadline_ms = ? WHERE state = 'leased'",
+                     tx.lease_ms + tx.options.lease_ms);
+  });
+}
+
+v1::ReportResponse Store::reply(bool cancelled) const {
+  v1::ReportResponse response;
+  response.set_cancelled(cancelled);
+  response.set_lease_ms(static_cast<std::uint32_t>(options_.lease_ms));
+  response.set_report_interval_ms(static_cast<std::uint32_t>(options_.report_interval_ms));
+  return response;
+}
+
+std::string random_id() {
+  std::array<unsigned char, 16> bytes{};
+  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
+    throw std::runtime_error("the system's random generator failed");
+  }
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string hex;
+  for (unsigned char byte : bytes) {
+    hex.push_back(kDigits[byte >> 4]);
+    hex.push_back(kDigits[byte & 15]);
+  }
+  return hex;
+}
+
+std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& mesh_sha256,
+                                                  const std::string& params_key,
+                                                  const std::string& core_version) {
+  return db.integer(
+      "SELECT id FROM erosions WHERE mesh_sha256 = ? AND params_key = ? AND core_version = ? AND finished = 1"
+      " ORDER BY id LIMIT 1",
+      mesh_sha256, params_key, core_version);
+}
+
+void drop_unused_erosion(Tx& tx, std::int64_t erosion_id) {
+  if (tx.db.integer("SELECT 1 FROM jobs WHERE erosion_id = ? LIMIT 1", erosion_id)) return;
+  Statement row = tx.db.query("SELECT mesh_sha256 FROM erosions WHERE id = ?", erosion_id);
+  if (!row.step()) return;
+  const std::string mesh = row.text(0);
+  tx.db.run("DELETE FROM erosions WHERE id = ?", erosion_id);
+  tx.db.run(
+      "DELETE FROM meshes WHERE sha256 = ?1 AND NOT EXISTS (SELECT 1 FROM erosions WHERE mesh_sha256 = ?1)",
+      mesh);
+}
+
+void adopt_erosion(Tx& tx, const std::string& job_id, std::int64_t finished_erosion) {
+  const std::int64_t own = get_job(tx.db, job_id).erosion_id;
+  tx.db.run("DELETE FROM tasks WHERE job_id = ?", job_id);
+  tx.db.run("UPDATE jobs SET erosion_id = ?, stage = 'derive' WHERE id = ?", finished_erosion, job_id);
+  if (own != finished_erosion) drop_unused_erosion(tx, own);
+  tx.changes.log.push_back("event=adopted job=" + job_id + " field=" + std::to_string(finished_erosion));
+  settle_job(tx, job_id);
+}
+
+}  // namespace affskel::server

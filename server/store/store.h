@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "affskel/v1/client_service.pb.h"
+#include "affskel/v1/worker_service.pb.h"
+#include "clock.h"
+#include "store/blobs.h"
+#include "store/field.h"
+#include "store/rows.h"
+#include "store/tx.h"
+
+namespace affskel::server {
+
+/// The only writer of the database: jobs, their tasks and leases, fields and artefacts.
+///
+/// Every public function is one transaction: when it throws, nothing was changed; when it returns, the
+/// change is on the disk.  Thread-safe.  All throw StoreError for what the caller did wrong and SqliteError
+/// for what the database did.  JOB in a parameter's name means an id, a prefix or "@last".
+class Store {
+ public:
+  /// Opens or creates `file`, migrates it, and gives every lease that a predecessor left a new deadline:
+  /// its worker could not report while no server was there.
+  /// @param listener may be null; must outlive the store.
+  Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener = nullptr);
+
+  const std::string& file() const { return file_; }
+  const StoreOptions& options() const { return options_; }
+  int schema_version() const { return schema_version_; }
+
+  // For clients: store_submit.cc, store_jobs.cc
+
+  struct Submitted {
+    v1::Job job;
+    bool existed = false;
+  };
+  /// Checks the header against the bytes and stores both, unless an earlier job answers the request.
+  Submitted submit(const v1::SubmitJobHeader& header, std::string_view mesh);
+
+  v1::Job job(const std::string& job_ref);
+  std::string resolve(const std::string& job_ref);
+  std::vector<v1::Job> list(const ListFilter& filter);
+  /// A queued job is cancelled at once, a running one is marked.
+  v1::Job cancel(const std::string& job_ref);
+  /// A failed or cancelled job goes on from where it was; an active one stays as it is.
+  v1::Job resume(const std::string& job_ref);
+  /// Deletes a job that is not active, and what no other job needs.  Returns its id.
+  std::string remove(const std::string& job_ref);
+
+  struct Counts {
+    std::int64_t queued = 0;
+    std::int64_t running = 0;
+    std::int64_t total = 0;
+    std::int64_t requests = 0;  ///< artefacts that somebody asked for and that are not there yet
+  };
+  Counts counts();
+
+  // Artefacts: store_artifacts.cc
+
+  /// Either an artefact is there to be read, or a task that will bring it.
+  struct ArtifactState {
+    std::unique_ptr<BlobReader> reader;  ///< null = wait for `task`
+    std::int64_t task = 0;
+  };
+  /// Opens a stored artefact; queues a task for a derived one that is not there yet.
+  ArtifactState open_artifact(const v1::FetchArtifactRequest& request);
+  /// Error of a task that failed; nothing while it may still succeed or when it has.
+  /// @throws StoreError kNotFound when the task was deleted with its job.
+  std::optional<v1::JobError> task_error(std::int64_t task);
+
+  // For workers: store_leases.cc, store_reports.cc, store_complete.cc
+
+  /// Grants the next task, or nothing.  `preferred_job` decides among jobs of equal priority.
+  std::optional<v1::Lease> lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
+                                 bool supervised);
+
+  struct LeaseBounds {
+    std::int64_t points = 0;
+    std::int64_t directions = 0;
+  };
+  /// R and K of a leased ERODE task, for checking a report while it arrives.
+  LeaseBounds bounds(const std::string& token);
+
+  v1::ReportResponse renew(const std::string& token);
+  v1::ReportResponse report(const v1::ReportErosionHeader& header, const RecordBatch& records);
+  v1::ReportResponse complete(const v1::CompleteTaskHeader& header, std::string_view data);
+  v1::ReportResponse fail(const std::string& token, const v1::JobError& error, bool retryable);
+  v1::ReportResponse give_back(const std::string& token);
+  /// Opens an input of a leased task.
+  std::unique_ptr<BlobReader> open_input(const std::string& token, v1::ArtifactKind kind);
+
+  // For the maintenance thread and the supervisor: store_leases.cc
+
+  /// Requeues what expired leases held; returns how many there were.
+  int expire_leases();
+  /// A worker process of this machine has ended: its leases are lost now, not at their deadline.
+  int release_worker(const std::string& host, std::int64_t pid);
+
+  struct Holder {
+    std::string host;
+    std::int64_t pid = 0;
+  };
+  /// Supervised workers that hold leases, this server's or a predecessor's.
+  std::vector<Holder> supervised_holders();
+
+ private:
+  template <typename Body>
+  auto write(Body&& body);
+  template <typename Body>
+  auto read(Body&& body);
+
+  v1::ReportResponse reply(bool cancelled) const;
+  v1::Job write_job(const std::string& job_ref, const std::function<void(Tx&, const JobRow&)>& change);
+
+  const std::string file_;
+  const StoreOptions options_;
+  const Clock& clock_;
+  ChangeListener* const listener_;
+
+  std::mutex mutex_;  // guards db_
+  Database db_;
+  int schema_version_ = 0;
+};
+
+}  // namespace affskel::server

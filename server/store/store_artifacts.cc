@@ -1,0 +1,165 @@
+#include <stdexcept>
+
+#include "store/errors.h"
+#include "store/store_impl.h"
+#include "store/tasks.h"
+#include "wire/params.h"
+
+namespace affskel::server {
+namespace {
+
+/// A derived artefact: what to look for, and the task that would make it.
+struct Derived {
+  ArtifactKey key;
+  v1::TaskKind kind;
+  std::string params;
+};
+
+Derived derived_artifact(const JobRow& job, const v1::FetchArtifactRequest& request) {
+  try {
+    v1::SkeletonParams own;
+    own.ParseFromString(job.skeleton);
+    if (request.kind() == v1::ARTIFACT_KIND_SKELETON) {
+      const v1::SkeletonParams params = request.has_skeleton() ? wire::canonical(request.skeleton()) : own;
+      return {{job.erosion_id, "skeleton", wire::cache_key(params)},
+              v1::TASK_KIND_SKELETON,
+              params.SerializeAsString()};
+    }
+    v1::SurfaceParams params = request.surface();
+    if (!params.has_skeleton()) *params.mutable_skeleton() = own;
+    params = wire::canonical(params);
+    return {{job.erosion_id, "surface", wire::cache_key(params)},
+            v1::TASK_KIND_SURFACE,
+            params.SerializeAsString()};
+  } catch (const std::invalid_argument& error) {
+    throw StoreError(StoreError::Code::kInvalid, error.what());
+  }
+}
+
+std::string progress_of(const JobRow& job) {
+  return std::string(state_name(job.state)) + ", stage " + stage_name(job.stage) + ", " +
+         std::to_string(job.directions_done) + " of " + std::to_string(job.directions) + " directions";
+}
+
+std::int64_t stored_artifact(Database& db, const JobRow& job, const char* kind) {
+  const std::optional<std::int64_t> id = find_artifact(db, {job.erosion_id, kind, ""});
+  if (!id) {
+    throw StoreError(StoreError::Code::kPrecondition,
+                     "job " + job.id + " is not prepared yet (" + progress_of(job) + "): no " + kind);
+  }
+  return *id;
+}
+
+void require_finished(const JobRow& job) {
+  if (!job.finished) {
+    throw StoreError(StoreError::Code::kPrecondition,
+                     "the field of job " + job.id + " is not complete yet (" + progress_of(job) + ")");
+  }
+}
+
+/// The task that will bring the artefact: one that is queued already, or a new one.
+std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& derived) {
+  if (const std::optional<std::int64_t> task = tx.db.integer(
+          "SELECT id FROM tasks WHERE job_id = ? AND kind = ? AND params_key = ? AND state IN ('pending', "
+          "'leased')"
+          " AND (on_request = 1 OR ?) LIMIT 1",
+          job.id, derived.key.kind, derived.key.params_key, job.active() && !job.cancel_requested)) {
+    return *task;
+  }
+  tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + derived.key.kind + " " +
+                           derived.key.params_key);
+  return add_derive_task(tx, job.id, derived.kind, derived.params, derived.key.params_key, true);
+}
+
+}  // namespace
+
+Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& request) {
+  std::string mesh;
+  std::int64_t field = 0;
+  std::int64_t artifact = 0;
+  ArtifactState state;
+  state.task = write([&](Tx& tx) -> std::int64_t {
+    const JobRow job = get_job(tx.db, resolve_job(tx.db, request.job()));
+    switch (request.kind()) {
+      case v1::ARTIFACT_KIND_MESH:
+        mesh = job.mesh_sha256;
+        return 0;
+      case v1::ARTIFACT_KIND_LATTICE:
+        artifact = stored_artifact(tx.db, job, "lattice");
+        return 0;
+      case v1::ARTIFACT_KIND_DIRECTIONS:
+        artifact = stored_artifact(tx.db, job, "directions");
+        return 0;
+      case v1::ARTIFACT_KIND_FIELD:
+        require_finished(job);
+        field = job.erosion_id;
+        return 0;
+      case v1::ARTIFACT_KIND_SKELETON:
+      case v1::ARTIFACT_KIND_SURFACE:
+        break;
+      default:
+        throw StoreError(StoreError::Code::kInvalid, "unknown kind of artefact");
+    }
+    require_finished(job);
+    const Derived derived = derived_artifact(job, request);
+    artifact = find_artifact(tx.db, derived.key).value_or(0);
+    return artifact != 0 ? 0 : request_derived(tx, job, derived);
+  });
+  if (!mesh.empty()) state.reader = read_mesh(file_, mesh);
+  if (field != 0) state.reader = read_field(file_, field);
+  if (artifact != 0) state.reader = read_artifact(file_, artifact);
+  return state;
+}
+
+std::optional<v1::JobError> Store::task_error(std::int64_t task) {
+  return read([&](Database& db) -> std::optional<v1::JobError> {
+    Statement row = db.query(
+        "SELECT t.state, t.error_code, t.error_message, t.on_request, j.state, j.error_code, j.error_message"
+        " FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE t.id = ?",
+        task);
+    v1::JobError error;
+    if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "the job was deleted meanwhile");
+    if (row.text(0) == "failed") {
+      error.set_code(row.text(1));
+      error.set_message(row.text(2));
+      return error;
+    }
+    // The job's own skeleton comes with the job, or fails with it.
+    if (!row.flag(3) && row.text(4) == "failed") {
+      error.set_code(row.text(5));
+      error.set_message(row.text(6));
+      return error;
+    }
+    return std::nullopt;
+  });
+}
+
+std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::ArtifactKind kind) {
+  std::string mesh;
+  std::int64_t field = 0;
+  std::int64_t artifact = 0;
+  read([&](Database& db) {
+    const JobRow job = get_job(db, task_of_token(db, token).job_id);
+    switch (kind) {
+      case v1::ARTIFACT_KIND_MESH:
+        mesh = job.mesh_sha256;
+        return true;
+      case v1::ARTIFACT_KIND_LATTICE:
+        artifact = stored_artifact(db, job, "lattice");
+        return true;
+      case v1::ARTIFACT_KIND_DIRECTIONS:
+        artifact = stored_artifact(db, job, "directions");
+        return true;
+      case v1::ARTIFACT_KIND_FIELD:
+        field = job.erosion_id;
+        return true;
+      default:
+        throw StoreError(StoreError::Code::kInvalid, "not an input of a task");
+    }
+  });
+  if (!mesh.empty()) return read_mesh(file_, mesh);
+  if (field != 0) return read_field(file_, field);
+  return read_artifact(file_, artifact);
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "store/errors.h"
+#include "store/store_impl.h"
+#include "store/tasks.h"
+#include "wire/sha256.h"
+
+namespace affskel::server {
+namespace {
+
+// Blocks: small enough that many workers share a job and a lost one is soon redone elsewhere, large enough
+// that fetching the field for each of them does not count.
+constexpr std::int64_t kMaxBlocks = 64;
+constexpr std::int64_t kMinBlockPositions = 16;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw StoreError(StoreError::Code::kInvalid, "result: " + why);
+}
+
+bool positive(double value) {
+  return std::isfinite(value) && value > 0;
+}
+
+/// A prepare result taken apart.
+struct Prepared {
+  std::string_view lattice;
+  std::string_view directions;
+};
+
+void check_lattice(std::string_view bytes, std::uint64_t points) {
+  v1::Lattice lattice;
+  if (!lattice.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    refuse("the lattice cannot be read");
+  if (lattice.origin_size() != 3 || lattice.axes_size() != 9 || lattice.dims_size() != 3 ||
+      lattice.run_start_size() != lattice.run_length_size()) {
+    refuse("the lattice is malformed");
+  }
+  const std::uint64_t inside =
+      std::accumulate(lattice.run_length().begin(), lattice.run_length().end(), std::uint64_t{0});
+  if (inside != points) {
+    refuse("the lattice has " + std::to_string(inside) + " points inside, the summary says " +
+           std::to_string(points));
+  }
+}
+
+void check_directions(std::string_view bytes, std::uint64_t count) {
+  v1::Directions directions;
+  if (!directions.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    refuse("the directions cannot be read");
+  }
+  if (static_cast<std::uint64_t>(directions.xyz_size()) != 3 * count) {
+    refuse("not 3 numbers for each of the " + std::to_string(count) + " directions");
+  }
+}
+
+Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view data) {
+  const v1::PreparedSummary& summary = header.prepared();
+  if (!header.has_prepared()) refuse("no summary");
+  if (summary.directions() < 1 || summary.directions() >= kNoDirection) refuse("the number of directions");
+  if (summary.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 sample points");
+  if (!positive(summary.volume()) || !positive(summary.spacing())) refuse("volume and spacing must be > 0");
+  if (header.order_stride() < 1 || std::gcd(header.order_stride(), summary.directions()) != 1 ||
+      header.order_stride() > summary.directions()) {
+    refuse("the stride must be 1 .. directions and coprime to their number");
+  }
+  if (header.lattice_bytes() > data.size()) refuse("the lattice is longer than the data");
+  const Prepared parts{data.substr(0, header.lattice_bytes()), data.substr(header.lattice_bytes())};
+  check_lattice(parts.lattice, summary.points());
+  check_directions(parts.directions, summary.directions());
+  return parts;
+}
+
+void cut_blocks(Tx& tx, const std::string& job_id, std::int64_t directions) {
+  const std::int64_t size = std::max(kMinBlockPositions, (directions + kMaxBlocks - 1) / kMaxBlocks);
+  for (std::int64_t begin = 0; begin < directions; begin += size) {
+    add_block(tx, job_id, {begin, std::min(directions, begin + size)});
+  }
+}
+
+void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header,
+                    const Prepared& parts) {
+  const JobRow job = get_job(tx.db, task.job_id);
+  const v1::PreparedSummary& summary = header.prepared();
+  const std::string bytes = summary.SerializeAsString();
+  tx.db.run(
+      "UPDATE erosions SET core_version = ?, prepared = ?, points = ?, directions = ?, stride = ? WHERE id = "
+      "?",
+      task.core_version, Blob{bytes}, summary.points(), summary.directions(), header.order_stride(),
+      job.erosion_id);
+  put_artifact(tx, {job.erosion_id, "lattice", ""}, parts.lattice, 0);
+  put_artifact(tx, {job.erosion_id, "directions", ""}, parts.directions, 0);
+  tx.db.run("UPDATE jobs SET stage = 'erode' WHERE id = ?", job.id);
+  cut_blocks(tx, job.id, static_cast<std::int64_t>(summary.directions()));
+  tx.changes.log.push_back(
+      "event=prepared job=" + job.id + " triangles=" + std::to_string(summary.triangles()) +
+      " points=" + std::to_string(summary.points()) + " directions=" + std::to_string(summary.directions()));
+}
+
+void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header, std::string_view data) {
+  const JobRow job = get_job(tx.db, task.job_id);
+  put_artifact(tx, {job.erosion_id, kind_name(task.kind), task.params_key}, data,
+               static_cast<std::int64_t>(header.points()));
+}
+
+std::string known_code(const std::string& code) {
+  for (const char* known : {"BAD_INPUT", "LIMIT", "WORKER_LOST", "INTERNAL"}) {
+    if (code == known) return code;
+  }
+  return "INTERNAL";
+}
+
+}  // namespace
+
+v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::string_view data) {
+  if (data.size() != header.bytes()) {
+    refuse("announced with " + std::to_string(header.bytes()) + " bytes, but " + std::to_string(data.size()) +
+           " arrived");
+  }
+  if (wire::sha256_hex(data) != header.sha256()) refuse("the data does not have the announced SHA-256");
+  const std::optional<Prepared> parts =
+      header.has_prepared() ? std::optional(checked_prepared(header, data)) : std::nullopt;
+  return write([&](Tx& tx) {
+    const TaskRow task = task_of_token(tx.db, header.token());
+    if (task.state == "done") return reply(false);
+    if (task.kind == v1::TASK_KIND_ERODE) refuse("a block of directions is finished by its reports");
+    if ((task.kind == v1::TASK_KIND_PREPARE) != parts.has_value()) {
+      refuse("a summary belongs to the prepare task, and only to it");
+    }
+    if (parts) {
+      store_prepared(tx, task, header, *parts);
+    } else {
+      store_derived(tx, task, header, data);
+    }
+    finish_task(tx, task);
+    settle_job(tx, task.job_id);
+    return reply(false);
+  });
+}
+
+v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable) {
+  v1::JobError known = error;
+  known.set_code(known_code(error.code()));
+  if (known.message().empty()) known.set_message("the worker gave no reason");
+  return write([&](Tx& tx) {
+    const TaskRow task = task_of_token(tx.db, token);
+    if (task.state == "done") return reply(false);
+    tx.changes.log.push_back("event=task_failed job=" + task.job_id + " task=" + std::to_string(task.id) +
+                             " worker=" + task.worker + " code=" + known.code() + " retryable=" +
+                             (retryable ? "true" : "false") + " message=\"" + known.message() + "\"");
+    if (retryable) {
+      count_loss(tx, task, known);
+    } else {
+      give_up(tx, task, known);
+      settle_job(tx, task.job_id);
+    }
+    return reply(false);
+  });
+}
+
+}  // namespace affskel::server

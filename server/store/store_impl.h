@@ -1,0 +1,48 @@
+#pragma once
+
+// Templates of Store, for its own source files only.
+
+#include <spdlog/spdlog.h>
+
+#include "store/store.h"
+
+namespace affskel::server {
+
+template <typename Body>
+auto Store::write(Body&& body) {
+  Changes changes;
+  auto result = [&] {
+    const std::lock_guard lock(mutex_);
+    Transaction transaction(db_);
+    Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes};
+    auto value = body(tx);
+    transaction.commit();
+    return value;
+  }();
+  for (const std::string& line : changes.log) spdlog::info("{}", line);
+  if (listener_ != nullptr) listener_->on_change(changes);
+  return result;
+}
+
+template <typename Body>
+auto Store::read(Body&& body) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(db_, Transaction::Kind::kRead);
+  return body(db_);
+}
+
+/// 128 random bits in hexadecimal.
+std::string random_id();
+
+/// Points a job at another, finished erosion and drops its own; the job goes on in the derive stage.
+void adopt_erosion(Tx& tx, const std::string& job_id, std::int64_t finished_erosion);
+
+/// A finished erosion of this content, if there is one.
+std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& mesh_sha256,
+                                                  const std::string& params_key,
+                                                  const std::string& core_version);
+
+/// Deletes an erosion and its mesh when no job needs them.
+void drop_unused_erosion(Tx& tx, std::int64_t erosion_id);
+
+}  // namespace affskel::server

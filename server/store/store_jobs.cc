@@ -1,0 +1,87 @@
+#include <algorithm>
+
+#include "store/errors.h"
+#include "store/store_impl.h"
+#include "store/tasks.h"
+
+namespace affskel::server {
+
+v1::Job Store::job(const std::string& job_ref) {
+  return read([&](Database& db) { return job_message(db, resolve_job(db, job_ref)); });
+}
+
+std::string Store::resolve(const std::string& job_ref) {
+  return read([&](Database& db) { return resolve_job(db, job_ref); });
+}
+
+std::vector<v1::Job> Store::list(const ListFilter& filter) {
+  return read([&](Database& db) { return list_jobs(db, filter); });
+}
+
+Store::Counts Store::counts() {
+  return read([](Database& db) {
+    const auto count = [&](const char* sql) { return db.integer(sql).value_or(0); };
+    return Counts{
+        count("SELECT count(*) FROM jobs WHERE state = 'queued'"),
+        count("SELECT count(*) FROM jobs WHERE state = 'running'"),
+        count("SELECT count(*) FROM jobs"),
+        count("SELECT count(*) FROM tasks WHERE on_request = 1 AND state IN ('pending', 'leased')"),
+    };
+  });
+}
+
+v1::Job Store::write_job(const std::string& job_ref, const std::function<void(Tx&, const JobRow&)>& change) {
+  return write([&](Tx& tx) {
+    const std::string id = resolve_job(tx.db, job_ref);
+    change(tx, get_job(tx.db, id));
+    return job_message(tx.db, id);
+  });
+}
+
+v1::Job Store::cancel(const std::string& job_ref) {
+  return write_job(job_ref, [](Tx& tx, const JobRow& job) {
+    if (job.state == v1::JOB_STATE_CANCELLED) return;
+    if (!job.active()) {
+      throw StoreError(StoreError::Code::kPrecondition,
+                       "job " + job.id + " is " + state_name(job.state) + ": nothing to cancel");
+    }
+    tx.db.run("UPDATE jobs SET cancel_requested = 1 WHERE id = ?", job.id);
+    tx.changes.log.push_back("event=cancel_requested job=" + job.id);
+    settle_job(tx, job.id);
+  });
+}
+
+v1::Job Store::resume(const std::string& job_ref) {
+  return write_job(job_ref, [](Tx& tx, const JobRow& job) {
+    if (job.state == v1::JOB_STATE_DONE) {
+      throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " is done: nothing to resume");
+    }
+    if (job.active() && !job.cancel_requested) return;
+    tx.db.run(
+        "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0, finished_ms = "
+        "0,"
+        " error_code = NULL, error_message = '', error_line = 0 WHERE id = ?",
+        job.id);
+    tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
+    tx.changes.work = true;
+    tx.changes.log.push_back("event=resumed job=" + job.id);
+    settle_job(tx, job.id);
+  });
+}
+
+std::string Store::remove(const std::string& job_ref) {
+  return write([&](Tx& tx) {
+    const JobRow job = get_job(tx.db, resolve_job(tx.db, job_ref));
+    if (job.active()) {
+      throw StoreError(StoreError::Code::kPrecondition,
+                       "job " + job.id + " is " + state_name(job.state) + ": cancel it first");
+    }
+    tx.db.run("DELETE FROM jobs WHERE id = ?", job.id);
+    drop_unused_erosion(tx, job.erosion_id);
+    tx.changes.jobs.insert(job.id);
+    tx.changes.log.push_back("event=deleted job=" + job.id);
+    return job.id;
+  });
+}
+
+}  // namespace affskel::server

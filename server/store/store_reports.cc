@@ -1,0 +1,102 @@
+#include "store/errors.h"
+#include "store/store_impl.h"
+#include "store/tasks.h"
+
+namespace affskel::server {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw StoreError(StoreError::Code::kInvalid, "report: " + why);
+}
+
+TaskRow erode_task(Database& db, const std::string& token) {
+  TaskRow task = task_of_token(db, token);
+  if (task.kind != v1::TASK_KIND_ERODE)
+    refuse("the lease is for a " + std::string(kind_name(task.kind)) + " task");
+  return task;
+}
+
+/// The finished ranges of a report, checked against the block.
+std::vector<Range> checked_ranges(const v1::ReportErosionHeader& header, Range block) {
+  std::vector<Range> ranges;
+  for (const v1::PositionRange& range : header.positions_done()) {
+    if (range.begin() >= range.end() || range.begin() < static_cast<std::uint64_t>(block.begin) ||
+        range.end() > static_cast<std::uint64_t>(block.end)) {
+      refuse("positions [" + std::to_string(range.begin()) + ", " + std::to_string(range.end()) +
+             ") are not a range inside the block [" + std::to_string(block.begin) + ", " +
+             std::to_string(block.end) + ")");
+    }
+    ranges.push_back({static_cast<std::int64_t>(range.begin()), static_cast<std::int64_t>(range.end())});
+  }
+  return ranges;
+}
+
+struct Progress {
+  std::int64_t reported = 0;
+  std::int64_t added = 0;
+};
+
+Progress add_positions(Tx& tx, const JobRow& job, const std::vector<Range>& ranges) {
+  Progress progress;
+  for (const Range& range : ranges) {
+    progress.reported += range.end - range.begin;
+    progress.added += add_done_range(tx.db, job.erosion_id, range);
+  }
+  if (progress.added > 0) {
+    tx.db.run("UPDATE erosions SET directions_done = directions_done + ? WHERE id = ?", progress.added,
+              job.erosion_id);
+  }
+  return progress;
+}
+
+void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
+  const std::int64_t gap =
+      task.state == "leased" ? tx.lease_ms - task.reported_ms.value_or(task.granted_ms) : 0;
+  tx.db.run(
+      "UPDATE jobs SET reports = reports + 1, directions_reported = directions_reported + ?,"
+      " directions_repeated = directions_repeated + ?, longest_gap_ms = max(longest_gap_ms, ?) WHERE id = ?",
+      progress.reported, progress.reported - progress.added, gap, task.job_id);
+  tx.db.run(
+      "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?, losses = iif(? > 0, 0, "
+      "losses)"
+      " WHERE id = ?",
+      tx.lease_ms, progress.reported, progress.added, task.id);
+}
+
+}  // namespace
+
+Store::LeaseBounds Store::bounds(const std::string& token) {
+  return read([&](Database& db) {
+    const JobRow job = get_job(db, erode_task(db, token).job_id);
+    return LeaseBounds{job.points, job.directions};
+  });
+}
+
+v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const RecordBatch& records) {
+  return write([&](Tx& tx) {
+    const TaskRow task = erode_task(tx.db, header.token());
+    const JobRow job = get_job(tx.db, task.job_id);
+    const std::vector<Range> ranges = checked_ranges(header, task.block);
+    // A report that is repeated after its block was finished finds the field finished, too.
+    const Progress progress = add_positions(tx, job, ranges);
+    if (!job.finished) merge_records(tx.db, job.erosion_id, job.points, records.records());
+    count_report(tx, task, progress);
+    tx.changes.jobs.insert(job.id);
+    if (task.state == "done") return reply(false);
+    if (header.block_done()) {
+      if (!remaining_ranges(tx.db, job.erosion_id, task.block).empty()) {
+        refuse("the block is called done, but not all of its positions are");
+      }
+      finish_task(tx, task);
+    } else if (!job.active() || job.cancel_requested) {
+      release_task(tx, task);
+    } else {
+      renew_lease(tx, task);
+      return reply(false);
+    }
+    settle_job(tx, job.id);
+    return reply(!job.active() || job.cancel_requested);
+  });
+}
+
+}  // namespace affskel::server

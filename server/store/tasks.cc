@@ -1,0 +1,254 @@
+#include "store/tasks.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "store/blobs.h"
+#include "store/errors.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::array<std::pair<v1::TaskKind, const char*>, 4> kKinds = {{
+    {v1::TASK_KIND_PREPARE, "prepare"},
+    {v1::TASK_KIND_ERODE, "erode"},
+    {v1::TASK_KIND_SKELETON, "skeleton"},
+    {v1::TASK_KIND_SURFACE, "surface"},
+}};
+
+v1::TaskKind kind_of(const std::string& name) {
+  for (const auto& [kind, text] : kKinds) {
+    if (name == text) return kind;
+  }
+  throw StoreError(StoreError::Code::kUnusable, "unknown kind of task '" + name + "' in the database");
+}
+
+constexpr const char* kTaskColumns =
+    "SELECT id, job_id, kind, state, on_request, first_position, end_position, params, params_key, losses, "
+    "worker,"
+    " core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
+
+TaskRow read_task(const Statement& row) {
+  TaskRow task;
+  task.id = row.integer(0);
+  task.job_id = row.text(1);
+  task.kind = kind_of(row.text(2));
+  task.state = row.text(3);
+  task.on_request = row.flag(4);
+  task.block = {row.integer(5), row.integer(6)};
+  task.params = std::string(row.blob(7));
+  task.params_key = row.text(8);
+  task.losses = row.integer(9);
+  task.worker = row.text(10);
+  task.core_version = row.text(11);
+  task.granted_ms = row.integer(12);
+  if (!row.is_null(13)) task.reported_ms = row.integer(13);
+  task.lease_directions = row.integer(14);
+  return task;
+}
+
+void clear_lease(Tx& tx, const TaskRow& task, const char* state) {
+  tx.db.run(
+      "UPDATE tasks SET state = ?, token = NULL, worker = NULL, host = NULL, pid = NULL, supervised = NULL,"
+      " core_version = NULL, granted_ms = NULL, reported_ms = NULL, deadline_ms = NULL, lease_directions = 0"
+      " WHERE id = ?",
+      state, task.id);
+  tx.changes.jobs.insert(task.job_id);
+  tx.changes.work = true;
+}
+
+/// Directions that were probably computed and never reported: the lease's own rate over the time since
+/// its last report, but no longer than the interval at which it would have reported.
+double lost_directions(const Tx& tx, const TaskRow& task) {
+  if (!task.reported_ms || *task.reported_ms <= task.granted_ms) return 0;
+  const double rate =
+      static_cast<double>(task.lease_directions) / static_cast<double>(*task.reported_ms - task.granted_ms);
+  const std::int64_t silence =
+      std::clamp<std::int64_t>(tx.lease_ms - *task.reported_ms, 0, tx.options.report_interval_ms);
+  return rate * static_cast<double>(silence);
+}
+
+void log_state(Tx& tx, const JobRow& job, v1::JobState state, v1::JobStage stage,
+               const std::string& more = "") {
+  tx.changes.log.push_back("event=job job=" + job.id + " state=" + state_name(state) +
+                           " stage=" + stage_name(stage) + more);
+}
+
+/// All blocks done: the field is complete.
+void finish_erosion(Tx& tx, JobRow& job) {
+  if (job.directions_done != job.directions) {
+    throw StoreError(StoreError::Code::kUnusable, "job " + job.id + ": all blocks are done, but only " +
+                                                      std::to_string(job.directions_done) + " of " +
+                                                      std::to_string(job.directions) + " directions");
+  }
+  tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
+  tx.db.run("UPDATE jobs SET stage = 'derive' WHERE id = ?", job.id);
+  job.finished = true;
+  job.stage = v1::JOB_STAGE_DERIVE;
+  log_state(tx, job, job.state, job.stage);
+}
+
+/// The default skeleton is stored, or a task for it is there.  True when the job is done.
+bool finish_derive(Tx& tx, const JobRow& job) {
+  const std::optional<std::int64_t> skeleton =
+      find_artifact(tx.db, {job.erosion_id, "skeleton", job.skeleton_key});
+  if (!skeleton) {
+    if (!tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0",
+                       job.id)) {
+      add_derive_task(tx, job.id, v1::TASK_KIND_SKELETON, job.skeleton, job.skeleton_key, false);
+    }
+    return false;
+  }
+  tx.db.run(
+      "UPDATE jobs SET state = 'done', stage = 'complete', finished_ms = ?, cancel_requested = 0,"
+      " skeleton_points = (SELECT items FROM artifacts WHERE id = ?) WHERE id = ?",
+      tx.wall_ms, *skeleton, job.id);
+  // A skeleton that another job of the same field has brought meanwhile need not be made again.
+  tx.db.run(
+      "DELETE FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0 AND state = 'pending'",
+      job.id);
+  log_state(tx, job, v1::JOB_STATE_DONE, v1::JOB_STAGE_COMPLETE);
+  return true;
+}
+
+}  // namespace
+
+const char* kind_name(v1::TaskKind kind) {
+  for (const auto& [entry, text] : kKinds) {
+    if (entry == kind) return text;
+  }
+  throw std::logic_error("a kind of task without a name");
+}
+
+std::optional<TaskRow> find_task(Database& db, std::int64_t id) {
+  static const std::string sql = std::string(kTaskColumns) + "WHERE id = ?";
+  Statement row = db.query(sql.c_str(), id);
+  if (!row.step()) return std::nullopt;
+  return read_task(row);
+}
+
+TaskRow task_of_token(Database& db, const std::string& token) {
+  static const std::string sql = std::string(kTaskColumns) + "WHERE token = ?";
+  Statement row = db.query(sql.c_str(), token);
+  if (!row.step())
+    throw StoreError(StoreError::Code::kFenced, "the lease has ended; its work goes on elsewhere");
+  return read_task(row);
+}
+
+std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind) {
+  tx.db.run("INSERT INTO tasks (job_id, kind, state) VALUES (?, ?, 'pending')", job_id, kind_name(kind));
+  tx.changes.work = true;
+  return tx.db.last_insert_rowid();
+}
+
+std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
+  tx.db.run(
+      "INSERT INTO tasks (job_id, kind, state, first_position, end_position) VALUES (?, 'erode', 'pending', "
+      "?, ?)",
+      job_id, block.begin, block.end);
+  tx.changes.work = true;
+  return tx.db.last_insert_rowid();
+}
+
+std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
+                             const std::string& params_key, bool on_request) {
+  tx.db.run(
+      "INSERT INTO tasks (job_id, kind, state, on_request, params, params_key) VALUES (?, ?, 'pending', ?, "
+      "?, ?)",
+      job_id, kind_name(kind), on_request, Blob{params}, params_key);
+  tx.changes.work = true;
+  return tx.db.last_insert_rowid();
+}
+
+void renew_lease(Tx& tx, const TaskRow& task) {
+  tx.db.run("UPDATE tasks SET deadline_ms = ? WHERE id = ?", tx.lease_ms + tx.options.lease_ms, task.id);
+}
+
+void finish_task(Tx& tx, const TaskRow& task) {
+  tx.db.run("UPDATE tasks SET state = 'done', losses = 0, deadline_ms = NULL WHERE id = ?", task.id);
+  tx.changes.jobs.insert(task.job_id);
+}
+
+void release_task(Tx& tx, const TaskRow& task) {
+  if (task.kind == v1::TASK_KIND_ERODE) {
+    const JobRow job = get_job(tx.db, task.job_id);
+    if (remaining_ranges(tx.db, job.erosion_id, task.block).empty()) {
+      finish_task(tx, task);
+      return;
+    }
+  }
+  clear_lease(tx, task, "pending");
+}
+
+void lose_lease(Tx& tx, const TaskRow& task, const std::string& why) {
+  tx.db.run(
+      "UPDATE jobs SET leases_lost = leases_lost + 1, directions_lost = directions_lost + ? WHERE id = ?",
+      lost_directions(tx, task), task.job_id);
+  tx.changes.log.push_back("event=lease_lost job=" + task.job_id + " task=" + std::to_string(task.id) +
+                           " kind=" + kind_name(task.kind) + " worker=" + task.worker + " why=\"" + why +
+                           "\"");
+  v1::JobError error;
+  error.set_code("WORKER_LOST");
+  error.set_message("the " + std::string(kind_name(task.kind)) + " task lost its worker " +
+                    std::to_string(task.losses + 1) + " times in a row without any progress (last: " + why +
+                    "); see the workers' logs, a worker may run out of memory");
+  count_loss(tx, task, error);
+}
+
+void count_loss(Tx& tx, const TaskRow& task, const v1::JobError& error) {
+  release_task(tx, task);
+  // Nothing counts against a block that turned out to be finished.
+  const bool left =
+      tx.db.run("UPDATE tasks SET losses = losses + 1 WHERE id = ? AND state = 'pending'", task.id) > 0;
+  if (left && task.losses + 1 >= tx.options.max_losses) give_up(tx, task, error);
+  settle_job(tx, task.job_id);
+}
+
+void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error) {
+  clear_lease(tx, task, "pending");
+  if (task.on_request) {
+    tx.db.run("UPDATE tasks SET state = 'failed', error_code = ?, error_message = ? WHERE id = ?",
+              error.code(), error.message(), task.id);
+    tx.changes.log.push_back("event=request_failed job=" + task.job_id + " task=" + std::to_string(task.id) +
+                             " code=" + error.code() + " message=\"" + error.message() + "\"");
+    return;
+  }
+  fail_job(tx, task.job_id, error);
+}
+
+void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error) {
+  const JobRow job = get_job(tx.db, job_id);
+  if (!job.active()) return;
+  tx.db.run(
+      "UPDATE jobs SET state = 'failed', finished_ms = ?, cancel_requested = 0, error_code = ?, "
+      "error_message = ?,"
+      " error_line = ? WHERE id = ?",
+      tx.wall_ms, error.code(), error.message(), error.line(), job_id);
+  tx.changes.jobs.insert(job_id);
+  log_state(tx, job, v1::JOB_STATE_FAILED, job.stage,
+            " code=" + error.code() + " message=\"" + error.message() + "\"");
+}
+
+void settle_job(Tx& tx, const std::string& job_id) {
+  tx.changes.jobs.insert(job_id);
+  JobRow job = get_job(tx.db, job_id);
+  if (!job.active()) return;
+  const bool blocks_left =
+      tx.db
+          .integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = 'erode' AND state <> 'done' LIMIT 1",
+                   job_id)
+          .has_value();
+  if (job.stage == v1::JOB_STAGE_ERODE && !blocks_left) finish_erosion(tx, job);
+  if (job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job)) return;
+  if (!job.cancel_requested) return;
+  if (tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND state = 'leased' AND on_request = 0 LIMIT 1",
+                    job_id)) {
+    return;
+  }
+  tx.db.run("UPDATE jobs SET state = 'cancelled', cancel_requested = 0, finished_ms = ? WHERE id = ?",
+            tx.wall_ms, job_id);
+  log_state(tx, job, v1::JOB_STATE_CANCELLED, job.stage);
+}
+
+}  // namespace affskel::server

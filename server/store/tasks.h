@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "affskel/v1/types.pb.h"
+#include "affskel/v1/worker_service.pb.h"
+#include "store/rows.h"
+#include "store/tx.h"
+
+namespace affskel::server {
+
+/// A unit of work with its lease.
+struct TaskRow {
+  std::int64_t id = 0;
+  std::string job_id;
+  v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
+  std::string state;
+  bool on_request = false;
+  Range block;         // ERODE
+  std::string params;  // SKELETON, SURFACE: serialized
+  std::string params_key;
+  std::int64_t losses = 0;
+  std::string worker;
+  std::string core_version;
+  std::int64_t granted_ms = 0;
+  std::optional<std::int64_t> reported_ms;
+  std::int64_t lease_directions = 0;
+};
+
+const char* kind_name(v1::TaskKind kind);
+
+std::optional<TaskRow> find_task(Database& db, std::int64_t id);
+
+/// The task that holds this token, leased or done.  @throws StoreError kFenced when there is none.
+TaskRow task_of_token(Database& db, const std::string& token);
+
+/// Adds a pending task.  `block` for ERODE, `params` and `params_key` for SKELETON and SURFACE.
+std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind);
+std::int64_t add_block(Tx& tx, const std::string& job_id, Range block);
+std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
+                             const std::string& params_key, bool on_request);
+
+/// Renews the deadline.
+void renew_lease(Tx& tx, const TaskRow& task);
+
+/// Ends the lease with the work finished; the token stays for a repeated last report.
+void finish_task(Tx& tx, const TaskRow& task);
+
+/// Ends the lease with work left (or none: a block of which nothing is left is finished).
+void release_task(Tx& tx, const TaskRow& task);
+
+/// The lease was lost: counts it, releases it, and gives the task up after too many losses in a row.
+void lose_lease(Tx& tx, const TaskRow& task, const std::string& why);
+
+/// Counts a failed attempt without progress; gives the task up with `error` when it was one too many.
+void count_loss(Tx& tx, const TaskRow& task, const v1::JobError& error);
+
+/// Fails the task for good: the request for the artefact, or the whole job.
+void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error);
+
+/// Fails an active job.
+void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error);
+
+/// Moves a job on as far as it can go without a worker: next stage, done, cancelled.  Called after every
+/// change to its tasks.
+void settle_job(Tx& tx, const std::string& job_id);
+
+}  // namespace affskel::server

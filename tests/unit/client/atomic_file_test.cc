@@ -1,0 +1,89 @@
+#include "client/exporters/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "client/error.h"
+#include "temp_dir.h"
+
+namespace affskel::client {
+namespace {
+
+TEST(AtomicFile, AppearsOnlyWhenCommitted) {
+  const TempDir dir;
+  {
+    AtomicFile file(dir / "out.txt");
+    file.write("hello ");
+    EXPECT_FALSE(std::filesystem::exists(dir / "out.txt"));
+    file.write("world");
+    file.commit();
+  }
+  EXPECT_EQ(slurp(dir / "out.txt"), "hello world");
+  EXPECT_EQ(dir.names().size(), 1u);
+}
+
+TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
+  const TempDir dir;
+  {
+    AtomicFile file(dir / "out.txt");
+    file.write(std::string(3 << 20, 'x'));  // more than the buffer: the temporary file has content
+  }
+  EXPECT_TRUE(dir.names().empty());
+}
+
+TEST(AtomicFile, KeepsTheOldFileWithoutCommit) {
+  const TempDir dir;
+  spit(dir / "out.txt", "old");
+  { AtomicFile(dir / "out.txt").write("new"); }
+  EXPECT_EQ(slurp(dir / "out.txt"), "old");
+  EXPECT_EQ(dir.names().size(), 1u);
+}
+
+TEST(AtomicFile, KeepsModeAndFollowsLinks) {
+  const TempDir dir;
+  spit(dir / "real.txt", "old");
+  chmod((dir / "real.txt").c_str(), 0640);
+  std::filesystem::create_symlink("real.txt", dir / "link.txt");
+  AtomicFile file(dir / "link.txt");
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(dir / "link.txt"));
+  EXPECT_EQ(slurp(dir / "real.txt"), "new");
+  struct stat info {};
+  stat((dir / "real.txt").c_str(), &info);
+  EXPECT_EQ(info.st_mode & 07777, 0640u);
+}
+
+TEST(AtomicFile, WritesToDevicesDirectly) {
+  AtomicFile file("/dev/null");
+  EXPECT_FALSE(file.is_regular());
+  file.write("gone");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, NamesTheTargetWhenItCannotBeWritten) {
+  const TempDir dir;
+  try {
+    AtomicFile file(dir / "missing/out.txt");
+    FAIL() << "a missing directory was accepted";
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
+    EXPECT_EQ(error.file(), dir / "missing/out.txt");
+  }
+  EXPECT_THROW(AtomicFile(dir.path()), ClientError);
+}
+
+TEST(AtomicFile, FullDiskIsALimit) {
+  AtomicFile file("/dev/full");
+  file.write("x");
+  try {
+    file.commit();
+    FAIL() << "a full disk was not noticed";
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
+  }
+}
+
+}  // namespace
+}  // namespace affskel::client

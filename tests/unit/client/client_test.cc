@@ -1,0 +1,359 @@
+// The client from its arguments to its exit code, against a server in this process.
+#include "client/client.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/mesh_io.h"
+#include "core/shapes.h"
+#include "fake_service.h"
+#include "sample_data.h"
+#include "test_environment.h"
+#include "wire/sha256.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::json;
+
+v1::Job sample_job(v1::JobState state) {
+  v1::Job job;
+  job.set_id("0123456789abcdef0123456789abcdef");
+  job.set_name("cube");
+  job.set_owner("me");
+  job.set_state(state);
+  job.set_stage(state == v1::JOB_STATE_DONE ? v1::JOB_STAGE_COMPLETE : v1::JOB_STAGE_ERODE);
+  job.set_directions_done(state == v1::JOB_STATE_DONE ? 12 : 5);
+  job.set_directions_total(12);
+  job.mutable_prepared()->set_points(5);
+  job.mutable_prepared()->set_directions(2);
+  job.mutable_prepared()->set_volume(8e9);
+  job.mutable_prepared()->set_spacing(200);
+  job.mutable_counters()->set_reports(3);
+  job.set_skeleton_points(state == v1::JOB_STATE_DONE ? 2 : 0);
+  job.set_mesh_bytes(std::uint64_t{1} << 53);
+  return job;
+}
+
+struct Outcome {
+  int exit_code = 0;
+  std::string out, err;
+};
+
+class ClientTest : public ::testing::Test {
+ protected:
+  ClientTest() : server_(service_) {
+    service_.job = sample_job(v1::JOB_STATE_DONE);
+    service_.watch = {sample_job(v1::JOB_STATE_QUEUED), sample_job(v1::JOB_STATE_RUNNING), service_.job};
+    service_.artifacts[v1::ARTIFACT_KIND_LATTICE] = sample_lattice().SerializeAsString();
+    service_.artifacts[v1::ARTIFACT_KIND_DIRECTIONS] = sample_directions().SerializeAsString();
+    service_.artifacts[v1::ARTIFACT_KIND_FIELD] = sample_field();
+    service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = sample_skeleton().SerializeAsString();
+    v1::TriangleMesh surface;
+    for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) surface.add_xyz(v);
+    for (const unsigned c : {0u, 1u, 2u}) surface.add_corners(c);
+    service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = surface.SerializeAsString();
+    mesh_ = core::write_off(core::make_box(2000, 2000, 2000));
+    service_.artifacts[v1::ARTIFACT_KIND_MESH] = mesh_;
+    spit(dir_ / "cube.off", mesh_);
+    spit(dir_ / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n");
+    spit(dir_ / "open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  }
+
+  Outcome run(std::vector<std::string> arguments, const std::string& address = "") {
+    std::ostringstream out, err;
+    arguments.insert(arguments.begin(), {"--server", address.empty() ? server_.address() : address});
+    RetryPolicy retry;
+    retry.first_pause = std::chrono::milliseconds(1);
+    retry.patience = std::chrono::milliseconds(200);
+    Outcome outcome;
+    outcome.exit_code =
+        run_client(arguments, {out, err, false, test_environment({{"HOME", dir_.path()}}), retry});
+    outcome.out = out.str();
+    outcome.err = err.str();
+    return outcome;
+  }
+
+  TempDir dir_;
+  FakeService service_;
+  FakeServer server_;
+  std::string mesh_;
+};
+
+TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
+  const Outcome done =
+      run({"submit", dir_ / "cube.off", "--spacing", "200", "--directions", "triangles+sphere:20",
+           "--priority", "7", "--request-id", "k1", "--threshold", "5", "--repair", "none"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, service_.job.id() + "\n");
+  EXPECT_EQ(service_.mesh, mesh_);
+  const v1::SubmitJobHeader& header = service_.submitted;
+  EXPECT_EQ(header.mesh_sha256(), wire::sha256_hex(mesh_));
+  EXPECT_EQ(header.mesh_bytes(), mesh_.size());
+  EXPECT_EQ(header.name(), "cube");
+  EXPECT_FALSE(header.owner().empty());
+  EXPECT_EQ(header.priority(), 7u);
+  EXPECT_EQ(header.request_id(), "k1");
+  EXPECT_EQ(header.params().sampling().spacing(), 200);
+  EXPECT_EQ(header.params().directions(), "triangles+sphere:20");
+  EXPECT_FALSE(header.params().repair());
+  EXPECT_EQ(header.skeleton().threshold(), 5);
+  EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+}
+
+TEST_F(ClientTest, SubmitAimsAtAHundredThousandPointsByDefault) {
+  EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 0);
+  EXPECT_EQ(service_.submitted.params().sampling().target_points(), 100000u);
+  EXPECT_EQ(service_.submitted.priority(), 5u);
+  EXPECT_TRUE(service_.submitted.params().repair());
+}
+
+TEST_F(ClientTest, SubmitRefusesBadMeshesWithoutTheServer) {
+  const Outcome malformed = run({"--json", "submit", dir_ / "bad.off"}, "unix:/nowhere/s");
+  EXPECT_EQ(malformed.exit_code, 3);
+  EXPECT_EQ(malformed.out, "");
+  const json error = json::parse(malformed.err).at("error");
+  EXPECT_EQ(error.at("code"), "BAD_INPUT");
+  EXPECT_EQ(error.at("file"), dir_ / "bad.off");
+  EXPECT_EQ(error.at("line"), 5);
+  EXPECT_EQ(run({"submit", dir_ / "open.off"}, "unix:/nowhere/s").exit_code, 3);
+  EXPECT_EQ(run({"submit", dir_ / "missing.off"}, "unix:/nowhere/s").exit_code, 3);
+  EXPECT_EQ(run({"submit", dir_.path()}, "unix:/nowhere/s").exit_code, 3);
+}
+
+TEST_F(ClientTest, SubmitKeepsToTheServersLimit) {
+  service_.max_mesh_bytes = 10;
+  const Outcome outcome = run({"submit", dir_ / "cube.off"});
+  EXPECT_EQ(outcome.exit_code, 8);
+  EXPECT_EQ(service_.mesh, "");
+}
+
+TEST_F(ClientTest, SubmitIntoADirectoryWritesAllThree) {
+  const Outcome done = run({"--json", "submit", dir_ / "cube.off", "-o", dir_ / "OUT/deep"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const json document = json::parse(done.out);
+  EXPECT_EQ(document.at("id"), service_.job.id());
+  EXPECT_EQ(document.at("files").at("field"), dir_ / "OUT/deep/cube.field.vtkhdf");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "OUT/deep/cube.field.vtkhdf"));
+  EXPECT_EQ(slurp(dir_ / "OUT/deep/cube.skeleton.ply").substr(0, 4), "ply\n");
+  EXPECT_EQ(slurp(dir_ / "OUT/deep/cube.surface.off").substr(0, 3), "OFF");
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir_ / "OUT/deep")) ++files;
+  EXPECT_EQ(files, 3u);
+}
+
+TEST_F(ClientTest, WaitEndsWithTheJobsState) {
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--wait"}).exit_code, 0);
+  service_.watch.back() = sample_job(v1::JOB_STATE_CANCELLED);
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--wait"}).exit_code, 6);
+  service_.watch.back() = sample_job(v1::JOB_STATE_FAILED);
+  service_.watch.back().mutable_error()->set_code("WORKER_LOST");
+  service_.watch.back().mutable_error()->set_message("lost 5 workers");
+  const Outcome failed = run({"submit", dir_ / "cube.off", "-w"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_EQ(failed.out, service_.job.id() + "\n");
+  EXPECT_NE(failed.err.find("WORKER_LOST: lost 5 workers"), std::string::npos);
+}
+
+TEST_F(ClientTest, AnEmptySkeletonIsAWarning) {
+  service_.watch.back().set_skeleton_points(0);
+  const Outcome done = run({"watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find("warning: the skeleton is empty"), std::string::npos);
+  EXPECT_NE(done.err.find("--spacing"), std::string::npos);
+}
+
+TEST_F(ClientTest, WatchReattachesWhenTheStreamBreaks) {
+  service_.watch_breaks_after = 2;
+  const Outcome done = run({"--json", "watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(service_.watches, 2);
+  std::istringstream lines(done.out);
+  std::vector<std::string> states;
+  for (std::string line; std::getline(lines, line);) states.push_back(json::parse(line).at("state"));
+  EXPECT_EQ(states, (std::vector<std::string>{"queued", "running", "queued", "running", "done"}));
+}
+
+TEST_F(ClientTest, WatchReattachesWhenTheStreamEndsTooEarly) {
+  service_.watch_ends_after = 2;
+  const Outcome done = run({"watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "done\n");
+  EXPECT_NE(done.err.find("the server went away"), std::string::npos);
+}
+
+TEST_F(ClientTest, WatchGivesUpWhenTheServerStaysAway) {
+  service_.watch_stays_away = true;
+  service_.watch_breaks_after = 1;
+  EXPECT_EQ(run({"watch", "@last"}).exit_code, 5);
+  EXPECT_GT(service_.watches, 2);
+}
+
+TEST_F(ClientTest, WatchPrintsTheFinalState) {
+  EXPECT_EQ(run({"watch", "@last"}).out, "done\n");
+}
+
+TEST_F(ClientTest, StatusTellsEveryFieldAsJson) {
+  const Outcome outcome = run({"--json", "status", "@last"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+  const json job = json::parse(outcome.out);
+  EXPECT_EQ(job.at("state"), "done");
+  EXPECT_EQ(job.at("stage"), "complete");
+  EXPECT_EQ(job.at("mesh_bytes"), std::uint64_t{1} << 53);
+  EXPECT_EQ(job.at("counters").at("reports"), 3);
+  EXPECT_EQ(job.at("counters").at("leases_lost"), 0);
+  EXPECT_EQ(job.at("prepared").at("volume"), 8e9);
+  EXPECT_EQ(job.size(), 20u) << "all fields but the absent messages params, skeleton, error; got "
+                             << outcome.out;
+}
+
+TEST_F(ClientTest, StatusIsKeyValueLines) {
+  const Outcome outcome = run({"status", "@last"});
+  for (const char* line :
+       {"job:                  0123456789abcdef0123456789abcdef\n", "state:                done\n",
+        "directions:           12/12\n", "v0:                   8e+09\n", "spacing:              200\n",
+        "points:               5\n"}) {
+    EXPECT_NE(outcome.out.find(line), std::string::npos) << line << outcome.out;
+  }
+}
+
+TEST_F(ClientTest, ListPassesFiltersOn) {
+  const Outcome outcome =
+      run({"list", "--state", "done", "--state", "failed", "--owner", "me", "--limit", "3"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(service_.listed.states_size(), 2);
+  EXPECT_EQ(service_.listed.states(1), v1::JOB_STATE_FAILED);
+  EXPECT_EQ(service_.listed.owner(), "me");
+  EXPECT_EQ(service_.listed.limit(), 3u);
+  EXPECT_NE(outcome.out.find("0123456789ab  done"), std::string::npos) << outcome.out;
+  EXPECT_EQ(json::parse(run({"--json", "list"}).out).at("jobs").size(), 1u);
+}
+
+TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
+  EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.csv"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "f.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.xyz"}).exit_code, 0);
+  EXPECT_EQ(run({"fetch", "@last", "surface", "-o", dir_ / "s.stl"}).exit_code, 0);
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.anything"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "m.anything"), mesh_);
+  EXPECT_FALSE(service_.fetches.back().has_skeleton());
+  EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.ply"}).exit_code, 2);
+  EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out, "");
+  const json document = json::parse(run({"--json", "fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out);
+  EXPECT_EQ(document.at("points"), 2);
+  EXPECT_EQ(document.at("file"), dir_ / "s.csv");
+}
+
+TEST_F(ClientTest, DamagedTransfersLeaveNoFile) {
+  service_.damage = true;
+  for (const auto& [kind, name] : {std::pair("mesh", "m.off"), std::pair("skeleton", "s.ply"),
+                                   std::pair("surface", "s.obj"), std::pair("field", "f.csv")}) {
+    const Outcome outcome = run({"fetch", "@last", kind, "-o", dir_ / name});
+    EXPECT_EQ(outcome.exit_code, 70) << kind;
+    EXPECT_NE(outcome.err.find("SHA-256"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(dir_ / name)) << kind;
+  }
+  EXPECT_EQ(dir_.names().size(), 3u) << "only the inputs";
+}
+
+TEST_F(ClientTest, AFieldThatIsNotFinishedIsNoSuchArtefact) {
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  const Outcome outcome = run({"fetch", "@last", "field", "-o", dir_ / "f.csv"});
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.err.find("5 of 12"), std::string::npos);
+  service_.artifacts.erase(v1::ARTIFACT_KIND_SKELETON);
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).exit_code, 4);
+}
+
+TEST_F(ClientTest, SkeletonAndSurfaceSendTheirParameters) {
+  EXPECT_EQ(run({"skeleton", "@last", "--threshold", "3.5", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 3.5);
+  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_FALSE(service_.fetches.back().has_skeleton());
+  EXPECT_EQ(run({"surface", "@last", "--alpha", "120000", "-o", dir_ / "s.off"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().surface().alpha(), 120000);
+  EXPECT_FALSE(service_.fetches.back().surface().has_skeleton());
+  EXPECT_EQ(run({"surface", "@last", "--threshold", "2", "-o", dir_ / "s.off"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 2);
+}
+
+TEST_F(ClientTest, RenderWritesAPng) {
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "3"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {
+  EXPECT_EQ(run({"status", "000000"}).exit_code, 4);
+  EXPECT_EQ(run({"list"}, "unix:/nowhere/s").exit_code, 5);
+  service_.fails = {grpc::StatusCode::FAILED_PRECONDITION, "the job is done"};
+  EXPECT_EQ(run({"resume", "@last"}).exit_code, 7);
+  service_.fails = {grpc::StatusCode::RESOURCE_EXHAUSTED, "disk full"};
+  EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 8);
+  service_.fails = {grpc::StatusCode::ALREADY_EXISTS, "other content"};
+  EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 2);
+  service_.fails = {grpc::StatusCode::INTERNAL, "oops"};
+  EXPECT_EQ(run({"delete", "@last"}).exit_code, 70);
+}
+
+TEST_F(ClientTest, JobCommandsPrintTheState) {
+  EXPECT_EQ(run({"resume", "@last"}).out, "done\n");
+  EXPECT_EQ(run({"delete", "@last"}).out, "deleted\n");
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  service_.job.set_cancel_requested(true);
+  service_.watch = {service_.job, sample_job(v1::JOB_STATE_CANCELLED)};
+  EXPECT_EQ(run({"cancel", "@last"}).out, "cancelled\n");
+}
+
+TEST_F(ClientTest, ServerInfo) {
+  EXPECT_NE(run({"server-info"}).out.find("version:              9.8.7\n"), std::string::npos);
+  EXPECT_EQ(json::parse(run({"--json", "server-info"}).out).at("workers").at(0).at("id"), "0123456789abcdef");
+}
+
+TEST_F(ClientTest, InspectNeedsNoServer) {
+  const json facts = json::parse(run({"--json", "inspect", dir_ / "cube.off"}, "unix:/nowhere/s").out);
+  EXPECT_EQ(facts.at("triangles"), 12);
+  EXPECT_EQ(facts.at("genus"), 0);
+  EXPECT_EQ(facts.at("volume"), 8e9);
+  EXPECT_EQ(facts.at("solids"), 1);
+  EXPECT_TRUE(facts.at("computable"));
+  const Outcome open = run({"--json", "inspect", dir_ / "open.off"});
+  EXPECT_EQ(open.exit_code, 3);
+  EXPECT_FALSE(json::parse(open.out).at("computable"));
+  EXPECT_EQ(json::parse(open.out).at("defects").at(0).at("count"), 3);
+}
+
+TEST_F(ClientTest, MakeWritesShapes) {
+  EXPECT_EQ(run({"make", "torus", "--triangles", "18", "-o", dir_ / "t.off"}).exit_code, 0);
+  EXPECT_EQ(core::read_off(slurp(dir_ / "t.off")).mesh.triangles.size(), 18u);
+  const Outcome box = run({"make", "box", "--size", "3,2,1", "-o", "-"});
+  EXPECT_EQ(box.out, core::write_off(core::make_box(3, 2, 1)));
+  EXPECT_EQ(run({"make", "torus", "--triangles", "7", "-o", dir_ / "t.off"}).exit_code, 2);
+  EXPECT_EQ(run({"--json", "make", "box", "-o", "-"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, WrongUsageIsTwoAndJsonOnRequest) {
+  EXPECT_EQ(run({}).exit_code, 2);
+  EXPECT_EQ(run({"frobnicate"}).exit_code, 2);
+  const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "-1", "--json"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(json::parse(outcome.err).at("error").at("code"), "USAGE");
+}
+
+TEST_F(ClientTest, HelpAndVersionGoToStandardOutput) {
+  EXPECT_EQ(run({"--version"}).out.substr(0, 15), "affskel-client ");
+  const Outcome help = run({"fetch", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.out.find("Examples:"), std::string::npos);
+  EXPECT_EQ(help.err, "");
+}
+
+}  // namespace
+}  // namespace affskel::client

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <grpcpp/server.h>
+#include <grpcpp/server_builder.h>
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "affskel/v1/client_service.grpc.pb.h"
+#include "temp_dir.h"
+#include "wire/sha256.h"
+
+namespace affskel::client {
+
+/// A server in this process that answers as it is told.  What a test sets before the calls needs no lock.
+class FakeService final : public v1::ErosionService::Service {
+ public:
+  v1::Job job;                    ///< answers every question about a job
+  std::vector<v1::Job> watch;     ///< what WatchJob sends, one after the other
+  int watch_breaks_after = -1;    ///< ends the first watch UNAVAILABLE after this many
+  int watch_ends_after = -1;      ///< the same, ending it in order
+  bool watch_stays_away = false;  ///< all further watches are UNAVAILABLE
+  std::map<v1::ArtifactKind, std::string> artifacts;
+  grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
+  bool damage = false;                    ///< flip a byte of every artefact
+  bool existed = false;
+  std::uint64_t max_mesh_bytes = 1 << 30;
+
+  v1::SubmitJobHeader submitted;  ///< as it arrived
+  std::string mesh;
+  std::vector<v1::FetchArtifactRequest> fetches;
+  v1::ListJobsRequest listed;
+  int watches = 0;
+
+  grpc::Status SubmitJob(grpc::ServerContext*, grpc::ServerReader<v1::SubmitJobRequest>* reader,
+                         v1::SubmitJobResponse* response) override {
+    mesh.clear();
+    v1::SubmitJobRequest message;
+    while (reader->Read(&message)) {
+      if (message.has_header()) submitted = message.header();
+      mesh += message.data();
+    }
+    *response->mutable_job() = job;
+    response->set_existed(existed);
+    return fails;
+  }
+  grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) override {
+    if (request->job() == "000000") return {grpc::StatusCode::NOT_FOUND, "no job begins with 000000"};
+    *response = job;
+    return fails;
+  }
+  grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
+                        v1::ListJobsResponse* response) override {
+    listed = *request;
+    *response->add_jobs() = job;
+    return fails;
+  }
+  grpc::Status WatchJob(grpc::ServerContext*, const v1::WatchJobRequest*,
+                        grpc::ServerWriter<v1::Job>* writer) override {
+    const bool first = watches++ == 0;
+    int sent = 0;
+    if (!first && watch_stays_away) return {grpc::StatusCode::UNAVAILABLE, "restarting"};
+    for (const v1::Job& state : watch) {
+      if (first && sent == watch_breaks_after) return {grpc::StatusCode::UNAVAILABLE, "restarting"};
+      if (first && sent == watch_ends_after) return grpc::Status::OK;
+      ++sent;
+      writer->Write(state);
+    }
+    return grpc::Status::OK;
+  }
+  grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest*, v1::Job* response) override {
+    *response = job;
+    return fails;
+  }
+  grpc::Status ResumeJob(grpc::ServerContext*, const v1::ResumeJobRequest*, v1::Job* response) override {
+    *response = job;
+    return fails;
+  }
+  grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest*,
+                         v1::DeleteJobResponse* response) override {
+    response->set_id(job.id());
+    return fails;
+  }
+  grpc::Status FetchArtifact(grpc::ServerContext*, const v1::FetchArtifactRequest* request,
+                             grpc::ServerWriter<v1::FetchArtifactResponse>* writer) override {
+    fetches.push_back(*request);
+    const auto found = artifacts.find(request->kind());
+    if (found == artifacts.end()) return {grpc::StatusCode::FAILED_PRECONDITION, "the job is still running"};
+    std::string bytes = found->second;
+    v1::FetchArtifactResponse message;
+    message.mutable_header()->set_bytes(bytes.size());
+    message.mutable_header()->set_sha256(wire::sha256_hex(bytes));
+    *message.mutable_header()->mutable_job() = job;
+    writer->Write(message);
+    if (damage && !bytes.empty()) bytes.back() = static_cast<char>(bytes.back() ^ 1);
+    constexpr std::size_t kPiece = 33;  // cuts records anywhere
+    for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+      message.set_data(bytes.substr(at, kPiece));
+      writer->Write(message);
+    }
+    return grpc::Status::OK;
+  }
+  grpc::Status GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
+                             v1::ServerInfo* response) override {
+    response->set_version("9.8.7");
+    response->set_max_mesh_bytes(max_mesh_bytes);
+    response->add_workers()->set_id("0123456789abcdef");
+    return fails;
+  }
+};
+
+/// The service on a Unix socket of its own.
+class FakeServer {
+ public:
+  explicit FakeServer(FakeService& service) {
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort(address(), grpc::InsecureServerCredentials());
+    builder.RegisterService(&service);
+    server_ = builder.BuildAndStart();
+  }
+  ~FakeServer() { server_->Shutdown(); }
+  std::string address() const { return "unix:" + (dir_ / "s"); }
+
+ private:
+  TempDir dir_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace affskel::client

@@ -1,0 +1,29 @@
+#include "client/exporters/format.h"
+
+#include <gtest/gtest.h>
+
+#include "client/error.h"
+
+namespace affskel::client {
+namespace {
+
+TEST(ChooseFormat, FollowsTheExtensionInAnyCase) {
+  EXPECT_EQ(choose_format("a/b.vtkhdf", field_formats(), "field"), FileFormat::kVtkHdf);
+  EXPECT_EQ(choose_format("x.y.CSV", skeleton_formats(), "skeleton"), FileFormat::kCsv);
+  EXPECT_EQ(choose_format("x.Stl", surface_formats(), "surface"), FileFormat::kStl);
+}
+
+TEST(ChooseFormat, NamesThePossibleOnes) {
+  for (const char* name : {"x.stl", "x", "csv", ".csv"}) {
+    try {
+      choose_format(name, field_formats(), "field");
+      FAIL() << name;
+    } catch (const ClientError& error) {
+      EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
+      EXPECT_NE(std::string(error.what()).find(".csv, .dat, .vtkhdf"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace affskel::client

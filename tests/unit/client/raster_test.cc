@@ -1,0 +1,193 @@
+#include "client/render/raster.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "client/error.h"
+#include "client/render/image.h"
+#include "client/render/panel.h"
+#include "client/render/scene.h"
+#include "client/render/text.h"
+#include "core/shapes.h"
+#include "sample_data.h"
+
+namespace affskel::client {
+namespace {
+
+TEST(ForEachSample, TwoTrianglesCoverASquareOnce) {
+  std::vector<int> hits(16 * 16, 0);
+  const auto count = [&](int x, int y, double, double, double) { ++hits[std::size_t(y * 16 + x)]; };
+  // The diagonal and all sides pass through sample centres.
+  const ScreenPoint a{2.5, 2.5}, b{10.5, 2.5}, c{10.5, 10.5}, d{2.5, 10.5};
+  for_each_sample({a, b, c}, 16, 16, count);
+  for_each_sample({a, d, c}, 16, 16, count);  // the other orientation
+  int total = 0;
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const bool inside = x >= 2 && x < 10 && y >= 2 && y < 10;
+      EXPECT_EQ(hits[std::size_t(y * 16 + x)], inside ? 1 : 0) << x << "," << y;
+      total += hits[std::size_t(y * 16 + x)];
+    }
+  }
+  EXPECT_EQ(total, 64);
+}
+
+TEST(ForEachSample, ARandomFanCoversItsSquareOnce) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(4, 28);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<int> hits(32 * 32, 0);
+    const ScreenPoint hub{place(random), place(random)};
+    const std::array<ScreenPoint, 4> corners = {{{-3, -3}, {35, -3}, {35, 35}, {-3, 35}}};
+    for (std::size_t e = 0; e < 4; ++e) {
+      for_each_sample({hub, corners[e], corners[(e + 1) % 4]}, 32, 32,
+                      [&](int x, int y, double, double, double) { ++hits[std::size_t(y * 32 + x)]; });
+    }
+    for (const int hit : hits) ASSERT_EQ(hit, 1);
+  }
+}
+
+TEST(ForEachSample, WeightsAreBarycentric) {
+  const std::array<ScreenPoint, 3> corners = {{{1, 1}, {30, 4}, {9, 28}}};
+  for (const bool swapped : {false, true}) {
+    std::array<ScreenPoint, 3> p = corners;
+    if (swapped) std::swap(p[0], p[1]);
+    int samples = 0;
+    for_each_sample(p, 32, 32, [&](int x, int y, double w0, double w1, double w2) {
+      ++samples;
+      EXPECT_NEAR(w0 + w1 + w2, 1, 1e-12);
+      EXPECT_NEAR(w0 * p[0].x + w1 * p[1].x + w2 * p[2].x, x + 0.5, 1e-9);
+      EXPECT_NEAR(w0 * p[0].y + w1 * p[1].y + w2 * p[2].y, y + 0.5, 1e-9);
+    });
+    EXPECT_GT(samples, 300);
+  }
+}
+
+TEST(ForEachSample, DrawsNothingForDegenerateOrDistantTriangles) {
+  const auto fail = [](int, int, double, double, double) { FAIL(); };
+  for_each_sample({{{1, 1}, {5, 5}, {9, 9}}}, 16, 16, fail);
+  for_each_sample({{{100, 1}, {1e9, 5}, {120, 9}}}, 16, 16, fail);
+}
+
+constexpr View kFront{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+constexpr Rgb kRed{1, 0, 0}, kBlue{0, 0, 1};
+
+TEST(Panel, NearerBallsHideFartherOnes) {
+  for (const bool red_first : {true, false}) {
+    Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+    const Ball near{{0, -5, 0}, kRed}, far{{0, 5, 0}, kBlue};  // the viewer is at -y
+    panel.draw_ball(red_first ? near : far, 4);
+    panel.draw_ball(red_first ? far : near, 4);
+    const Rgb middle = panel.resolve().at(10, 10);
+    EXPECT_GT(middle.r, 0.5f);
+    EXPECT_EQ(middle.b, 0);
+  }
+}
+
+TEST(Panel, BallsAreRoundAndInPlace) {
+  Panel panel(40, 40, kFront, {0, 0, 0}, 2);
+  panel.draw_ball({{5, 0, 5}, kRed}, 6);  // 10 pixels right of and above the middle
+  const Image image = panel.resolve();
+  double covered = 0;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      if (image.at(x, y).b < 1) covered += 1 - double(image.at(x, y).b);
+    }
+  }
+  EXPECT_NEAR(covered, 3.14159 * 36, 4);
+  EXPECT_EQ(image.at(30, 10).b, 0);
+  EXPECT_EQ(image.at(10, 30), kWhite);
+}
+
+TEST(Panel, TheSurfaceVeilsOnlyWhatIsBehindIt) {
+  // A square in the plane y = 0, seen from -y.
+  const core::Mesh square{{{-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}}, {{0, 1, 2}, {0, 2, 3}}};
+  const auto middle = [&](double ball_y) {
+    Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+    panel.draw_ball({{0, ball_y, 0}, kRed}, 3);
+    panel.draw_surface(square, corner_normals(square));
+    return panel.resolve().at(10, 10);
+  };
+  EXPECT_EQ(middle(-5).b, 0) << "a ball in front keeps its colour";
+  EXPECT_GT(middle(5).b, 0.02f) << "a ball behind shines through a veil";
+  EXPECT_GT(middle(5).r, 0.5f);
+}
+
+TEST(Panel, SurfaceLayersDoNotDependOnTheirOrder) {
+  core::Mesh two{{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}, {-9, 3, -9}, {9, 6, -9}, {0, 1, 9}},
+                 {{0, 1, 2}, {3, 4, 5}}};
+  const auto picture = [&] {
+    Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+    panel.draw_surface(two, corner_normals(two));
+    return panel.resolve().at(10, 12);
+  };
+  const Rgb one_way = picture();
+  std::swap(two.triangles[0], two.triangles[1]);
+  const Rgb other_way = picture();
+  EXPECT_NEAR(one_way.r, other_way.r, 1e-6);
+  EXPECT_NEAR(one_way.b, other_way.b, 1e-6);
+  EXPECT_LT(one_way.r, 1);
+}
+
+TEST(CornerNormals, KeepEdgesAndSmoothBends) {
+  const core::Mesh box = core::make_box(1, 1, 1);
+  for (std::size_t t = 0; t < box.triangles.size(); ++t) {
+    const auto& corners = box.triangles[t];
+    const core::Vec3 flat = core::cross(box.points[corners[1]] - box.points[corners[0]],
+                                        box.points[corners[2]] - box.points[corners[0]]);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(core::dot(corner_normals(box)[3 * t + c], flat), core::norm(flat), 1e-12);
+  }
+  const core::Mesh ball = core::make_sphere(1, 320);
+  const std::vector<core::Vec3> normals = corner_normals(ball);
+  for (std::size_t h = 0; h < normals.size(); ++h) {
+    EXPECT_GT(core::dot(normals[h], ball.points[ball.triangles[h / 3][h % 3]]), 0.98);
+  }
+}
+
+TEST(Text, LettersLeaveInkAndTakeWidth) {
+  const std::string all = [] {
+    std::string text;
+    for (char c = '!'; c <= '~'; ++c) text += c;
+    return text;
+  }();
+  for (const char c : all) {
+    Image image(40, 40);
+    draw_text(image, {10, 25}, std::string(1, c), 12, {0, 0, 0});
+    int dark = 0;
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 40; ++x) dark += image.at(x, y).r < 0.5f ? 1 : 0;
+    }
+    EXPECT_GT(dark, 0) << c;
+  }
+  EXPECT_GT(text_width("12", 12), text_width("1", 12));
+  EXPECT_NEAR(text_width("0", 24), 2 * text_width("0", 12), 1e-9);
+}
+
+TEST(Viridis, RunsFromVioletToYellow) {
+  EXPECT_NEAR(viridis(0).r, 68 / 255.0, 1e-6);
+  EXPECT_NEAR(viridis(1).g, 231 / 255.0, 1e-6);
+  EXPECT_EQ(viridis(-3), viridis(0));
+  EXPECT_EQ(viridis(7), viridis(1));
+}
+
+TEST(RenderScene, IsAPngOfTheWidthAskedFor) {
+  RenderInput input;
+  input.mesh = core::make_sphere(100, 80);
+  input.skeleton = sample_skeleton();
+  input.spacing = 10;
+  input.volume = 4e6;
+  input.title = "ball";
+  const Image image = render_scene(input, {400});
+  EXPECT_EQ(image.width(), 400);
+  EXPECT_GT(image.height(), 100);
+  const std::string png = encode_png(image);
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_THROW(render_scene(input, {10}), ClientError);
+  input.mesh = {};
+  EXPECT_THROW(render_scene(input, {400}), ClientError);
+}
+
+}  // namespace
+}  // namespace affskel::client

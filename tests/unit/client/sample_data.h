@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstring>
+#include <string>
+
+#include "affskel/v1/types.pb.h"
+
+namespace affskel::client {
+
+/// A 3 x 2 x 4 lattice with a spacing of 1/3 (not exact in binary), five points in three runs; the plane i =
+/// 1 is empty.
+inline v1::Lattice sample_lattice() {
+  v1::Lattice lattice;
+  for (const double v : {0.1, -2.0, 1e6}) lattice.add_origin(v);
+  for (const double v : {1.0 / 3, 0.0, 0.0, 0.0, 1.0 / 3, 0.0, 0.0, 0.0, 1.0 / 3}) lattice.add_axes(v);
+  for (const unsigned d : {3u, 2u, 4u}) lattice.add_dims(d);
+  const auto run = [&](std::uint64_t start, std::uint32_t length) {
+    lattice.add_run_start(start);
+    lattice.add_run_length(length);
+  };
+  run(1, 2);   // (0,0,1) (0,0,2)
+  run(7, 1);   // (0,1,3)
+  run(20, 2);  // (2,1,0) (2,1,1)
+  return lattice;
+}
+
+/// Two directions.
+inline v1::Directions sample_directions() {
+  v1::Directions directions;
+  for (const double v : {1.0, 0.0, 0.0, 0.6, 0.0, -0.8}) directions.add_xyz(v);
+  return directions;
+}
+
+inline constexpr double kSampleErosion[] = {0.1, 1.0 / 3, 2e-300, 123456789.123456789, 5};
+inline constexpr std::uint32_t kSampleDirection[] = {0, 1, 1, 0, 1};
+
+/// The five records of a FIELD artefact.
+inline std::string sample_field() {
+  std::string bytes;
+  for (std::size_t p = 0; p < 5; ++p) {
+    const double area = 7.0;
+    bytes.append(reinterpret_cast<const char*>(&kSampleErosion[p]), 8);
+    bytes.append(reinterpret_cast<const char*>(&area), 8);
+    bytes.append(reinterpret_cast<const char*>(&kSampleDirection[p]), 4);
+  }
+  return bytes;
+}
+
+/// Two skeleton points: ranks 1 and 4 of the sample lattice.
+inline v1::SkeletonPoints sample_skeleton() {
+  v1::SkeletonPoints s;
+  for (const unsigned p : {1u, 4u}) s.add_point(p);
+  for (const double v :
+       {0.1, -2.0, 1000000.6666666666, 0.76666666666666661, -1.6666666666666667, 1000000.3333333334}) {
+    s.add_xyz(v);
+  }
+  for (const double v : {1.0 / 3, 5.0}) s.add_erosion(v);
+  for (const double v : {0.6, 0.0, -0.8, 0.6, 0.0, -0.8}) s.add_normal(v);
+  for (const unsigned d : {1u, 1u}) s.add_direction(d);
+  for (const double v : {-7.25, 9.1}) s.add_divergence(v);
+  return s;
+}
+
+}  // namespace affskel::client

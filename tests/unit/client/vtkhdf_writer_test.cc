@@ -1,0 +1,160 @@
+// Reads the file back with the HDF5 library itself and compares every cell of the lattice.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+
+#include "client/error.h"
+#include "client/exporters/field_writer.h"
+#include "sample_data.h"
+#include "temp_dir.h"
+
+namespace affskel::client {
+namespace {
+
+template <typename T>
+std::vector<T> read_attribute(hid_t group, const char* name, hid_t type, std::size_t size) {
+  std::vector<T> values(size);
+  const hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
+  EXPECT_GE(attribute, 0) << name;
+  const hid_t space = H5Aget_space(attribute);
+  EXPECT_EQ(H5Sget_simple_extent_npoints(space), static_cast<hssize_t>(size)) << name;
+  EXPECT_GE(H5Aread(attribute, type, values.data()), 0) << name;
+  H5Sclose(space);
+  H5Aclose(attribute);
+  return values;
+}
+
+template <typename T>
+std::vector<T> read_array(hid_t file, const std::string& name, hid_t type, const std::vector<hsize_t>& dims) {
+  const hid_t dataset = H5Dopen2(file, ("/VTKHDF/PointData/" + name).c_str(), H5P_DEFAULT);
+  EXPECT_GE(dataset, 0) << name;
+  const hid_t space = H5Dget_space(dataset);
+  std::vector<hsize_t> found(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, found.data(), nullptr);
+  EXPECT_EQ(found, dims) << name;
+  std::size_t size = 1;
+  for (const hsize_t d : found) size *= d;
+  std::vector<T> values(size);
+  EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
+  H5Sclose(space);
+  H5Dclose(dataset);
+  return values;
+}
+
+struct Expected {
+  std::vector<FieldPoint> points;
+  std::array<std::uint32_t, 3> dims;
+};
+
+// Compares all arrays of the file with the points, everything else with "outside".
+void expect_arrays(const std::string& path, const Expected& expected) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  const hsize_t nx = expected.dims[0], ny = expected.dims[1], nz = expected.dims[2];
+  const auto erosion = read_array<double>(file, "E", H5T_NATIVE_DOUBLE, {nz, ny, nx});
+  const auto normal = read_array<double>(file, "normal", H5T_NATIVE_DOUBLE, {nz, ny, nx, 3});
+  const auto direction = read_array<std::int32_t>(file, "direction", H5T_NATIVE_INT32, {nz, ny, nx});
+  const auto inside = read_array<std::uint8_t>(file, "inside", H5T_NATIVE_UINT8, {nz, ny, nx});
+  H5Fclose(file);
+  std::vector<const FieldPoint*> at(nx * ny * nz, nullptr);
+  for (const FieldPoint& p : expected.points) at[(p.k * ny + p.j) * nx + p.i] = &p;
+  for (std::size_t cell = 0; cell < at.size(); ++cell) {
+    const FieldPoint* p = at[cell];
+    ASSERT_EQ(inside[cell], p != nullptr ? 1 : 0) << cell;
+    ASSERT_EQ(direction[cell], p != nullptr ? static_cast<std::int32_t>(p->direction) : -1) << cell;
+    if (p == nullptr) {
+      ASSERT_TRUE(std::isnan(erosion[cell])) << cell;
+    } else {
+      ASSERT_EQ(erosion[cell], p->erosion) << cell;
+    }
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_EQ(normal[3 * cell + std::size_t(c)], p != nullptr ? p->normal[c] : 0.0) << cell;
+    }
+  }
+}
+
+TEST(VtkHdfWriter, PlacesTheImage) {
+  const TempDir dir;
+  const LatticePoints points(sample_lattice());
+  AtomicFile out(dir / "f.vtkhdf");
+  const auto writer = make_vtkhdf_writer(out, points);
+  writer->finish();
+  out.commit();
+  const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  const hid_t root = H5Gopen2(file, "VTKHDF", H5P_DEFAULT);
+  EXPECT_EQ(read_attribute<std::int64_t>(root, "Version", H5T_NATIVE_INT64, 2),
+            (std::vector<std::int64_t>{1, 0}));
+  EXPECT_EQ(read_attribute<std::int64_t>(root, "WholeExtent", H5T_NATIVE_INT64, 6),
+            (std::vector<std::int64_t>{0, 2, 0, 1, 0, 3}));
+  EXPECT_EQ(read_attribute<double>(root, "Origin", H5T_NATIVE_DOUBLE, 3),
+            (std::vector<double>{0.1, -2.0, 1e6}));
+  EXPECT_EQ(read_attribute<double>(root, "Spacing", H5T_NATIVE_DOUBLE, 3), (std::vector<double>(3, 1.0 / 3)));
+  EXPECT_EQ(read_attribute<double>(root, "Direction", H5T_NATIVE_DOUBLE, 9),
+            (std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
+  const hid_t type_attribute = H5Aopen(root, "Type", H5P_DEFAULT);
+  const hid_t type = H5Aget_type(type_attribute);
+  EXPECT_EQ(H5Tget_class(type), H5T_STRING);
+  EXPECT_EQ(H5Tis_variable_str(type), 0);
+  EXPECT_EQ(H5Tget_cset(type), H5T_CSET_ASCII);
+  std::string text(H5Tget_size(type), '?');
+  EXPECT_GE(H5Aread(type_attribute, type, text.data()), 0);
+  EXPECT_EQ(text, "ImageData");
+  H5Tclose(type);
+  H5Aclose(type_attribute);
+  H5Gclose(root);
+  H5Fclose(file);
+}
+
+// A lattice of several slabs and chunks, every third line inside, with an empty slab in between.
+TEST(VtkHdfWriter, ArraysReadBackExactlyAcrossSlabs) {
+  v1::Lattice lattice;
+  for (const double v : {0.0, 0.0, 0.0}) lattice.add_origin(v);
+  for (const double v : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) lattice.add_axes(v);
+  const std::array<std::uint32_t, 3> dims = {35, 40, 33};
+  for (const unsigned d : dims) lattice.add_dims(d);
+  for (std::uint32_t i = 0; i < dims[0]; ++i) {
+    if (i >= 8 && i < 16) continue;
+    for (std::uint32_t j = i % 3; j < dims[1]; j += 3) {
+      lattice.add_run_start((std::uint64_t{i} * dims[1] + j) * dims[2] + j % 5);
+      lattice.add_run_length(dims[2] - j % 7 - j % 5);
+    }
+  }
+  const LatticePoints points(lattice);
+  const TempDir dir;
+  Expected expected{{}, dims};
+  AtomicFile out(dir / "f.vtkhdf");
+  const auto writer = make_vtkhdf_writer(out, points);
+  for (LatticeCursor cursor(points); !cursor.at_end(); cursor.advance()) {
+    const auto rank = static_cast<std::uint32_t>(expected.points.size());
+    const double value = 1.0 / (rank + 1);
+    expected.points.push_back(
+        {cursor.i(), cursor.j(), cursor.k(), cursor.position(), value, {value, -value, 1}, rank});
+    writer->put(expected.points.back());
+  }
+  ASSERT_EQ(expected.points.size(), points.count());
+  writer->finish();
+  out.commit();
+  expect_arrays(dir / "f.vtkhdf", expected);
+}
+
+TEST(VtkHdfWriter, AnAbandonedFileLeavesNothing) {
+  const TempDir dir;
+  {
+    const LatticePoints points(sample_lattice());
+    AtomicFile out(dir / "f.vtkhdf");
+    const auto writer = make_vtkhdf_writer(out, points);
+    writer->put({});
+  }
+  EXPECT_TRUE(dir.names().empty());
+}
+
+TEST(VtkHdfWriter, RefusesDevices) {
+  const LatticePoints points(sample_lattice());
+  AtomicFile out("/dev/null");
+  EXPECT_THROW(make_vtkhdf_writer(out, points), ClientError);
+}
+
+}  // namespace
+}  // namespace affskel::client

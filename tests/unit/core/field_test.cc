@@ -1,0 +1,71 @@
+#include "core/field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <thread>
+
+namespace affskel::core {
+namespace {
+
+TEST(ErosionField, KeepsTheLeastErosionThenTheLeastDirection) {
+  ErosionField field(1, false);
+  EXPECT_EQ(field.value(0).direction, FieldValue::kNoDirection);
+  field.offer(0, {2, 10, 5});
+  field.offer(0, {3, 11, 1});
+  EXPECT_EQ(field.value(0).direction, 5U);
+  field.offer(0, {2, 12, 7});
+  EXPECT_EQ(field.value(0).direction, 5U);
+  field.offer(0, {2, 13, 4});
+  EXPECT_EQ(field.value(0).direction, 4U);
+  EXPECT_EQ(field.value(0).area, 13);
+}
+
+TEST(ErosionField, TellsEachChangeOnce) {
+  ErosionField field(3, true);
+  field.offer(2, {5, 1, 1});
+  field.offer(2, {4, 1, 2});
+  field.offer(0, {4, 1, 2});
+  std::vector<std::uint32_t> changes = field.take_changes();
+  std::sort(changes.begin(), changes.end());
+  EXPECT_EQ(changes, (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_TRUE(field.take_changes().empty());
+  field.offer(2, {4, 1, 9});  // no improvement
+  EXPECT_TRUE(field.take_changes().empty());
+  field.offer(2, {3, 1, 9});
+  EXPECT_EQ(field.take_changes(), (std::vector<std::uint32_t>{2}));
+}
+
+TEST(ErosionField, OffersFromManyThreadsMergeAsInAnyOrder) {
+  constexpr std::uint32_t kPoints = 50;
+  std::vector<std::pair<std::uint32_t, FieldValue>> offers;
+  std::mt19937_64 random(3);
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    const auto direction = static_cast<std::uint32_t>(random() % 300);
+    const auto point = static_cast<std::uint32_t>(random() % kPoints);
+    offers.push_back(
+        {point,
+         {static_cast<double>(random() % 40), static_cast<double>(direction) + 1000.0 * point, direction}});
+  }
+  ErosionField one(kPoints, true), many(kPoints, true);
+  for (const auto& [point, value] : offers) one.offer(point, value);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      for (std::size_t i = 0; i < offers.size(); ++i) {
+        const auto& [point, value] = offers[(i * 7919 + t * 5003) % offers.size()];
+        many.offer(point, value);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::uint32_t p = 0; p < kPoints; ++p) {
+    EXPECT_EQ(one.value(p).erosion, many.value(p).erosion);
+    EXPECT_EQ(one.value(p).direction, many.value(p).direction);
+    EXPECT_EQ(one.value(p).area, many.value(p).area);
+  }
+}
+
+}  // namespace
+}  // namespace affskel::core

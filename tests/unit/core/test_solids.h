@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/mesh.h"
+
+namespace affskel::core {
+
+/// Small solids that the library's shapes do not offer, for the tests.
+
+/// The mesh scaled, then moved.
+Mesh moved(Mesh mesh, const Vec3& by, double scale = 1);
+
+/// The mesh turned inside out.
+Mesh reversed(Mesh mesh);
+
+/// Both meshes as one, without common vertices.
+Mesh joined(Mesh a, const Mesh& b);
+
+/// A ball of radius 3 with a spherical cavity of radius 1 about (0.5, 0, 0).
+Mesh hollow_ball();
+
+/// A cup: outer radius 2, height 3, inner radius 1.5, floor 1 thick, open upwards; `segments` sides.
+/// Its inside has an inner minimum for upward directions.
+Mesh cup(std::uint32_t segments);
+
+/// `teeth` square prongs, each 1 wide, 1 apart and 3 high, on a bar 1 high and deep: many minima downwards.
+Mesh comb(std::uint32_t teeth);
+
+}  // namespace affskel::core

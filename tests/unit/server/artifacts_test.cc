@@ -1,0 +1,144 @@
+#include "expect_store_error.h"
+#include "store_fixture.h"
+#include "wire/sha256.h"
+
+namespace affskel::server {
+namespace {
+
+class ArtifactTest : public StoreTest {
+ protected:
+  v1::FetchArtifactRequest request(const std::string& job, v1::ArtifactKind kind) {
+    v1::FetchArtifactRequest result;
+    result.set_job(job);
+    result.set_kind(kind);
+    return result;
+  }
+
+  v1::FetchArtifactRequest skeleton(const std::string& job, double threshold) {
+    v1::FetchArtifactRequest result = request(job, v1::ARTIFACT_KIND_SKELETON);
+    result.mutable_skeleton()->set_threshold(threshold);
+    return result;
+  }
+};
+
+TEST_F(ArtifactTest, LatticeAndDirectionsAreThereAfterPreparing) {
+  const v1::Job job = submit();
+  EXPECT_STORE_ERROR(store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_LATTICE)), kPrecondition);
+  prepare(10, 20);
+  v1::Lattice lattice;
+  ASSERT_TRUE(lattice.ParseFromString(
+      read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_LATTICE)).reader)));
+  EXPECT_EQ(lattice.run_length(0), 10U);
+  v1::Directions directions;
+  ASSERT_TRUE(directions.ParseFromString(
+      read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_DIRECTIONS)).reader)));
+  EXPECT_EQ(directions.xyz_size(), 60);
+}
+
+TEST_F(ArtifactTest, FieldOnlyWhenComplete) {
+  const v1::Job job = submit();
+  EXPECT_STORE_ERROR(field(job.id()), kPrecondition);
+  prepare(10, 20);
+  finish_block(lease());
+  EXPECT_STORE_ERROR(field(job.id()), kPrecondition);
+  EXPECT_STORE_ERROR(store_->open_artifact(skeleton(job.id(), 3)), kPrecondition);
+  finish_block(lease());
+  EXPECT_EQ(field(job.id()).size(), 200U);
+}
+
+TEST_F(ArtifactTest, DefaultSkeletonIsStored) {
+  const v1::Job job = complete_job(10, 20);
+  EXPECT_EQ(read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SKELETON)).reader),
+            "skeleton");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton(job.id(), 7)).reader), "skeleton");
+}
+
+TEST_F(ArtifactTest, OtherSkeletonIsMadeOnceAndKept) {
+  const v1::Job job = complete_job(10, 20);
+  const Store::ArtifactState first = store_->open_artifact(skeleton(job.id(), 3));
+  ASSERT_EQ(first.reader, nullptr);
+  EXPECT_EQ(store_->open_artifact(skeleton(job.id(), 3)).task, first.task) << "one task for all who ask";
+  EXPECT_EQ(store_->counts().requests, 1);
+  const v1::Lease task = lease();
+  EXPECT_EQ(task.kind(), v1::TASK_KIND_SKELETON);
+  EXPECT_EQ(task.skeleton().threshold(), 3);
+  store_->complete(derive_header(task.token(), "finer", 9), "finer");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton(job.id(), 3)).reader), "finer");
+  EXPECT_EQ(store_->counts().requests, 0);
+  EXPECT_EQ(store_->job(job.id()).skeleton_points(), 3U) << "of the default skeleton";
+  open();
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton(job.id(), 3)).reader), "finer");
+}
+
+TEST_F(ArtifactTest, SurfaceTakesTheJobsSkeletonByDefault) {
+  const v1::Job job = complete_job(10, 20);
+  ASSERT_EQ(store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader, nullptr);
+  const v1::Lease task = lease();
+  EXPECT_EQ(task.kind(), v1::TASK_KIND_SURFACE);
+  EXPECT_EQ(task.surface().skeleton().threshold(), job.skeleton().threshold());
+  EXPECT_EQ(task.surface().alpha(), 0);
+  store_->complete(derive_header(task.token(), "surface", 2), "surface");
+  EXPECT_EQ(read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader), "surface");
+}
+
+TEST_F(ArtifactTest, RequestsComeBeforeJobs) {
+  const v1::Job job = complete_job(10, 20);
+  v1::SubmitJobHeader urgent = submit_header("OFF 2");
+  urgent.set_priority(9);
+  store_->submit(urgent, "OFF 2");
+  store_->open_artifact(skeleton(job.id(), 3));
+  EXPECT_EQ(lease().kind(), v1::TASK_KIND_SKELETON);
+}
+
+TEST_F(ArtifactTest, FailedRequestLeavesTheJobAlone) {
+  const v1::Job job = complete_job(10, 20);
+  const std::int64_t task = store_->open_artifact(skeleton(job.id(), 3)).task;
+  EXPECT_FALSE(store_->task_error(task));
+  v1::JobError error;
+  error.set_code("LIMIT");
+  error.set_message("too many points");
+  store_->fail(lease().token(), error, false);
+  ASSERT_TRUE(store_->task_error(task));
+  EXPECT_EQ(store_->task_error(task)->message(), "too many points");
+  EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
+  EXPECT_NE(store_->open_artifact(skeleton(job.id(), 3)).task, task) << "asking again tries again";
+}
+
+TEST_F(ArtifactTest, RequestIsGivenUpAfterTooManyLosses) {
+  const v1::Job job = complete_job(10, 20);
+  const std::int64_t task = store_->open_artifact(skeleton(job.id(), 3)).task;
+  for (std::int64_t i = 0; i < options_.max_losses; ++i) {
+    lease();
+    clock_.advance(options_.lease_ms + 1);
+    store_->expire_leases();
+  }
+  ASSERT_TRUE(store_->task_error(task));
+  EXPECT_EQ(store_->task_error(task)->code(), "WORKER_LOST");
+  EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
+  EXPECT_FALSE(has_work());
+}
+
+TEST_F(ArtifactTest, RefusesWrongRequests) {
+  const v1::Job job = complete_job(10, 20);
+  EXPECT_STORE_ERROR(store_->open_artifact(skeleton(job.id(), -1)), kInvalid);
+  EXPECT_STORE_ERROR(store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_UNSPECIFIED)), kInvalid);
+  v1::FetchArtifactRequest surface = request(job.id(), v1::ARTIFACT_KIND_SURFACE);
+  surface.mutable_surface()->set_alpha(-1);
+  EXPECT_STORE_ERROR(store_->open_artifact(surface), kInvalid);
+}
+
+TEST_F(ArtifactTest, ReaderSeesOneStateWhileReportsGoOn) {
+  submit();
+  prepare(100000, 16);  // several messages long
+  const v1::Lease block = lease();
+  report(block, 0, 1);
+  const std::unique_ptr<BlobReader> reader = store_->open_input(block.token(), v1::ARTIFACT_KIND_FIELD);
+  std::string bytes = reader->next();
+  ASSERT_LT(bytes.size(), reader->bytes());
+  report(block, 1, 2);
+  for (std::string piece = reader->next(); !piece.empty(); piece = reader->next()) bytes += piece;
+  EXPECT_EQ(wire::sha256_hex(bytes), reader->sha256());
+}
+
+}  // namespace
+}  // namespace affskel::server

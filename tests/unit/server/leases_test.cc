@@ -1,0 +1,279 @@
+#include <set>
+
+#include "expect_store_error.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+using LeaseTest = StoreTest;
+
+TEST_F(LeaseTest, NoWorkNoLease) {
+  EXPECT_FALSE(store_->lease(worker_identity(), "", false));
+  EXPECT_STORE_ERROR(store_->renew("no such token"), kFenced);
+}
+
+TEST_F(LeaseTest, RefusesIncompleteIdentities) {
+  submit();
+  v1::WorkerIdentity worker = worker_identity();
+  worker.clear_id();
+  EXPECT_STORE_ERROR(store_->lease(worker, "", false), kInvalid);
+  worker = worker_identity();
+  worker.clear_core_version();
+  EXPECT_STORE_ERROR(store_->lease(worker, "", false), kInvalid);
+}
+
+TEST_F(LeaseTest, CutsBlocksOfPositions) {
+  submit();
+  prepare(4, 1000);
+  std::set<std::uint64_t> begins;
+  std::uint64_t covered = 0;
+  while (const std::optional<v1::Lease> block = store_->lease(worker_identity(), "", false)) {
+    ASSERT_EQ(block->kind(), v1::TASK_KIND_ERODE);
+    ASSERT_EQ(block->positions_size(), 1);
+    begins.insert(block->positions(0).begin());
+    covered += block->positions(0).end() - block->positions(0).begin();
+  }
+  EXPECT_EQ(begins.size(), 63U);  // ceil(1000 / ceil(1000 / 64))
+  EXPECT_EQ(covered, 1000U);
+}
+
+TEST_F(LeaseTest, FewDirectionsMakeFewBlocks) {
+  submit();
+  prepare(4, 20);
+  EXPECT_EQ(lease().positions(0).end(), 16U);
+  EXPECT_EQ(lease().positions(0).begin(), 16U);
+  EXPECT_FALSE(has_work());
+}
+
+TEST_F(LeaseTest, TwoWorkersNeverHoldTheSameTask) {
+  submit();
+  prepare(4, 40);
+  const v1::Lease first = lease("worker-a");
+  const v1::Lease second = lease("worker-b");
+  EXPECT_NE(first.token(), second.token());
+  EXPECT_NE(first.positions(0).begin(), second.positions(0).begin());
+}
+
+TEST_F(LeaseTest, PriorityThenPreferredJobThenAge) {
+  const auto submit_with = [&](const std::string& mesh, std::uint32_t priority) {
+    v1::SubmitJobHeader header = submit_header(mesh);
+    header.set_priority(priority);
+    return store_->submit(header, mesh).job.id();
+  };
+  const std::string old_low = submit_with("1", 3);
+  const std::string old_high = submit_with("2", 9);
+  const std::string new_low = submit_with("3", 3);
+  const auto next = [&](const std::string& preferred) {
+    return store_->lease(worker_identity(), preferred, false)->job().id();
+  };
+  EXPECT_EQ(next(new_low), old_high);
+  EXPECT_EQ(next(new_low), new_low);
+  EXPECT_EQ(next(new_low), old_low);
+}
+
+TEST_F(LeaseTest, CoreVersionsAreNeverMixed) {
+  submit();
+  prepare(4, 40);
+  EXPECT_FALSE(store_->lease(worker_identity("worker-b", "2"), "", false));
+  EXPECT_TRUE(store_->lease(worker_identity("worker-c", "1"), "", false));
+}
+
+TEST_F(LeaseTest, SaysWhenTheCoreVersionIsMissing) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  EXPECT_EQ(store_->job(job.id()).waiting_reason(), "");
+  EXPECT_FALSE(store_->lease(worker_identity("worker-b", "2"), "", false));
+  EXPECT_NE(store_->job(job.id()).waiting_reason().find("core version 1"), std::string::npos);
+  lease();
+  EXPECT_EQ(store_->job(job.id()).waiting_reason(), "");
+}
+
+TEST_F(LeaseTest, RunningFromTheFirstLease) {
+  const v1::Job job = submit();
+  clock_.advance(10);
+  lease();
+  const v1::Job running = store_->job(job.id());
+  EXPECT_EQ(running.state(), v1::JOB_STATE_RUNNING);
+  EXPECT_EQ(running.started_ms(), job.created_ms() + 10);
+  EXPECT_EQ(running.counters().leases_granted(), 1U);
+}
+
+TEST_F(LeaseTest, SilentWorkerLosesItsLease) {
+  const v1::Job job = submit();
+  const v1::Lease lost = lease();
+  clock_.advance(options_.lease_ms);
+  EXPECT_EQ(store_->expire_leases(), 0) << "the deadline itself is still in time";
+  clock_.advance(1);
+  EXPECT_EQ(store_->expire_leases(), 1);
+  EXPECT_STORE_ERROR(store_->renew(lost.token()), kFenced);
+  EXPECT_EQ(lease("worker-b").kind(), v1::TASK_KIND_PREPARE);
+  EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 1U);
+}
+
+TEST_F(LeaseTest, ExpiryIsNoticedWhenLeasing) {
+  submit();
+  lease();
+  EXPECT_FALSE(has_work("worker-b"));
+  clock_.advance(options_.lease_ms + 1);
+  EXPECT_TRUE(has_work("worker-b"));
+}
+
+TEST_F(LeaseTest, RenewalKeepsTheLease) {
+  submit();
+  const v1::Lease kept = lease();
+  for (int i = 0; i < 5; ++i) {
+    clock_.advance(options_.lease_ms);
+    const v1::ReportResponse response = store_->renew(kept.token());
+    EXPECT_FALSE(response.cancelled());
+    EXPECT_EQ(response.lease_ms(), options_.lease_ms);
+    EXPECT_EQ(response.report_interval_ms(), options_.report_interval_ms);
+    EXPECT_EQ(store_->expire_leases(), 0);
+  }
+}
+
+TEST_F(LeaseTest, FencedReportChangesNothing) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease old = lease("worker-a");
+  clock_.advance(options_.lease_ms + 1);
+  const v1::Lease current = lease("worker-b");
+  EXPECT_STORE_ERROR(report(old, 0, 5), kFenced);
+  EXPECT_EQ(store_->job(job.id()).directions_done(), 0U);
+  report(current, 0, 5);
+  EXPECT_EQ(store_->job(job.id()).directions_done(), 5U);
+}
+
+TEST_F(LeaseTest, NextWorkerGetsWhatIsLeft) {
+  submit();
+  prepare(4, 16);
+  const v1::Lease first = lease("worker-a");
+  report(first, 2, 5);
+  report(first, 9, 12);
+  clock_.advance(options_.lease_ms + 1);
+  const v1::Lease rest = lease("worker-b");
+  ASSERT_EQ(rest.positions_size(), 3);
+  EXPECT_EQ(rest.positions(0).begin(), 0U);
+  EXPECT_EQ(rest.positions(0).end(), 2U);
+  EXPECT_EQ(rest.positions(1).begin(), 5U);
+  EXPECT_EQ(rest.positions(1).end(), 9U);
+  EXPECT_EQ(rest.positions(2).begin(), 12U);
+  EXPECT_EQ(rest.positions(2).end(), 16U);
+}
+
+TEST_F(LeaseTest, BlockThatWasFinishedButNotClosedIsNotLeasedAgain) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  report(lease(), 0, 16, false);  // and then the worker dies
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  EXPECT_EQ(store_->job(job.id()).stage(), v1::JOB_STAGE_DERIVE);
+}
+
+TEST_F(LeaseTest, ReturnedLeaseIsNotALoss) {
+  const v1::Job job = submit();
+  store_->give_back(lease().token());
+  EXPECT_TRUE(has_work());
+  EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 0U);
+}
+
+TEST_F(LeaseTest, TooManyLossesWithoutProgressFailTheJob) {
+  const v1::Job job = submit();
+  for (std::int64_t i = 0; i < options_.max_losses; ++i) {
+    EXPECT_NE(store_->job(job.id()).state(), v1::JOB_STATE_FAILED);
+    lease();
+    clock_.advance(options_.lease_ms + 1);
+    store_->expire_leases();
+  }
+  const v1::Job failed = store_->job(job.id());
+  EXPECT_EQ(failed.state(), v1::JOB_STATE_FAILED);
+  EXPECT_EQ(failed.error().code(), "WORKER_LOST");
+  EXPECT_NE(failed.error().message().find("prepare"), std::string::npos);
+  EXPECT_FALSE(has_work());
+}
+
+TEST_F(LeaseTest, ProgressForgivesLosses) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    const v1::Lease block = lease();
+    report(block, i, i + 1);
+    clock_.advance(options_.lease_ms + 1);
+    store_->expire_leases();
+  }
+  EXPECT_EQ(store_->job(job.id()).stage(), v1::JOB_STAGE_DERIVE);
+  EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 16U);
+}
+
+TEST_F(LeaseTest, DeadProcessLosesItsLeasesAtOnce) {
+  submit("OFF 1");
+  submit("OFF 2");
+  lease();
+  v1::WorkerIdentity other = worker_identity("worker-b");
+  other.set_pid(4712);
+  ASSERT_TRUE(store_->lease(other, "", false));
+  EXPECT_EQ(store_->release_worker("another-host", 4711), 0);
+  EXPECT_EQ(store_->release_worker("test-host", 4711), 1);
+  EXPECT_TRUE(has_work());
+}
+
+TEST_F(LeaseTest, EstimatesWhatALossCost) {
+  const v1::Job job = submit();
+  prepare(4, 64);
+  const v1::Lease block = lease();
+  clock_.advance(1000);
+  report(block, 0, 8);  // 8 directions a second
+  clock_.advance(500);
+  store_->release_worker("test-host", 4711);
+  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 4.0);
+
+  const v1::Lease next = lease();
+  clock_.advance(1000);
+  report(next, 8, 16);
+  clock_.advance(options_.lease_ms + 1);  // it would have reported after one interval
+  store_->expire_leases();
+  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 12.0);
+
+  lease();
+  clock_.advance(options_.lease_ms + 1);  // never reported: nothing is known
+  store_->expire_leases();
+  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 12.0);
+}
+
+TEST_F(LeaseTest, LeasesSurviveARestart) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease block = lease();
+  report(block, 0, 3);
+  clock_.advance(10 * options_.lease_ms);  // the server was away for longer than the lease
+  open();
+  EXPECT_EQ(store_->expire_leases(), 0);
+  EXPECT_FALSE(has_work("worker-b"));
+  report(block, 3, 16, true);
+  EXPECT_EQ(store_->job(job.id()).directions_done(), 16U);
+  EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 0U);
+}
+
+TEST_F(LeaseTest, AfterARestartALeaseStillEnds) {
+  submit();
+  lease();
+  open();
+  clock_.advance(options_.lease_ms + 1);
+  EXPECT_EQ(store_->expire_leases(), 1);
+}
+
+TEST_F(LeaseTest, RemembersSupervisedHolders) {
+  submit("OFF 1");
+  submit("OFF 2");
+  lease();
+  EXPECT_TRUE(store_->supervised_holders().empty());
+  ASSERT_TRUE(store_->lease(worker_identity("worker-b"), "", true));
+  open();
+  const std::vector<Store::Holder> holders = store_->supervised_holders();
+  ASSERT_EQ(holders.size(), 1U);
+  EXPECT_EQ(holders[0].host, "test-host");
+  EXPECT_EQ(holders[0].pid, 4711);
+}
+
+}  // namespace
+}  // namespace affskel::server

@@ -1,0 +1,81 @@
+#include "wire/params.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace affskel::wire {
+namespace {
+
+v1::ErosionParams erosion(const std::string& directions, double spacing = 1.0) {
+  v1::ErosionParams params;
+  params.mutable_sampling()->set_spacing(spacing);
+  params.set_directions(directions);
+  return params;
+}
+
+TEST(ParamsTest, DirectionSetsHaveOneSpelling) {
+  EXPECT_EQ(canonical(erosion("")).directions(), "triangles");
+  EXPECT_EQ(canonical(erosion("sphere:0100")).directions(), "sphere:100");
+  EXPECT_EQ(canonical(erosion("triangles+random:5:007")).directions(), "triangles+random:5:7");
+  EXPECT_EQ(canonical(erosion("random:5:18446744073709551615")).directions(),
+            "random:5:18446744073709551615");
+}
+
+TEST(ParamsTest, RefusesWhatIsNoDirectionSet) {
+  for (const char* bad :
+       {"circle", "triangles:3", "sphere", "sphere:", "sphere:0", "sphere:-1", "sphere:1e3", "sphere:5:1",
+        "random:5", "random:5:", "random:5:-1", "random:5:18446744073709551616", "+", "triangles+",
+        "+triangles", " triangles", "sphere:2147483649"}) {
+    EXPECT_THROW(canonical(erosion(bad)), std::invalid_argument) << bad;
+  }
+}
+
+TEST(ParamsTest, RefusesSamplingsOutOfRange) {
+  for (double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_THROW(canonical(erosion("", bad)), std::invalid_argument) << bad;
+  }
+  v1::ErosionParams params;
+  EXPECT_THROW(canonical(params), std::invalid_argument);
+  params.mutable_sampling()->set_target_points(0);
+  EXPECT_THROW(canonical(params), std::invalid_argument);
+  params.mutable_sampling()->set_target_points(1);
+  EXPECT_NO_THROW(canonical(params));
+}
+
+TEST(ParamsTest, KeysTellEveryBitOfTheSpacing) {
+  const double spacing = 200;
+  EXPECT_EQ(cache_key(canonical(erosion("", spacing))), cache_key(canonical(erosion("triangles", spacing))));
+  EXPECT_NE(cache_key(canonical(erosion("", spacing))),
+            cache_key(canonical(erosion("", std::nextafter(spacing, 201.0)))));
+  v1::ErosionParams repaired = erosion("", spacing);
+  repaired.set_repair(true);
+  EXPECT_NE(cache_key(canonical(erosion("", spacing))), cache_key(canonical(repaired)));
+}
+
+TEST(ParamsTest, SkeletonDefaultsAreFilledIn) {
+  const v1::SkeletonParams filled = canonical(v1::SkeletonParams());
+  EXPECT_EQ(filled.operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+  EXPECT_EQ(filled.threshold(), kZuckerHummelThreshold);
+  v1::SkeletonParams negative_zero;
+  negative_zero.set_threshold(-0.0);
+  EXPECT_EQ(cache_key(canonical(negative_zero)), cache_key(filled));
+  v1::SkeletonParams bad;
+  bad.set_threshold(std::nan(""));
+  EXPECT_THROW(canonical(bad), std::invalid_argument);
+}
+
+TEST(ParamsTest, SurfaceKeysIncludeTheSkeleton) {
+  v1::SurfaceParams plain;
+  v1::SurfaceParams finer;
+  finer.mutable_skeleton()->set_threshold(3);
+  EXPECT_NE(cache_key(canonical(plain)), cache_key(canonical(finer)));
+  v1::SurfaceParams bad;
+  bad.set_alpha(-1);
+  EXPECT_THROW(canonical(bad), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace affskel::wire

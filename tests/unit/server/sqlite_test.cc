@@ -1,0 +1,148 @@
+#include "store/sqlite.h"
+
+#include "expect_store_error.h"
+#include "store/migrate.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+class DatabaseTest : public testing::Test {
+ protected:
+  std::string file() const { return (directory_.path() / "test.db").string(); }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(DatabaseTest, OpensDurablyAndWithForeignKeys) {
+  Database db(file(), Database::Mode::kReadWrite);
+  Statement mode = db.query("PRAGMA journal_mode");
+  ASSERT_TRUE(mode.step());
+  EXPECT_EQ(mode.text(0), "wal");
+  EXPECT_EQ(db.integer("PRAGMA synchronous"), 2);  // FULL
+  EXPECT_EQ(db.integer("PRAGMA foreign_keys"), 1);
+}
+
+TEST_F(DatabaseTest, BindsAndReadsEveryType) {
+  Database db(file(), Database::Mode::kReadWrite);
+  const std::string bytes("\0\1\xff", 3);
+  Statement row = db.query("SELECT ?, ?, ?, ?, ?", std::int64_t{-7}, 0.1, "text", Blob{bytes}, nullptr);
+  ASSERT_TRUE(row.step());
+  EXPECT_EQ(row.integer(0), -7);
+  EXPECT_EQ(row.real(1), 0.1);
+  EXPECT_EQ(row.text(2), "text");
+  EXPECT_EQ(row.blob(3), bytes);
+  EXPECT_TRUE(row.is_null(4));
+  EXPECT_FALSE(row.step());
+}
+
+TEST_F(DatabaseTest, StatementInUseTwiceAtOnce) {
+  Database db(file(), Database::Mode::kReadWrite);
+  const char* sql = "SELECT value FROM (SELECT 1 AS value UNION SELECT 2) WHERE value >= ?";
+  Statement outer = db.query(sql, 1);
+  ASSERT_TRUE(outer.step());
+  Statement inner = db.query(sql, 2);
+  ASSERT_TRUE(inner.step());
+  EXPECT_EQ(inner.integer(0), 2);
+  EXPECT_EQ(outer.integer(0), 1);
+  EXPECT_TRUE(outer.step());
+}
+
+TEST_F(DatabaseTest, TransactionRollsBackUnlessCommitted) {
+  Database db(file(), Database::Mode::kReadWrite);
+  db.execute("CREATE TABLE t (x INTEGER) STRICT");
+  {
+    Transaction transaction(db);
+    db.run("INSERT INTO t VALUES (1)");
+  }
+  EXPECT_EQ(db.integer("SELECT count(*) FROM t"), 0);
+  {
+    Transaction transaction(db);
+    db.run("INSERT INTO t VALUES (1)");
+    transaction.commit();
+  }
+  EXPECT_EQ(db.integer("SELECT count(*) FROM t"), 1);
+}
+
+TEST_F(DatabaseTest, ErrorsCarryExtendedCodes) {
+  Database db(file(), Database::Mode::kReadWrite);
+  db.execute("CREATE TABLE t (x INTEGER PRIMARY KEY) STRICT");
+  db.run("INSERT INTO t VALUES (1)");
+  try {
+    db.run("INSERT INTO t VALUES (1)");
+    FAIL() << "no error";
+  } catch (const SqliteError& error) {
+    EXPECT_EQ(error.extended_code(), SQLITE_CONSTRAINT_PRIMARYKEY);
+  }
+}
+
+TEST_F(DatabaseTest, MigratesFromEmptyOnce) {
+  Database db(file(), Database::Mode::kReadWrite);
+  EXPECT_EQ(migrate(db), embedded_migrations().back().number);
+  EXPECT_EQ(db.integer("PRAGMA application_id"), kApplicationId);
+  EXPECT_EQ(db.integer("PRAGMA user_version"), embedded_migrations().back().number);
+  EXPECT_EQ(migrate(db), embedded_migrations().back().number);
+}
+
+TEST_F(DatabaseTest, AppliesOnlyWhatIsMissing) {
+  Database db(file(), Database::Mode::kReadWrite);
+  std::vector<Migration> migrations = embedded_migrations();
+  migrate(db, migrations);
+  migrations.push_back({migrations.back().number + 1, "next", "CREATE TABLE added (x INTEGER) STRICT;"});
+  EXPECT_EQ(migrate(db, migrations), migrations.back().number);
+  EXPECT_EQ(db.integer("SELECT count(*) FROM added"), 0);
+}
+
+TEST_F(DatabaseTest, FailedMigrationChangesNothing) {
+  Database db(file(), Database::Mode::kReadWrite);
+  std::vector<Migration> migrations = embedded_migrations();
+  migrate(db, migrations);
+  migrations.push_back(
+      {migrations.back().number + 1, "bad", "CREATE TABLE half (x INTEGER) STRICT; NONSENSE;"});
+  EXPECT_THROW(migrate(db, migrations), SqliteError);
+  EXPECT_EQ(db.integer("SELECT count(*) FROM sqlite_schema WHERE name = 'half'"), 0);
+  EXPECT_EQ(db.integer("PRAGMA user_version"), embedded_migrations().back().number);
+}
+
+TEST_F(DatabaseTest, RefusesNewerSchema) {
+  Database db(file(), Database::Mode::kReadWrite);
+  migrate(db);
+  db.execute("PRAGMA user_version = 1000");
+  EXPECT_STORE_ERROR(migrate(db), kUnusable);
+}
+
+TEST_F(DatabaseTest, RefusesForeignDatabase) {
+  Database db(file(), Database::Mode::kReadWrite);
+  db.execute("CREATE TABLE somebody_elses (x INTEGER)");
+  EXPECT_STORE_ERROR(migrate(db), kUnusable);
+}
+
+TEST_F(DatabaseTest, StoredMeshCannotBeChanged) {
+  Database db(file(), Database::Mode::kReadWrite);
+  migrate(db);
+  const std::string sha(64, 'a');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  db.run("INSERT INTO mesh_chunks (sha256, idx, data) VALUES (?, 0, x'010203')", sha);
+  EXPECT_THROW(db.run("UPDATE meshes SET bytes = 4"), SqliteError);
+  EXPECT_THROW(db.run("UPDATE mesh_chunks SET data = x'00'"), SqliteError);
+}
+
+TEST_F(DatabaseTest, ChecksStates) {
+  Database db(file(), Database::Mode::kReadWrite);
+  migrate(db);
+  const std::string sha(64, 'a');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  const char* insert =
+      "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
+      "created_ms)"
+      " VALUES (?, '', '', ?, ?, ?, ?, x'', '', 0)";
+  const std::string id(32, '0');
+  EXPECT_THROW(db.run(insert, id, 5, "sleeping", "prepare", 1), SqliteError);
+  EXPECT_THROW(db.run(insert, id, 10, "queued", "prepare", 1), SqliteError);
+  EXPECT_THROW(db.run(insert, id, 5, "done", "erode", 1), SqliteError);
+  EXPECT_THROW(db.run(insert, id, 5, "queued", "prepare", 2), SqliteError);  // no such erosion
+  EXPECT_NO_THROW(db.run(insert, id, 5, "queued", "prepare", 1));
+}
+
+}  // namespace
+}  // namespace affskel::server

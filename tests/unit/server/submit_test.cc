@@ -1,0 +1,185 @@
+#include "expect_store_error.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+using SubmitTest = StoreTest;
+
+TEST_F(SubmitTest, StoresMeshAndJob) {
+  const std::string mesh = std::string("OFF\n\0binary is kept", 19) + std::string(3 << 20, 'x');
+  const v1::Job job = submit(mesh);
+  EXPECT_EQ(job.id().size(), 32U);
+  EXPECT_EQ(job.state(), v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(job.stage(), v1::JOB_STAGE_PREPARE);
+  EXPECT_EQ(job.mesh_bytes(), mesh.size());
+  EXPECT_EQ(job.params().directions(), "triangles");
+  EXPECT_EQ(job.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+  v1::FetchArtifactRequest request;
+  request.set_job(job.id());
+  request.set_kind(v1::ARTIFACT_KIND_MESH);
+  EXPECT_EQ(read_all(*store_->open_artifact(request).reader), mesh);
+}
+
+TEST_F(SubmitTest, RefusesWrongHeaders) {
+  const std::string mesh = "OFF 1";
+  const auto refused = [&](auto change) {
+    v1::SubmitJobHeader header = submit_header(mesh);
+    change(header);
+    EXPECT_STORE_ERROR(store_->submit(header, mesh), kInvalid);
+  };
+  refused([](auto& h) { h.set_mesh_bytes(4); });
+  refused([](auto& h) { h.set_mesh_sha256(std::string(64, '0')); });
+  refused([](auto& h) { h.set_priority(10); });
+  refused([](auto& h) { h.set_name(std::string(201, 'n')); });
+  refused([](auto& h) { h.set_owner(std::string(101, 'n')); });
+  refused([](auto& h) { h.mutable_params()->clear_sampling(); });
+  refused([](auto& h) { h.mutable_params()->mutable_sampling()->set_spacing(-1); });
+  refused([](auto& h) { h.mutable_params()->set_directions("circle:5"); });
+  refused([](auto& h) { h.mutable_skeleton()->set_threshold(-1); });
+  EXPECT_EQ(store_->counts().total, 0);
+}
+
+TEST_F(SubmitTest, RefusesEmptyAndTooLargeMeshes) {
+  EXPECT_STORE_ERROR(store_->submit(submit_header(""), ""), kInvalid);
+  options_.max_mesh_bytes = 10;
+  open();
+  const std::string mesh(11, 'm');
+  EXPECT_STORE_ERROR(store_->submit(submit_header(mesh), mesh), kLimit);
+}
+
+TEST_F(SubmitTest, SameSubmissionIsTheSameJob) {
+  const std::string mesh = "OFF 1";
+  const Store::Submitted first = store_->submit(submit_header(mesh), mesh);
+  EXPECT_FALSE(first.existed);
+  v1::SubmitJobHeader spelled_otherwise = submit_header(mesh);
+  spelled_otherwise.mutable_params()->set_directions("triangles");
+  spelled_otherwise.mutable_skeleton()->set_threshold(7);
+  spelled_otherwise.set_priority(8);
+  const Store::Submitted second = store_->submit(spelled_otherwise, mesh);
+  EXPECT_TRUE(second.existed);
+  EXPECT_EQ(second.job.id(), first.job.id());
+  EXPECT_EQ(second.job.priority(), 8U) << "as urgent as the more urgent of the two";
+}
+
+TEST_F(SubmitTest, OtherContentIsAnotherJob) {
+  const std::string id = submit("OFF 1").id();
+  EXPECT_NE(submit("OFF 2").id(), id);
+  EXPECT_NE(submit("OFF 1", "another name").id(), id);
+  v1::SubmitJobHeader finer = submit_header("OFF 1");
+  finer.mutable_params()->mutable_sampling()->set_spacing(0.25 + 1e-16);
+  EXPECT_NE(store_->submit(finer, "OFF 1").job.id(), id);
+}
+
+TEST_F(SubmitTest, RequestIdsNameOneSubmission) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_request_id("key");
+  const std::string id = store_->submit(header, "OFF 1").job.id();
+  EXPECT_TRUE(store_->submit(header, "OFF 1").existed);
+  open();
+  EXPECT_EQ(store_->submit(header, "OFF 1").job.id(), id);
+  v1::SubmitJobHeader other = submit_header("OFF 2");
+  other.set_request_id("key");
+  EXPECT_STORE_ERROR(store_->submit(other, "OFF 2"), kExists);
+  header.set_name("renamed");
+  EXPECT_STORE_ERROR(store_->submit(header, "OFF 1"), kExists);
+  EXPECT_EQ(store_->counts().total, 1);
+}
+
+TEST_F(SubmitTest, RequestIdFindsItsJobEvenWhenItFailed) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_request_id("key");
+  const std::string id = store_->submit(header, "OFF 1").job.id();
+  store_->cancel(id);
+  EXPECT_EQ(store_->submit(header, "OFF 1").job.id(), id);
+  header.clear_request_id();
+  EXPECT_NE(store_->submit(header, "OFF 1").job.id(), id) << "a cancelled job answers no new submission";
+}
+
+TEST_F(SubmitTest, FinishedJobAnswersAtOnce) {
+  const v1::Job done = complete_job(10, 20);
+  ASSERT_EQ(done.state(), v1::JOB_STATE_DONE);
+  const Store::Submitted again = store_->submit(submit_header("OFF 1"), "OFF 1");
+  EXPECT_TRUE(again.existed);
+  EXPECT_EQ(again.job.id(), done.id());
+}
+
+TEST_F(SubmitTest, FinishedFieldIsSharedWithOtherNames) {
+  const v1::Job done = complete_job(10, 20);
+  const v1::Job shared = submit("OFF 1", "another name");
+  EXPECT_NE(shared.id(), done.id());
+  EXPECT_EQ(shared.state(), v1::JOB_STATE_DONE) << "field and skeleton are there already";
+  EXPECT_EQ(shared.skeleton_points(), done.skeleton_points());
+  EXPECT_EQ(shared.counters().directions_reported(), 0U);
+  EXPECT_EQ(field(shared.id()), expected_field(10, 20));
+}
+
+TEST_F(SubmitTest, OtherSkeletonNeedsOnlyTheSkeleton) {
+  complete_job(10, 20);
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.mutable_skeleton()->set_threshold(3);
+  const v1::Job job = store_->submit(header, "OFF 1").job;
+  EXPECT_EQ(job.stage(), v1::JOB_STAGE_DERIVE);
+  const v1::Lease task = lease();
+  EXPECT_EQ(task.kind(), v1::TASK_KIND_SKELETON);
+  EXPECT_EQ(task.skeleton().threshold(), 3);
+  store_->complete(derive_header(task.token(), "s", 1), "s");
+  EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
+}
+
+TEST_F(SubmitTest, JobSubmittedMeanwhileAdoptsTheFinishedField) {
+  const v1::Job first = submit("OFF 1", "first");
+  prepare(10, 20);
+  const v1::Job second = submit("OFF 1", "second");  // nothing finished to share yet
+  EXPECT_EQ(second.stage(), v1::JOB_STAGE_PREPARE);
+  finish_block(lease());
+  finish_block(lease());
+  derive();
+  EXPECT_EQ(store_->job(first.id()).state(), v1::JOB_STATE_DONE);
+  EXPECT_FALSE(has_work());
+  EXPECT_EQ(store_->job(second.id()).state(), v1::JOB_STATE_DONE);
+}
+
+TEST_F(SubmitTest, OtherCoreVersionComputesAnew) {
+  const v1::Job done = complete_job(10, 20);
+  const v1::Job other = submit("OFF 2");
+  const std::optional<v1::Lease> newer = store_->lease(worker_identity("worker-b", "2"), "", false);
+  ASSERT_TRUE(newer);
+  EXPECT_EQ(newer->job().id(), other.id());
+  const Store::Submitted again = store_->submit(submit_header("OFF 1"), "OFF 1");
+  EXPECT_FALSE(again.existed) << "workers of a newer core are here: the old field does not answer";
+  EXPECT_NE(again.job.id(), done.id());
+}
+
+TEST_F(SubmitTest, FindsJobsByPrefixAndLast) {
+  const std::string first = submit("OFF 1").id();
+  const std::string second = submit("OFF 2").id();
+  EXPECT_EQ(store_->resolve(first), first);
+  EXPECT_EQ(store_->resolve(first.substr(0, 12)), first);
+  EXPECT_EQ(store_->resolve("@last"), second);
+  EXPECT_STORE_ERROR(store_->resolve(first.substr(0, 5)), kInvalid);
+  EXPECT_STORE_ERROR(store_->resolve("no-hex-digits"), kInvalid);
+  EXPECT_STORE_ERROR(store_->resolve(std::string(32, first[0] == '0' ? '1' : '0')), kNotFound);
+}
+
+TEST_F(SubmitTest, ListsNewestFirstWithFilters) {
+  const std::string first = submit("OFF 1").id();
+  const std::string second = submit("OFF 2").id();
+  v1::SubmitJobHeader header = submit_header("OFF 3");
+  header.set_owner("grace");
+  const std::string third = store_->submit(header, "OFF 3").job.id();
+  store_->cancel(first);
+  const auto ids = [&](const ListFilter& filter) {
+    std::vector<std::string> found;
+    for (const v1::Job& job : store_->list(filter)) found.push_back(job.id());
+    return found;
+  };
+  EXPECT_EQ(ids({}), (std::vector<std::string>{third, second, first}));
+  EXPECT_EQ(ids({{}, "ada", 50}), (std::vector<std::string>{second, first}));
+  EXPECT_EQ(ids({{v1::JOB_STATE_CANCELLED}, "", 50}), (std::vector<std::string>{first}));
+  EXPECT_EQ(ids({{v1::JOB_STATE_CANCELLED, v1::JOB_STATE_QUEUED}, "", 2}),
+            (std::vector<std::string>{third, second}));
+}
+
+}  // namespace
+}  // namespace affskel::server
