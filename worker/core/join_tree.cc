@@ -301,7 +301,8 @@ class JoinTreeBuilder::Work {
 
   std::uint32_t new_arc(std::uint32_t rank, std::uint32_t solid) {
     const auto arc = static_cast<std::uint32_t>(tree_.arcs.size());
-    tree_.arcs.push_back({kInfinity, Arc::kNone, 0, 0, 0, 0});
+    tree_.arcs.emplace_back();
+    tree_.arcs.back().top = kInfinity;
     topology_.start_rank.push_back(rank);
     topology_.piece_count.push_back(0);
     topology_.arc_solid.push_back(solid);
@@ -355,26 +356,34 @@ class JoinTreeBuilder::Work {
     }
   }
 
+  // Cells of equal height, as many as pieces.  Entry c: the last piece in a cell before c, else the first
+  // piece; one entry more after the last cell: the last piece.
   void fill_cells() {
     tree_.cells.resize(tree_.pieces.size() + tree_.arcs.size());
+    tree_.cell_volume.resize(tree_.cells.size());
     for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
       Arc& arc = tree_.arcs[a];
-      const std::uint32_t count = arc.last_piece - arc.first_piece;
-      const Piece* pieces = tree_.pieces.data();
-      const double span = pieces[arc.last_piece].height - pieces[arc.first_piece].height;
+      const std::uint32_t last = arc.last_piece - arc.first_piece;
+      const Piece* pieces = &tree_.pieces[arc.first_piece];
+      const double span = pieces[last].height - pieces[0].height;
+      arc.bottom = pieces[0].height;
       arc.first_cell = arc.first_piece + static_cast<std::uint32_t>(a);
-      arc.cell_scale = span > 0 ? count / span : 0;
-      // Entry c: the last piece in a cell before c, else the first piece; the entry after the last cell: the
-      // last piece.
+      arc.cell_scale = span > 0 ? last / span : 0;
       std::uint32_t* entry = &tree_.cells[arc.first_cell];
+      double* volume = &tree_.cell_volume[arc.first_cell];
       std::uint32_t filled = 0;
-      for (std::uint32_t i = 0; i <= count; ++i) {
-        const double cell =
-            (pieces[arc.first_piece + i].height - pieces[arc.first_piece].height) * arc.cell_scale;
-        const auto own = cell < count ? static_cast<std::uint32_t>(cell) : count;
-        for (; filled <= own; ++filled) entry[filled] = arc.first_piece + (i == 0 ? 0 : i - 1);
+      for (std::uint32_t i = 0; i <= last; ++i) {
+        const std::uint32_t own = JoinTree::cell(arc, pieces[i].height) - arc.first_cell;
+        const std::uint32_t before = i == 0 ? 0 : i - 1;
+        for (; filled <= own; ++filled) {
+          entry[filled] = arc.first_piece + before;
+          volume[filled] = pieces[before].volume;
+        }
       }
-      for (; filled <= count + 1; ++filled) entry[filled] = arc.last_piece;
+      for (; filled <= last + 1; ++filled) {
+        entry[filled] = arc.last_piece;
+        volume[filled] = pieces[last].volume;
+      }
     }
   }
 

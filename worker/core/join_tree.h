@@ -33,10 +33,11 @@ struct Piece {
 struct Arc {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   double top = 0;                 ///< +infinity for a root
+  double bottom = 0;              ///< height of the first piece
   std::uint32_t parent = kNone;   ///< kNone for a root
   std::uint32_t first_piece = 0;  ///< pieces [first_piece, last_piece], by height; at least one
   std::uint32_t last_piece = 0;
-  std::uint32_t first_cell = 0;  ///< of the look-up table, see locate()
+  std::uint32_t first_cell = 0;  ///< of the look-up table, see JoinTree::cell()
   double cell_scale = 0;         ///< cells per unit of height
 };
 
@@ -46,6 +47,7 @@ struct JoinTree {
   std::vector<Arc> arcs;
   std::vector<Piece> pieces;
   std::vector<std::uint32_t> cells;  ///< per arc, one more than pieces: least piece of the cell's heights
+  std::vector<double> cell_volume;   ///< parallel to cells: volume at the start of that piece
   std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
   std::uint32_t roots = 0;
   double least_step = 0;  ///< the most negative change of volume between neighbouring pieces, inner units
@@ -57,14 +59,21 @@ struct JoinTree {
     return arc;
   }
 
+  /// The look-up table's cell for height h of the arc.  Grows with h.
+  static std::uint32_t cell(const Arc& arc, double h) {
+    const double c = (h - arc.bottom) * arc.cell_scale;
+    const std::uint32_t last = arc.last_piece - arc.first_piece;
+    return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
+  }
+
+  /// A volume that V(h) is not below, but for TreeInput::volume_tolerance(): V at a vertex of the arc at or
+  /// shortly under h.  One look-up.
+  double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
+
   /// The piece of `arc` that holds height h: the last one that starts at or below h, else the first.
   const Piece& locate(const Arc& arc, double h) const {
-    const std::uint32_t count = arc.last_piece - arc.first_piece;
-    const double cell = (h - pieces[arc.first_piece].height) * arc.cell_scale;
-    if (!(cell > 0)) return pieces[arc.first_piece];
-    // Cell numbers grow with h: the piece lies between the entries of h's cell and of the next.
-    const std::uint32_t* entry =
-        &cells[arc.first_cell + (cell < count ? static_cast<std::uint32_t>(cell) : count)];
+    // It lies between the entries of h's cell and of the next one.
+    const std::uint32_t* entry = &cells[cell(arc, h)];
     const Piece* first = &pieces[entry[0]];
     const Piece* last = &pieces[entry[1]];
     while (last - first > 8) {
@@ -97,8 +106,8 @@ class TreeInput {
 
 struct JoinTreeOptions {
   /// Check that the roots are as many as the solids and that every root's volume at its top is its
-  /// solid's, and that volumes never fall, both within TreeInput::volume_tolerance(); off for meshes that cross
-  /// themselves, where it need not hold.
+  /// solid's, and that volumes never fall, both within TreeInput::volume_tolerance(); off for meshes that
+  /// cross themselves, where it need not hold.
   bool check_invariants = true;
 };
 

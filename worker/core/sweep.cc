@@ -36,7 +36,7 @@ class Sweeper::Pass {
     const std::size_t a = choose_axis();
     const AxisRuns& axis = owner_.lattice_.axis[a];
     if (owner_.options_.prune) {
-      for (std::size_t r = 0; r < axis.runs.size(); ++r) pruned_run(a, r);
+      pruned_runs(a);
     } else {
       for (const LatticeRun& run : axis.runs) whole_run(a, run);
     }
@@ -45,19 +45,13 @@ class Sweeper::Pass {
   }
 
  private:
-  // Where the last chord was found: the next one along the run is on the same arc or above.
-  struct Cursor {
-    std::uint32_t arc;
-    double volume = 0;
-    const Piece* piece = nullptr;
-  };
-
+  // The flattest axis: V hardly changes along its runs, so that one chord speaks for all their points.
   std::size_t choose_axis() const {
     std::size_t best = 0;
-    double best_slope = -1;
+    double best_slope = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
       const double slope = std::abs(step_[k]) / norm(owner_.lattice_.frame.axes[k]);
-      if (slope > best_slope) {
+      if (slope < best_slope) {
         best = k;
         best_slope = slope;
       }
@@ -72,90 +66,105 @@ class Sweeper::Pass {
     return ((base_ + at[0] * step_[0]) + at[1] * step_[1]) + at[2] * step_[2];
   }
 
-  // Offset of the n-th point upward.
-  static std::uint32_t upward(const LatticeRun& run, bool rising, std::uint32_t n) {
-    return rising ? n : run.length - 1 - n;
-  }
-
   std::uint32_t point(std::size_t a, const LatticeRun& run, std::uint32_t offset) const {
     const std::vector<std::uint32_t>& order = owner_.lattice_.axis[a].order;
     return order.empty() ? run.first + offset : order[run.first + offset];
   }
 
-  void find(Cursor& cursor, double h) const {
-    while (h >= tree_.arcs[cursor.arc].top) cursor.arc = tree_.arcs[cursor.arc].parent;
-    cursor.piece = &tree_.locate(tree_.arcs[cursor.arc], h);
-    const double volume = cursor.piece->volume_at(h);
-    // Rounding may leave a little less than nothing; much less only happens where a mesh crosses itself,
-    // and says nothing about the chord there.
-    cursor.volume = volume > 0 ? volume : volume >= -owner_.options_.margin ? 0 : kInfinity;
+  // The arc that holds the component of the run's lowest point, or one below it.
+  const Arc* first_arc(const LatticeRun& run, bool rising) const {
+    return &tree_.arcs[tree_.triangle_arc[rising ? run.low : run.high]];
   }
 
-  void offer(std::uint32_t p, const Cursor& cursor, double h) {
-    if (!owner_.field_.may_improve(p, cursor.volume) || cursor.volume == kInfinity) return;
-    const double area = cursor.piece->area_at(h);
-    owner_.field_.offer(p, {cursor.volume, area > 0 ? area : 0, index_});
+  void climb(const Arc*& arc, double h) const {
+    while (h >= arc->top) arc = &tree_.arcs[arc->parent];
+  }
+
+  // Whether a point at height h on the arc, or any above it on its run, has a greater chord than `bound`.
+  bool exceeds(const Arc& arc, double h, double bound) const {
+    return tree_.volume_below(arc, h) > bound + owner_.options_.margin;
+  }
+
+  void evaluate(std::uint32_t p, const Arc& arc, double h) {
+    ++counts_.evaluated;
+    const Piece& piece = tree_.locate(arc, h);
+    double volume = piece.volume_at(h);
+    // Rounding may leave a little less than nothing; much less only happens where a mesh crosses itself,
+    // and says nothing about the chord there.
+    if (volume < -owner_.options_.margin) return;
+    volume = volume > 0 ? volume : 0;
+    if (!owner_.field_.may_improve(p, volume)) return;
+    const double area = piece.area_at(h);
+    owner_.field_.offer(p, {volume, area > 0 ? area : 0, index_});
   }
 
   void whole_run(std::size_t a, const LatticeRun& run) {
     const bool rising = step_[a] >= 0;
-    Cursor cursor{tree_.triangle_arc[rising ? run.low : run.high]};
+    const Arc* arc = first_arc(run, rising);
     for (std::uint32_t n = 0; n < run.length; ++n) {
-      const std::uint32_t offset = upward(run, rising, n);
+      const std::uint32_t offset = rising ? n : run.length - 1 - n;
       const double h = height(a, run, offset);
-      find(cursor, h);
-      offer(point(a, run, offset), cursor, h);
+      climb(arc, h);
+      evaluate(point(a, run, offset), *arc, h);
     }
-    counts_.evaluated += run.length;
   }
 
-  void pruned_run(std::size_t a, std::size_t r) {
-    const LatticeRun& run = owner_.lattice_.axis[a].runs[r];
+  void pruned_runs(std::size_t a) {
+    const std::vector<LatticeRun>& runs = owner_.lattice_.axis[a].runs;
     AxisBounds& bounds = owner_.bounds_[a];
-    const double bound = load(bounds.run[r]);
     const bool rising = step_[a] >= 0;
-    Cursor cursor{tree_.triangle_arc[rising ? run.low : run.high]};
-    find(cursor, height(a, run, upward(run, rising, 0)));
-    ++counts_.tested;
-    if (cursor.volume > bound + owner_.options_.margin) return;
+    counts_.tested += runs.size();
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const LatticeRun& run = runs[r];
+      const Arc* arc = first_arc(run, rising);
+      const double h = height(a, run, rising ? 0 : run.length - 1);
+      climb(arc, h);
+      const double bound = load(bounds.run[r]);
+      if (exceeds(*arc, h, bound)) continue;
+      store(bounds.run[r], pruned_run(a, run, rising, arc, bound, &bounds.segment[bounds.first_segment[r]]));
+    }
+  }
+
+  // Goes up the run segment by segment; returns the largest E left in it.
+  double pruned_run(std::size_t a, const LatticeRun& run, bool rising, const Arc* arc, double bound,
+                    double* segment_bounds) {
     const std::uint32_t segments = (run.length + kSegment - 1) / kSegment;
-    double* segment = &bounds.segment[bounds.first_segment[r]];
     double largest = 0;
+    bool done = false;  // the rest of the run exceeds all its bounds
     for (std::uint32_t n = 0; n < segments; ++n) {
       const std::uint32_t s = rising ? n : segments - 1 - n;
-      if (!(cursor.volume > bound + owner_.options_.margin))
-        pruned_segment(a, run, rising, s, cursor, segment[s]);
-      largest = std::max(largest, load(segment[s]));
+      const std::uint32_t begin = s * kSegment, end = std::min(begin + kSegment, run.length);
+      if (!done) {
+        const double h = height(a, run, rising ? begin : end - 1);
+        climb(arc, h);
+        ++counts_.tested;
+        done = exceeds(*arc, h, bound);
+        if (!done && !exceeds(*arc, h, load(segment_bounds[s]))) {
+          store(segment_bounds[s], pruned_segment(a, run, rising, begin, end, arc));
+        }
+      }
+      largest = std::max(largest, load(segment_bounds[s]));
     }
-    store(bounds.run[r], largest);
+    return largest;
   }
 
-  // Segment s holds the points of offsets [s kSegment, (s + 1) kSegment).
-  void pruned_segment(std::size_t a, const LatticeRun& run, bool rising, std::uint32_t s, Cursor& cursor,
-                      double& bound) {
-    const std::uint32_t begin = s * kSegment, end = std::min(begin + kSegment, run.length);
-    const auto nth = [&](std::uint32_t n) { return rising ? begin + n : end - 1 - n; };
-    double h = height(a, run, nth(0));
-    find(cursor, h);
-    ++counts_.tested;
-    if (cursor.volume > load(bound) + owner_.options_.margin) return;
+  // Tests the points of offsets [begin, end) one by one; returns the largest E left among them.
+  double pruned_segment(std::size_t a, const LatticeRun& run, bool rising, std::uint32_t begin,
+                        std::uint32_t end, const Arc* arc) {
     double largest = 0;
-    for (std::uint32_t o = begin; o < end; ++o)
-      largest = std::max(largest, owner_.field_.erosion(point(a, run, o)));
-    store(bound, largest);
-    if (cursor.volume > largest + owner_.options_.margin) return;
-    largest = 0;
     for (std::uint32_t n = 0; n < end - begin; ++n) {
-      const std::uint32_t p = point(a, run, nth(n));
-      if (n > 0) {
-        h = height(a, run, nth(n));
-        find(cursor, h);
+      const std::uint32_t offset = rising ? begin + n : end - 1 - n;
+      const std::uint32_t p = point(a, run, offset);
+      const double h = height(a, run, offset);
+      climb(arc, h);
+      double erosion = owner_.field_.erosion(p);
+      if (!exceeds(*arc, h, erosion)) {
+        evaluate(p, *arc, h);
+        erosion = owner_.field_.erosion(p);
       }
-      offer(p, cursor, h);
-      largest = std::max(largest, std::min(owner_.field_.erosion(p), cursor.volume));
+      largest = std::max(largest, erosion);
     }
-    counts_.evaluated += end - begin;
-    store(bound, largest);
+    return largest;
   }
 
   Sweeper& owner_;
