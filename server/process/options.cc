@@ -32,44 +32,51 @@ unsigned worker_count(const std::string& text) {
   return count;
 }
 
+/// A check that does not put its name into the help text.
+CLI::Validator quietly(CLI::Validator check) {
+  return check.description("");
+}
+
 void add_options(CLI::App& app, Options& options, std::string& workers) {
-  app.add_option("--data-dir", options.data_dir, "Directory of the database; made if absent")
+  app.add_option("--data-dir", options.data_dir, "Directory of the database, made if absent")
       ->required()
       ->type_name("DIR");
   app.add_option("--listen", options.listen,
                  "unix:PATH or HOST:PORT of this machine, repeatable; port 0 = any free one; default "
                  "unix:DATA_DIR/server.sock")
       ->type_name("ADDR")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--workers", workers, "Local workers to start and keep running; auto = one per core")
       ->type_name("N|auto")
       ->capture_default_str();
   app.add_option("--worker-threads", options.worker_threads,
                  "Threads of each local worker; default: the cores shared out among the workers")
-      ->check(CLI::Range(1U, kMaxWorkers))
+      ->check(quietly(CLI::Range(1U, kMaxWorkers)))
       ->type_name("N");
   app.add_option("--worker-binary", options.worker_binary,
                  "The worker program; default: affskel-worker next to this program, else on the PATH")
-      ->check(CLI::ExistingFile)
+      ->check(quietly(CLI::ExistingFile))
       ->type_name("FILE");
   app.add_option("--idle-exit", options.idle_exit_s,
                  "Exit after this many seconds without work, client calls and watchers")
-      ->check(CLI::NonNegativeNumber)
+      ->check(quietly(CLI::NonNegativeNumber))
       ->type_name("S");
   app.add_option("--lease-ms", options.lease_ms, "A worker silent for this long loses its lease")
-      ->check(CLI::Range(10, 3600000))
+      ->check(quietly(CLI::Range(10, 3600000)))
       ->type_name("MS")
       ->capture_default_str();
   app.add_option("--report-interval-ms", options.report_interval_ms, "How often workers report")
-      ->check(CLI::Range(1, 3600000))
+      ->check(quietly(CLI::Range(1, 3600000)))
       ->type_name("MS")
       ->capture_default_str();
   app.add_option("--max-mesh-mb", options.max_mesh_mb, "Largest mesh file taken, in MiB")
-      ->check(CLI::Range(1, 1 << 20))
+      ->check(quietly(CLI::Range(1, 1 << 20)))
       ->type_name("MB")
       ->capture_default_str();
-  app.add_option("--log-level", options.log_level, "What is logged to stderr")
-      ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
+  app.add_option("--log-level", options.log_level,
+                 "What is logged to stderr: debug, info, warn, error or off")
+      ->check(quietly(CLI::IsMember({"debug", "info", "warn", "error", "off"})))
       ->type_name("LEVEL")
       ->capture_default_str();
   app.set_config("--config", "", "Read options from a TOML or INI file, named as here without the dashes")

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -100,6 +101,7 @@ void serve(const Options& options, const sigset_t& signals, Server& server, Supe
 }
 
 void run_server(const Options& options) {
+  umask(0077);  // meshes and results are this user's alone
   const sigset_t signals = block_signals();
   const DataDir data_dir(options.data_dir);
   ServerOptions server_options;

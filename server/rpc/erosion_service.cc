@@ -51,13 +51,14 @@ ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, E
 EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
   try {
     return std::make_shared<const v1::Job>(with_reason(store_.job(job_id)));
-  } catch (const StoreError&) {
-    return nullptr;
+  } catch (const StoreError& error) {
+    if (error.code() == StoreError::Code::kNotFound) return nullptr;
+    throw;
   }
 }
 
 v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
-  if (job.state() != v1::JOB_STATE_QUEUED) return job;
+  if (job.state() != v1::JOB_STATE_QUEUED || !job.waiting_reason().empty()) return job;
   const bool nobody = registry_.list().empty();
   job.set_waiting_reason(nobody ? "no worker is connected" : "all workers are busy with jobs before it");
   return job;

@@ -45,7 +45,8 @@ class ErosionServiceImpl final
   grpc::Status GetServerInfo(grpc::ServerContext* context, const v1::GetServerInfoRequest* request,
                              v1::ServerInfo* response) override;
 
-  /// The job as it is now, with the reason why it waits; null when there is none.
+  /// The job as it is now, with the reason why it waits; null when there is none.  Throws what the store
+  /// throws otherwise.
   EventHub::JobPtr load(const std::string& job_id);
 
   /// Ends what waits.

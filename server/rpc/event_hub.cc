@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "rpc/status.h"
+
 namespace affskel::server {
 
 EventHub::Subscription::Subscription(EventHub* hub, std::string job, std::uint64_t number)
@@ -99,8 +101,10 @@ void EventHub::tell(const std::string& job_id) {
     if (found == subscribers_.end()) return;
     for (const auto& [number, callback] : found->second) callbacks.push_back(callback);
   }
-  const JobPtr job = load_(job_id);
-  for (const auto& callback : callbacks) (*callback)(job);
+  guarded([&] {
+    const JobPtr job = load_(job_id);
+    for (const auto& callback : callbacks) (*callback)(job);
+  });
 }
 
 }  // namespace affskel::server

@@ -45,7 +45,8 @@ class EventHub final : public ChangeListener {
   EventHub() = default;
   ~EventHub() override;
 
-  /// Starts telling.  `load` and `on_work` are called on the hub's own thread.
+  /// Starts telling.  `load` and `on_work` are called on the hub's own thread; a change whose job cannot
+  /// be read is told with the next one.
   void start(Loader load, std::function<void()> on_work);
   void stop();
 

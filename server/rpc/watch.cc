@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "rpc/status.h"
+
 namespace affskel::server {
 namespace {
 
@@ -33,7 +35,8 @@ class Watches::Stream final : public grpc::ServerWriteReactor<v1::Job>,
     subscription_ = watches_.hub_.subscribe(job_id, [weak = weak_from_this()](const EventHub::JobPtr& job) {
       if (const std::shared_ptr<Stream> stream = weak.lock()) stream->deliver(job);
     });
-    deliver(watches_.load_(job_id));
+    const grpc::Status status = guarded([&] { deliver(watches_.load_(job_id)); });
+    if (!status.ok()) stop(status);
   }
 
   void deliver(const EventHub::JobPtr& job) {

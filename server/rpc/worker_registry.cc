@@ -42,9 +42,7 @@ void WorkerRegistry::seen(const v1::WorkerIdentity& worker) {
   info.set_core_version(worker.core_version());
   info.set_supervised(supervised);
   info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
-  std::erase_if(workers_, [this](const auto& entry) {
-    return static_cast<std::int64_t>(entry.second.info.last_seen_ms()) < oldest_ms();
-  });
+  forget_silent();
 }
 
 void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& lease) {
@@ -71,6 +69,13 @@ void WorkerRegistry::ended(const std::string& token) {
   if (const auto found = workers_.find(holder->second); found != workers_.end())
     found->second.tasks.erase(token);
   holders_.erase(holder);
+}
+
+void WorkerRegistry::forget_silent() {
+  std::erase_if(workers_, [this](const auto& entry) {
+    return static_cast<std::int64_t>(entry.second.info.last_seen_ms()) < oldest_ms();
+  });
+  std::erase_if(holders_, [this](const auto& holder) { return !workers_.contains(holder.second); });
 }
 
 std::int64_t WorkerRegistry::oldest_ms() const {

@@ -40,6 +40,7 @@ class WorkerRegistry {
     std::map<std::string, std::string> tasks;  // by token: what for people
   };
   std::int64_t oldest_ms() const;
+  void forget_silent();
 
   const Clock& clock_;
   mutable std::mutex mutex_;

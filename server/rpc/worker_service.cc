@@ -26,6 +26,20 @@ void receive_records(grpc::ServerReader<v1::ReportErosionRequest>& reader, Recor
   batch.sort();
 }
 
+/// Runs a call that uses a lease.  The body returns whether the lease has ended by it; a fenced one has.
+template <typename Body>
+grpc::Status with_lease(WorkerRegistry& registry, const std::string& token, Body&& body) {
+  registry.used(token);
+  bool ended = false;
+  const grpc::Status status = guarded([&] { ended = body(); });
+  if (ended || status.error_code() == grpc::StatusCode::ABORTED) registry.ended(token);
+  return status;
+}
+
+grpc::Status no_header() {
+  return {grpc::StatusCode::INVALID_ARGUMENT, "the first message must be the header"};
+}
+
 }  // namespace
 
 WorkerServiceImpl::WorkerServiceImpl(Store& store, WorkerRegistry& registry, LeaseQueue& queue)
@@ -39,21 +53,19 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerConte
 
 grpc::Status WorkerServiceImpl::RenewLease(grpc::ServerContext*, const v1::RenewLeaseRequest* request,
                                            v1::ReportResponse* response) {
-  return guarded([&] {
-    registry_.used(request->token());
+  return with_lease(registry_, request->token(), [&] {
     *response = store_.renew(request->token());
-    if (response->cancelled()) registry_.ended(request->token());
+    return response->cancelled();
   });
 }
 
 grpc::Status WorkerServiceImpl::ReportErosion(grpc::ServerContext* context,
                                               grpc::ServerReader<v1::ReportErosionRequest>* reader,
                                               v1::ReportResponse* response) {
-  return guarded([&] {
-    v1::ReportErosionRequest first;
-    if (!reader->Read(&first) || !first.has_header()) refuse("a report begins with its header");
-    const v1::ReportErosionHeader& header = first.header();
-    registry_.used(header.token());
+  v1::ReportErosionRequest first;
+  if (!reader->Read(&first) || !first.has_header()) return no_header();
+  const v1::ReportErosionHeader& header = first.header();
+  return with_lease(registry_, header.token(), [&] {
     const Store::LeaseBounds bounds = store_.bounds(header.token());
     RecordBatch batch(bounds.points, bounds.directions);
     receive_records(*reader, batch);
@@ -62,50 +74,47 @@ grpc::Status WorkerServiceImpl::ReportErosion(grpc::ServerContext* context,
       refuse("the report broke off: not all of its records arrived");
     }
     *response = store_.report(header, batch);
-    if (response->cancelled() || header.block_done()) registry_.ended(header.token());
+    return response->cancelled() || header.block_done();
   });
 }
 
 grpc::Status WorkerServiceImpl::CompleteTask(grpc::ServerContext*,
                                              grpc::ServerReader<v1::CompleteTaskRequest>* reader,
                                              v1::ReportResponse* response) {
-  return guarded([&] {
-    v1::CompleteTaskRequest first;
-    if (!reader->Read(&first) || !first.has_header()) refuse("a result begins with its header");
-    const v1::CompleteTaskHeader& header = first.header();
-    registry_.used(header.token());
+  v1::CompleteTaskRequest first;
+  if (!reader->Read(&first) || !first.has_header()) return no_header();
+  const v1::CompleteTaskHeader& header = first.header();
+  return with_lease(registry_, header.token(), [&] {
     if (header.bytes() > kMaxResultBytes) {
       throw StoreError(StoreError::Code::kLimit, "a result has at most 2^31 - 1 bytes");
     }
     const std::string data = receive_data<v1::CompleteTaskRequest>(*reader, header.bytes());
     *response = store_.complete(header, data);
-    registry_.ended(header.token());
+    return true;
   });
 }
 
 grpc::Status WorkerServiceImpl::FailTask(grpc::ServerContext*, const v1::FailTaskRequest* request,
                                          v1::ReportResponse* response) {
-  return guarded([&] {
-    registry_.used(request->token());
+  return with_lease(registry_, request->token(), [&] {
     *response = store_.fail(request->token(), request->error(), request->retryable());
-    registry_.ended(request->token());
+    return true;
   });
 }
 
 grpc::Status WorkerServiceImpl::ReturnLease(grpc::ServerContext*, const v1::ReturnLeaseRequest* request,
                                             v1::ReportResponse* response) {
-  return guarded([&] {
-    registry_.used(request->token());
+  return with_lease(registry_, request->token(), [&] {
     *response = store_.give_back(request->token());
-    registry_.ended(request->token());
+    return true;
   });
 }
 
 grpc::Status WorkerServiceImpl::FetchInput(grpc::ServerContext*, const v1::FetchInputRequest* request,
                                            grpc::ServerWriter<v1::FetchArtifactResponse>* writer) {
-  return guarded([&] {
-    registry_.used(request->token());
+  return with_lease(registry_, request->token(), [&] {
     send_blob(*writer, *store_.open_input(request->token(), request->kind()));
+    return false;
   });
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "store/errors.h"
+#include "wire/version.h"
 
 namespace affskel::server {
 namespace {
@@ -168,6 +169,21 @@ std::string resolve_job(Database& db, const std::string& reference) {
   return id;
 }
 
+/// Fields of different core versions are never mixed, so a job begun by one version waits for it.
+std::string missing_core(Database& db, const std::string& id) {
+  Statement row = db.query(
+      "SELECT e.core_version FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
+      " WHERE j.id = ? AND j.stage = 'erode' AND j.state IN ('queued', 'running')"
+      " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased')",
+      id);
+  if (!row.step()) return {};
+  const std::string needed = row.text(0);
+  const std::string current = current_core_version(db);
+  if (current.empty() || current == needed) return {};
+  return "begun with core version " + needed + ", the workers now have version " + current +
+         "; connect such a worker, or cancel the job and submit it anew";
+}
+
 v1::Job job_message(Database& db, const std::string& id) {
   static const std::string sql = std::string(kJobColumns) + "WHERE j.id = ?";
   Statement row = db.query(sql.c_str(), id);
@@ -178,6 +194,7 @@ v1::Job job_message(Database& db, const std::string& id) {
     done->set_begin(static_cast<std::uint64_t>(range.begin));
     done->set_end(static_cast<std::uint64_t>(range.end));
   }
+  job.set_waiting_reason(missing_core(db, id));
   return job;
 }
 
@@ -193,6 +210,12 @@ std::vector<v1::Job> list_jobs(Database& db, const ListFilter& filter) {
   std::vector<v1::Job> jobs;
   while (row.step()) jobs.push_back(read_job(row));
   return jobs;
+}
+
+std::string current_core_version(Database& db) {
+  // Remembered with the version of the programs: after an upgrade the old answer says nothing.
+  Statement row = db.query("SELECT value FROM server_state WHERE key = 'core_version/' || ?", wire::kVersion);
+  return row.step() ? row.text(0) : std::string();
 }
 
 std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id) {

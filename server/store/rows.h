@@ -51,8 +51,11 @@ JobRow get_job(Database& db, const std::string& id);
 /// @throws StoreError kNotFound; kInvalid when the prefix is too short or not unique.
 std::string resolve_job(Database& db, const std::string& reference);
 
-/// The wire form of one job, with its finished positions.
+/// The wire form of one job, with its finished positions and what it waits for in vain.
 v1::Job job_message(Database& db, const std::string& id);
+
+/// The core version of the workers of this program's version, "" when none was heard from yet.
+std::string current_core_version(Database& db);
 
 struct ListFilter {
   std::vector<v1::JobState> states;  ///< empty = all

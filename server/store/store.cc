@@ -9,7 +9,6 @@
 #include "store/migrate.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
-#include "wire/version.h"
 
 namespace affskel::server {
 
@@ -46,12 +45,6 @@ std::string random_id() {
     hex.push_back(kDigits[byte & 15]);
   }
   return hex;
-}
-
-std::string current_core_version(Database& db) {
-  // Remembered with the version of the programs: after an upgrade the old answer says nothing.
-  Statement row = db.query("SELECT value FROM server_state WHERE key = 'core_version/' || ?", wire::kVersion);
-  return row.step() ? row.text(0) : std::string();
 }
 
 std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& mesh_sha256,

@@ -34,9 +34,6 @@ auto Store::read(Body&& body) {
 /// 128 random bits in hexadecimal.
 std::string random_id();
 
-/// The core version of the workers of this program's version, "" when none was heard from yet.
-std::string current_core_version(Database& db);
-
 /// Points a job at another, finished erosion and drops its own; the job goes on in the derive stage.
 void adopt_erosion(Tx& tx, const std::string& job_id, std::int64_t finished_erosion);
 

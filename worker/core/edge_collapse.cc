@@ -73,7 +73,7 @@ class Placement {
     const SurfaceMesh& mesh = profile.surface_mesh();
     const bool border_edge = mesh.is_border(profile.v0_v1()) || mesh.is_border(profile.v1_v0());
     if (mesh.number_of_faces() < faces_ + (border_edge ? 1 : 2)) return boost::none;  // fewer than asked for
-    const auto place = bounded_(profile);
+    auto place = bounded_(profile);
     if (!place) return place;
     if (!mesh.is_border(profile.v0()) && !mesh.is_border(profile.v1())) {
       return place->x() > 0 ? place : boost::none;

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "core/body_shape.h"
 #include "core/error.h"
 #include "core/mesh_checks.h"
 #include "core/self_intersection.h"
@@ -32,21 +33,27 @@ const Mesh& body(std::uint32_t triangles) {
   return place->second;
 }
 
+/// Volume of body_function's body by counting lattice points, mm^3; good to about 0.2 %.
+double counted_volume() {
+  constexpr double kSpacing = 15;
+  std::int64_t inside = 0;
+  for (double x = kSpacing / 2; x < kBodyHigh.x; x += kSpacing) {
+    for (double y = kBodyLow.y; y < kBodyHigh.y; y += kSpacing) {
+      for (double z = kBodyLow.z + kSpacing / 3; z < kBodyHigh.z; z += kSpacing) {
+        inside += body_function({x, y, z}) < 0;
+      }
+    }
+  }
+  return 2 * kSpacing * kSpacing * kSpacing * static_cast<double>(inside);
+}
+
 class BodyTest : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(BodyTest, BoundsASolidWithExactlyTheTriangles) {
+TEST_P(BodyTest, BoundsASymmetricSolidOfExactlyTheTrianglesAndHeight) {
   const Mesh& mesh = body(GetParam());
   EXPECT_EQ(mesh.triangles.size(), GetParam());
   expect_solid_boundary(mesh);
   EXPECT_TRUE(self_intersections(mesh, {.max_pairs = 1, .degenerate_triangles = true}).empty());
-}
-
-TEST_P(BodyTest, KeepsTheVolume) {
-  EXPECT_NEAR(mesh_facts(body(GetParam())).volume / mesh_facts(body(60000)).volume, 1, 0.02);
-}
-
-TEST_P(BodyTest, IsMirrorSymmetricAndOfTheHeight) {
-  const Mesh& mesh = body(GetParam());
   EXPECT_EQ(places(mesh, 1), places(mesh, -1));
   const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end(),
                                                [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
@@ -54,7 +61,11 @@ TEST_P(BodyTest, IsMirrorSymmetricAndOfTheHeight) {
   EXPECT_NEAR(high->z, 1800, 1e-9);
 }
 
-TEST_P(BodyTest, HasLegsArmsTrunkAndHeadApart) {
+TEST_P(BodyTest, KeepsTheVolumeOfTheImplicitBody) {
+  EXPECT_NEAR(mesh_facts(body(GetParam())).volume / counted_volume(), 1, 0.01);
+}
+
+TEST_P(BodyTest, HasTheLimbsOfAHuman) {
   const Mesh& mesh = body(GetParam());
   // Heights that no vertex of these meshes has: two legs, trunk between two arms, head.
   EXPECT_EQ(section_curves(mesh, 0.251 * 1800), 2u);
@@ -62,10 +73,8 @@ TEST_P(BodyTest, HasLegsArmsTrunkAndHeadApart) {
   EXPECT_EQ(section_curves(mesh, 0.5501 * 1800), 3u);
   EXPECT_EQ(section_curves(mesh, 0.6501 * 1800), 3u);
   EXPECT_EQ(section_curves(mesh, 0.9001 * 1800), 1u);
-}
 
-TEST_P(BodyTest, FacesAlongNegativeYOnFlatFeet) {
-  const Mesh& mesh = body(GetParam());
+  // It faces along negative y, on flat feet.
   double toes = 0, heels = 0;
   int on_the_ground = 0;
   for (const Vec3& p : mesh.points) {
@@ -80,7 +89,7 @@ TEST_P(BodyTest, FacesAlongNegativeYOnFlatFeet) {
   EXPECT_GE(on_the_ground, GetParam() < 250 ? 4 : 6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, BodyTest, testing::Values(200u, 202u, 292u, 500u, 1234u, 5000u, 50002u));
+INSTANTIATE_TEST_SUITE_P(Counts, BodyTest, testing::Values(200u, 292u, 500u, 20002u));
 
 TEST(MakeBodyTest, IsAFunctionOfItsOptions) {
   const Mesh first = make_body(), second = make_body();

@@ -40,22 +40,28 @@ std::map<Edge, int> directed_edges(const Mesh& mesh) {
   return edges;
 }
 
+/// Whether edges joined over common ends make one piece.
+bool connected(const std::vector<Edge>& edges) {
+  std::map<std::uint32_t, std::size_t> index;
+  for (const Edge& e : edges) {
+    index.try_emplace(e.first, index.size());
+    index.try_emplace(e.second, index.size());
+  }
+  UnionFind joined(index.size());
+  for (const Edge& e : edges) joined.join(index[e.first], index[e.second]);
+  for (std::size_t i = 1; i < index.size(); ++i) {
+    if (joined.find(i) != joined.find(0)) return false;
+  }
+  return true;
+}
+
 /// Whether the sides opposite to each vertex form one chain or ring.
 bool fans_are_single(const Mesh& mesh) {
   std::map<std::uint32_t, std::vector<Edge>> opposite;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) opposite[t[k]].emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
   }
-  return std::all_of(opposite.begin(), opposite.end(), [&](const auto& entry) {
-    UnionFind joined(mesh.points.size());
-    std::set<std::size_t> rim, roots;
-    for (const Edge& e : entry.second) {
-      joined.join(e.first, e.second);
-      rim.insert({e.first, e.second});
-    }
-    for (const std::size_t v : rim) roots.insert(joined.find(v));
-    return roots.size() == 1;
-  });
+  return std::all_of(opposite.begin(), opposite.end(), [](const auto& at) { return connected(at.second); });
 }
 
 void count_pieces(const Mesh& mesh, MeshFacts& facts) {
@@ -90,7 +96,7 @@ MeshFacts mesh_facts(const Mesh& mesh) {
   facts.euler =
       static_cast<std::int64_t>(mesh.triangles.size()) - static_cast<std::int64_t>(triangles_at.size());
   count_pieces(mesh, facts);
-  facts.vertices_manifold = mesh.points.size() > 20000 || fans_are_single(mesh);
+  facts.vertices_manifold = fans_are_single(mesh);
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
     facts.volume += dot(a, cross(b, c)) / 6;

@@ -79,6 +79,16 @@ TEST_F(LeaseTest, CoreVersionsAreNeverMixed) {
   EXPECT_TRUE(store_->lease(worker_identity("worker-c", "1"), "", false));
 }
 
+TEST_F(LeaseTest, SaysWhenTheCoreVersionIsMissing) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  EXPECT_EQ(store_->job(job.id()).waiting_reason(), "");
+  EXPECT_FALSE(store_->lease(worker_identity("worker-b", "2"), "", false));
+  EXPECT_NE(store_->job(job.id()).waiting_reason().find("core version 1"), std::string::npos);
+  lease();
+  EXPECT_EQ(store_->job(job.id()).waiting_reason(), "");
+}
+
 TEST_F(LeaseTest, RunningFromTheFirstLease) {
   const v1::Job job = submit();
   clock_.advance(10);

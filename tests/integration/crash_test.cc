@@ -1,0 +1,170 @@
+// Kills the real programs at awkward moments and compares the finished field with an undisturbed run.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "lab.h"
+
+namespace affskel::integration {
+namespace {
+
+class CrashTest : public testing::Test {
+ protected:
+  // A job of some seconds, and its field computed without any server.
+  void SetUp() override {
+    ASSERT_EQ(
+        lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "2048", "-o", lab_.path("m.off")})
+            .exit_code,
+        0);
+    const Output plain = lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", "60000",
+                                   "--directions", "triangles+sphere:2000", "-o", lab_.path("plain.csv")});
+    ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  }
+
+  std::string submit() const {
+    const Output submitted = lab_.client(
+        {"submit", lab_.path("m.off"), "--points", "60000", "--directions", "triangles+sphere:2000"});
+    EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
+    return submitted.out.substr(0, submitted.out.find('\n'));
+  }
+
+  void expect_undisturbed_field(const std::string& id) const {
+    const v1::Job job = lab_.follow_to_end(id);
+    ASSERT_EQ(job.state(), v1::JOB_STATE_DONE) << job.error().message();
+    EXPECT_EQ(job.directions_done(), job.directions_total());
+    const Output fetched = lab_.client({"fetch", id, "field", "-o", lab_.path("field.csv")});
+    ASSERT_EQ(fetched.exit_code, 0) << fetched.err;
+    EXPECT_TRUE(lab_.read("field.csv") == lab_.read("plain.csv")) << "the fields differ";
+  }
+
+  Lab lab_;
+};
+
+// Shares of the job after which the blow falls.
+constexpr double kMoments[] = {0.03, 0.4, 0.8};
+const std::vector<std::string> kQuickReports = {"--lease-ms", "1000", "--report-interval-ms", "50"};
+
+TEST_F(CrashTest, TheOnlyWorkerIsKilledThreeTimes) {
+  Process server = lab_.server(kQuickReports);
+  Process worker = lab_.worker();
+  const std::string id = submit();
+  for (double moment : kMoments) {
+    const v1::Job job = lab_.follow(id, [&](const v1::Job& j) {
+      return j.directions_total() > 0 &&
+             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
+    });
+    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
+    worker.kill_hard();
+    worker = lab_.worker();
+  }
+  expect_undisturbed_field(id);
+}
+
+TEST_F(CrashTest, OneOfTwoWorkersIsKilledThreeTimes) {
+  Process server = lab_.server(kQuickReports);
+  Process steady = lab_.worker();
+  Process worker = lab_.worker();
+  const std::string id = submit();
+  for (double moment : kMoments) {
+    const v1::Job job = lab_.follow(id, [&](const v1::Job& j) {
+      return j.directions_total() > 0 &&
+             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
+    });
+    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
+    worker.kill_hard();
+    worker = lab_.worker();
+  }
+  expect_undisturbed_field(id);
+}
+
+TEST_F(CrashTest, TheServerIsKilledThreeTimes) {
+  Process server = lab_.server(kQuickReports);
+  const Process worker = lab_.worker();
+  const std::string id = submit();
+  std::uint64_t acknowledged = 0;
+  for (double moment : kMoments) {
+    const v1::Job job = lab_.follow(id, [&](const v1::Job& j) {
+      return j.directions_total() > 0 &&
+             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
+    });
+    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
+    EXPECT_GE(job.directions_done(), acknowledged);
+    acknowledged = job.directions_done();
+    server.kill_hard();
+    server = lab_.server(kQuickReports);
+    EXPECT_GE(lab_.job(id).directions_done(), acknowledged) << "acknowledged work was lost";
+  }
+  expect_undisturbed_field(id);
+}
+
+TEST_F(CrashTest, AServerWithItsOwnWorkersIsKilledThreeTimes) {
+  std::vector<std::string> options = kQuickReports;
+  options.insert(options.end(), {"--workers", "1"});
+  Process server = lab_.server(options);
+  const std::string id = submit();
+  for (double moment : kMoments) {
+    lab_.follow(id, [&](const v1::Job& j) {
+      return j.directions_total() > 0 &&
+             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
+    });
+    server.kill_hard();
+    server = lab_.server(options);
+  }
+  expect_undisturbed_field(id);
+}
+
+TEST_F(CrashTest, WorkersAndServerLeaveInOrderAtSigterm) {
+  Process server = lab_.server(kQuickReports);
+  Process worker = lab_.worker();
+  const std::string id = submit();
+  lab_.follow(id, [](const v1::Job& j) { return j.directions_done() > 100; });
+  worker.send(SIGTERM);
+  EXPECT_EQ(worker.wait(), 0);
+  const v1::Job stopped = lab_.job(id);
+  EXPECT_EQ(stopped.counters().leases_lost(), 0U);
+  server.send(SIGTERM);
+  EXPECT_EQ(server.wait(), 0);
+  server = lab_.server(kQuickReports);
+  EXPECT_EQ(lab_.job(id).directions_done(), stopped.directions_done());
+  worker = lab_.worker();
+  expect_undisturbed_field(id);
+  EXPECT_EQ(lab_.job(id).counters().directions_repeated(), 0U);
+}
+
+TEST_F(CrashTest, ACancelledJobKeepsItsProgressAndGoesOn) {
+  const Process server = lab_.server(kQuickReports);
+  const Process worker = lab_.worker();
+  const std::string id = submit();
+  lab_.follow(id, [](const v1::Job& j) { return j.directions_done() > 100; });
+  const Output cancelled = lab_.client({"cancel", id});
+  EXPECT_EQ(cancelled.exit_code, 0) << cancelled.err;
+  const v1::Job stopped = lab_.follow_to_end(id);
+  ASSERT_EQ(stopped.state(), v1::JOB_STATE_CANCELLED);
+  EXPECT_GT(stopped.directions_done(), 100U);
+  EXPECT_LT(stopped.directions_done(), stopped.directions_total());
+  EXPECT_EQ(lab_.client({"fetch", id, "field", "-o", lab_.path("none.csv")}).exit_code, 4);
+  EXPECT_EQ(lab_.client({"resume", id}).exit_code, 0);
+  expect_undisturbed_field(id);
+  EXPECT_EQ(lab_.job(id).counters().directions_repeated(), 0U);
+}
+
+TEST_F(CrashTest, TheFieldDoesNotDependOnWhoComputesIt) {
+  {
+    const Process server = lab_.server({"--workers", "2"});
+    expect_undisturbed_field(submit());
+  }
+  std::filesystem::remove_all(lab_.path("data"));
+  {
+    const Process server = lab_.server({"--workers", "1", "--worker-threads", "2"});
+    expect_undisturbed_field(submit());
+  }
+  const Output shuffled =
+      lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", "60000", "--directions",
+                "triangles+sphere:2000", "--threads", "2", "--shuffle", "-o", lab_.path("field.csv")});
+  ASSERT_EQ(shuffled.exit_code, 0) << shuffled.err;
+  EXPECT_TRUE(lab_.read("field.csv") == lab_.read("plain.csv"));
+}
+
+}  // namespace
+}  // namespace affskel::integration

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "affskel/v1/client_service.grpc.pb.h"
+
+namespace affskel::integration {
+
+/// A process of our own; killed at the latest by the destructor.
+class Process {
+ public:
+  /// Starts `arguments[0]`; stdout and stderr go to `log` (appended).
+  /// @param environment "NAME=value" entries on top of the present environment.
+  Process(const std::vector<std::string>& arguments, const std::string& log,
+          const std::vector<std::string>& environment = {});
+  ~Process();
+  Process(Process&& other) noexcept;
+  Process& operator=(Process&& other) noexcept;
+
+  pid_t pid() const { return pid_; }
+  void send(int signal) const;
+
+  /// Waits for the end: the exit code, or 128 + signal.
+  int wait();
+
+  /// SIGKILL, then wait.
+  void kill_hard();
+
+ private:
+  pid_t pid_ = -1;
+};
+
+struct Output {
+  int exit_code = 0;
+  std::string out;
+  std::string err;
+};
+
+/// The real programs in a directory of their own, removed at the end.
+class Lab {
+ public:
+  Lab();
+  ~Lab();
+
+  std::string path(const std::string& name) const { return dir_ + "/" + name; }
+  std::string address() const { return "unix:" + path("s.sock"); }
+  std::string read(const std::string& name) const;
+  void write(const std::string& name, const std::string& bytes) const;
+
+  /// Starts affskel-server on address() with the data directory path("data") and waits until it answers.
+  Process server(const std::vector<std::string>& options = {}) const;
+  Process worker(const std::vector<std::string>& options = {}) const;
+
+  /// Runs affskel-client against address() to its end.
+  Output client(const std::vector<std::string>& arguments) const;
+  /// Runs any of the programs to its end.
+  Output run(const std::vector<std::string>& arguments,
+             const std::vector<std::string>& environment = {}) const;
+
+  /// The job as the server knows it.  Waits for a server that is just starting.
+  v1::Job job(const std::string& id) const;
+
+  /// Follows the job until the condition holds or it is in a final state; returns it as it was then.
+  /// Re-attaches when the server goes away and comes back.
+  v1::Job follow(const std::string& id, const std::function<bool(const v1::Job&)>& condition) const;
+  v1::Job follow_to_end(const std::string& id) const;
+  v1::Job follow_until_done(const std::string& id, std::uint64_t directions) const;
+
+  v1::ErosionService::Stub& stub() const { return *stub_; }
+
+ private:
+  std::string dir_;
+  std::unique_ptr<v1::ErosionService::Stub> stub_;
+};
+
+}  // namespace affskel::integration

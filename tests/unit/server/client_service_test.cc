@@ -1,0 +1,247 @@
+#include <unistd.h>
+
+#include <list>
+
+#include "service_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+using ClientServiceTest = ServiceTest;
+
+v1::FetchArtifactRequest fetch_request(const std::string& job, v1::ArtifactKind kind) {
+  v1::FetchArtifactRequest request;
+  request.set_job(job);
+  request.set_kind(kind);
+  return request;
+}
+
+v1::FetchArtifactRequest skeleton_request(const std::string& job, double threshold) {
+  v1::FetchArtifactRequest request = fetch_request(job, v1::ARTIFACT_KIND_SKELETON);
+  request.mutable_skeleton()->set_threshold(threshold);
+  return request;
+}
+
+TEST_F(ClientServiceTest, WholePathWithTwoWorkers) {
+  const FakeWorker first(connect(), "worker-a", 5000, 100);
+  const FakeWorker second(connect(), "worker-b", 5000, 100);
+  const std::string id = submit();
+  const v1::Job done = watch(id);
+  EXPECT_EQ(done.state(), v1::JOB_STATE_DONE);
+  EXPECT_EQ(done.directions_done(), 100U);
+  const Fetched field = fetch(*client_, fetch_request(id, v1::ARTIFACT_KIND_FIELD));
+  ASSERT_TRUE(field.status.ok()) << field.status.error_message();
+  EXPECT_EQ(field.data, expected_field(5000, 100));
+  EXPECT_EQ(field.header.bytes(), field.data.size());
+  EXPECT_EQ(field.header.job().id(), id);
+}
+
+TEST_F(ClientServiceTest, WatchSaysFirstWhatIs) {
+  const std::string id = submit();
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job(id.substr(0, 8));
+  const auto reader = client_->WatchJob(&context, request);
+  v1::Job job;
+  ASSERT_TRUE(reader->Read(&job));
+  EXPECT_EQ(job.state(), v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(job.waiting_reason(), "no worker is connected");
+  ASSERT_TRUE(poll(0).has_lease());
+  ASSERT_TRUE(reader->Read(&job));
+  EXPECT_EQ(job.state(), v1::JOB_STATE_RUNNING);
+  EXPECT_EQ(job.waiting_reason(), "");
+  context.TryCancel();
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
+}
+
+TEST_F(ClientServiceTest, WatchOfAFinishedJobEndsAtOnce) {
+  const std::string id = submit();
+  server_->store().cancel(id);
+  EXPECT_EQ(watch(id).state(), v1::JOB_STATE_CANCELLED);
+}
+
+TEST_F(ClientServiceTest, WatchOfNoJobIsRefused) {
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job("0123456789ab");
+  v1::Job job;
+  const auto reader = client_->WatchJob(&context, request);
+  EXPECT_FALSE(reader->Read(&job));
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ClientServiceTest, ManyWatchersDoNotStarveOthers) {
+  const std::string id = submit();
+  struct Watch {
+    grpc::ClientContext context;
+    std::unique_ptr<grpc::ClientReader<v1::Job>> reader;
+  };
+  std::list<Watch> watches;
+  v1::WatchJobRequest request;
+  request.set_job(id);
+  for (int i = 0; i < 300; ++i) {
+    Watch& watch = watches.emplace_back();
+    watch.reader = client_->WatchJob(&watch.context, request);
+    v1::Job job;
+    ASSERT_TRUE(watch.reader->Read(&job));
+  }
+  EXPECT_EQ(job(id).state(), v1::JOB_STATE_QUEUED);
+  server_->store().cancel(id);
+  for (Watch& watch : watches) {
+    v1::Job last;
+    ASSERT_TRUE(watch.reader->Read(&last));
+    EXPECT_EQ(last.state(), v1::JOB_STATE_CANCELLED);
+    EXPECT_FALSE(watch.reader->Read(&last));
+    EXPECT_TRUE(watch.reader->Finish().ok());
+  }
+}
+
+TEST_F(ClientServiceTest, StoppingServerEndsWatches) {
+  const std::string id = submit();
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job(id);
+  const auto reader = client_->WatchJob(&context, request);
+  v1::Job job;
+  ASSERT_TRUE(reader->Read(&job));
+  server_->stop();
+  EXPECT_FALSE(reader->Read(&job));
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+}
+
+TEST_F(ClientServiceTest, JobsSurviveARestart) {
+  const std::string id = submit();
+  start();
+  EXPECT_EQ(job(id).state(), v1::JOB_STATE_QUEUED);
+  const FakeWorker worker(connect(), "worker-a", 10, 20);
+  EXPECT_EQ(watch(id).state(), v1::JOB_STATE_DONE);
+}
+
+TEST_F(ClientServiceTest, SubmissionsAreChecked) {
+  v1::SubmitJobResponse response;
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  EXPECT_EQ(submit_mesh(*client_, header, "OFF 2", &response).error_code(),
+            grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(submit_mesh(*client_, header, "OFF", &response).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(submit_mesh(*client_, header, "OFF 1 and more", &response).error_code(),
+            grpc::StatusCode::INVALID_ARGUMENT);
+  header.set_mesh_bytes((std::uint64_t{1} << 30) + 1);
+  EXPECT_EQ(submit_mesh(*client_, header, "", &response).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(server_->store().counts().total, 0);
+}
+
+TEST_F(ClientServiceTest, SubmissionMustBeginWithItsHeader) {
+  grpc::ClientContext context;
+  v1::SubmitJobResponse response;
+  const auto writer = client_->SubmitJob(&context, &response);
+  v1::SubmitJobRequest message;
+  message.set_data("OFF");
+  writer->Write(message);
+  writer->WritesDone();
+  EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+}
+
+TEST_F(ClientServiceTest, LargeMeshComesBackUnchanged) {
+  std::string mesh;
+  for (int i = 0; mesh.size() < (std::size_t{5} << 20); ++i) mesh += std::to_string(i) + "\r\n";
+  const std::string id = submit(mesh);
+  const Fetched fetched = fetch(*client_, fetch_request(id, v1::ARTIFACT_KIND_MESH));
+  EXPECT_TRUE(fetched.status.ok());
+  EXPECT_EQ(fetched.data, mesh);
+}
+
+TEST_F(ClientServiceTest, FetchWaitsForADerivedArtefact) {
+  const FakeWorker worker(connect(), "worker-a", 10, 20);
+  const std::string id = submit();
+  watch(id);
+  const Fetched fetched = fetch(*client_, skeleton_request(id, 3));
+  EXPECT_TRUE(fetched.status.ok()) << fetched.status.error_message();
+  EXPECT_EQ(fetched.data, "skeleton");
+}
+
+TEST_F(ClientServiceTest, FetchReportsWhyAnArtefactFailed) {
+  std::string id;
+  {
+    const FakeWorker worker(connect(), "worker-a", 10, 20);
+    id = submit();
+    watch(id);
+  }
+  Fetched fetched;
+  std::thread waiting([&] { fetched = fetch(*client_, skeleton_request(id, 3)); });
+  const v1::LeaseTaskResponse task = poll(30000);
+  EXPECT_TRUE(task.has_lease());
+  v1::FailTaskRequest failure;
+  failure.set_token(task.lease().token());
+  failure.mutable_error()->set_code("LIMIT");
+  failure.mutable_error()->set_message("too many points");
+  grpc::ClientContext context;
+  v1::ReportResponse response;
+  EXPECT_TRUE(worker_->FailTask(&context, failure, &response).ok());
+  waiting.join();
+  EXPECT_EQ(fetched.status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(fetched.status.error_message(), "too many points");
+}
+
+TEST_F(ClientServiceTest, FetchStopsWaitingWhenItsClientGoes) {
+  std::string id;
+  {
+    const FakeWorker worker(connect(), "worker-a", 10, 20);
+    id = submit();
+    watch(id);
+  }
+  grpc::ClientContext context;
+  Fetched fetched;
+  std::thread waiting([&] { fetched = fetch(*client_, skeleton_request(id, 3), &context); });
+  while (server_->store().counts().requests == 0) std::this_thread::yield();
+  context.TryCancel();
+  waiting.join();
+  EXPECT_EQ(fetched.status.error_code(), grpc::StatusCode::CANCELLED);
+  EXPECT_EQ(server_->store().counts().requests, 1) << "what was asked for once is still made";
+}
+
+TEST_F(ClientServiceTest, FetchBeforeTheEndIsRefused) {
+  const std::string id = submit();
+  EXPECT_EQ(fetch(*client_, fetch_request(id, v1::ARTIFACT_KIND_FIELD)).status.error_code(),
+            grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_EQ(fetch(*client_, fetch_request("0123456789", v1::ARTIFACT_KIND_FIELD)).status.error_code(),
+            grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ClientServiceTest, TellsAboutItself) {
+  const std::string id = submit();
+  const v1::LeaseTaskResponse task = poll(0);
+  grpc::ClientContext context;
+  v1::ServerInfo info;
+  ASSERT_TRUE(client_->GetServerInfo(&context, {}, &info).ok());
+  EXPECT_EQ(info.pid(), static_cast<std::uint32_t>(getpid()));
+  EXPECT_EQ(info.data_dir(), options_.data_dir);
+  EXPECT_EQ(info.jobs_running(), 1U);
+  EXPECT_EQ(info.jobs_total(), 1U);
+  ASSERT_EQ(info.workers_size(), 1);
+  EXPECT_EQ(info.workers(0).id(), "worker-a");
+  EXPECT_EQ(info.workers(0).task(), "prepare " + id);
+}
+
+TEST_F(ClientServiceTest, IsIdleOnlyWithoutWorkAndClients) {
+  const std::string id = submit();
+  EXPECT_EQ(server_->idle_time().count() / 1'000'000'000, 0);
+  const auto work_keeps_it_busy = server_->idle_time();
+  EXPECT_LT(work_keeps_it_busy, std::chrono::seconds(5));
+  server_->store().cancel(id);
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  const std::string other = submit("OFF 2");
+  request.set_job(other);
+  const auto reader = client_->WatchJob(&context, request);
+  v1::Job job;
+  ASSERT_TRUE(reader->Read(&job));
+  EXPECT_EQ(server_->idle_time(), std::chrono::steady_clock::duration::zero()) << "somebody watches";
+  server_->store().cancel(other);
+  while (reader->Read(&job)) {
+  }
+  EXPECT_TRUE(reader->Finish().ok());
+  while (server_->idle_time() == std::chrono::steady_clock::duration::zero()) std::this_thread::yield();
+}
+
+}  // namespace
+}  // namespace affskel::server

@@ -1,0 +1,234 @@
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "process/data_dir.h"
+#include "process/options.h"
+#include "process/supervisor.h"
+#include "rpc/listen.h"
+#include "rpc/server.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+ParsedOptions parse(std::vector<std::string> words) {
+  words.insert(words.begin(), "affskel-server");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const ParsedOptions parsed = parse_options(static_cast<int>(argv.size()), argv.data());
+  testing::internal::GetCapturedStdout();
+  testing::internal::GetCapturedStderr();
+  return parsed;
+}
+
+TEST(OptionsTest, Defaults) {
+  const ParsedOptions parsed = parse({"--data-dir", "here"});
+  ASSERT_FALSE(parsed.exit_code);
+  EXPECT_EQ(parsed.options.data_dir, "here");
+  EXPECT_EQ(parsed.options.workers, 0U);
+  EXPECT_FALSE(parsed.options.idle_exit_s);
+}
+
+TEST(OptionsTest, AllGiven) {
+  const ParsedOptions parsed = parse({"--data-dir", "here", "--listen", "unix:a", "--listen", "127.0.0.1:0",
+                                      "--workers", "3", "--worker-threads", "2", "--idle-exit", "1.5",
+                                      "--lease-ms", "500", "--report-interval-ms", "100"});
+  ASSERT_FALSE(parsed.exit_code);
+  EXPECT_EQ(parsed.options.listen, (std::vector<std::string>{"unix:a", "127.0.0.1:0"}));
+  EXPECT_EQ(parsed.options.workers, 3U);
+  EXPECT_EQ(parsed.options.worker_threads, 2U);
+  EXPECT_EQ(parsed.options.idle_exit_s, 1.5);
+  EXPECT_EQ(parsed.options.lease_ms, 500);
+}
+
+TEST(OptionsTest, AutoIsAtLeastOneWorker) {
+  EXPECT_GE(parse({"--data-dir", "here", "--workers", "auto"}).options.workers, 1U);
+}
+
+TEST(OptionsTest, UsageErrorsExitWithTwo) {
+  EXPECT_EQ(parse({}).exit_code, 2);
+  EXPECT_EQ(parse({"--data-dir", "d", "--workers", "many"}).exit_code, 2);
+  EXPECT_EQ(parse({"--data-dir", "d", "--workers", "-1"}).exit_code, 2);
+  EXPECT_EQ(parse({"--data-dir", "d", "--frobnicate"}).exit_code, 2);
+  EXPECT_EQ(parse({"--data-dir", "d", "--lease-ms", "100", "--report-interval-ms", "100"}).exit_code, 2);
+  EXPECT_EQ(parse({"--help"}).exit_code, 0);
+  EXPECT_EQ(parse({"--version"}).exit_code, 0);
+}
+
+TEST(DataDirTest, IsHeldByOneServer) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "new" / "data").string();
+  {
+    const DataDir held(path);
+    struct stat status {};
+    ASSERT_EQ(stat(path.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0700U);
+    try {
+      const DataDir second(path);
+      FAIL() << "two servers share one directory";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(std::to_string(getpid())), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(DataDir again(path));
+}
+
+TEST(DataDirTest, RefusesAFile) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "file").string();
+  std::ofstream(path) << "x";
+  EXPECT_THROW(DataDir held(path), std::runtime_error);
+}
+
+TEST(DataDirTest, PublishesItself) {
+  const TemporaryDirectory directory;
+  const DataDir held(directory.path().string());
+  held.publish({"unix:a", "127.0.0.1:5"}, 42);
+  std::ifstream in(directory.path() / "server.json");
+  const nlohmann::json json = nlohmann::json::parse(in);
+  EXPECT_EQ(json["pid"], getpid());
+  EXPECT_EQ(json["addresses"], (std::vector<std::string>{"unix:a", "127.0.0.1:5"}));
+  EXPECT_EQ(json["started_ms"], 42);
+  held.withdraw();
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "server.json"));
+}
+
+TEST(ListenTest, RefusesWhatIsNotLocal) {
+  for (const char* address : {"0.0.0.0:0", "[::]:0", "example.org:80", "192.168.1.1:7060"}) {
+    EXPECT_THROW(prepare_addresses({wire::parse_address(address)}), std::runtime_error) << address;
+  }
+  for (const char* address : {"localhost:0", "127.0.0.1:0", "[::1]:0"}) {
+    EXPECT_NO_THROW(prepare_addresses({wire::parse_address(address)})) << address;
+  }
+}
+
+/// A listening Unix socket; stays behind as a file when closed.
+class RawSocket {
+ public:
+  explicit RawSocket(const std::string& path) : fd_(socket(AF_UNIX, SOCK_STREAM, 0)) {
+    sockaddr_un name{};
+    name.sun_family = AF_UNIX;
+    std::memcpy(name.sun_path, path.data(), path.size());
+    EXPECT_EQ(bind(fd_, reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
+    EXPECT_EQ(::listen(fd_, 5), 0);
+  }
+  ~RawSocket() { close(fd_); }
+
+ private:
+  int fd_;
+};
+
+TEST(ListenTest, ReplacesOnlyStaleSockets) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "s").string();
+  const std::vector<wire::Address> addresses = {wire::parse_address("unix:" + path)};
+  {
+    const RawSocket alive(path);
+    EXPECT_THROW(prepare_addresses(addresses), std::runtime_error);
+    EXPECT_TRUE(std::filesystem::exists(path));
+  }
+  prepare_addresses(addresses);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  std::ofstream(path) << "not a socket";
+  EXPECT_THROW(prepare_addresses(addresses), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+TEST(ListenTest, ServerListensPrivatelyAndTellsItsPort) {
+  const TemporaryDirectory directory;
+  ServerOptions options;
+  options.data_dir = directory.path().string();
+  options.listen = {wire::parse_address("unix:" + options.data_dir + "/s"),
+                    wire::parse_address("127.0.0.1:0")};
+  {
+    const Server server(options);
+    struct stat status {};
+    ASSERT_EQ(stat((options.data_dir + "/s").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0600U);
+    ASSERT_EQ(server.addresses().size(), 2U);
+    EXPECT_GT(server.addresses()[1].port, 0);
+    ServerOptions second = options;
+    second.listen = {server.addresses()[1]};
+    EXPECT_THROW(Server rival(second), std::runtime_error) << "the port is taken";
+  }
+  EXPECT_FALSE(std::filesystem::exists(options.data_dir + "/s"));
+}
+
+/// Calls tick until `condition`.
+template <typename Condition>
+void tick_until(Supervisor& supervisor, Condition condition) {
+  while (!condition()) {
+    supervisor.tick();
+    std::this_thread::yield();
+  }
+}
+
+SupervisorOptions shell(const std::string& script, unsigned workers) {
+  SupervisorOptions options;
+  options.workers = workers;
+  options.command = {"/bin/sh", "-c", script};
+  options.first_delay = milliseconds(1);
+  options.last_delay = milliseconds(4);
+  return options;
+}
+
+TEST(SupervisorTest, KeepsWorkersRunning) {
+  std::vector<pid_t> started;
+  std::vector<pid_t> ended;
+  Supervisor supervisor(
+      shell("exec sleep 1000", 2), [&](pid_t pid) { started.push_back(pid); },
+      [&](pid_t pid) { ended.push_back(pid); });
+  supervisor.tick();
+  ASSERT_EQ(started.size(), 2U);
+  EXPECT_EQ(supervisor.running(), 2U);
+  kill(started[0], SIGKILL);
+  tick_until(supervisor, [&] { return started.size() == 3; });
+  EXPECT_EQ(ended, (std::vector<pid_t>{started[0]}));
+  EXPECT_EQ(supervisor.running(), 2U);
+  supervisor.terminate(std::chrono::seconds(30));
+  EXPECT_EQ(supervisor.running(), 0U);
+  EXPECT_EQ(std::set<pid_t>(ended.begin(), ended.end()), std::set<pid_t>(started.begin(), started.end()));
+  supervisor.tick();
+  EXPECT_EQ(started.size(), 3U) << "nothing is started after the end";
+}
+
+TEST(SupervisorTest, ProgramThatCannotRunIsTriedAgain) {
+  SupervisorOptions options = shell("", 1);
+  options.command = {"/nonexistent/affskel-worker"};
+  int ended = 0;
+  Supervisor supervisor(
+      options, [](pid_t) {}, [&](pid_t) { ++ended; });
+  tick_until(supervisor, [&] { return ended == 3; });
+}
+
+TEST(SupervisorTest, DeafWorkersAreKilled) {
+  const TemporaryDirectory directory;
+  const std::string ready = (directory.path() / "ready").string();
+  int ended = 0;
+  Supervisor supervisor(
+      shell("trap '' TERM; : > '" + ready + "'; exec sleep 1000", 1), [](pid_t) {}, [&](pid_t) { ++ended; });
+  tick_until(supervisor, [&] { return std::filesystem::exists(ready); });
+  supervisor.terminate(milliseconds(20));
+  EXPECT_EQ(ended, 1);
+  EXPECT_EQ(supervisor.running(), 0U);
+}
+
+TEST(SupervisorTest, NamesAMissingWorkerBinary) {
+  EXPECT_THROW(find_worker_binary("/nonexistent/affskel-worker"), std::runtime_error);
+  EXPECT_EQ(find_worker_binary("/bin/sh"), "/bin/sh");
+}
+
+}  // namespace
+}  // namespace affskel::server
