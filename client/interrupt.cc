@@ -7,23 +7,25 @@
 #include <array>
 #include <atomic>
 #include <cstring>
-#include <memory>
+#include <deque>
+#include <mutex>
 
 namespace affskel::client {
 namespace {
 
 // A signal handler may only read what is never freed or changed under it: strings are published through an
-// atomic pointer, and a replaced one is leaked (a few dozen bytes per command).
+// atomic pointer, and replaced ones are kept to the end (a few dozen bytes per file written).
 std::atomic<const char*> message_text{nullptr};
 std::atomic<const char*> temporary_path{nullptr};
 
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
 const char* publish(const std::string& text) {
+  static std::mutex mutex;
+  static auto& kept = *new std::deque<std::string>;  // not destroyed at exit, where a signal may still come
   if (text.empty()) return nullptr;
-  auto copy = std::make_unique<char[]>(text.size() + 1);
-  std::memcpy(copy.get(), text.c_str(), text.size() + 1);
-  return copy.release();
+  const std::lock_guard lock(mutex);
+  return kept.emplace_back(text).c_str();
 }
 
 void on_signal(int signal_number) {

@@ -220,7 +220,7 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
     last = now;
     seen(last);
   }
-  const grpc::Status status = reader->Finish();
+  grpc::Status status = reader->Finish();
   if (is_final(last.state())) return grpc::Status::OK;
   // We cancel nothing, and a job without a final state has no last message: the server is shutting down.
   const bool broken = status.ok() || status.error_code() == grpc::StatusCode::UNAVAILABLE ||

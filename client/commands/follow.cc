@@ -19,7 +19,7 @@ Session& Context::session() {
 v1::Job follow(Context& context, const std::string& job, bool stream) {
   ProgressView view(context.console());
   std::string told_for;
-  const v1::Job last = context.session().watch(job, [&](const v1::Job& now) {
+  v1::Job last = context.session().watch(job, [&](const v1::Job& now) {
     if (told_for != now.id()) {
       told_for = now.id();
       set_interrupt_message("\njob " + now.id() + " goes on; follow it again with: affskel-client watch " +

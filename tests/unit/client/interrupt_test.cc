@@ -1,0 +1,50 @@
+#include "client/interrupt.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include "client/exporters/atomic_file.h"
+#include "temp_dir.h"
+
+namespace affskel::client {
+namespace {
+
+// Each runs in a process of its own.
+TEST(InterruptDeathTest, TellsThatTheJobGoesOn) {
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        set_interrupt_message("job 7 goes on\n");
+        raise(SIGINT);
+      },
+      ::testing::ExitedWithCode(130), "job 7 goes on");
+}
+
+TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
+  const TempDir dir;
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        AtomicFile file(dir / "out.csv");
+        file.write(std::string(3 << 20, 'x'));
+        if (dir.names().size() != 1) _exit(1);
+        raise(SIGTERM);
+      },
+      ::testing::ExitedWithCode(143), "");
+  EXPECT_TRUE(dir.names().empty());
+}
+
+TEST(InterruptDeathTest, KeepsIgnoredSignalsIgnored) {
+  EXPECT_EXIT(
+      {
+        signal(SIGHUP, SIG_IGN);
+        install_interrupt_handlers();
+        raise(SIGHUP);
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace affskel::client
