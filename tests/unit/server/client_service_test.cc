@@ -224,9 +224,7 @@ TEST_F(ClientServiceTest, TellsAboutItself) {
 
 TEST_F(ClientServiceTest, IsIdleOnlyWithoutWorkAndClients) {
   const std::string id = submit();
-  EXPECT_EQ(server_->idle_time().count() / 1'000'000'000, 0);
-  const auto work_keeps_it_busy = server_->idle_time();
-  EXPECT_LT(work_keeps_it_busy, std::chrono::seconds(5));
+  EXPECT_EQ(server_->idle_time(), std::chrono::steady_clock::duration::zero()) << "there is work";
   server_->store().cancel(id);
   grpc::ClientContext context;
   v1::WatchJobRequest request;
