@@ -46,7 +46,7 @@ void hold_grpc() {
   static_cast<void>(held);
 }
 
-/// Leases of a predecessor's workers that died with it need not wait for their deadline.
+/// Leases of a predecessor's workers that end with it, or a little later, need not wait for their deadline.
 void release_dead_workers(Store& store) {
   for (const Store::Holder& holder : store.supervised_holders()) {
     const bool dead = kill(static_cast<pid_t>(holder.pid), 0) != 0 && errno == ESRCH;
@@ -111,7 +111,10 @@ void Server::maintain() {
   std::unique_lock lock(mutex_);
   while (!stopped_.wait_for(lock, pause, [this] { return stopping_; })) {
     lock.unlock();
-    guarded([this] { store_->expire_leases(); });
+    guarded([this] {
+      release_dead_workers(*store_);
+      store_->expire_leases();
+    });
     lock.lock();
   }
 }
