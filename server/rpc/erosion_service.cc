@@ -46,7 +46,7 @@ ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, E
       hub_(hub),
       activity_(activity),
       facts_(std::move(facts)),
-      watches_(hub, activity, [this](const std::string& id) { return load(id); }) {}
+      watches_(hub, activity) {}
 
 EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
   try {

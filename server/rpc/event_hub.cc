@@ -50,10 +50,15 @@ void EventHub::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-EventHub::Subscription EventHub::subscribe(const std::string& job_id, JobCallback callback) {
-  const std::lock_guard lock(mutex_);
-  const std::uint64_t number = next_number_++;
-  subscribers_[job_id][number] = std::make_shared<JobCallback>(std::move(callback));
+EventHub::Subscription EventHub::subscribe(const std::string& job_id, JobCallback callback, bool at_once) {
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    number = next_number_++;
+    subscribers_[job_id][number] = std::make_shared<JobCallback>(std::move(callback));
+    if (at_once) fresh_[number] = job_id;
+  }
+  changed_.notify_all();
   return {this, job_id, number};
 }
 
@@ -82,24 +87,31 @@ void EventHub::on_change(const Changes& changes) {
 void EventHub::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || work_ || !jobs_.empty(); });
+    changed_.wait(lock, [this] { return stopping_ || work_ || !jobs_.empty() || !fresh_.empty(); });
     if (stopping_) return;
     const bool work = std::exchange(work_, false);
     const std::set<std::string> jobs = std::exchange(jobs_, {});
+    const std::map<std::uint64_t, std::string> fresh = std::exchange(fresh_, {});
     lock.unlock();
     if (work) on_work_();
     for (const std::string& job : jobs) tell(job);
+    for (const auto& [number, job] : fresh) {
+      if (!jobs.contains(job)) tell(job, number);
+    }
     lock.lock();
   }
 }
 
-void EventHub::tell(const std::string& job_id) {
+/// Tells all subscribers of a job, or only one.
+void EventHub::tell(const std::string& job_id, std::uint64_t only) {
   std::vector<std::shared_ptr<JobCallback>> callbacks;
   {
     const std::lock_guard lock(mutex_);
     const auto found = subscribers_.find(job_id);
     if (found == subscribers_.end()) return;
-    for (const auto& [number, callback] : found->second) callbacks.push_back(callback);
+    for (const auto& [number, callback] : found->second) {
+      if (only == 0 || only == number) callbacks.push_back(callback);
+    }
   }
   guarded([&] {
     const JobPtr job = load_(job_id);

@@ -50,12 +50,14 @@ class EventHub final : public ChangeListener {
   void start(Loader load, std::function<void()> on_work);
   void stop();
 
-  Subscription subscribe(const std::string& job_id, JobCallback callback);
+  /// Calls `callback` after every change of the job, and with `at_once` for the job as it is.  All calls
+  /// come from one thread in the order of what they tell: never an older state after a newer one.
+  Subscription subscribe(const std::string& job_id, JobCallback callback, bool at_once = false);
   void on_change(const Changes& changes) override;
 
  private:
   void run();
-  void tell(const std::string& job_id);
+  void tell(const std::string& job_id, std::uint64_t only = 0);
   void unsubscribe(const std::string& job_id, std::uint64_t number);
 
   Loader load_;
@@ -64,7 +66,8 @@ class EventHub final : public ChangeListener {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, std::map<std::uint64_t, std::shared_ptr<JobCallback>>> subscribers_;
-  std::set<std::string> jobs_;  // changed and not told yet
+  std::set<std::string> jobs_;                  // changed and not told yet
+  std::map<std::uint64_t, std::string> fresh_;  // subscriptions that have heard nothing yet, with their jobs
   bool work_ = false;
   bool stopping_ = false;
   std::uint64_t next_number_ = 1;

@@ -1,5 +1,6 @@
 #include "rpc/server.h"
 
+#include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <signal.h>
@@ -34,7 +35,18 @@ class PrivateFiles {
   mode_t before_;
 };
 
-/// Leases of a predecessor's workers that died with it need not wait for their deadline.
+/// Keeps the gRPC library initialised until the process ends.  Its last shutdown joins a thread that may
+/// sit in a poll of 10 s (the backup poller of a connection that had to wait for its peer), which would
+/// hold up every exit.
+void hold_grpc() {
+  static const bool held = [] {
+    grpc_init();
+    return true;
+  }();
+  static_cast<void>(held);
+}
+
+/// Leases of a predecessor's workers that end with it, or a little later, need not wait for their deadline.
 void release_dead_workers(Store& store) {
   for (const Store::Holder& holder : store.supervised_holders()) {
     const bool dead = kill(static_cast<pid_t>(holder.pid), 0) != 0 && errno == ESRCH;
@@ -45,6 +57,7 @@ void release_dead_workers(Store& store) {
 }  // namespace
 
 Server::Server(const ServerOptions& options) {
+  hold_grpc();
   prepare_addresses(options.listen);
   store_ = std::make_unique<Store>(options.data_dir + "/affskel.db", options.store, clock_, &hub_);
   release_dead_workers(*store_);
@@ -98,14 +111,20 @@ void Server::maintain() {
   std::unique_lock lock(mutex_);
   while (!stopped_.wait_for(lock, pause, [this] { return stopping_; })) {
     lock.unlock();
-    guarded([this] { store_->expire_leases(); });
+    guarded([this] {
+      release_dead_workers(*store_);
+      store_->expire_leases();
+    });
     lock.lock();
   }
 }
 
 std::chrono::steady_clock::duration Server::idle_time() {
   const Store::Counts counts = store_->counts();
-  if (counts.queued > 0 || counts.running > 0 || counts.requests > 0) activity_.touch();
+  if (counts.queued > 0 || counts.running > 0 || counts.requests > 0) {
+    activity_.touch();
+    return std::chrono::steady_clock::duration::zero();
+  }
   return activity_.idle_time();
 }
 

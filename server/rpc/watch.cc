@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "rpc/status.h"
-
 namespace affskel::server {
 namespace {
 
@@ -31,12 +29,12 @@ class Watches::Stream final : public grpc::ServerWriteReactor<v1::Job>,
   explicit Stream(Watches& watches) : watches_(watches), call_(watches.activity_) {}
 
   void start(const std::string& job_id) {
-    // Subscribed before the first look, so that no change falls between.
-    subscription_ = watches_.hub_.subscribe(job_id, [weak = weak_from_this()](const EventHub::JobPtr& job) {
-      if (const std::shared_ptr<Stream> stream = weak.lock()) stream->deliver(job);
-    });
-    const grpc::Status status = guarded([&] { deliver(watches_.load_(job_id)); });
-    if (!status.ok()) stop(status);
+    subscription_ = watches_.hub_.subscribe(
+        job_id,
+        [weak = weak_from_this()](const EventHub::JobPtr& job) {
+          if (const std::shared_ptr<Stream> stream = weak.lock()) stream->deliver(job);
+        },
+        true);
   }
 
   void deliver(const EventHub::JobPtr& job) {
@@ -103,8 +101,7 @@ class Watches::Stream final : public grpc::ServerWriteReactor<v1::Job>,
   grpc::Status status_;
 };
 
-Watches::Watches(EventHub& hub, Activity& activity, EventHub::Loader load)
-    : hub_(hub), activity_(activity), load_(std::move(load)) {}
+Watches::Watches(EventHub& hub, Activity& activity) : hub_(hub), activity_(activity) {}
 
 grpc::ServerWriteReactor<v1::Job>* Watches::watch(const std::string& job_id) {
   const auto stream = std::make_shared<Stream>(*this);

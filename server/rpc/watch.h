@@ -16,8 +16,7 @@ namespace affskel::server {
 /// All WatchJob streams of a server; none of them holds a thread.  Thread-safe.
 class Watches {
  public:
-  /// @param load the job as it is now; throws when there is none.
-  Watches(EventHub& hub, Activity& activity, EventHub::Loader load);
+  Watches(EventHub& hub, Activity& activity);
 
   /// Starts a stream for the job of this full id.
   grpc::ServerWriteReactor<v1::Job>* watch(const std::string& job_id);
@@ -30,7 +29,6 @@ class Watches {
 
   EventHub& hub_;
   Activity& activity_;
-  EventHub::Loader load_;
   std::mutex mutex_;
   std::set<std::shared_ptr<Stream>> streams_;
   bool stopping_ = false;

@@ -47,7 +47,8 @@ TEST_F(ClientServiceTest, WatchSaysFirstWhatIs) {
   EXPECT_EQ(job.state(), v1::JOB_STATE_QUEUED);
   EXPECT_EQ(job.waiting_reason(), "no worker is connected");
   ASSERT_TRUE(poll(0).has_lease());
-  ASSERT_TRUE(reader->Read(&job));
+  // A change may be told twice, never a newer state before an older one.
+  while (job.state() == v1::JOB_STATE_QUEUED) ASSERT_TRUE(reader->Read(&job));
   EXPECT_EQ(job.state(), v1::JOB_STATE_RUNNING);
   EXPECT_EQ(job.waiting_reason(), "");
   context.TryCancel();
@@ -89,9 +90,8 @@ TEST_F(ClientServiceTest, ManyWatchersDoNotStarveOthers) {
   server_->store().cancel(id);
   for (Watch& watch : watches) {
     v1::Job last;
-    ASSERT_TRUE(watch.reader->Read(&last));
+    for (v1::Job next; watch.reader->Read(&next);) last = next;
     EXPECT_EQ(last.state(), v1::JOB_STATE_CANCELLED);
-    EXPECT_FALSE(watch.reader->Read(&last));
     EXPECT_TRUE(watch.reader->Finish().ok());
   }
 }
@@ -105,7 +105,8 @@ TEST_F(ClientServiceTest, StoppingServerEndsWatches) {
   v1::Job job;
   ASSERT_TRUE(reader->Read(&job));
   server_->stop();
-  EXPECT_FALSE(reader->Read(&job));
+  while (reader->Read(&job)) {
+  }
   EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
 }
 
@@ -224,9 +225,7 @@ TEST_F(ClientServiceTest, TellsAboutItself) {
 
 TEST_F(ClientServiceTest, IsIdleOnlyWithoutWorkAndClients) {
   const std::string id = submit();
-  EXPECT_EQ(server_->idle_time().count() / 1'000'000'000, 0);
-  const auto work_keeps_it_busy = server_->idle_time();
-  EXPECT_LT(work_keeps_it_busy, std::chrono::seconds(5));
+  EXPECT_EQ(server_->idle_time(), std::chrono::steady_clock::duration::zero()) << "there is work";
   server_->store().cancel(id);
   grpc::ClientContext context;
   v1::WatchJobRequest request;

@@ -1,0 +1,161 @@
+#include <condition_variable>
+#include <mutex>
+
+#include "rpc/event_hub.h"
+#include "rpc/status.h"
+#include "rpc/worker_registry.h"
+#include "store/errors.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+template <typename Error>
+grpc::StatusCode code_of(const Error& error) {
+  return status_of(std::make_exception_ptr(error)).error_code();
+}
+
+TEST(StatusTest, EveryErrorHasItsCode) {
+  using Code = StoreError::Code;
+  EXPECT_EQ(code_of(StoreError(Code::kInvalid, "")), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(code_of(StoreError(Code::kNotFound, "")), grpc::StatusCode::NOT_FOUND);
+  EXPECT_EQ(code_of(StoreError(Code::kExists, "")), grpc::StatusCode::ALREADY_EXISTS);
+  EXPECT_EQ(code_of(StoreError(Code::kPrecondition, "")), grpc::StatusCode::FAILED_PRECONDITION);
+  EXPECT_EQ(code_of(StoreError(Code::kFenced, "")), grpc::StatusCode::ABORTED);
+  EXPECT_EQ(code_of(StoreError(Code::kLimit, "")), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_FULL, "")), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_IOERR_FSYNC, "")), grpc::StatusCode::INTERNAL);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_CORRUPT, "")), grpc::StatusCode::INTERNAL);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_BUSY, "")), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(code_of(std::bad_alloc()), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(code_of(std::runtime_error("")), grpc::StatusCode::INTERNAL);
+  EXPECT_TRUE(guarded([] {}).ok());
+}
+
+class EventHubTest : public testing::Test {
+ protected:
+  EventHubTest() {
+    hub_.start(
+        [](const std::string& id) {
+          v1::Job job;
+          job.set_id(id);
+          return id == "deleted" ? nullptr : std::make_shared<const v1::Job>(job);
+        },
+        [this] { note("work"); });
+  }
+  ~EventHubTest() override { hub_.stop(); }
+
+  EventHub::Subscription subscribe(const std::string& id, bool at_once = false) {
+    return hub_.subscribe(
+        id, [this](const EventHub::JobPtr& job) { note(job == nullptr ? "none" : job->id()); }, at_once);
+  }
+
+  void change(const std::string& id, bool work = false) {
+    Changes changes;
+    changes.jobs.insert(id);
+    changes.work = work;
+    hub_.on_change(changes);
+  }
+
+  void note(const std::string& what) {
+    {
+      const std::lock_guard lock(mutex_);
+      heard_.push_back(what);
+    }
+    changed_.notify_all();
+  }
+
+  /// What was heard, as soon as it is this much.
+  std::vector<std::string> wait_for(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return heard_.size() >= count; });
+    return heard_;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> heard_;
+  EventHub hub_;
+};
+
+TEST_F(EventHubTest, TellsOnlyTheSubscribersOfAJob) {
+  const EventHub::Subscription first = subscribe("first");
+  change("second");
+  change("first");
+  EXPECT_EQ(wait_for(1), (std::vector<std::string>{"first"}));
+}
+
+TEST_F(EventHubTest, TellsTheStateAtOnceWhenAsked) {
+  const EventHub::Subscription first = subscribe("first", true);
+  EXPECT_EQ(wait_for(1), (std::vector<std::string>{"first"}));
+}
+
+TEST_F(EventHubTest, TellsOfDeletion) {
+  const EventHub::Subscription gone = subscribe("deleted");
+  change("deleted");
+  EXPECT_EQ(wait_for(1), (std::vector<std::string>{"none"}));
+}
+
+TEST_F(EventHubTest, TellsOfWork) {
+  change("first", true);
+  EXPECT_EQ(wait_for(1), (std::vector<std::string>{"work"}));
+}
+
+TEST_F(EventHubTest, EndedSubscriptionsHearNothing) {
+  { const EventHub::Subscription ended = subscribe("first"); }
+  const EventHub::Subscription moved = [&] { return subscribe("second"); }();
+  change("first");
+  change("second");
+  EXPECT_EQ(wait_for(1), (std::vector<std::string>{"second"}));
+}
+
+TEST(WorkerRegistryTest, ShowsWhoWorksOnWhat) {
+  const TestClock clock;
+  WorkerRegistry registry(clock);
+  registry.seen(worker_identity());
+  ASSERT_EQ(registry.list().size(), 1U);
+  EXPECT_EQ(registry.list()[0].task(), "");
+  v1::Lease lease;
+  lease.set_token("token");
+  lease.set_kind(v1::TASK_KIND_ERODE);
+  lease.mutable_job()->set_id("job");
+  registry.granted(worker_identity(), lease);
+  EXPECT_EQ(registry.list()[0].task(), "erode job");
+  registry.ended("token");
+  EXPECT_EQ(registry.list()[0].task(), "");
+}
+
+TEST(WorkerRegistryTest, ForgetsTheSilentAfterAMinute) {
+  TestClock clock;
+  WorkerRegistry registry(clock);
+  registry.seen(worker_identity());
+  v1::Lease lease;
+  lease.set_token("token");
+  lease.set_kind(v1::TASK_KIND_ERODE);
+  registry.granted(worker_identity(), lease);
+  clock.advance(59000);
+  registry.used("token");
+  clock.advance(59000);
+  EXPECT_EQ(registry.list().size(), 1U);
+  clock.advance(2000);
+  EXPECT_TRUE(registry.list().empty());
+}
+
+TEST(WorkerRegistryTest, KnowsTheSupervised) {
+  const TestClock clock;
+  WorkerRegistry registry(clock);
+  v1::WorkerIdentity worker = worker_identity();
+  worker.set_host(host_name());
+  EXPECT_FALSE(registry.is_supervised(worker));
+  registry.add_supervised(worker.pid());
+  EXPECT_TRUE(registry.is_supervised(worker));
+  worker.set_host("another-host");
+  EXPECT_FALSE(registry.is_supervised(worker));
+  worker.set_host(host_name());
+  registry.seen(worker);
+  registry.remove_supervised(worker.pid());
+  EXPECT_TRUE(registry.list().empty());
+}
+
+}  // namespace
+}  // namespace affskel::server
