@@ -123,6 +123,8 @@ v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
     const auto writer = stub_->ReportErosion(&context, &response);
     v1::ReportErosionRequest message;
     *message.mutable_header() = header;
+    // A stream that broke looks like one that ended: the count tells them apart.
+    message.mutable_header()->set_records(static_cast<std::uint64_t>(records.point_size()));
     bool open = writer->Write(message);
     for (int from = 0; open && from < records.point_size(); from += wire::kRecordsPerMessage) {
       *message.mutable_records() =

@@ -34,9 +34,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // of A'.  V is exact above them and off by less than p times this inside their height range.  Smaller
 // values cost accuracy too: bends reach p / kLevel^2, of which the double-double sums keep 2^-104.
 constexpr double kLevel = 1e-11;
-// Bends up to this times v0 are added in plain doubles: 2^-53 of it, integrated three times over heights
-// below 2, is less than 1e-13 v0.
-constexpr double kPlainBend = 500;
+// Bends up to this times v0 are added in plain doubles: 2^-53 of it, integrated three times over the height
+// of the solid (at most 1.8 inner units), is less than 1e-12 v0.
+constexpr double kPlainBend = 4000;
 struct Sum2 {
   double hi = 0, lo = 0;
 
@@ -116,25 +116,25 @@ struct VertexData {
   std::vector<Jump> jumps;
 };
 
-void add_level_triangle(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
+inline void add_level_triangle(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
   out.jumps.push_back({r.hi, p * (c - (a + b + c) / 3), p, {}});
 }
 
-void add_level_low_edge(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
+inline void add_level_low_edge(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
   const Sum2 bend = quotient(p, c - b, c - b);
   out.bend[r.mid].add(-bend.hi, -bend.lo);
   out.bend[r.hi].add(bend);
   out.jumps.push_back({r.mid, p * (b - a) / 3, 0, times(bend, 2 * (c - b))});
 }
 
-void add_level_high_edge(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
+inline void add_level_high_edge(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
   const Sum2 bend = quotient(p, b - a, b - a);
   out.bend[r.lo].add(bend);
   out.bend[r.mid].add(-bend.hi, -bend.lo);
   out.jumps.push_back({r.mid, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
 }
 
-void add_exactly(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
+__attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
   const Sum2 start = quotient(p, b - a, c - a), end = quotient(p, c - b, c - a);
   out.bend[r.lo].add(start);
   out.bend[r.mid].add(-start.hi, -start.lo);
@@ -153,7 +153,7 @@ AFFSKEL_CLONES void pass_triangles(const TreeInput::Data& input, const HeightOrd
     out.lowest[t] = r.lo;
     out.down[r.mid] = r.lo;
     out.down[r.hi] = r.lo;
-    if (out.middles[r.mid] < 254) ++out.middles[r.mid];
+    out.middles[r.mid] = static_cast<std::uint8_t>(std::min(out.middles[r.mid] + 1, 254));
     const double a = height[r.lo], b = height[r.mid], c = height[r.hi];
     const double p = -dot(d, input.area_vector[t]);
     const double ba = b - a, cb = c - b, ca = c - a;

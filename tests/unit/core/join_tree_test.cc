@@ -63,7 +63,7 @@ Extent extent(const Mesh& mesh, const Vec3& d) {
   return e;
 }
 
-void expect_direct_volumes(const Solid& solid, const DirectionSet& directions, double tolerance = 1e-12) {
+void expect_direct_volumes(const Solid& solid, const DirectionSet& directions, double tolerance = 1e-11) {
   const TreeInput input(solid);
   JoinTreeBuilder builder(input);
   std::mt19937_64 random(1);
