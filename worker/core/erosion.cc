@@ -13,10 +13,6 @@
 namespace affskel::core {
 namespace {
 
-// Relative to v0: far above what rounding does to monotonicity (the trees' invariant), far below what
-// matters.
-constexpr double kPruneMargin = 2e-9;
-
 class Stopwatch {
  public:
   double lap() {
