@@ -16,14 +16,6 @@
 #include "core/height_order.h"
 #include "core/tree_input.h"
 
-// Where the processor has them, fused multiply-adds in hardware: std::fma has one result whoever computes it.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define AFFSKEL_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define AFFSKEL_CLONES
-#endif
-
 namespace affskel::core {
 namespace {
 
@@ -134,7 +126,8 @@ inline void add_level_high_edge(const Ranked& r, double a, double b, double c, d
   out.jumps.push_back({r.mid, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
 }
 
-__attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
+__attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c,
+                                                       double p, VertexData& out) {
   const Sum2 start = quotient(p, b - a, c - a), end = quotient(p, c - b, c - a);
   out.bend[r.lo].add(start);
   out.bend[r.mid].add(-start.hi, -start.lo);
@@ -142,8 +135,8 @@ __attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a
   out.bend[r.hi].add(end);
 }
 
-AFFSKEL_CLONES void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
-                                   VertexData& out) {
+void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
+                    VertexData& out) {
   const std::vector<Triangle>& triangles = input.solid.mesh.triangles;
   const std::uint32_t* rank = heights.rank().data();
   const double* height = heights.height().data();
@@ -185,8 +178,8 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-AFFSKEL_CLONES double pass_volumes(const HeightOrder& heights, const VertexData& vertices,
-                                   const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
+double pass_volumes(const HeightOrder& heights, const VertexData& vertices, const Topology& topology,
+                    std::vector<Running>& running, JoinTree& tree) {
   const std::vector<double>& height = heights.height();
   double least_step = 0;
   auto jump = vertices.jumps.begin();
