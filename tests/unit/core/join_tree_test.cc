@@ -96,6 +96,21 @@ TEST(JoinTree, VolumesEqualDirectSummationOnLevelFaces) {
   }
 }
 
+// Thousands of coplanar triangles, all level at once, and prisms: one normal per face.
+TEST(JoinTree, VolumesEqualDirectSummationOnThousandsOfLevelTriangles) {
+  const Solid box = make_solid(make_box(3, 2, 1, 40));
+  DirectionSet faces;
+  for (const Vec3& d : make_directions(box, "triangles")) {
+    if (faces.empty() || norm(d - faces.back()) > 1e-9) faces.push_back(d);
+  }
+  ASSERT_GE(faces.size(), 6U);
+  expect_direct_volumes(box, faces);
+  for (std::uint32_t sides : {3U, 5U, 200U}) {
+    const Solid prism = make_solid(make_cylinder(1, 2, sides));
+    expect_direct_volumes(prism, make_directions(prism, "triangles"));
+  }
+}
+
 // Faces tilted by less and less, from where they are triangles like others to where they count as level.
 TEST(JoinTree, VolumesEqualDirectSummationOnNearlyLevelFaces) {
   const Solid solid = make_solid(make_box(3, 2, 1, 8));

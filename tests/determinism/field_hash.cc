@@ -1,0 +1,80 @@
+// Prints a hash of every bit of the fields of some solids: equal output means equal fields.
+// Usage: field_hash [THREADS]
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/body.h"
+#include "core/erosion.h"
+#include "core/shapes.h"
+#include "core/shocks.h"
+
+namespace {
+
+using affskel::core::Mesh;
+
+// FNV-1a over 64-bit words.
+class Hash {
+ public:
+  void add(std::uint64_t word) { state_ = (state_ ^ word) * 1099511628211ULL; }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 14695981039346656037ULL;
+};
+
+Mesh hollow_ball() {
+  Mesh mesh = affskel::core::make_sphere(3, 320);
+  const Mesh inner = affskel::core::make_sphere(1, 80);
+  const auto offset = static_cast<std::uint32_t>(mesh.points.size());
+  for (const auto& p : inner.points) mesh.points.push_back(p);
+  for (const auto& t : inner.triangles)
+    mesh.triangles.push_back({t[0] + offset, t[2] + offset, t[1] + offset});
+  return mesh;
+}
+
+void print_hash(const char* name, const Mesh& mesh, const std::string& directions, unsigned threads) {
+  using namespace affskel::core;
+  const Solid solid = make_solid(mesh);
+  LatticeOptions lattice_options;
+  lattice_options.target_points = 4000;
+  const Lattice lattice = make_lattice(solid, lattice_options);
+  const DirectionSet set = make_directions(solid, directions);
+  ErosionOptions options;
+  options.threads = threads;
+  Erosion erosion(solid, lattice, set, options);
+  std::vector<std::uint32_t> list(set.size());
+  std::iota(list.begin(), list.end(), 0U);
+  ExecutionContext context;
+  erosion.run(list, context);
+  Hash hash;
+  OptimalDirections optimal;
+  for (std::uint32_t p = 0; p < lattice.points; ++p) {
+    const FieldValue value = erosion.field().value(p);
+    hash.add(value.erosion);
+    hash.add(value.area);
+    hash.add(std::uint64_t{value.direction});
+    optimal.push_back(value.direction);
+  }
+  for (double h : zucker_hummel_divergence(lattice, set, optimal)) hash.add(h);
+  std::printf("%-12s R=%u K=%zu %016llx\n", name, lattice.points, set.size(),
+              static_cast<unsigned long long>(hash.value()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const unsigned threads = argc > 1 ? static_cast<unsigned>(std::strtoul(argv[1], nullptr, 10)) : 1;
+  using namespace affskel::core;
+  print_hash("torus", make_torus(6000, 2000, 256), "triangles+random:200:1", threads);
+  print_hash("box", make_box(3, 2, 1, 4), "triangles+sphere:80", threads);
+  print_hash("cylinder", make_cylinder(1, 2, 37), "triangles", threads);
+  print_hash("hollow-ball", hollow_ball(), "triangles", threads);
+  print_hash("body", make_body({292, 18000}), "triangles", threads);
+  return 0;
+}
