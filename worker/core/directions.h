@@ -15,7 +15,7 @@ namespace affskel::core {
 using DirectionSet = std::vector<Vec3>;
 
 struct DirectionOptions {
-  std::uint64_t max_directions = std::uint64_t{1} << 27;  ///< refuse larger sets
+  std::uint64_t max_directions = std::uint64_t{1} << 24;  ///< refuse larger sets
 };
 
 /// The set that `spec` names, parts joined by "+" in their order:

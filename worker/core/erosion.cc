@@ -37,7 +37,8 @@ class Erosion::Engine {
         field_(lattice.points, options.track_changes),
         // Volumes may fall along a run where a mesh crosses itself: nothing can be left out there.
         sweeper_(lattice, field_,
-                 {options.prune && !solid.self_intersecting, 2 * trees_.volume_tolerance()}) {
+                 {options.prune && !solid.self_intersecting, 2 * trees_.volume_tolerance(),
+                  std::ldexp(solid.volume, -3 * solid.exponent)}) {
     const JoinTreeOptions tree_options{!solid.self_intersecting};
     for (unsigned i = 0; i < std::max(1U, options.threads); ++i) {
       builders_.push_back(std::make_unique<JoinTreeBuilder>(trees_, tree_options));

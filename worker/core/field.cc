@@ -9,20 +9,15 @@ ErosionField::ErosionField(std::uint32_t points, bool track_changes)
       changed_(track_changes ? points : 0, 0) {}
 
 void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
-  bool first_change = false;
-  {
-    const std::lock_guard<std::mutex> guard(lock_of(point));
-    if (!offered.improves({erosion_[point], area_[point], direction_[point]})) return;
-    std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
-    area_[point] = offered.area;
-    direction_[point] = offered.direction;
-    if (!changed_.empty() && changed_[point] == 0) {
-      changed_[point] = 1;
-      first_change = true;
-    }
-  }
-  if (!first_change) return;
-  const std::lock_guard<std::mutex> guard(changes_mutex_);
+  const std::lock_guard<std::mutex> guard(lock_of(point));
+  if (!offered.improves({erosion_[point], area_[point], direction_[point]})) return;
+  std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
+  area_[point] = offered.area;
+  direction_[point] = offered.direction;
+  if (changed_.empty() || changed_[point] != 0) return;
+  // Listed before the point is let go: whoever improves it next relies on finding it listed.
+  changed_[point] = 1;
+  const std::lock_guard<std::mutex> list_guard(changes_mutex_);
   changes_.push_back(point);
 }
 

@@ -1,10 +1,6 @@
-// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A triangle
-// T has corners of rank lo < mid < hi at heights a <= b <= c, and p = -d.a_T, a_T its outward area vector.
-// The share f_T(t) of T below t is quadratic between the heights, and A(t) = sum p_T f_T(t) is the area of
-// the section, V(t) its integral.  f_T starts at a, bends at b and ends at c with f and f' continuous, so
-//   f_T'' / 2 jumps by  1/((b-a)(c-a)),  -1/((b-a)(c-a)) - 1/((c-b)(c-a)),  1/((c-b)(c-a))  at a, b, c:
-// per vertex only the bend of A changes.  Bends of nearly level triangles are huge and must cancel exactly
-// later; they, and all running coefficients, are kept as unevaluated sums of two doubles ("hi + lo").
+// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A(t) is
+// the area of a component's section at height t, V(t) its integral, the component's volume below t.  A is
+// quadratic between vertices; what changes at them is prepared by section_bends.
 #include "core/join_tree.h"
 
 #include <algorithm>
@@ -14,57 +10,20 @@
 
 #include "core/error.h"
 #include "core/height_order.h"
+#include "core/number_text.h"
+#include "core/section_bends.h"
 #include "core/tree_input.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+constexpr std::uint32_t kNone = SectionBends::kNone;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// A triangle lower than this (inner units; the solid's size is 1) is a jump of A at its top, an edge a jump
-// of A'.  V is exact above them and off by less than p times this inside their height range.  Smaller
-// values cost accuracy too: bends reach p / kLevel^2, of which the double-double sums keep 2^-104.
-constexpr double kLevel = 1e-11;
-// Bends up to this times v0 are added in plain doubles: 2^-53 of it, integrated three times over the height
-// of the solid (at most 1.8 inner units), is less than 1e-12 v0.
-constexpr double kPlainBend = 4000;
-struct Sum2 {
-  double hi = 0, lo = 0;
-
-  void add(double value, double low = 0) {
-    const double sum = hi + value, rounded = sum - hi;
-    lo += ((hi - (sum - rounded)) + (value - rounded)) + low;
-    hi = sum;
-  }
-  void add(const Sum2& other) { add(other.hi, other.lo); }
-  double value() const { return hi + lo; }
-};
-
-// num / (a b), all exact doubles.
-inline Sum2 quotient(double num, double a, double b) {
-  const double product = a * b, product_low = std::fma(a, b, -product);
-  const double hi = num / product;
-  return {hi, (std::fma(-hi, product, num) - hi * product_low) / product};
-}
-
-inline Sum2 times(const Sum2& s, double factor) {
-  const double hi = s.hi * factor;
-  return {hi, std::fma(s.hi, factor, -hi) + s.lo * factor};
-}
-
-// Sudden changes at one vertex, from level triangles and edges.
-struct Jump {
-  std::uint32_t rank = 0;
-  double volume = 0;
-  double area = 0;
-  Sum2 slope;
-};
 
 // Running coefficients of one component, about `height`: A(t) = area + slope s + bend s^2.
 struct Running {
   double height = 0;
-  Sum2 volume, area, slope, bend;
+  DoubleSum volume, area, slope, bend;
 };
 
 inline void advance(Running& r, double height) {
@@ -72,8 +31,8 @@ inline void advance(Running& r, double height) {
   if (s == 0) return;
   const double slope = r.slope.value();
   r.volume.add(s * (r.area.value() + s * (0.5 * slope + s * (r.bend.value() / 3))));
-  const Sum2 rise = times(r.bend, s);  // half of what the slope gains
-  Sum2 middle = r.slope;
+  const DoubleSum rise = times(r.bend, s);  // half of what the slope gains
+  DoubleSum middle = r.slope;
   middle.add(rise);
   r.area.add(times(middle, s));
   middle.add(rise);
@@ -88,85 +47,6 @@ inline void add(Running& sum, const Running& other) {
   sum.bend.add(other.bend);
 }
 
-struct Ranked {
-  std::uint32_t lo, mid, hi;
-};
-
-inline Ranked sort3(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::uint32_t lo = std::min(std::min(a, b), c), hi = std::max(std::max(a, b), c);
-  return {lo, a ^ b ^ c ^ lo ^ hi, hi};
-}
-
-// What the pass over the triangles leaves per vertex, by rank.
-struct VertexData {
-  std::vector<double> plain_bend;   // of A'', the moderate part
-  std::vector<Sum2> bend;           // and the rest: huge parts would swallow moderate ones added to them
-  std::vector<std::uint32_t> down;  // some lower neighbour, kNone at a minimum
-  std::vector<std::uint8_t>
-      middles;  // triangles of which it is the middle corner: 2 per lower link component
-  std::vector<std::uint32_t> lowest;  // per triangle: rank of its lowest corner
-  std::vector<Jump> jumps;
-};
-
-inline void add_level_triangle(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
-  out.jumps.push_back({r.hi, p * (c - (a + b + c) / 3), p, {}});
-}
-
-inline void add_level_low_edge(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
-  const Sum2 bend = quotient(p, c - b, c - b);
-  out.bend[r.mid].add(-bend.hi, -bend.lo);
-  out.bend[r.hi].add(bend);
-  out.jumps.push_back({r.mid, p * (b - a) / 3, 0, times(bend, 2 * (c - b))});
-}
-
-inline void add_level_high_edge(const Ranked& r, double a, double b, double c, double p, VertexData& out) {
-  const Sum2 bend = quotient(p, b - a, b - a);
-  out.bend[r.lo].add(bend);
-  out.bend[r.mid].add(-bend.hi, -bend.lo);
-  out.jumps.push_back({r.mid, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
-}
-
-__attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c,
-                                                       double p, VertexData& out) {
-  const Sum2 start = quotient(p, b - a, c - a), end = quotient(p, c - b, c - a);
-  out.bend[r.lo].add(start);
-  out.bend[r.mid].add(-start.hi, -start.lo);
-  out.bend[r.mid].add(-end.hi, -end.lo);
-  out.bend[r.hi].add(end);
-}
-
-void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
-                    VertexData& out) {
-  const std::vector<Triangle>& triangles = input.solid.mesh.triangles;
-  const std::uint32_t* rank = heights.rank().data();
-  const double* height = heights.height().data();
-  const double plain = kPlainBend * input.volume;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Ranked r = sort3(rank[triangles[t][0]], rank[triangles[t][1]], rank[triangles[t][2]]);
-    out.lowest[t] = r.lo;
-    out.down[r.mid] = r.lo;
-    out.down[r.hi] = r.lo;
-    out.middles[r.mid] = static_cast<std::uint8_t>(std::min(out.middles[r.mid] + 1, 254));
-    const double a = height[r.lo], b = height[r.mid], c = height[r.hi];
-    const double p = -dot(d, input.area_vector[t]);
-    const double ba = b - a, cb = c - b, ca = c - a;
-    const double start = p / (ba * ca), end = p / (cb * ca);
-    if (std::abs(start) <= plain && std::abs(end) <= plain && ba > kLevel && cb > kLevel) {
-      out.plain_bend[r.lo] += start;
-      out.plain_bend[r.mid] -= start + end;
-      out.plain_bend[r.hi] += end;
-    } else if (ca <= kLevel) {
-      add_level_triangle(r, a, b, c, p, out);
-    } else if (ba <= kLevel) {
-      add_level_low_edge(r, a, b, c, p, out);
-    } else if (cb <= kLevel) {
-      add_level_high_edge(r, a, b, c, p, out);
-    } else {
-      add_exactly(r, a, b, c, p, out);
-    }
-  }
-}
-
 // The arcs as the topology pass finds them.
 struct Topology {
   std::vector<std::uint32_t> vertex_arc;      // by rank
@@ -178,7 +58,7 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-double pass_volumes(const HeightOrder& heights, const VertexData& vertices, const Topology& topology,
+double pass_volumes(const HeightOrder& heights, const SectionBends& vertices, const Topology& topology,
                     std::vector<Running>& running, JoinTree& tree) {
   const std::vector<double>& height = heights.height();
   double least_step = 0;
@@ -224,7 +104,6 @@ class JoinTreeBuilder::Work {
         heights_(input_.solid.mesh.points) {
     const std::size_t vertices = input_.solid.mesh.points.size(),
                       triangles = input_.solid.mesh.triangles.size();
-    vertex_.lowest.resize(triangles);
     topology_.vertex_arc.resize(vertices);
     tree_.triangle_arc.resize(triangles);
     tree_.pieces.resize(vertices);
@@ -234,9 +113,7 @@ class JoinTreeBuilder::Work {
     d_ = d;
     heights_.sort(d);
     reset();
-    pass_triangles(input_, heights_, d, vertex_);
-    std::stable_sort(vertex_.jumps.begin(), vertex_.jumps.end(),
-                     [](const Jump& a, const Jump& b) { return a.rank < b.rank; });
+    find_section_bends(input_, heights_, d, vertex_);
     find_arcs();
     lay_out_pieces();
     running_.resize(tree_.arcs.size());
@@ -251,12 +128,6 @@ class JoinTreeBuilder::Work {
 
  private:
   void reset() {
-    const std::size_t vertices = heights_.order().size();
-    vertex_.bend.assign(vertices, {});
-    vertex_.plain_bend.assign(vertices, 0);
-    vertex_.down.assign(vertices, kNone);
-    vertex_.middles.assign(vertices, 0);
-    vertex_.jumps.clear();
     tree_.arcs.clear();
     topology_.start_rank.clear();
     topology_.piece_count.clear();
@@ -394,14 +265,14 @@ class JoinTreeBuilder::Work {
       const double volume = tree_.pieces[tree_.arcs[a].last_piece].volume;
       const double expected = input_.solid_volume[topology_.arc_solid[a]];
       if (!(std::abs(volume - expected) <= tolerance_)) {
-        throw_invariant("the tree of solid " + std::to_string(topology_.arc_solid[a]) + " holds " +
-                        std::to_string(volume / expected) + " of its volume");
+        throw_invariant("the tree of solid " + std::to_string(topology_.arc_solid[a]) + " holds 1 + " +
+                        to_text(volume / expected - 1) + " of its volume");
       }
     }
   }
 
   static std::string in_words(const Vec3& d) {
-    return "(" + std::to_string(d.x) + ", " + std::to_string(d.y) + ", " + std::to_string(d.z) + ")";
+    return "(" + to_text(d.x) + ", " + to_text(d.y) + ", " + to_text(d.z) + ")";
   }
 
   [[noreturn]] void throw_invariant(const std::string& what) const {
@@ -414,7 +285,7 @@ class JoinTreeBuilder::Work {
   JoinTreeOptions options_;
   Vec3 d_;
   HeightOrder heights_;
-  VertexData vertex_;
+  SectionBends vertex_;
   Topology topology_;
   std::vector<Running> running_;
   std::vector<std::uint32_t> meeting_;

@@ -96,8 +96,11 @@ class TreeInput {
   struct Data;
   const Data& data() const { return *data_; }
 
-  /// By how much a computed volume may be off or fall along a run, inner units: 1e-9 v0 and what the
-  /// rounding of heights to 2^-44 moves the surface.
+  /// Triangles and edges that rise less than this (inner units) count as level.
+  static constexpr double kLevelHeight = 1e-11;
+
+  /// By how much a computed volume may be off or fall along a run, inner units: 1e-9 v0 and kLevelHeight
+  /// times the surface (which includes what the rounding of heights to 2^-44 moves it).
   double volume_tolerance() const;
 
  private:

@@ -34,6 +34,14 @@ class LatticeBuilder {
   }
 
  private:
+  // The first triangle from crossing `c` upward where the line leaves the solid.
+  static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end) {
+    for (std::uint64_t e = c; e < end; ++e) {
+      if (lines.crossings[e].exits > 0) return lines.crossings[e].triangle;
+    }
+    return lines.crossings[c].triangle;
+  }
+
   // Axis 2 decides what is inside and numbers the points.
   void fill_axis_2() {
     const LatticeFrame& frame = lattice_.frame;
@@ -42,15 +50,21 @@ class LatticeBuilder {
     for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
       for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
         const std::size_t line = std::size_t{i} * frame.dims[1] + j;
+        const std::uint64_t last = lines.begin[line + 1];
         std::int32_t winding = 0;
-        for (std::uint64_t c = lines.begin[line]; c + 1 < lines.begin[line + 1]; ++c) {
+        std::uint32_t entered = 0;
+        for (std::uint64_t c = lines.begin[line]; c + 1 < last; ++c) {
           const Crossing &low = lines.crossings[c], &high = lines.crossings[c + 1];
           winding -= low.exits;
+          if (low.exits < 0) entered = low.triangle;
           if (winding <= 0) continue;
           const std::uint32_t k = clip(low.depth), end = clip(high.depth);
           if (k >= end) continue;
-          lattice_.axis[2].runs.push_back(
-              {static_cast<std::uint32_t>(points), end - k, low.triangle, high.triangle, {i, j, k}});
+          lattice_.axis[2].runs.push_back({static_cast<std::uint32_t>(points),
+                                           end - k,
+                                           entered,
+                                           exit_from(lines, c + 1, last),
+                                           {i, j, k}});
           points += end - k;
           if (points > 0xFFFFFFFEU) {
             throw CoreError(CoreError::Code::kLimit,
@@ -112,14 +126,16 @@ class LatticeBuilder {
     std::uint64_t next = lines.begin[line];
     const std::uint64_t end = lines.begin[line + 1];
     std::int32_t winding = 0;
+    std::uint32_t entered = 0;
     LatticeRun* open = nullptr;
     for (std::uint32_t o = from; o < to; ++o) {
       const std::uint32_t point = order[o];
       const LatticeRun& column = lattice_.axis[2].runs[run_of[point]];
       std::array<std::uint32_t, 3> at = column.start;
       at[2] += point - column.first;
-      while (next < end && lines.crossings[next].depth <= at[a]) {
-        winding -= lines.crossings[next++].exits;
+      for (; next < end && lines.crossings[next].depth <= at[a]; ++next) {
+        winding -= lines.crossings[next].exits;
+        if (lines.crossings[next].exits < 0) entered = lines.crossings[next].triangle;
         open = nullptr;
       }
       AxisRuns& axis = lattice_.axis[a];
@@ -129,8 +145,8 @@ class LatticeBuilder {
         continue;
       }
       if (open == nullptr) {
-        axis.runs.push_back({static_cast<std::uint32_t>(axis.order.size()), 0,
-                             lines.crossings[next - 1].triangle, lines.crossings[next].triangle, at});
+        axis.runs.push_back(
+            {static_cast<std::uint32_t>(axis.order.size()), 0, entered, exit_from(lines, next, end), at});
         open = &axis.runs.back();
       }
       ++open->length;

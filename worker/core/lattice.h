@@ -21,8 +21,8 @@ struct LatticeRun {
   std::uint32_t first =
       0;  ///< place of its first point in AxisRuns::order (the point itself if that is empty)
   std::uint32_t length = 0;              ///< number of points, >= 1
-  std::uint32_t low = 0;                 ///< the triangle that ends the run below its first point
-  std::uint32_t high = 0;                ///< the triangle that ends it above its last point
+  std::uint32_t low = 0;                 ///< the nearest triangle below where the line enters the solid
+  std::uint32_t high = 0;                ///< the nearest triangle above where it leaves
   std::array<std::uint32_t, 3> start{};  ///< lattice indices of the first point
 };
 

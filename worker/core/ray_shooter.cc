@@ -10,7 +10,6 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
-constexpr double kSlack = 1e-12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Vec3 lower(const Vec3& a, const Vec3& b) {
@@ -21,19 +20,19 @@ Vec3 upper(const Vec3& a, const Vec3& b) {
 }
 
 // Ray o + s r against the slab of one axis; keeps [near, far].
-void clip_slab(double o, double r, double low, double high, double& near, double& far) {
+void clip_slab(double o, double r, double low, double high, double slack, double& near, double& far) {
   if (r == 0) {
-    if (o < low - kSlack || o > high + kSlack) far = -kInfinity;
+    if (o < low - slack || o > high + slack) far = -kInfinity;
     return;
   }
-  const double a = (low - kSlack - o) / r, b = (high + kSlack - o) / r;
+  const double a = (low - slack - o) / r, b = (high + slack - o) / r;
   near = std::max(near, std::min(a, b));
   far = std::min(far, std::max(a, b));
 }
 
 // The parameter s at which o + s r meets triangle abc, or infinity.  Moeller & Trumbore (1997), borders
 // included.
-double hit(const Vec3& o, const Vec3& r, const Vec3& a, const Vec3& b, const Vec3& c) {
+double hit(const Vec3& o, const Vec3& r, const Vec3& a, const Vec3& b, const Vec3& c, double slack) {
   const Vec3 e = b - a, f = c - a;
   const Vec3 p = cross(r, f);
   const double det = dot(e, p);
@@ -42,7 +41,7 @@ double hit(const Vec3& o, const Vec3& r, const Vec3& a, const Vec3& b, const Vec
   const double u = dot(q, p) / det;
   const Vec3 w = cross(q, e);
   const double v = dot(r, w) / det;
-  if (!(u >= -kSlack && v >= -kSlack && u + v <= 1 + kSlack)) return kInfinity;
+  if (!(u >= -slack && v >= -slack && u + v <= 1 + slack)) return kInfinity;
   return dot(f, w) / det;
 }
 
@@ -101,6 +100,16 @@ void RayShooter::split(std::uint32_t node, std::uint32_t begin, std::uint32_t en
 
 std::uint32_t RayShooter::first_exit_below(std::uint32_t vertex, const Vec3& d,
                                            const std::function<bool(std::uint32_t)>& accept) const {
+  for (double slack : {1e-12, 1e-9, 1e-6}) {
+    const std::uint32_t found = first_exit_with_slack(vertex, d, accept, slack);
+    if (found != kNone) return found;
+  }
+  return kNone;
+}
+
+std::uint32_t RayShooter::first_exit_with_slack(std::uint32_t vertex, const Vec3& d,
+                                                const std::function<bool(std::uint32_t)>& accept,
+                                                double slack) const {
   const Vec3 origin = mesh_.points[vertex], ray = -d;
   std::uint32_t best = kNone;
   double best_s = kInfinity;
@@ -110,9 +119,9 @@ std::uint32_t RayShooter::first_exit_below(std::uint32_t vertex, const Vec3& d,
   while (depth != 0) {
     const Node& node = nodes_[stack[--depth]];
     double near = 0, far = best_s;
-    clip_slab(origin.x, ray.x, node.box.low.x, node.box.high.x, near, far);
-    clip_slab(origin.y, ray.y, node.box.low.y, node.box.high.y, near, far);
-    clip_slab(origin.z, ray.z, node.box.low.z, node.box.high.z, near, far);
+    clip_slab(origin.x, ray.x, node.box.low.x, node.box.high.x, slack, near, far);
+    clip_slab(origin.y, ray.y, node.box.low.y, node.box.high.y, slack, near, far);
+    clip_slab(origin.z, ray.z, node.box.low.z, node.box.high.z, slack, near, far);
     if (near > far) continue;
     if (node.count == 0) {
       stack[depth++] = node.first;
@@ -125,7 +134,7 @@ std::uint32_t RayShooter::first_exit_below(std::uint32_t vertex, const Vec3& d,
       if (corner[0] == vertex || corner[1] == vertex || corner[2] == vertex || !accept(t)) continue;
       const Vec3 &a = mesh_.points[corner[0]], &b = mesh_.points[corner[1]], &c = mesh_.points[corner[2]];
       if (!(dot(cross(b - a, c - a), d) < 0)) continue;
-      const double s = hit(origin, ray, a, b, c);
+      const double s = hit(origin, ray, a, b, c, slack);
       if (s < 0 || s == kInfinity || s > best_s || (s == best_s && t > best)) continue;
       best = t;
       best_s = s;

@@ -20,7 +20,8 @@ class RayShooter {
   /// The first triangle that the ray vertex - s d, s >= 0, leaves the solid through: among triangles with
   /// outward normal n, n.d < 0, that do not use the vertex and that `accept`, the one met at the least s
   /// (ties: the smaller index); kNone when there is none.  Borders count as part of a triangle, with a
-  /// tolerance of 1e-12 of its size.
+  /// tolerance of 1e-12 of its size; when nothing is met (the ray hits a corner of slivers) of 1e-9, then
+  /// 1e-6.
   std::uint32_t first_exit_below(std::uint32_t vertex, const Vec3& d,
                                  const std::function<bool(std::uint32_t)>& accept) const;
 
@@ -35,6 +36,8 @@ class RayShooter {
     std::uint32_t count = 0;
   };
 
+  std::uint32_t first_exit_with_slack(std::uint32_t vertex, const Vec3& d,
+                                      const std::function<bool(std::uint32_t)>& accept, double slack) const;
   void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end, const std::vector<Vec3>& centroids);
   Box bounds(std::uint32_t begin, std::uint32_t end) const;
 

@@ -40,7 +40,8 @@ class Scanner {
       std::sort(result.crossings.begin() + static_cast<std::ptrdiff_t>(result.begin[line]),
                 result.crossings.begin() + static_cast<std::ptrdiff_t>(result.begin[line + 1]),
                 [](const Crossing& a, const Crossing& b) {
-                  return a.depth != b.depth ? a.depth < b.depth : a.triangle < b.triangle;
+                  if (a.depth != b.depth) return a.depth < b.depth;
+                  return a.exits != b.exits ? a.exits > b.exits : a.triangle < b.triangle;
                 });
     }
     return result;

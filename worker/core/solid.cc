@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/mesh_topology.h"
+#include "core/number_text.h"
 #include "core/self_intersection.h"
 #include "core/shell_nesting.h"
 
@@ -318,7 +319,7 @@ class SolidBuilder {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       if (!(sums[i].value() > 1e-15)) {
         refuse("the mesh bounds no volume: solid " + std::to_string(i) + " of " +
-               std::to_string(sums.size()) + " has volume " + std::to_string(sums[i].value() * unit));
+               std::to_string(sums.size()) + " has volume " + to_text(sums[i].value() * unit));
       }
       solid_.solid_volume[i] = sums[i].value() * unit;
     }
@@ -340,8 +341,9 @@ class SolidBuilder {
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
                                                                : "at least " + std::to_string(pairs.size());
     note(MeshNote::Severity::kWarning, "self-intersecting",
-         count + " pairs of triangles cross each other, the first: " + place(pairs[0].first) + " and " +
-             place(pairs[0].second) + "; volumes count overlaps twice and E is only approximate near them");
+         count + " pairs of triangles cross or touch each other, the first: " + place(pairs[0].first) +
+             " and " + place(pairs[0].second) +
+             "; overlaps count twice in volumes, and E is only approximate near them");
   }
 
   SolidOptions options_;

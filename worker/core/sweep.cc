@@ -89,10 +89,8 @@ class Sweeper::Pass {
     ++counts_.evaluated;
     const Piece& piece = tree_.locate(arc, h);
     double volume = piece.volume_at(h);
-    // Rounding may leave a little less than nothing; much less only happens where a mesh crosses itself,
-    // and says nothing about the chord there.
-    if (volume < -owner_.options_.margin) return;
-    volume = volume > 0 ? volume : 0;
+    // Rounding may leave a little less than nothing.
+    if (volume < 0) volume = volume < -owner_.options_.margin ? owner_.options_.whole : 0;
     if (!owner_.field_.may_improve(p, volume)) return;
     const double area = piece.area_at(h);
     owner_.field_.offer(p, {volume, area > 0 ? area : 0, index_});

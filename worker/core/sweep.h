@@ -13,6 +13,7 @@ namespace affskel::core {
 struct SweepOptions {
   bool prune = true;  ///< false: evaluate every point (yardstick and test of the pruning; same result)
   double margin = 0;  ///< inner volume; computed chords may fall along a run by at most this
+  double whole = 0;   ///< inner volume of V: stands for chords that come out negative, see sweep()
 };
 
 /// Counts of what sweeps did.
@@ -37,7 +38,8 @@ class Sweeper {
  public:
   Sweeper(const Lattice& lattice, ErosionField& field, const SweepOptions& options);
 
-  /// Direction number `index`, unit vector d, with its tree.
+  /// Direction number `index`, unit vector d, with its tree.  Chords below -margin, which only a mesh that
+  /// crosses itself gives, say nothing: the whole volume is offered for them.
   SweepCounts sweep(const JoinTree& tree, const Vec3& d, std::uint32_t index);
 
  private:

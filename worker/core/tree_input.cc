@@ -50,7 +50,7 @@ TreeInput::TreeInput(const Solid& solid) : data_(std::make_unique<Data>(solid)) 
 TreeInput::~TreeInput() = default;
 
 double TreeInput::volume_tolerance() const {
-  return 1e-9 * data_->volume + 0x1p-42 * data_->surface_area;
+  return 1e-9 * data_->volume + kLevelHeight * data_->surface_area;
 }
 
 TreeInput::TreeInput(TreeInput&&) noexcept = default;

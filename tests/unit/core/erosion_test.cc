@@ -289,6 +289,42 @@ TEST(Erosion, StopsBetweenDirectionsAndGoesOnWithoutLoss) {
   }
 }
 
+// Two boxes with a common face: lines leave one and enter the other at the same depth.
+TEST(Erosion, SolidsThatTouchDoNotDependOnTheirOrder) {
+  const Mesh low = make_box(1, 1, 1), high = moved(make_box(1, 1, 1), {0, 0, 1});
+  const Computed one = compute(joined(low, high), 0.25, "random:200:1");
+  const Computed other = compute(joined(high, low), 0.25, "random:200:1");
+  const Computed single = compute(low, 0.25, "random:200:1");
+  ASSERT_EQ(one.value.size(), 2 * single.value.size());
+  for (std::size_t i = 0; i < one.value.size(); ++i) {
+    EXPECT_NEAR(one.value[i].erosion, other.value[i].erosion, 1e-12);
+    // Columns of 8 points: the lower 4 are the lower box's.
+    EXPECT_NEAR(one.value[i].erosion, single.value[i / 8 * 4 + i % 4].erosion, 1e-12);
+  }
+}
+
+// A prism over a bow tie: one half is inside out, where chords say nothing.
+TEST(Erosion, EveryPointGetsADirectionEvenWhereChordsSayNothing) {
+  Mesh bow;
+  for (double z : {0.0, 1.0}) {
+    for (const Vec3& p : {Vec3{0, 0, z}, Vec3{2, 2, z}, Vec3{2, 0, z}, Vec3{0, 2.4, z}})
+      bow.points.push_back(p);
+  }
+  bow.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    bow.triangles.push_back({i, j, j + 4});
+    bow.triangles.push_back({i, j + 4, i + 4});
+  }
+  const Solid solid = make_solid(bow);
+  ASSERT_TRUE(solid.self_intersecting);
+  const Computed field = compute(bow, 0.1, "random:1:2");
+  for (const FieldValue& value : field.value) {
+    EXPECT_NE(value.direction, FieldValue::kNoDirection);
+    EXPECT_LE(value.erosion, std::abs(solid.volume) * (1 + 1e-12));
+  }
+}
+
 TEST(Erosion, ComputesMeshesThatCrossThemselvesTheSameInAnyOrder) {
   const Mesh crossing = joined(make_sphere(1, 320), moved(make_sphere(1, 320), {0.7, 0.1, 0.2}));
   const Computed plain = compute(crossing, 0.1, "triangles", {1, false, 0});

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -35,6 +37,31 @@ TEST(ErosionField, TellsEachChangeOnce) {
   EXPECT_TRUE(field.take_changes().empty());
   field.offer(2, {3, 1, 9});
   EXPECT_EQ(field.take_changes(), (std::vector<std::uint32_t>{2}));
+}
+
+// A point offered by several threads while changes are taken: after the threads are done, a last call
+// must tell every point whose value the calls before could not have seen.
+TEST(ErosionField, NoImprovementEscapesWhoeverTakesTheChanges) {
+  constexpr std::uint32_t kPoints = 4;
+  for (int round = 0; round < 200; ++round) {
+    ErosionField field(kPoints, true);
+    std::vector<double> seen(kPoints, std::numeric_limits<double>::infinity());
+    const auto take = [&] {
+      for (std::uint32_t p : field.take_changes()) seen[p] = std::min(seen[p], field.value(p).erosion);
+    };
+    std::vector<std::thread> threads;
+    std::atomic<int> running{2};
+    for (std::uint32_t t = 0; t < 2; ++t) {
+      threads.emplace_back([&, t] {
+        for (std::uint32_t i = 0; i < 200; ++i) field.offer(i % kPoints, {1000.0 - i, 1, t});
+        --running;
+      });
+    }
+    while (running > 0) take();
+    for (std::thread& thread : threads) thread.join();
+    take();
+    for (std::uint32_t p = 0; p < kPoints; ++p) ASSERT_EQ(seen[p], field.value(p).erosion);
+  }
 }
 
 TEST(ErosionField, OffersFromManyThreadsMergeAsInAnyOrder) {

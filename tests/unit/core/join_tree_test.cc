@@ -123,6 +123,33 @@ TEST(JoinTree, VolumesEqualDirectSummationOnNearlyLevelFaces) {
   expect_direct_volumes(solid, tilted, 1e-10);
 }
 
+// Every n-th direction.
+DirectionSet every(std::size_t n, const DirectionSet& all) {
+  DirectionSet some;
+  for (std::size_t i = 0; i < all.size(); i += n) some.push_back(all[i]);
+  return some;
+}
+
+// Faces of many triangles that are level but for noise, each with a tilt of its own.
+TEST(JoinTree, VolumesEqualDirectSummationOnNoisyFaces) {
+  for (double noise : {1e-6, 1e-8, 1e-9, 1e-10, 3e-11, 2e-11, 1e-11, 3e-12, 1e-12, 1e-13}) {
+    for (std::uint64_t seed : {1U, 2U, 3U}) {
+      const Solid box = make_solid(shaken(make_box(1, 1, 1, 10), noise, seed), {true, false});
+      expect_direct_volumes(box, every(9, make_directions(box, "triangles")), 2e-10);
+    }
+  }
+}
+
+TEST(JoinTree, VolumesEqualDirectSummationOnThinPlates) {
+  for (double noise : {0.0, 1e-9, 1e-10, 3e-11, 1e-11, 2e-12}) {
+    const Solid plain = make_solid(shaken(make_box(1, 1, 1e-3), noise, 4), {true, false});
+    expect_direct_volumes(plain, make_directions(plain, "triangles+random:20:1"), 2e-8);
+    // Vertices opposite each other: rays from inner minima meet corners of triangles.
+    const Solid fine = make_solid(shaken(make_box(1, 1, 1e-4, 10), noise, 5), {true, false});
+    expect_direct_volumes(fine, every(9, make_directions(fine, "triangles+random:180:1")), 2e-7);
+  }
+}
+
 TEST(JoinTree, VolumesEqualDirectSummationOnNeedles) {
   Mesh mesh = make_box(1e-6, 1, 1, 6);
   const Solid thin = make_solid(mesh);

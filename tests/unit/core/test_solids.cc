@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 #include <utility>
 
 #include "core/shapes.h"
@@ -55,6 +56,20 @@ Mesh joined(Mesh a, const Mesh& b) {
   a.points.insert(a.points.end(), b.points.begin(), b.points.end());
   for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   return a;
+}
+
+Mesh shaken(Mesh mesh, double noise, std::uint64_t seed) {
+  // Columns of a rotation: Gram-Schmidt from two vectors that depend on the seed.
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto draw = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
+  Vec3 u = draw(), v = draw();
+  u = (1 / norm(u)) * u;
+  v = v - dot(u, v) * u;
+  v = (1 / norm(v)) * v;
+  const Vec3 w = cross(u, v);
+  for (Vec3& p : mesh.points) p = (p.x * u + p.y * v) + (p.z * w + noise * draw());
+  return mesh;
 }
 
 Mesh hollow_ball() {

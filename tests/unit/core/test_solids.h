@@ -15,6 +15,9 @@ Mesh reversed(Mesh mesh);
 /// Both meshes as one, without common vertices.
 Mesh joined(Mesh a, const Mesh& b);
 
+/// The mesh turned about an axis in no special position, then every coordinate moved by up to +-noise.
+Mesh shaken(Mesh mesh, double noise, std::uint64_t seed);
+
 /// A ball of radius 3 with a spherical cavity of radius 1 about (0.5, 0, 0).
 Mesh hollow_ball();
 
