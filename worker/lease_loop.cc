@@ -5,6 +5,7 @@
 
 #include <array>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <new>
 #include <random>
@@ -87,6 +88,16 @@ v1::JobError describe(const core::CoreError& error) {
   message.set_message(error.what());
   message.set_line(error.line());
   return message;
+}
+
+// @throws core::CoreError kLimit above what one message may hold.
+std::string serialize(const google::protobuf::Message& message, const char* what) {
+  if (message.ByteSizeLong() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    throw core::CoreError(
+        core::CoreError::Code::kLimit,
+        std::string("the ") + what + " is larger than 2 GiB; take fewer points or directions");
+  }
+  return message.SerializeAsString();
 }
 
 class LeaseLoop {
@@ -188,9 +199,9 @@ class LeaseLoop {
     header.set_token(lease.token());
     *header.mutable_prepared() = job.summary();
     header.set_order_stride(wire::direction_stride(job.directions().size()));
-    std::string data = job.lattice_message().SerializeAsString();
+    std::string data = serialize(job.lattice_message(), "lattice");
     header.set_lattice_bytes(data.size());
-    data += job.directions_message().SerializeAsString();
+    data += serialize(job.directions_message(), "direction set");
     link_.complete(header, data);
   }
 
@@ -230,11 +241,11 @@ class LeaseLoop {
     if (lease.kind() == v1::TASK_KIND_SKELETON) {
       const v1::SkeletonPoints skeleton = derive_skeleton(job, stored, lease.skeleton());
       header.set_points(static_cast<std::uint64_t>(skeleton.point_size()));
-      data = skeleton.SerializeAsString();
+      data = serialize(skeleton, "skeleton");
     } else {
       const v1::TriangleMesh surface = derive_surface(job, stored, lease.surface());
       header.set_points(static_cast<std::uint64_t>(surface.corners_size()) / 3);
-      data = surface.SerializeAsString();
+      data = serialize(surface, "surface");
     }
     link_.complete(header, data);
   }

@@ -87,14 +87,15 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--max-jobs", flags.loop.max_jobs, "leave after work on this many jobs; 0 = never")
+  app.add_option("--max-jobs", flags.loop.max_jobs,
+                 "leave when work on one more job than this is offered; 0 = never")
       ->capture_default_str();
   app.add_option("--patience", flags.patience_s,
                  "leave when the server does not answer for this many seconds")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--log-level", flags.log_level, "trace, debug, info, warning, error")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
+  app.add_option("--log-level", flags.log_level, "debug, info, warn, error or off")
+      ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
   compute->add_option("FILE", flags.compute.file, "mesh (OFF)")->required();
@@ -135,8 +136,11 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }
   if (*compute) return run_compute(flags.compute);
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("affskel-worker"));
-  spdlog::set_level(spdlog::level::from_str(flags.log_level));
+  const auto logger = spdlog::stderr_logger_mt("affskel-worker");
+  // As the server's lines, which these stand among when the server supervises this worker.
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+  logger->set_level(spdlog::level::from_str(flags.log_level));
+  spdlog::set_default_logger(logger);
   flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
   flags.loop.patience = std::chrono::seconds(flags.patience_s);
   return run_worker(flags.loop);

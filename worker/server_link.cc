@@ -45,7 +45,7 @@ ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
 
 template <class Call>
 void ServerLink::with_retries(const char* what, Call call) {
-  const Clock::time_point give_up = Clock::now() + options_.patience;
+  Clock::time_point give_up = Clock::now() + options_.patience;
   auto pause = kFirstPause;
   for (;;) {
     grpc::ClientContext context;
@@ -54,9 +54,12 @@ void ServerLink::with_retries(const char* what, Call call) {
     if (status.ok()) return;
     const std::string message = std::string(what) + ": " + status.error_message();
     switch (status.error_code()) {
+      case grpc::StatusCode::RESOURCE_EXHAUSTED:
+        // The server is there, but its disk or memory is full: wait until somebody makes room.
+        give_up = Clock::now() + options_.patience;
+        break;
       case grpc::StatusCode::UNAVAILABLE:
       case grpc::StatusCode::DEADLINE_EXCEEDED:
-      case grpc::StatusCode::RESOURCE_EXHAUSTED:  // the server's disk is full: somebody may make room
         break;
       case grpc::StatusCode::ABORTED:
       case grpc::StatusCode::NOT_FOUND:

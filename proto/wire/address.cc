@@ -1,5 +1,7 @@
 #include "wire/address.h"
 
+#include <arpa/inet.h>
+
 #include <charconv>
 #include <stdexcept>
 
@@ -23,7 +25,10 @@ std::string Address::target() const {
 }
 
 bool Address::is_local() const {
-  return is_unix || host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
+  if (is_unix || host == "localhost" || host == "::1") return true;
+  // All of 127/8, but only as an address: 127.example.org may be anywhere.
+  in_addr address{};
+  return inet_pton(AF_INET, host.c_str(), &address) == 1 && (ntohl(address.s_addr) >> 24) == 127;
 }
 
 Address parse_address(std::string_view text) {

@@ -79,8 +79,13 @@ SupervisorOptions supervisor_options(const Options& options, const Server& serve
   const std::string target = (best != addresses.end() ? *best : addresses.front()).target();
   unsigned threads = options.worker_threads;
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency() / options.workers);
-  result.command = {find_worker_binary(options.worker_binary), "--server", target, "--threads",
-                    std::to_string(threads)};
+  result.command = {find_worker_binary(options.worker_binary),
+                    "--server",
+                    target,
+                    "--threads",
+                    std::to_string(threads),
+                    "--log-level",
+                    options.log_level};
   return result;
 }
 

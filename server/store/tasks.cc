@@ -58,15 +58,29 @@ void clear_lease(Tx& tx, const TaskRow& task, const char* state) {
   tx.changes.work = true;
 }
 
-/// Directions that were probably computed and never reported: the lease's own rate over the time since
-/// its last report, but no longer than the interval at which it would have reported.
+/// Directions per millisecond: of the lease once it has reported, else of the job since it was started (by
+/// all its workers, so rather too many).
+double rate_of(const Tx& tx, const TaskRow& task) {
+  if (task.reported_ms && *task.reported_ms > task.granted_ms) {
+    return static_cast<double>(task.lease_directions) /
+           static_cast<double>(*task.reported_ms - task.granted_ms);
+  }
+  const std::int64_t started =
+      tx.db.integer("SELECT started_ms FROM jobs WHERE id = ?", task.job_id).value_or(tx.wall_ms);
+  const std::int64_t reported =
+      tx.db.integer("SELECT directions_reported FROM jobs WHERE id = ?", task.job_id).value_or(0);
+  if (started == 0 || tx.wall_ms <= started) return 0;
+  return static_cast<double>(reported) / static_cast<double>(tx.wall_ms - started);
+}
+
+/// Directions that were probably computed and never reported: the rate over the time since the last report
+/// or the grant, but no longer than the interval at which the worker would have reported.
 double lost_directions(const Tx& tx, const TaskRow& task) {
-  if (!task.reported_ms || *task.reported_ms <= task.granted_ms) return 0;
-  const double rate =
-      static_cast<double>(task.lease_directions) / static_cast<double>(*task.reported_ms - task.granted_ms);
+  if (task.kind != v1::TASK_KIND_ERODE) return 0;
+  const std::int64_t heard = task.reported_ms.value_or(task.granted_ms);
   const std::int64_t silence =
-      std::clamp<std::int64_t>(tx.lease_ms - *task.reported_ms, 0, tx.options.report_interval_ms);
-  return rate * static_cast<double>(silence);
+      std::clamp<std::int64_t>(tx.lease_ms - heard, 0, tx.options.report_interval_ms);
+  return rate_of(tx, task) * static_cast<double>(silence);
 }
 
 void log_state(Tx& tx, const JobRow& job, v1::JobState state, v1::JobStage stage,

@@ -9,6 +9,9 @@
 namespace affskel::integration {
 namespace {
 
+constexpr const char* kPoints = "100000";
+constexpr const char* kDirections = "triangles+sphere:8000";
+
 class CrashTest : public testing::Test {
  protected:
   // A job of some seconds, and its field computed without any server.
@@ -17,16 +20,24 @@ class CrashTest : public testing::Test {
         lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "2048", "-o", lab_.path("m.off")})
             .exit_code,
         0);
-    const Output plain = lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", "60000",
-                                   "--directions", "triangles+sphere:2000", "-o", lab_.path("plain.csv")});
+    const Output plain = lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", kPoints,
+                                   "--directions", kDirections, "-o", lab_.path("plain.csv")});
     ASSERT_EQ(plain.exit_code, 0) << plain.err;
   }
 
   std::string submit() const {
-    const Output submitted = lab_.client(
-        {"submit", lab_.path("m.off"), "--points", "60000", "--directions", "triangles+sphere:2000"});
+    const Output submitted =
+        lab_.client({"submit", lab_.path("m.off"), "--points", kPoints, "--directions", kDirections});
     EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
     return submitted.out.substr(0, submitted.out.find('\n'));
+  }
+
+  // The job when this share of its directions is done.
+  v1::Job wait_for_share(const std::string& id, double share) const {
+    return lab_.follow(id, [&](const v1::Job& job) {
+      return job.directions_total() > 0 && static_cast<double>(job.directions_done()) >=
+                                               share * static_cast<double>(job.directions_total());
+    });
   }
 
   void expect_undisturbed_field(const std::string& id) const {
@@ -50,10 +61,7 @@ TEST_F(CrashTest, TheOnlyWorkerIsKilledThreeTimes) {
   Process worker = lab_.worker();
   const std::string id = submit();
   for (double moment : kMoments) {
-    const v1::Job job = lab_.follow(id, [&](const v1::Job& j) {
-      return j.directions_total() > 0 &&
-             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
-    });
+    const v1::Job job = wait_for_share(id, moment);
     ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     worker.kill_hard();
     worker = lab_.worker();
@@ -67,10 +75,7 @@ TEST_F(CrashTest, OneOfTwoWorkersIsKilledThreeTimes) {
   Process worker = lab_.worker();
   const std::string id = submit();
   for (double moment : kMoments) {
-    const v1::Job job = lab_.follow(id, [&](const v1::Job& j) {
-      return j.directions_total() > 0 &&
-             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
-    });
+    const v1::Job job = wait_for_share(id, moment);
     ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     worker.kill_hard();
     worker = lab_.worker();
@@ -84,10 +89,7 @@ TEST_F(CrashTest, TheServerIsKilledThreeTimes) {
   const std::string id = submit();
   std::uint64_t acknowledged = 0;
   for (double moment : kMoments) {
-    const v1::Job job = lab_.follow(id, [&](const v1::Job& j) {
-      return j.directions_total() > 0 &&
-             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
-    });
+    const v1::Job job = wait_for_share(id, moment);
     ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     EXPECT_GE(job.directions_done(), acknowledged);
     acknowledged = job.directions_done();
@@ -104,14 +106,30 @@ TEST_F(CrashTest, AServerWithItsOwnWorkersIsKilledThreeTimes) {
   Process server = lab_.server(options);
   const std::string id = submit();
   for (double moment : kMoments) {
-    lab_.follow(id, [&](const v1::Job& j) {
-      return j.directions_total() > 0 &&
-             static_cast<double>(j.directions_done()) >= moment * static_cast<double>(j.directions_total());
-    });
+    const v1::Job job = wait_for_share(id, moment);
+    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     server.kill_hard();
     server = lab_.server(options);
   }
   expect_undisturbed_field(id);
+}
+
+// With the intervals that users get: the supervisor sees its worker die, so nothing waits for a deadline.
+TEST_F(CrashTest, ASupervisedWorkerIsKilledThreeTimes) {
+  const Process server = lab_.server({"--workers", "1"});
+  const std::string id = submit();
+  for (double moment : kMoments) {
+    const v1::Job job = wait_for_share(id, moment);
+    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
+    grpc::ClientContext context;
+    v1::ServerInfo info;
+    ASSERT_TRUE(lab_.stub().GetServerInfo(&context, {}, &info).ok());
+    for (const v1::WorkerInfo& worker : info.workers()) kill(static_cast<pid_t>(worker.pid()), SIGKILL);
+  }
+  expect_undisturbed_field(id);
+  const v1::JobCounters counters = lab_.job(id).counters();
+  EXPECT_EQ(counters.directions_repeated(), 0U) << "what was reported is never computed again";
+  EXPECT_LE(counters.leases_lost(), 3U);
 }
 
 TEST_F(CrashTest, WorkersAndServerLeaveInOrderAtSigterm) {
@@ -160,8 +178,8 @@ TEST_F(CrashTest, TheFieldDoesNotDependOnWhoComputesIt) {
     expect_undisturbed_field(submit());
   }
   const Output shuffled =
-      lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", "60000", "--directions",
-                "triangles+sphere:2000", "--threads", "2", "--shuffle", "-o", lab_.path("field.csv")});
+      lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", kPoints, "--directions",
+                kDirections, "--threads", "2", "--shuffle", "-o", lab_.path("field.csv")});
   ASSERT_EQ(shuffled.exit_code, 0) << shuffled.err;
   EXPECT_TRUE(lab_.read("field.csv") == lab_.read("plain.csv"));
 }

@@ -212,8 +212,4 @@ v1::Job Lab::follow_to_end(const std::string& id) const {
   return follow(id, [](const v1::Job&) { return false; });
 }
 
-v1::Job Lab::follow_until_done(const std::string& id, std::uint64_t directions) const {
-  return follow(id, [&](const v1::Job& job) { return job.directions_done() >= directions; });
-}
-
 }  // namespace affskel::integration

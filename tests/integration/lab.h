@@ -69,7 +69,6 @@ class Lab {
   /// Re-attaches when the server goes away and comes back.
   v1::Job follow(const std::string& id, const std::function<bool(const v1::Job&)>& condition) const;
   v1::Job follow_to_end(const std::string& id) const;
-  v1::Job follow_until_done(const std::string& id, std::uint64_t directions) const;
 
   v1::ErosionService::Stub& stub() const { return *stub_; }
 
