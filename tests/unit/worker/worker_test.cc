@@ -1,0 +1,263 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "core/error.h"
+#include "derive_task.h"
+#include "erode_task.h"
+#include "fake_server.h"
+#include "lease_loop.h"
+#include "sample_job.h"
+#include "server_link.h"
+
+namespace affskel::worker {
+namespace {
+
+TEST(PreparedJob, DescribesWhatItPrepared) {
+  const PreparedJob job(sample_mesh(), sample_params());
+  const v1::PreparedSummary summary = job.summary();
+  EXPECT_EQ(summary.triangles(), 256U);
+  EXPECT_EQ(summary.genus(), 1);
+  EXPECT_EQ(summary.directions(), 256U);
+  EXPECT_EQ(summary.points(), job.lattice().points);
+  EXPECT_EQ(job.directions_message().xyz_size(), 3 * 256);
+  const v1::Lattice lattice = job.lattice_message();
+  std::uint64_t points = 0, end = 0;
+  for (int r = 0; r < lattice.run_start_size(); ++r) {
+    EXPECT_GE(lattice.run_start(r), end);
+    end = lattice.run_start(r) + lattice.run_length(r);
+    points += lattice.run_length(r);
+    EXPECT_EQ(lattice.run_start(r) / lattice.dims(2), (end - 1) / lattice.dims(2)) << "a run leaves its line";
+  }
+  EXPECT_EQ(points, summary.points());
+}
+
+TEST(PreparedJob, StartsFromTheStoredField) {
+  PreparedJob job(sample_mesh(), sample_params());
+  const std::string stored = finished_field(job);
+  core::Erosion& erosion = job.erosion(1, stored);
+  EXPECT_TRUE(erosion.field().take_changes().empty());
+  // Doing a direction again improves nothing.
+  const std::uint32_t direction = 17;
+  core::ExecutionContext context;
+  erosion.run({&direction, 1}, context);
+  EXPECT_TRUE(erosion.field().take_changes().empty());
+  EXPECT_THROW(unpack_field(stored.substr(1), job.lattice().points), core::CoreError);
+}
+
+class LinkTest : public testing::Test {
+ protected:
+  ServerLink link(std::chrono::seconds patience = std::chrono::seconds(20)) {
+    return ServerLink({server_.address(), patience}, stop_.get_token());
+  }
+
+  FakeServer server_;
+  std::stop_source stop_;
+  PreparedJob prepared_{sample_mesh(), sample_params()};
+};
+
+TEST_F(LinkTest, TriesAgainWhileTheServerIsAway) {
+  server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 3);
+  server_.fail_next("RenewLease", {grpc::StatusCode::RESOURCE_EXHAUSTED, "disk full"}, 1);
+  link().renew("t");
+  EXPECT_EQ(server_.calls("RenewLease"), 5);
+}
+
+TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {
+  server_.fail_next("RenewLease", {grpc::StatusCode::ABORTED, "fenced"});
+  EXPECT_THROW(link().renew("t"), LeaseLost);
+  server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 100);
+  EXPECT_THROW(link(std::chrono::seconds(0)).renew("t"), ServerGone);
+}
+
+TEST_F(LinkTest, FetchesAgainWhatArrivedDamaged) {
+  const std::string mesh = sample_mesh();
+  server_.set_input(v1::ARTIFACT_KIND_MESH, mesh);
+  server_.damage_next_fetch();
+  EXPECT_TRUE(link().fetch("t", v1::ARTIFACT_KIND_MESH) == mesh);
+  EXPECT_EQ(server_.calls("FetchInput1"), 2);
+}
+
+// Merges reports as the server does, into the field's bytes.
+std::string merged(const PreparedJob& prepared, const std::vector<FakeServer::Report>& reports) {
+  std::vector<core::FieldValue> field(prepared.lattice().points);
+  for (const FakeServer::Report& report : reports) {
+    EXPECT_EQ(report.header.records(), static_cast<std::uint64_t>(report.records.point_size()));
+    for (int i = 0; i < report.records.point_size(); ++i) {
+      const core::FieldValue offered{report.records.erosion(i), report.records.area(i),
+                                     report.records.direction(i)};
+      core::FieldValue& kept = field[report.records.point(i)];
+      if (offered.improves(kept)) kept = offered;
+    }
+  }
+  std::string bytes;
+  for (const core::FieldValue& value : field) {
+    bytes.append(reinterpret_cast<const char*>(&value.erosion), 8);
+    bytes.append(reinterpret_cast<const char*>(&value.area), 8);
+    bytes.append(reinterpret_cast<const char*>(&value.direction), 4);
+  }
+  return bytes;
+}
+
+std::vector<std::uint64_t> positions(const std::vector<FakeServer::Report>& reports) {
+  std::vector<std::uint64_t> all;
+  for (const FakeServer::Report& report : reports) {
+    for (const v1::PositionRange& range : report.header.positions_done()) {
+      for (std::uint64_t p = range.begin(); p < range.end(); ++p) all.push_back(p);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+TEST_F(LinkTest, ErodeReportsEveryPositionOnceAndAllItsPoints) {
+  ServerLink to_server = link();
+  core::Erosion& erosion = prepared_.erosion(2, empty_field(prepared_));
+  v1::Lease lease = erode_lease(prepared_, "t", 0, 100);
+  lease.mutable_positions(0)->set_end(60);
+  v1::PositionRange* rest = lease.add_positions();
+  rest->set_begin(60);
+  rest->set_end(256);
+  server_.fail_next("ReportErosion", {grpc::StatusCode::UNAVAILABLE, "away"}, 2);
+  EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token()), ErodeEnd::kBlockDone);
+  const std::vector<FakeServer::Report> reports = server_.reports();
+  EXPECT_TRUE(reports.back().header.block_done());
+  const std::vector<std::uint64_t> done = positions(reports);
+  ASSERT_EQ(done.size(), 256U);
+  for (std::uint64_t p = 0; p < 256; ++p) EXPECT_EQ(done[p], p);
+  EXPECT_TRUE(merged(prepared_, reports) == finished_field(prepared_));
+}
+
+TEST_F(LinkTest, ErodeStopsWithEverythingReportedThatIsDone) {
+  ServerLink to_server = link();
+  core::Erosion& erosion = prepared_.erosion(1, empty_field(prepared_));
+  stop_.request_stop();
+  EXPECT_EQ(erode(erode_lease(prepared_, "t", 0, 256), prepared_, erosion, to_server, stop_.get_token()),
+            ErodeEnd::kStopped);
+  EXPECT_FALSE(server_.reports().back().header.block_done());
+}
+
+TEST_F(LinkTest, ErodeObeysACancellation) {
+  ServerLink to_server = link();
+  core::Erosion& erosion = prepared_.erosion(1, empty_field(prepared_));
+  // Many times the same directions: a task that would take long.
+  v1::Lease lease = erode_lease(prepared_, "t", 0, 256);
+  for (int i = 0; i < 2000; ++i) *lease.add_positions() = lease.positions(0);
+  server_.on_report([](const v1::ReportErosionHeader&) {
+    v1::ReportResponse response;
+    response.set_cancelled(true);
+    return response;
+  });
+  EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token()), ErodeEnd::kCancelled);
+  EXPECT_EQ(server_.reports().size(), 1U);
+}
+
+class LoopTest : public LinkTest {
+ protected:
+  void SetUp() override {
+    server_.set_input(v1::ARTIFACT_KIND_MESH, sample_mesh());
+    server_.set_input(v1::ARTIFACT_KIND_FIELD, empty_field(prepared_));
+  }
+
+  // Runs the loop until the fake server has nothing more to offer.
+  int run(std::uint64_t max_jobs = 0) {
+    LeaseLoopOptions options;
+    options.server = server_.address();
+    options.max_jobs = max_jobs;
+    options.patience = std::chrono::seconds(5);
+    int code = -1;
+    std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
+    server_.wait_for_calls("LeaseTask", expected_leases_ + 1);
+    stop_.request_stop();
+    loop.join();
+    return code;
+  }
+
+  void offer(const v1::Lease& lease) {
+    server_.offer(lease);
+    ++expected_leases_;
+  }
+
+  int expected_leases_ = 0;
+};
+
+TEST_F(LoopTest, PreparesErodesAndDerives) {
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  offer(erode_lease(prepared_, "b", 0, 256));
+  EXPECT_EQ(run(), 0);
+  ASSERT_EQ(server_.completions().size(), 1U);
+  const FakeServer::Completion prepare = server_.completions()[0];
+  EXPECT_EQ(prepare.header.prepared().SerializeAsString(), prepared_.summary().SerializeAsString());
+  EXPECT_EQ(prepare.data.substr(0, prepare.header.lattice_bytes()),
+            prepared_.lattice_message().SerializeAsString());
+  EXPECT_EQ(server_.calls("FetchInput1"), 1) << "the prepared mesh is kept for the next task";
+  EXPECT_EQ(server_.lease_requests()[1].preferred_job(), other_lease("", v1::TASK_KIND_PREPARE).job().id());
+  EXPECT_TRUE(merged(prepared_, server_.reports()) == finished_field(prepared_));
+}
+
+// What a fenced report held is known to no server: the next task of the job must start afresh, else those
+// points would never be reported again.
+TEST_F(LoopTest, ForgetsTheFieldWhenALeaseIsLost) {
+  server_.fail_next("ReportErosion", {grpc::StatusCode::ABORTED, "fenced"});
+  offer(erode_lease(prepared_, "a", 0, 256));
+  offer(erode_lease(prepared_, "b", 0, 256));
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(server_.calls("FetchInput4"), 2);
+  EXPECT_TRUE(merged(prepared_, server_.reports()) == finished_field(prepared_));
+}
+
+TEST_F(LoopTest, DerivesSkeletonAndSurface) {
+  const std::string field = finished_field(prepared_);
+  server_.set_input(v1::ARTIFACT_KIND_FIELD, field);
+  offer(other_lease("a", v1::TASK_KIND_SKELETON));
+  offer(other_lease("b", v1::TASK_KIND_SURFACE));
+  EXPECT_EQ(run(), 0);
+  const auto completions = server_.completions();
+  ASSERT_EQ(completions.size(), 2U);
+  v1::SkeletonPoints skeleton;
+  ASSERT_TRUE(skeleton.ParseFromString(completions[0].data));
+  EXPECT_EQ(completions[0].header.points(), static_cast<std::uint64_t>(skeleton.point_size()));
+  ASSERT_GT(skeleton.point_size(), 20);
+  for (int i = 0; i < skeleton.point_size(); ++i) {
+    EXPECT_GT(std::abs(skeleton.divergence(i)), 7);
+    EXPECT_LT(std::abs(skeleton.xyz(3 * i + 2)), 600) << "near the torus's plane";
+  }
+  v1::TriangleMesh surface;
+  ASSERT_TRUE(surface.ParseFromString(completions[1].data));
+  EXPECT_GT(surface.corners_size(), 0);
+}
+
+TEST_F(LoopTest, FailsATaskForGoodOnABadMeshAndParameter) {
+  server_.set_input(v1::ARTIFACT_KIND_MESH, "OFF\n1 0 0\n0 0\n");
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  EXPECT_EQ(run(), 0);
+  ASSERT_EQ(server_.failures().size(), 1U);
+  EXPECT_FALSE(server_.failures()[0].retryable());
+  EXPECT_EQ(server_.failures()[0].error().code(), "BAD_INPUT");
+  EXPECT_EQ(server_.failures()[0].error().line(), 3U);
+}
+
+TEST_F(LoopTest, GivesALeaseBackBeyondMaxJobs) {
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  v1::Lease second = other_lease("b", v1::TASK_KIND_PREPARE);
+  second.mutable_job()->set_id("ffff");
+  server_.offer(second);
+  LeaseLoopOptions options;
+  options.server = server_.address();
+  options.max_jobs = 1;
+  EXPECT_EQ(run_lease_loop(options, stop_.get_token()), 0);
+  EXPECT_EQ(server_.calls("ReturnLease"), 1);
+  EXPECT_EQ(server_.completions().size(), 1U);
+}
+
+TEST(LeaseLoop, LeavesWhenTheServerStaysAway) {
+  LeaseLoopOptions options;
+  options.server = "unix:/nonexistent/affskel.sock";
+  options.patience = std::chrono::seconds(0);
+  EXPECT_EQ(run_lease_loop(options, {}), 5);
+}
+
+}  // namespace
+}  // namespace affskel::worker
