@@ -123,6 +123,35 @@ TEST_F(ClientTest, SubmitRefusesBadMeshesWithoutTheServer) {
   EXPECT_EQ(run({"submit", dir_.path()}, "unix:/nowhere/s").exit_code, 3);
 }
 
+TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
+  const std::string stem("c\xFF_e");
+  spit(dir_ / (stem + ".off"), mesh_);
+  const Outcome done = run({"submit", dir_ / (stem + ".off"), "-o", dir_ / "OUT"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(service_.submitted.name(), "c\xEF\xBF\xBD_e");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / ("OUT/" + stem + ".field.vtkhdf")));
+}
+
+TEST_F(ClientTest, TextForTheServerMustBeUtf8) {
+  const std::string bad = "k\xFF";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"submit", dir_ / "cube.off", "--name", bad},
+        {"submit", dir_ / "cube.off", "--request-id", bad},
+        {"list", "--owner", bad},
+        {"status", bad}}) {
+    const Outcome refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("UTF-8"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(service_.mesh, "");
+}
+
+TEST_F(ClientTest, AMisspeltCommandIsNamed) {
+  EXPECT_NE(run({"statsu", "@last"}).err.find("no command 'statsu'"), std::string::npos);
+  EXPECT_NE(run({"make", "cuboid", "-o", dir_ / "x.off"}).err.find("no command 'cuboid'"), std::string::npos);
+  EXPECT_NE(run({}).err.find("no command was given"), std::string::npos);
+}
+
 TEST_F(ClientTest, SubmitKeepsToTheServersLimit) {
   service_.max_mesh_bytes = 10;
   const Outcome outcome = run({"submit", dir_ / "cube.off"});
