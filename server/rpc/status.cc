@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <new>
+#include <string>
 
 #include "store/errors.h"
 #include "store/sqlite.h"
@@ -45,9 +46,19 @@ grpc::StatusCode code_of(const SqliteError& error) {
   }
 }
 
-}  // namespace
+// gRPC drops an answer whose headers have more than 8 KiB, and the message is one of them, percent-encoded.
+constexpr std::size_t kMaxMessageBytes = 1500;
 
-grpc::Status status_of(const std::exception_ptr& error) {
+// Messages quote what was asked for, which may be megabytes.
+std::string shortened(std::string message) {
+  if (message.size() <= kMaxMessageBytes) return message;
+  std::size_t end = kMaxMessageBytes;
+  while (end > 0 && (static_cast<unsigned char>(message[end]) & 0xC0) == 0x80) --end;
+  message.resize(end);
+  return message + "...";
+}
+
+grpc::Status full_status_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const CallEnded& ended) {
@@ -66,6 +77,13 @@ grpc::Status status_of(const std::exception_ptr& error) {
     spdlog::error("event=internal_error message=\"{}\"", e.what());
     return {grpc::StatusCode::INTERNAL, e.what()};
   }
+}
+
+}  // namespace
+
+grpc::Status status_of(const std::exception_ptr& error) {
+  const grpc::Status status = full_status_of(error);
+  return {status.error_code(), shortened(status.error_message())};
 }
 
 }  // namespace affskel::server

@@ -32,6 +32,22 @@ TEST(StatusTest, EveryErrorHasItsCode) {
   EXPECT_TRUE(guarded([] {}).ok());
 }
 
+TEST(StatusTest, LongMessagesAreCutAtACharacter) {
+  const std::string quoted = "x" + [] {
+    std::string text;
+    for (int i = 0; i < 100000; ++i) text += "\xC3\xB6";
+    return text;
+  }();
+  const std::string message =
+      status_of(std::make_exception_ptr(StoreError(StoreError::Code::kInvalid, quoted))).error_message();
+  EXPECT_LT(message.size(), 2000U);
+  ASSERT_TRUE(message.ends_with("..."));
+  EXPECT_EQ((message.size() - 4) % 2, 0U);  // x, whole characters of two bytes, the dots
+  EXPECT_EQ(
+      status_of(std::make_exception_ptr(StoreError(StoreError::Code::kInvalid, "short"))).error_message(),
+      "short");
+}
+
 class EventHubTest : public testing::Test {
  protected:
   EventHubTest() {
