@@ -19,6 +19,9 @@
 
 namespace affskel::server {
 
+/// @throws StoreError kInvalid when a worker does not tell who it is as the contract says.
+void check_worker(const v1::WorkerIdentity& worker);
+
 /// The only writer of the database: jobs, their tasks and leases, fields and artefacts.
 ///
 /// Every public function is one transaction: when it throws, nothing was changed; when it returns, the
