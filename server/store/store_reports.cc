@@ -18,6 +18,11 @@ TaskRow erode_task(Database& db, const std::string& token) {
 
 /// The finished ranges of a report, checked against the block.
 std::vector<Range> checked_ranges(const v1::ReportErosionHeader& header, Range block) {
+  // Each range costs a query with the database locked; there cannot be more of them than positions.
+  if (header.positions_done_size() > block.end - block.begin) {
+    refuse(std::to_string(header.positions_done_size()) + " ranges in a block of " +
+           std::to_string(block.end - block.begin) + " positions");
+  }
   std::vector<Range> ranges;
   for (const v1::PositionRange& range : header.positions_done()) {
     if (range.begin() >= range.end() || range.begin() < static_cast<std::uint64_t>(block.begin) ||

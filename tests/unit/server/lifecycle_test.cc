@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "expect_store_error.h"
 #include "store_fixture.h"
 
@@ -52,6 +54,9 @@ TEST_F(LifecycleTest, RefusesWrongPrepareResults) {
   refused([](auto& r) { r.header.mutable_prepared()->set_directions(21); });
   refused([](auto& r) { r.header.mutable_prepared()->set_directions(0); });
   refused([](auto& r) { r.header.mutable_prepared()->set_volume(0); });
+  refused([](auto& r) { r.header.mutable_prepared()->clear_bbox_min(); });
+  refused(
+      [](auto& r) { r.header.mutable_prepared()->set_bbox_max(1, std::numeric_limits<double>::infinity()); });
   refused([](auto& r) { r.header.set_lattice_bytes(r.header.lattice_bytes() + 1); });
   const PrepareResult good = prepare_result(task.token(), 10, 20);
   EXPECT_NO_THROW(store_->complete(good.header, good.data));
