@@ -16,6 +16,7 @@
 #include "derive_task.h"
 #include "erode_task.h"
 #include "prepared_job.h"
+#include "result_bytes.h"
 #include "server_link.h"
 #include "wire/direction_order.h"
 
@@ -188,9 +189,10 @@ class LeaseLoop {
     header.set_token(lease.token());
     *header.mutable_prepared() = job.summary();
     header.set_order_stride(wire::direction_stride(job.directions().size()));
-    std::string data = job.lattice_message().SerializeAsString();
+    std::string data;
+    append_result(data, job.lattice_message(), "the lattice (a wider spacing has fewer lines)");
     header.set_lattice_bytes(data.size());
-    data += job.directions_message().SerializeAsString();
+    append_result(data, job.directions_message(), "the direction set (take fewer directions)");
     link_.complete(header, data);
   }
 
@@ -230,11 +232,11 @@ class LeaseLoop {
     if (lease.kind() == v1::TASK_KIND_SKELETON) {
       const v1::SkeletonPoints skeleton = derive_skeleton(job, stored, lease.skeleton());
       header.set_points(static_cast<std::uint64_t>(skeleton.point_size()));
-      data = skeleton.SerializeAsString();
+      append_result(data, skeleton, "the skeleton (a higher threshold keeps fewer points)");
     } else {
       const v1::TriangleMesh surface = derive_surface(job, stored, lease.surface());
       header.set_points(static_cast<std::uint64_t>(surface.corners_size()) / 3);
-      data = surface.SerializeAsString();
+      append_result(data, surface, "the surface (a higher threshold keeps fewer points)");
     }
     link_.complete(header, data);
   }
