@@ -40,11 +40,12 @@ grpc::Status status_of_failure(const v1::JobError& error) {
 }  // namespace
 
 ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub,
-                                       Activity& activity, Facts facts)
+                                       Activity& activity, UploadBudget& uploads, Facts facts)
     : store_(store),
       registry_(registry),
       hub_(hub),
       activity_(activity),
+      uploads_(uploads),
       facts_(std::move(facts)),
       watches_(hub, activity) {}
 
@@ -79,7 +80,8 @@ grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext*,
                        "the mesh has " + std::to_string(first.header().mesh_bytes()) +
                            " bytes; this server takes at most " + std::to_string(limit));
     }
-    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes());
+    UploadBudget::Share share(uploads_);
+    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share);
     Store::Submitted submitted = store_.submit(first.header(), mesh);
     *response->mutable_job() = with_reason(std::move(submitted.job));
     response->set_existed(submitted.existed);

@@ -3,6 +3,8 @@
 
 #include "rpc/event_hub.h"
 #include "rpc/status.h"
+#include "rpc/streams.h"
+#include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "store/errors.h"
 #include "store_fixture.h"
@@ -46,6 +48,35 @@ TEST(StatusTest, LongMessagesAreCutAtACharacter) {
   EXPECT_EQ(
       status_of(std::make_exception_ptr(StoreError(StoreError::Code::kInvalid, "short"))).error_message(),
       "short");
+}
+
+/// An upload of pieces of data.
+struct FakeReader {
+  std::vector<std::size_t> pieces;
+  bool Read(v1::SubmitJobRequest* message) {
+    if (pieces.empty()) return false;
+    message->set_data(std::string(pieces.back(), 'm'));
+    pieces.pop_back();
+    return true;
+  }
+};
+
+TEST(UploadBudgetTest, AllUploadsTogetherStayBelowIt) {
+  UploadBudget budget(100);
+  const auto upload = [](UploadBudget::Share& share, std::vector<std::size_t> pieces) {
+    FakeReader reader{std::move(pieces)};
+    return guarded([&] { receive_data<v1::SubmitJobRequest>(reader, 1000, share); }).error_code();
+  };
+  UploadBudget::Share first(budget);
+  EXPECT_EQ(upload(first, {30, 30}), grpc::StatusCode::OK);
+  {
+    UploadBudget::Share second(budget);
+    EXPECT_EQ(upload(second, {20, 39, 1}), grpc::StatusCode::UNAVAILABLE);
+    EXPECT_EQ(upload(first, {1}), grpc::StatusCode::UNAVAILABLE) << "the second holds what it took so far";
+  }
+  UploadBudget::Share third(budget);
+  EXPECT_EQ(upload(third, {40}), grpc::StatusCode::OK) << "an upload that ended gives back what it took";
+  EXPECT_EQ(upload(third, {1}), grpc::StatusCode::UNAVAILABLE);
 }
 
 class EventHubTest : public testing::Test {
