@@ -59,6 +59,11 @@ EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
 }
 
 v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
+  const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
+  if (active && store_.disk_full()) {
+    job.set_waiting_reason("the server's disk is full; it goes on when there is room");
+    return job;
+  }
   if (job.state() != v1::JOB_STATE_QUEUED || !job.waiting_reason().empty()) return job;
   const bool nobody = registry_.list().empty();
   job.set_waiting_reason(nobody ? "no worker is connected" : "all workers are busy with jobs before it");
