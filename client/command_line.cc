@@ -48,6 +48,12 @@ CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
       "");
 }
 
+// An empty variable of a script must not mean another server than the one that was meant.
+CLI::Validator given() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
 // What becomes a string of the protocol.
 CLI::Validator utf8_text() {
   return CLI::Validator(
@@ -319,6 +325,7 @@ void build_command_line(CLI::App& app, Options& options) {
   app.add_option("--server", options.global.server,
                  "unix:PATH or HOST:PORT; else $AFFSKEL_SERVER, else the configuration file,\n"
                  "else a private server that starts and leaves by itself")
+      ->check(given())
       ->type_name("ADDR");
   app.add_flag("--json", options.global.json, "One JSON document on stdout; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.global.quiet, "No notes and no progress");

@@ -194,6 +194,21 @@ TEST_F(ClientTest, AnEmptySkeletonIsAWarning) {
   EXPECT_NE(done.err.find("--spacing"), std::string::npos);
 }
 
+TEST_F(ClientTest, AnEmptySurfaceIsAWarning) {
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = "";
+  const Outcome done = run({"surface", "@last", "-o", dir_ / "s.off"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find("warning: the surface is empty"), std::string::npos) << done.err;
+}
+
+TEST_F(ClientTest, AnEmptyAddressIsNotThePrivateServer) {
+  std::ostringstream out, err;
+  EXPECT_EQ(
+      run_client({"--server", "", "list"}, {out, err, false, test_environment({{"HOME", dir_.path()}}), {}}),
+      2);
+  EXPECT_NE(err.str().find("--server"), std::string::npos) << err.str();
+}
+
 TEST_F(ClientTest, WatchReattachesWhenTheStreamBreaks) {
   service_.watch_breaks_after = 2;
   const Outcome done = run({"--json", "watch", "@last"});
@@ -317,6 +332,8 @@ TEST_F(ClientTest, RenderWritesAPng) {
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
   EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "3"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.jpg"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
 }
 
 TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {
