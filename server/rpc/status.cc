@@ -6,6 +6,7 @@
 #include <string>
 
 #include "store/errors.h"
+#include "store/shorten.h"
 #include "store/sqlite.h"
 
 namespace affskel::server {
@@ -49,15 +50,6 @@ grpc::StatusCode code_of(const SqliteError& error) {
 // gRPC drops an answer whose headers have more than 8 KiB, and the message is one of them, percent-encoded.
 constexpr std::size_t kMaxMessageBytes = 1500;
 
-// Messages quote what was asked for, which may be megabytes.
-std::string shortened(std::string message) {
-  if (message.size() <= kMaxMessageBytes) return message;
-  std::size_t end = kMaxMessageBytes;
-  while (end > 0 && (static_cast<unsigned char>(message[end]) & 0xC0) == 0x80) --end;
-  message.resize(end);
-  return message + "...";
-}
-
 grpc::Status full_status_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
@@ -83,7 +75,7 @@ grpc::Status full_status_of(const std::exception_ptr& error) {
 
 grpc::Status status_of(const std::exception_ptr& error) {
   const grpc::Status status = full_status_of(error);
-  return {status.error_code(), shortened(status.error_message())};
+  return {status.error_code(), shortened(status.error_message(), kMaxMessageBytes)};
 }
 
 }  // namespace affskel::server

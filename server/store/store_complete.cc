@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "store/errors.h"
+#include "store/shorten.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/sha256.h"
@@ -14,6 +15,9 @@ namespace {
 // that fetching the field for each of them does not count.
 constexpr std::int64_t kMaxBlocks = 64;
 constexpr std::int64_t kMinBlockPositions = 16;
+
+// Kept and sent with the job from then on.
+constexpr std::size_t kMaxReasonBytes = 4000;
 
 [[noreturn]] void refuse(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "result: " + why);
@@ -154,6 +158,7 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
 v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable) {
   v1::JobError known = error;
   known.set_code(known_code(error.code()));
+  known.set_message(shortened(error.message(), kMaxReasonBytes));
   if (known.message().empty()) known.set_message("the worker gave no reason");
   return write([&](Tx& tx) {
     const TaskRow task = task_of_token(tx.db, token);

@@ -146,6 +146,15 @@ TEST_F(LifecycleTest, DeterministicFailureFailsTheJobAtOnce) {
   EXPECT_TRUE(has_work());
 }
 
+TEST_F(LifecycleTest, ReasonsHaveABound) {
+  const v1::Job job = submit();
+  v1::JobError error;
+  error.set_code("BAD_INPUT");
+  error.set_message(std::string(3999, 'x') + "\xC3\xB6" + std::string(1 << 20, 'y'));
+  store_->fail(lease().token(), error, false);
+  EXPECT_EQ(store_->job(job.id()).error().message(), std::string(3999, 'x') + "...");
+}
+
 TEST_F(LifecycleTest, RetryableFailuresAreRetriedAndBounded) {
   const v1::Job job = submit();
   v1::JobError error;
