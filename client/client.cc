@@ -40,7 +40,11 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   if (arguments.empty()) io.err << app.help();
   const bool no_command =
       end.get_name() == "RequiredError" && std::string(end.what()).find("subcommand") != std::string::npos;
-  const std::string cause = no_command ? "no command was given" : end.what();
+  // A misspelt command is left over, and more helpful to name than what is missing.
+  const std::vector<std::string> unknown = no_command ? app.remaining(true) : std::vector<std::string>();
+  const std::string missing =
+      unknown.empty() ? "no command was given" : "no command '" + unknown.front() + "'";
+  const std::string cause = no_command ? missing : end.what();
   Console console(io.out, io.err, style_for(global, io));
   console.error(ClientError(ExitCode::kUsage, cause + "; see " + command + " --help"));
   return static_cast<int>(ExitCode::kUsage);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "client/help_format.h"
+#include "client/utf8.h"
 #include "core/directions.h"
 #include "core/error.h"
 #include "wire/version.h"
@@ -47,6 +48,21 @@ CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
       "");
 }
 
+// An empty variable of a script must not mean another server than the one that was meant.
+CLI::Validator given() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
+// What becomes a string of the protocol.
+CLI::Validator utf8_text() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        return is_utf8(text) ? "" : "must be UTF-8 text, not '" + to_utf8(text) + "'";
+      },
+      "");
+}
+
 CLI::Validator direction_set() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
@@ -73,6 +89,7 @@ CLI::App* command(CLI::App& parent, Options& options, const std::string& name, C
 void add_job(CLI::App* sub, Options& options) {
   sub->add_option("JOB", options.job.job, "Id, unique prefix of at least 6 characters, or @last")
       ->required()
+      ->check(utf8_text())
       ->type_name("");
 }
 
@@ -116,13 +133,16 @@ void add_submit(CLI::App& app, Options& options) {
       ->capture_default_str()
       ->type_name("SET");
   add_skeleton_options(sub, o.skeleton);
-  sub->add_option("--name", o.name, "Name for people (default: the file's)")->type_name("NAME");
+  sub->add_option("--name", o.name, "Name for people (default: the file's)")
+      ->check(utf8_text())
+      ->type_name("NAME");
   sub->add_option("--priority", o.priority, "0 .. 9, higher first")
       ->check(whole_in(0, 9))
       ->capture_default_str()
       ->type_name("P");
   sub->add_option("--request-id", o.request_id,
                   "Submitting again with the same key and content gives the same job")
+      ->check(utf8_text())
       ->type_name("KEY");
   sub->add_option("--repair", o.repair, "Weld, turn and drop what needs it, and say so, or refuse")
       ->check(CLI::IsMember({"auto", "none"}))
@@ -139,7 +159,9 @@ void add_job_commands(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"queued", "running", "done", "failed", "cancelled"}))
       ->type_name("STATE")
       ->allow_extra_args(false);
-  list->add_option("--owner", options.list.owner, "Only this user's jobs")->type_name("USER");
+  list->add_option("--owner", options.list.owner, "Only this user's jobs")
+      ->check(utf8_text())
+      ->type_name("USER");
   list->add_option("--limit", options.list.limit, "At most this many")
       ->check(whole_in(1, 1000))
       ->capture_default_str()
@@ -303,6 +325,7 @@ void build_command_line(CLI::App& app, Options& options) {
   app.add_option("--server", options.global.server,
                  "unix:PATH or HOST:PORT; else $AFFSKEL_SERVER, else the configuration file,\n"
                  "else a private server that starts and leaves by itself")
+      ->check(given())
       ->type_name("ADDR");
   app.add_flag("--json", options.global.json, "One JSON document on stdout; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.global.quiet, "No notes and no progress");

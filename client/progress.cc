@@ -40,9 +40,7 @@ std::string count_text(const v1::Job& job, const ProgressRate& rate) {
 }
 
 std::string reason_text(const v1::Job& job) {
-  return job.state() == v1::JOB_STATE_QUEUED && !job.waiting_reason().empty()
-             ? " (" + job.waiting_reason() + ")"
-             : "";
+  return job.waiting_reason().empty() ? "" : " (" + job.waiting_reason() + ")";
 }
 
 double done_share(const v1::Job& job) {
@@ -60,7 +58,8 @@ std::string progress_line(const v1::Job& job, const ProgressRate& rate) {
 std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width) {
   std::string head = label(job);
   head.resize(std::max<std::size_t>(head.size(), 9), ' ');
-  const std::string tail = job.directions_total() > 0 ? count_text(job, rate) : reason_text(job);
+  const std::string tail =
+      job.directions_total() > 0 ? count_text(job, rate) + reason_text(job) : reason_text(job);
   const int room = width - static_cast<int>(head.size() + tail.size()) - 5;
   std::string line = head;
   if (room >= 8 && job.directions_total() > 0) {

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "core/directions.h"
@@ -72,10 +74,14 @@ void check_output(const std::string& path) {
                         "output " + path + ": the extension must be .csv or .dat");
 }
 
+std::system_error output_error(const std::string& path, const char* what) {
+  return {errno, std::generic_category(), path + ": " + what};
+}
+
 void write_field(const std::string& path, const core::Solid& solid, const core::Lattice& lattice,
                  const core::DirectionSet& directions, const core::ErosionField& field) {
   const File file(std::fopen(path.c_str(), "w"), &std::fclose);
-  if (!file) throw std::runtime_error(path + ": cannot be opened for writing");
+  if (!file) throw output_error(path, "cannot be opened for writing");
   const bool csv = ends_with(path, ".csv");
   if (csv) std::fputs("x,y,z,E,nx,ny,nz,direction\n", file.get());
   const core::SamplePlaces places(solid, lattice);
@@ -95,9 +101,8 @@ void write_field(const std::string& path, const core::Solid& solid, const core::
       }
     }
   }
-  if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
-    throw std::runtime_error(path + ": writing failed");
-  }
+  if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0)
+    throw output_error(path, "writing failed");
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
 #include <new>
 #include <random>
@@ -17,6 +16,7 @@
 #include "derive_task.h"
 #include "erode_task.h"
 #include "prepared_job.h"
+#include "result_bytes.h"
 #include "server_link.h"
 #include "wire/direction_order.h"
 
@@ -88,16 +88,6 @@ v1::JobError describe(const core::CoreError& error) {
   message.set_message(error.what());
   message.set_line(error.line());
   return message;
-}
-
-// @throws core::CoreError kLimit above what one message may hold.
-std::string serialize(const google::protobuf::Message& message, const char* what) {
-  if (message.ByteSizeLong() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    throw core::CoreError(
-        core::CoreError::Code::kLimit,
-        std::string("the ") + what + " is larger than 2 GiB; take fewer points or directions");
-  }
-  return message.SerializeAsString();
 }
 
 class LeaseLoop {
@@ -199,9 +189,10 @@ class LeaseLoop {
     header.set_token(lease.token());
     *header.mutable_prepared() = job.summary();
     header.set_order_stride(wire::direction_stride(job.directions().size()));
-    std::string data = serialize(job.lattice_message(), "lattice");
+    std::string data;
+    append_result(data, job.lattice_message(), "the lattice (a wider spacing has fewer lines)");
     header.set_lattice_bytes(data.size());
-    data += serialize(job.directions_message(), "direction set");
+    append_result(data, job.directions_message(), "the direction set (take fewer directions)");
     link_.complete(header, data);
   }
 
@@ -241,11 +232,11 @@ class LeaseLoop {
     if (lease.kind() == v1::TASK_KIND_SKELETON) {
       const v1::SkeletonPoints skeleton = derive_skeleton(job, stored, lease.skeleton());
       header.set_points(static_cast<std::uint64_t>(skeleton.point_size()));
-      data = serialize(skeleton, "skeleton");
+      append_result(data, skeleton, "the skeleton (a higher threshold keeps fewer points)");
     } else {
       const v1::TriangleMesh surface = derive_surface(job, stored, lease.surface());
       header.set_points(static_cast<std::uint64_t>(surface.corners_size()) / 3);
-      data = serialize(surface, "surface");
+      append_result(data, surface, "the surface (a higher threshold keeps fewer points)");
     }
     link_.complete(header, data);
   }

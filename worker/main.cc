@@ -2,8 +2,10 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <system_error>
 #include <thread>
 
 #include "compute.h"
@@ -20,6 +22,7 @@ using affskel::core::CoreError;
 // Exit codes of the command-line contract.
 constexpr int kUsage = 2;
 constexpr int kBadInput = 3;
+constexpr int kNotAllowed = 7;
 constexpr int kLimit = 8;
 constexpr int kInternal = 70;
 
@@ -34,6 +37,19 @@ int exit_code(const CoreError& error) {
   }
 }
 
+// Of an output that cannot be written.
+int exit_code(const std::error_code& error) {
+  for (const std::errc full : {std::errc::no_space_on_device, std::errc::file_too_large}) {
+    if (error == full) return kLimit;
+  }
+  if (error.value() == EDQUOT) return kLimit;
+  for (const std::errc closed :
+       {std::errc::permission_denied, std::errc::operation_not_permitted, std::errc::read_only_file_system}) {
+    if (error == closed) return kNotAllowed;
+  }
+  return kUsage;
+}
+
 int run_compute(const affskel::worker::ComputeOptions& options) {
   try {
     affskel::worker::compute(options);
@@ -44,6 +60,9 @@ int run_compute(const affskel::worker::ComputeOptions& options) {
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "affskel-worker: %s: not enough memory\n", options.file.c_str());
     return kLimit;
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr, "affskel-worker: %s\n", error.what());
+    return exit_code(error.code());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return kBadInput;

@@ -3,6 +3,7 @@
 #include "client/commands/follow.h"
 #include "client/commands/transfer.h"
 #include "client/exporters/atomic_file.h"
+#include "client/exporters/format.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/skeleton_writer.h"
 #include "client/input_file.h"
@@ -15,6 +16,11 @@ namespace {
 
 void finish(Context& context, const Written& written) {
   if (written.kind == "skeleton") warn_if_empty(context.console(), written.items, written.job);
+  if (written.kind == "surface" && written.items == 0) {
+    context.console().warning(
+        "the surface is empty: no three skeleton points are near enough; try a larger --alpha or a smaller "
+        "--threshold");
+  }
   tell_written(context.console(), written);
   context.console().document(written_json(written));
 }
@@ -53,6 +59,7 @@ void run_surface(Context& context, const JobOptions& options) {
 }
 
 void run_render(Context& context, const JobOptions& options) {
+  choose_format(options.output, picture_formats(), "picture");
   v1::FetchArtifactRequest request;
   request.set_job(options.job);
   request.set_kind(v1::ARTIFACT_KIND_SKELETON);

@@ -6,6 +6,7 @@
 #include "client/commands/transfer.h"
 #include "client/input_file.h"
 #include "client/job_json.h"
+#include "client/utf8.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -35,8 +36,9 @@ v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& in
   require_short(options.name, kMaxName, "--name");
   require_short(options.request_id, kMaxRequestId, "--request-id");
   v1::SubmitJobHeader header;
-  header.set_name(options.name.empty() ? shortened(fs::path(input.path).stem(), kMaxName) : options.name);
-  header.set_owner(shortened(owner, kMaxOwner));
+  header.set_name(options.name.empty() ? shortened(to_utf8(fs::path(input.path).stem().string()), kMaxName)
+                                       : options.name);
+  header.set_owner(shortened(to_utf8(owner), kMaxOwner));
   header.set_priority(options.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (options.spacing > 0) {

@@ -24,6 +24,19 @@ mode_t default_mode() {
   return 0666 & ~mask;
 }
 
+// Where a symbolic link leads that points to no file yet: open(2) would make that file.
+fs::path follow_dangling(fs::path path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+    if (links == kMostLinks) throw error_from_errno(ELOOP, "cannot write", path);
+    const fs::path to = fs::read_symlink(path, error);
+    if (error) throw error_from_errno(error.value(), "cannot write", path);
+    path = path.parent_path() / to;  // absolute targets replace the whole
+  }
+  return path;
+}
+
 void sync_directory(const fs::path& directory) {
   const int fd = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;  // some file systems do not let directories be opened; the file itself is safe
@@ -47,6 +60,7 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   std::error_code error;
   if (exists) target_ = fs::canonical(target, error);
   if (error) target_ = target;
+  if (!exists) target_ = follow_dangling(target);
   const fs::path directory = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
   std::string name = (directory / ("." + target_.filename().string() + ".XXXXXX")).string();
   fd_ = mkostemp(name.data(), O_CLOEXEC);

@@ -12,6 +12,7 @@ namespace {
 constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
 constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz};
 constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl};
+constexpr std::array kPicture = {FileFormat::kPng};
 
 }  // namespace
 
@@ -25,9 +26,13 @@ std::span<const FileFormat> surface_formats() {
   return kSurface;
 }
 
+std::span<const FileFormat> picture_formats() {
+  return kPicture;
+}
+
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 8> kNames = {".csv", ".dat", ".vtkhdf", ".ply",
-                                                      ".off", ".xyz", ".obj",    ".stl"};
+  constexpr std::array<std::string_view, 9> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off",
+                                                      ".xyz", ".obj", ".stl",    ".png"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
 
 #include "client/error.h"
@@ -16,12 +17,21 @@ constexpr std::uint32_t kSlab = 8;  // planes of constant x per slab; a chunk is
 constexpr hsize_t kChunk = 32;      // edge of a chunk in y and z
 constexpr unsigned kCompression = 4;
 
+// What failed, and why as far as the system told: HDF5 leaves errno as the failed call set it.
+ClientError hdf5_error(const std::string& what) {
+  const std::string action = "HDF5 failed: " + what;
+  for (const int cause : {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EACCES, EPERM}) {
+    if (errno == cause) return error_from_errno(cause, action, "", ExitCode::kInternal);
+  }
+  return {ExitCode::kInternal, action};
+}
+
 // An HDF5 identifier with its closing function.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
   Handle(hid_t id, Close close, const char* what) : id_(id), close_(close) {
-    if (id_ < 0) throw ClientError(ExitCode::kInternal, std::string("HDF5 failed: ") + what);
+    if (id_ < 0) throw hdf5_error(what);
   }
   ~Handle() { release(); }
   Handle(const Handle&) = delete;
@@ -52,8 +62,7 @@ void set_attribute(hid_t group, const char* name, const std::array<T, N>& values
       H5Acreate2(group, name, real ? H5T_IEEE_F64LE : H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose, name);
   const hid_t memory = real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
-  if (H5Awrite(attribute, memory, values.data()) < 0)
-    throw ClientError(ExitCode::kInternal, "HDF5 failed: attribute");
+  if (H5Awrite(attribute, memory, values.data()) < 0) throw hdf5_error("attribute");
 }
 
 void set_text_attribute(hid_t group, const char* name, std::string_view text) {
@@ -63,8 +72,7 @@ void set_text_attribute(hid_t group, const char* name, std::string_view text) {
   H5Tset_cset(type, H5T_CSET_ASCII);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
   const Handle attribute(H5Acreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
-  if (H5Awrite(attribute, type, text.data()) < 0)
-    throw ClientError(ExitCode::kInternal, "HDF5 failed: attribute");
+  if (H5Awrite(attribute, type, text.data()) < 0) throw hdf5_error("attribute");
 }
 
 // One array over the lattice: `components` values per point, kept for one slab.
@@ -93,7 +101,7 @@ class Array {
     const Handle memory_space(H5Screate_simple(rank(), count.data(), nullptr), H5Sclose, "dataspace");
     if (H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
         H5Dwrite(dataset_, memory_type_, memory_space, file_space, H5P_DEFAULT, slab_.data()) < 0) {
-      throw ClientError(ExitCode::kLimit, "HDF5 cannot write (disk full?)");
+      throw hdf5_error("cannot write");
     }
     std::fill(slab_.begin(), slab_.end(), outside_);
   }
@@ -150,12 +158,18 @@ class VtkHdfWriter : public FieldWriter {
     }
     if (points.count() == 0) throw ClientError(ExitCode::kNotFound, "the field has no points");
     silence_hdf5();
-    open_ = std::make_unique<OpenFile>(file.path(), dims_);
-    place(points);
+    with_place([&] {
+      open_ = std::make_unique<OpenFile>(file.path(), dims_);
+      place(points);
+    });
   }
 
   void put(const FieldPoint& p) override {
-    while (p.i >= first_x_ + width()) flush_slab();
+    if (p.i >= first_x_ + width()) {
+      with_place([&] {
+        while (p.i >= first_x_ + width()) flush_slab();
+      });
+    }
     const std::uint32_t x = p.i - first_x_;
     open_->erosion.at(x, p.j, p.k, width()) = p.erosion;
     open_->direction.at(x, p.j, p.k, width()) = static_cast<std::int32_t>(p.direction);
@@ -166,14 +180,26 @@ class VtkHdfWriter : public FieldWriter {
   }
 
   void finish() override {
-    while (first_x_ < dims_[0]) flush_slab();
-    const hid_t id = open_->file;
-    if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0)
-      throw ClientError(ExitCode::kLimit, "HDF5 cannot write (disk full?)");
-    open_.reset();
+    with_place([&] {
+      while (first_x_ < dims_[0]) flush_slab();
+      const hid_t id = open_->file;
+      if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0) throw hdf5_error("cannot write");
+      open_.reset();
+    });
   }
 
  private:
+  // Errors name the file that was asked for, not the temporary one.
+  template <typename Action>
+  void with_place(Action&& action) {
+    errno = 0;
+    try {
+      action();
+    } catch (const ClientError& error) {
+      throw ClientError(error.exit_code(), error.what(), file_.target());
+    }
+  }
+
   std::uint32_t width() const { return std::min(kSlab, dims_[0] - first_x_); }
 
   void flush_slab() {

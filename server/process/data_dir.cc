@@ -64,6 +64,14 @@ DataDir::~DataDir() {
   close(lock_);
 }
 
+bool DataDir::lost() const {
+  struct stat held {};
+  struct stat now {};
+  if (fstat(lock_, &held) != 0) return true;
+  if (stat((path_ + "/server.lock").c_str(), &now) != 0) return errno == ENOENT || errno == ENOTDIR;
+  return held.st_dev != now.st_dev || held.st_ino != now.st_ino;
+}
+
 void DataDir::publish(const std::vector<std::string>& addresses, std::int64_t started_ms) const {
   const nlohmann::json json = {
       {"pid", getpid()}, {"version", wire::kVersion}, {"started_ms", started_ms}, {"addresses", addresses}};

@@ -19,6 +19,9 @@ class DataDir {
   /// Absolute path.
   const std::string& path() const { return path_; }
 
+  /// Whether the directory was deleted, moved or replaced by another one since it was locked.
+  bool lost() const;
+
   /// Writes server.json, atomically: {"pid", "version", "started_ms", "addresses"}.
   void publish(const std::vector<std::string>& addresses, std::int64_t started_ms) const;
 

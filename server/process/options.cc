@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <thread>
 
@@ -32,6 +33,17 @@ unsigned worker_count(const std::string& text) {
   return count;
 }
 
+/// NaN would compare as "never idle".
+CLI::Validator seconds() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double value = 0;
+        const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
+        return good ? "" : "must be a number of seconds >= 0, not '" + text + "'";
+      },
+      "");
+}
+
 /// A check that does not put its name into the help text.
 CLI::Validator quietly(CLI::Validator check) {
   return check.description("");
@@ -60,7 +72,7 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
       ->type_name("FILE");
   app.add_option("--idle-exit", options.idle_exit_s,
                  "Exit after this many seconds without work, client calls and watchers")
-      ->check(quietly(CLI::NonNegativeNumber))
+      ->check(seconds())
       ->type_name("S");
   app.add_option("--lease-ms", options.lease_ms, "A worker silent for this long loses its lease")
       ->check(quietly(CLI::Range(10, 3600000)))

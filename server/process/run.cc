@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <thread>
 
 #include "process/data_dir.h"
+#include "process/log_format.h"
 #include "process/supervisor.h"
 #include "rpc/server.h"
 #include "store/errors.h"
@@ -35,7 +37,7 @@ constexpr std::chrono::milliseconds kWorkerGrace{5000};
 void start_logging(const std::string& level) {
   const auto logger =
       std::make_shared<spdlog::logger>("affskel", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+  logger->set_formatter(log_formatter());
   logger->set_level(spdlog::level::from_str(level));
   spdlog::set_default_logger(logger);
 }
@@ -89,9 +91,22 @@ SupervisorOptions supervisor_options(const Options& options, const Server& serve
   return result;
 }
 
+/// Somebody deleted or moved the data directory.  There is nothing left to finish, and a successor may
+/// already live in a new directory of the same name: an orderly end would take its socket away.
+void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
+  if (!data_dir.lost()) return;
+  spdlog::error("event=data_dir_lost data_dir={} message=\"deleted or moved while the server ran; leaving\"",
+                data_dir.path());
+  spdlog::default_logger()->flush();
+  supervisor.terminate(std::chrono::milliseconds(0));
+  std::_Exit(kConfigurationError);
+}
+
 /// Until a signal says so, or nobody needs the server any more.
-void serve(const Options& options, const sigset_t& signals, Server& server, Supervisor& supervisor) {
+void serve(const Options& options, const DataDir& data_dir, const sigset_t& signals, Server& server,
+           Supervisor& supervisor) {
   for (;;) {
+    leave_if_lost(data_dir, supervisor);
     supervisor.tick();
     const int number = wait_for_signal(signals);
     if (number == SIGTERM || number == SIGINT) {
@@ -135,12 +150,30 @@ void run_server(const Options& options) {
                  data_dir.path());
   }
   data_dir.publish(targets, SystemClock().wall_ms());
-  serve(options, signals, server, supervisor);
+  serve(options, data_dir, signals, server, supervisor);
+  leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();
   server.drain();
   supervisor.terminate(kWorkerGrace);
   server.stop();
   spdlog::info("event=stopped");
+}
+
+/// A file that is damaged, foreign or closed to us is no bug of this program.
+int exit_code_of(const SqliteError& error) {
+  switch (error.primary_code()) {
+    case SQLITE_FULL:
+      return kDiskFull;
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return kConfigurationError;
+    default:
+      return kInternalError;
+  }
 }
 
 int fail(int code, const std::exception& error) {
@@ -158,7 +191,7 @@ int run(const Options& options) {
   } catch (const StoreError& error) {
     return fail(kConfigurationError, error);
   } catch (const SqliteError& error) {
-    return fail(error.primary_code() == SQLITE_FULL ? kDiskFull : kInternalError, error);
+    return fail(exit_code_of(error), error);
   } catch (const std::runtime_error& error) {
     return fail(kConfigurationError, error);
   } catch (const std::invalid_argument& error) {

@@ -40,11 +40,12 @@ grpc::Status status_of_failure(const v1::JobError& error) {
 }  // namespace
 
 ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub,
-                                       Activity& activity, Facts facts)
+                                       Activity& activity, UploadBudget& uploads, Facts facts)
     : store_(store),
       registry_(registry),
       hub_(hub),
       activity_(activity),
+      uploads_(uploads),
       facts_(std::move(facts)),
       watches_(hub, activity) {}
 
@@ -58,6 +59,11 @@ EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
 }
 
 v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
+  const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
+  if (active && store_.disk_full()) {
+    job.set_waiting_reason("the server's disk is full; it goes on when there is room");
+    return job;
+  }
   if (job.state() != v1::JOB_STATE_QUEUED || !job.waiting_reason().empty()) return job;
   const bool nobody = registry_.list().empty();
   job.set_waiting_reason(nobody ? "no worker is connected" : "all workers are busy with jobs before it");
@@ -79,7 +85,8 @@ grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext*,
                        "the mesh has " + std::to_string(first.header().mesh_bytes()) +
                            " bytes; this server takes at most " + std::to_string(limit));
     }
-    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes());
+    UploadBudget::Share share(uploads_);
+    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share);
     Store::Submitted submitted = store_.submit(first.header(), mesh);
     *response->mutable_job() = with_reason(std::move(submitted.job));
     response->set_existed(submitted.existed);

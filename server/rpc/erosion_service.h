@@ -8,6 +8,7 @@
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "rpc/activity.h"
 #include "rpc/event_hub.h"
+#include "rpc/upload_budget.h"
 #include "rpc/watch.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
@@ -24,7 +25,8 @@ class ErosionServiceImpl final
     std::uint64_t started_ms = 0;
   };
 
-  ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub, Activity& activity, Facts facts);
+  ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub, Activity& activity,
+                     UploadBudget& uploads, Facts facts);
 
   grpc::Status SubmitJob(grpc::ServerContext* context, grpc::ServerReader<v1::SubmitJobRequest>* reader,
                          v1::SubmitJobResponse* response) override;
@@ -61,6 +63,7 @@ class ErosionServiceImpl final
   WorkerRegistry& registry_;
   EventHub& hub_;
   Activity& activity_;
+  UploadBudget& uploads_;
   const Facts facts_;
   Watches watches_;
   std::atomic<bool> stopping_ = false;

@@ -88,14 +88,18 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
                                             v1::LeaseTaskResponse* response) {
   const auto poll = std::make_shared<Poll>(*this, context, *request, response);
   poll->hold(poll);
-  registry_.seen(request->worker());
-  bool refused = false;
-  {
+  // Before the registry: whoever does not say who it is must not fill the list of workers.
+  grpc::Status status = guarded([&] { check_worker(request->worker()); });
+  if (status.ok()) {
+    registry_.seen(request->worker());
     const std::lock_guard lock(mutex_);
-    refused = stopping_;
-    if (!refused) waiting_.push_back(poll);
+    if (stopping_) {
+      status = shutting_down();
+    } else {
+      waiting_.push_back(poll);
+    }
   }
-  if (refused) poll->end(shutting_down());
+  if (!status.ok()) poll->end(status);
   changed_.notify_all();
   return poll.get();
 }

@@ -56,15 +56,16 @@ void release_dead_workers(Store& store) {
 
 }  // namespace
 
-Server::Server(const ServerOptions& options) {
+Server::Server(const ServerOptions& options)
+    : uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
   hold_grpc();
   prepare_addresses(options.listen);
   store_ = std::make_unique<Store>(options.data_dir + "/affskel.db", options.store, clock_, &hub_);
   release_dead_workers(*store_);
   queue_ = std::make_unique<LeaseQueue>(*store_, registry_);
-  worker_service_ = std::make_unique<WorkerServiceImpl>(*store_, registry_, *queue_);
+  worker_service_ = std::make_unique<WorkerServiceImpl>(*store_, registry_, *queue_, uploads_);
   erosion_service_ = std::make_unique<ErosionServiceImpl>(
-      *store_, registry_, hub_, activity_,
+      *store_, registry_, hub_, activity_, uploads_,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
   hub_.start([this](const std::string& id) { return erosion_service_->load(id); },
              [this] { queue_->on_work(); });

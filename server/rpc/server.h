@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -15,6 +16,7 @@
 #include "rpc/erosion_service.h"
 #include "rpc/event_hub.h"
 #include "rpc/lease_queue.h"
+#include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "rpc/worker_service.h"
 #include "store/store.h"
@@ -26,6 +28,8 @@ struct ServerOptions {
   std::string data_dir;  ///< must exist; holds affskel.db
   std::vector<wire::Address> listen;
   StoreOptions store;
+  /// Uploads in memory at once; at least one mesh of the greatest size always finds room.
+  std::uint64_t upload_bytes = std::uint64_t{2} << 30;
 };
 
 /// A serving server: the store, both services and the maintenance of leases, without signals and
@@ -62,6 +66,7 @@ class Server {
   EventHub hub_;
   WorkerRegistry registry_{clock_};
   Activity activity_;
+  UploadBudget uploads_;
   std::unique_ptr<Store> store_;
   std::unique_ptr<LeaseQueue> queue_;
   std::unique_ptr<WorkerServiceImpl> worker_service_;

@@ -3,8 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <new>
+#include <string>
 
 #include "store/errors.h"
+#include "store/shorten.h"
 #include "store/sqlite.h"
 
 namespace affskel::server {
@@ -45,9 +47,10 @@ grpc::StatusCode code_of(const SqliteError& error) {
   }
 }
 
-}  // namespace
+// gRPC drops an answer whose headers have more than 8 KiB, and the message is one of them, percent-encoded.
+constexpr std::size_t kMaxMessageBytes = 1500;
 
-grpc::Status status_of(const std::exception_ptr& error) {
+grpc::Status full_status_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const CallEnded& ended) {
@@ -66,6 +69,13 @@ grpc::Status status_of(const std::exception_ptr& error) {
     spdlog::error("event=internal_error message=\"{}\"", e.what());
     return {grpc::StatusCode::INTERNAL, e.what()};
   }
+}
+
+}  // namespace
+
+grpc::Status status_of(const std::exception_ptr& error) {
+  const grpc::Status status = full_status_of(error);
+  return {status.error_code(), shortened(status.error_message(), kMaxMessageBytes)};
 }
 
 }  // namespace affskel::server

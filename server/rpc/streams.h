@@ -6,6 +6,8 @@
 #include <string>
 
 #include "affskel/v1/client_service.pb.h"
+#include "rpc/status.h"
+#include "rpc/upload_budget.h"
 #include "store/blobs.h"
 #include "store/errors.h"
 
@@ -27,9 +29,11 @@ inline void send_blob(grpc::ServerWriter<v1::FetchArtifactResponse>& writer, Blo
 
 /// Receives the data messages of an upload after its header.
 /// @param announced bytes that the header promises; more are refused at once, not stored.
-/// @throws StoreError kInvalid on a second header or too many bytes.
+/// @param share holds the bytes in the server's budget; outlives the result.
+/// @throws StoreError kInvalid on a second header or too many bytes, CallEnded when other uploads fill the
+/// budget: UNAVAILABLE, for it soon has room again.
 template <typename Request, typename Reader>
-std::string receive_data(Reader& reader, std::uint64_t announced) {
+std::string receive_data(Reader& reader, std::uint64_t announced, UploadBudget::Share& share) {
   // What is announced is not believed before it is there: reserve a little, then grow.
   constexpr std::uint64_t kReserveAtMost = std::uint64_t{64} << 20;
   std::string data;
@@ -42,6 +46,10 @@ std::string receive_data(Reader& reader, std::uint64_t announced) {
     if (data.size() + message.data().size() > announced) {
       throw StoreError(StoreError::Code::kInvalid,
                        "more data than the " + std::to_string(announced) + " bytes that were announced");
+    }
+    if (!share.take(message.data().size())) {
+      throw CallEnded(
+          {grpc::StatusCode::UNAVAILABLE, "the server is receiving as much as it can hold; try again"});
     }
     data += message.data();
   }

@@ -42,8 +42,9 @@ grpc::Status no_header() {
 
 }  // namespace
 
-WorkerServiceImpl::WorkerServiceImpl(Store& store, WorkerRegistry& registry, LeaseQueue& queue)
-    : store_(store), registry_(registry), queue_(queue) {}
+WorkerServiceImpl::WorkerServiceImpl(Store& store, WorkerRegistry& registry, LeaseQueue& queue,
+                                     UploadBudget& uploads)
+    : store_(store), registry_(registry), queue_(queue), uploads_(uploads) {}
 
 grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerContext* context,
                                                        const v1::LeaseTaskRequest* request,
@@ -88,7 +89,8 @@ grpc::Status WorkerServiceImpl::CompleteTask(grpc::ServerContext*,
     if (header.bytes() > kMaxResultBytes) {
       throw StoreError(StoreError::Code::kLimit, "a result has at most 2^31 - 1 bytes");
     }
-    const std::string data = receive_data<v1::CompleteTaskRequest>(*reader, header.bytes());
+    UploadBudget::Share share(uploads_);
+    const std::string data = receive_data<v1::CompleteTaskRequest>(*reader, header.bytes(), share);
     *response = store_.complete(header, data);
     return true;
   });

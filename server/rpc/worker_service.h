@@ -4,6 +4,7 @@
 
 #include "affskel/v1/worker_service.grpc.pb.h"
 #include "rpc/lease_queue.h"
+#include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
 
@@ -13,7 +14,7 @@ namespace affskel::server {
 class WorkerServiceImpl final
     : public v1::WorkerService::WithCallbackMethod_LeaseTask<v1::WorkerService::Service> {
  public:
-  WorkerServiceImpl(Store& store, WorkerRegistry& registry, LeaseQueue& queue);
+  WorkerServiceImpl(Store& store, WorkerRegistry& registry, LeaseQueue& queue, UploadBudget& uploads);
 
   grpc::ServerUnaryReactor* LeaseTask(grpc::CallbackServerContext* context,
                                       const v1::LeaseTaskRequest* request,
@@ -36,6 +37,7 @@ class WorkerServiceImpl final
   Store& store_;
   WorkerRegistry& registry_;
   LeaseQueue& queue_;
+  UploadBudget& uploads_;
 };
 
 }  // namespace affskel::server

@@ -25,6 +25,14 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
   });
 }
 
+/// Whoever follows one of the jobs that the change was about learns why it gets no further.
+void Store::note_full_disk(const Changes& undone) {
+  if (disk_full_.exchange(true) || listener_ == nullptr) return;
+  Changes stuck;
+  stuck.jobs = undone.jobs;
+  listener_->on_change(stuck);
+}
+
 v1::ReportResponse Store::reply(bool cancelled) const {
   v1::ReportResponse response;
   response.set_cancelled(cancelled);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -19,6 +20,9 @@
 
 namespace affskel::server {
 
+/// @throws StoreError kInvalid when a worker does not tell who it is as the contract says.
+void check_worker(const v1::WorkerIdentity& worker);
+
 /// The only writer of the database: jobs, their tasks and leases, fields and artefacts.
 ///
 /// Every public function is one transaction: when it throws, nothing was changed; when it returns, the
@@ -34,6 +38,8 @@ class Store {
   const std::string& file() const { return file_; }
   const StoreOptions& options() const { return options_; }
   int schema_version() const { return schema_version_; }
+  /// Whether the last change could not be written for want of room.
+  bool disk_full() const { return disk_full_; }
 
   // For clients: store_submit.cc, store_jobs.cc
 
@@ -116,6 +122,7 @@ class Store {
   template <typename Body>
   auto read(Body&& body);
 
+  void note_full_disk(const Changes& undone);
   v1::ReportResponse reply(bool cancelled) const;
   v1::Job write_job(const std::string& job_ref, const std::function<void(Tx&, const JobRow&)>& change);
 
@@ -127,6 +134,7 @@ class Store {
   std::mutex mutex_;  // guards db_
   Database db_;
   int schema_version_ = 0;
+  std::atomic<bool> disk_full_ = false;
 };
 
 }  // namespace affskel::server

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "store/errors.h"
+#include "store/shorten.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/sha256.h"
@@ -15,12 +16,19 @@ namespace {
 constexpr std::int64_t kMaxBlocks = 64;
 constexpr std::int64_t kMinBlockPositions = 16;
 
+// Kept and sent with the job from then on.
+constexpr std::size_t kMaxReasonBytes = 4000;
+
 [[noreturn]] void refuse(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "result: " + why);
 }
 
 bool positive(double value) {
   return std::isfinite(value) && value > 0;
+}
+
+bool all_finite(const google::protobuf::RepeatedField<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
 /// A prepare result taken apart.
@@ -37,6 +45,8 @@ void check_lattice(std::string_view bytes, std::uint64_t points) {
       lattice.run_start_size() != lattice.run_length_size()) {
     refuse("the lattice is malformed");
   }
+  if (!all_finite(lattice.origin()) || !all_finite(lattice.axes()))
+    refuse("a place of the lattice is not finite");
   const std::uint64_t inside =
       std::accumulate(lattice.run_length().begin(), lattice.run_length().end(), std::uint64_t{0});
   if (inside != points) {
@@ -53,6 +63,7 @@ void check_directions(std::string_view bytes, std::uint64_t count) {
   if (static_cast<std::uint64_t>(directions.xyz_size()) != 3 * count) {
     refuse("not 3 numbers for each of the " + std::to_string(count) + " directions");
   }
+  if (!all_finite(directions.xyz())) refuse("a direction is not finite");
 }
 
 Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view data) {
@@ -61,6 +72,10 @@ Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view
   if (summary.directions() < 1 || summary.directions() >= kNoDirection) refuse("the number of directions");
   if (summary.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 sample points");
   if (!positive(summary.volume()) || !positive(summary.spacing())) refuse("volume and spacing must be > 0");
+  if (summary.bbox_min_size() != 3 || summary.bbox_max_size() != 3 || !all_finite(summary.bbox_min()) ||
+      !all_finite(summary.bbox_max())) {
+    refuse("the bounding box must be 3 + 3 finite numbers");
+  }
   if (header.order_stride() < 1 || std::gcd(header.order_stride(), summary.directions()) != 1 ||
       header.order_stride() > summary.directions()) {
     refuse("the stride must be 1 .. directions and coprime to their number");
@@ -99,6 +114,7 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
 }
 
 void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header, std::string_view data) {
+  if (header.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 points or triangles");
   const JobRow job = get_job(tx.db, task.job_id);
   put_artifact(tx, {job.erosion_id, kind_name(task.kind), task.params_key}, data,
                static_cast<std::int64_t>(header.points()));
@@ -142,6 +158,7 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
 v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable) {
   v1::JobError known = error;
   known.set_code(known_code(error.code()));
+  known.set_message(shortened(error.message(), kMaxReasonBytes));
   if (known.message().empty()) known.set_message("the worker gave no reason");
   return write([&](Tx& tx) {
     const TaskRow task = task_of_token(tx.db, token);

@@ -12,12 +12,20 @@ template <typename Body>
 auto Store::write(Body&& body) {
   Changes changes;
   auto result = [&] {
-    const std::lock_guard lock(mutex_);
-    Transaction transaction(db_);
-    Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes};
-    auto value = body(tx);
-    transaction.commit();
-    return value;
+    try {
+      const std::lock_guard lock(mutex_);
+      Transaction transaction(db_);
+      Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes};
+      const int changes_before = sqlite3_total_changes(db_.handle());
+      auto value = body(tx);
+      transaction.commit();
+      // What changed nothing wrote nothing, and says nothing about the disk.
+      if (sqlite3_total_changes(db_.handle()) != changes_before) disk_full_ = false;
+      return value;
+    } catch (const SqliteError& error) {
+      if (error.primary_code() == SQLITE_FULL) note_full_disk(changes);
+      throw;
+    }
   }();
   for (const std::string& line : changes.log) spdlog::info("{}", line);
   if (listener_ != nullptr) listener_->on_change(changes);

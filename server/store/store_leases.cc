@@ -6,7 +6,6 @@
 #include "wire/version.h"
 
 namespace affskel::server {
-namespace {
 
 void check_worker(const v1::WorkerIdentity& worker) {
   const auto refuse = [](const char* why) { throw StoreError(StoreError::Code::kInvalid, why); };
@@ -16,6 +15,8 @@ void check_worker(const v1::WorkerIdentity& worker) {
   if (worker.host().size() > 255 || worker.core_version().size() > 64)
     refuse("a worker's host or version is too long");
 }
+
+namespace {
 
 void remember_core_version(Tx& tx, const std::string& version) {
   if (current_core_version(tx.db) == version) return;

@@ -18,6 +18,11 @@ TaskRow erode_task(Database& db, const std::string& token) {
 
 /// The finished ranges of a report, checked against the block.
 std::vector<Range> checked_ranges(const v1::ReportErosionHeader& header, Range block) {
+  // Each range costs a query with the database locked; there cannot be more of them than positions.
+  if (header.positions_done_size() > block.end - block.begin) {
+    refuse(std::to_string(header.positions_done_size()) + " ranges in a block of " +
+           std::to_string(block.end - block.begin) + " positions");
+  }
   std::vector<Range> ranges;
   for (const v1::PositionRange& range : header.positions_done()) {
     if (range.begin() >= range.end() || range.begin() < static_cast<std::uint64_t>(block.begin) ||
@@ -76,12 +81,12 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
   return write([&](Tx& tx) {
     const TaskRow task = erode_task(tx.db, header.token());
     const JobRow job = get_job(tx.db, task.job_id);
+    tx.changes.jobs.insert(job.id);
     const std::vector<Range> ranges = checked_ranges(header, task.block);
     // A report that is repeated after its block was finished finds the field finished, too.
     const Progress progress = add_positions(tx, job, ranges);
     if (!job.finished) merge_records(tx.db, job.erosion_id, job.points, records.records());
     count_report(tx, task, progress);
-    tx.changes.jobs.insert(job.id);
     if (task.state == "done") return reply(false);
     if (header.block_done()) {
       if (!remaining_ranges(tx.db, job.erosion_id, task.block).empty()) {

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMaxNameBytes = 200;
 constexpr std::size_t kMaxOwnerBytes = 100;
 constexpr std::size_t kMaxRequestIdBytes = 200;
+constexpr std::size_t kMaxDirectionsBytes = 1000;  // kept and sent with every job
 constexpr std::uint32_t kMaxPriority = 9;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -33,6 +34,9 @@ void check_header(const v1::SubmitJobHeader& header, std::string_view mesh) {
   if (header.name().size() > kMaxNameBytes) refuse("the name has more than 200 bytes");
   if (header.owner().size() > kMaxOwnerBytes) refuse("the owner has more than 100 bytes");
   if (header.request_id().size() > kMaxRequestIdBytes) refuse("the request id has more than 200 bytes");
+  if (header.params().directions().size() > kMaxDirectionsBytes) {
+    refuse("the direction set has more than 1000 bytes");
+  }
   if (header.priority() > kMaxPriority) refuse("the priority must be 0 .. 9");
   if (mesh.empty()) refuse("the mesh file is empty");
   if (header.mesh_bytes() != mesh.size()) {

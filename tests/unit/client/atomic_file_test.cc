@@ -54,6 +54,21 @@ TEST(AtomicFile, KeepsModeAndFollowsLinks) {
   EXPECT_EQ(info.st_mode & 07777, 0640u);
 }
 
+TEST(AtomicFile, FollowsLinksThatLeadNowhereYet) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir / "sub");
+  std::filesystem::create_symlink("sub/second", dir / "first");
+  std::filesystem::create_symlink(dir / "real.txt", dir / "sub/second");
+  AtomicFile file(dir / "first");
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(slurp(dir / "real.txt"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(dir / "first"));
+  EXPECT_TRUE(std::filesystem::is_symlink(dir / "sub/second"));
+  std::filesystem::create_symlink("loop", dir / "loop");
+  EXPECT_THROW(AtomicFile(dir / "loop"), ClientError);
+}
+
 TEST(AtomicFile, WritesToDevicesDirectly) {
   AtomicFile file("/dev/null");
   EXPECT_FALSE(file.is_regular());

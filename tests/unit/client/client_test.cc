@@ -123,6 +123,35 @@ TEST_F(ClientTest, SubmitRefusesBadMeshesWithoutTheServer) {
   EXPECT_EQ(run({"submit", dir_.path()}, "unix:/nowhere/s").exit_code, 3);
 }
 
+TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
+  const std::string stem("c\xFF_e");
+  spit(dir_ / (stem + ".off"), mesh_);
+  const Outcome done = run({"submit", dir_ / (stem + ".off"), "-o", dir_ / "OUT"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(service_.submitted.name(), "c\xEF\xBF\xBD_e");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / ("OUT/" + stem + ".field.vtkhdf")));
+}
+
+TEST_F(ClientTest, TextForTheServerMustBeUtf8) {
+  const std::string bad = "k\xFF";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"submit", dir_ / "cube.off", "--name", bad},
+        {"submit", dir_ / "cube.off", "--request-id", bad},
+        {"list", "--owner", bad},
+        {"status", bad}}) {
+    const Outcome refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("UTF-8"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(service_.mesh, "");
+}
+
+TEST_F(ClientTest, AMisspeltCommandIsNamed) {
+  EXPECT_NE(run({"statsu", "@last"}).err.find("no command 'statsu'"), std::string::npos);
+  EXPECT_NE(run({"make", "cuboid", "-o", dir_ / "x.off"}).err.find("no command 'cuboid'"), std::string::npos);
+  EXPECT_NE(run({}).err.find("no command was given"), std::string::npos);
+}
+
 TEST_F(ClientTest, SubmitKeepsToTheServersLimit) {
   service_.max_mesh_bytes = 10;
   const Outcome outcome = run({"submit", dir_ / "cube.off"});
@@ -163,6 +192,21 @@ TEST_F(ClientTest, AnEmptySkeletonIsAWarning) {
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_NE(done.err.find("warning: the skeleton is empty"), std::string::npos);
   EXPECT_NE(done.err.find("--spacing"), std::string::npos);
+}
+
+TEST_F(ClientTest, AnEmptySurfaceIsAWarning) {
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = "";
+  const Outcome done = run({"surface", "@last", "-o", dir_ / "s.off"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find("warning: the surface is empty"), std::string::npos) << done.err;
+}
+
+TEST_F(ClientTest, AnEmptyAddressIsNotThePrivateServer) {
+  std::ostringstream out, err;
+  EXPECT_EQ(
+      run_client({"--server", "", "list"}, {out, err, false, test_environment({{"HOME", dir_.path()}}), {}}),
+      2);
+  EXPECT_NE(err.str().find("--server"), std::string::npos) << err.str();
 }
 
 TEST_F(ClientTest, WatchReattachesWhenTheStreamBreaks) {
@@ -288,6 +332,8 @@ TEST_F(ClientTest, RenderWritesAPng) {
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
   EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "3"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.jpg"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
 }
 
 TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {

@@ -98,6 +98,13 @@ TEST(ProgressBar, ShowsTheShareAndFits) {
   }
 }
 
+TEST(ProgressBar, TellsWhyARunningJobGetsNoFurther) {
+  v1::Job stuck = eroding(100);
+  stuck.set_waiting_reason("the disk is full");
+  EXPECT_EQ(progress_bar(stuck, {}, 60), "erode     [##.......] 100/400 directions (the disk is full)");
+  EXPECT_EQ(progress_line(stuck, {}), "erode (the disk is full): 100/400 directions");
+}
+
 class ProgressViewTest : public ::testing::Test {
  protected:
   void show(ConsoleStyle style, const std::vector<v1::Job>& jobs) {

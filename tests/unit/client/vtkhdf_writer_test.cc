@@ -1,8 +1,11 @@
 // Reads the file back with the HDF5 library itself and compares every cell of the lattice.
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 
 #include "client/error.h"
 #include "client/exporters/field_writer.h"
@@ -154,6 +157,27 @@ TEST(VtkHdfWriter, RefusesDevices) {
   const LatticePoints points(sample_lattice());
   AtomicFile out("/dev/null");
   EXPECT_THROW(make_vtkhdf_writer(out, points), ClientError);
+}
+
+// No file of this process may grow: what a full disk does, without one.
+[[noreturn]] void write_without_room(const std::string& target) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_FSIZE, &none);
+  try {
+    AtomicFile file(target);
+    const LatticePoints points(sample_lattice());
+    make_field_writer(FileFormat::kVtkHdf, file, points)->finish();
+  } catch (const ClientError& error) {
+    const bool told = error.exit_code() == ExitCode::kLimit && error.file() == target;
+    std::_Exit(told ? 0 : 1);
+  }
+  std::_Exit(2);
+}
+
+TEST(VtkHdfWriter, AFullDiskIsALimitThatNamesTheFile) {
+  const TempDir dir;
+  EXPECT_EXIT(write_without_room(dir / "field.vtkhdf"), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
+#include <sqlite3.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <list>
 
 #include "service_fixture.h"
@@ -20,6 +23,59 @@ v1::FetchArtifactRequest skeleton_request(const std::string& job, double thresho
   v1::FetchArtifactRequest request = fetch_request(job, v1::ARTIFACT_KIND_SKELETON);
   request.mutable_skeleton()->set_threshold(threshold);
   return request;
+}
+
+std::atomic<bool> disk_is_full = false;
+
+ssize_t pwrite_or_full(int fd, const void* bytes, size_t count, off_t offset) {
+  if (!disk_is_full) return pwrite(fd, bytes, count, offset);
+  errno = ENOSPC;
+  return -1;
+}
+
+/// Lets every write of SQLite fail as on a full disk.
+class FullDisk {
+ public:
+  FullDisk() : vfs_(sqlite3_vfs_find(nullptr)) {
+    for (const char* name : {"pwrite", "pwrite64"}) {
+      vfs_->xSetSystemCall(vfs_, name, reinterpret_cast<sqlite3_syscall_ptr>(pwrite_or_full));
+    }
+    disk_is_full = true;
+  }
+  ~FullDisk() {
+    disk_is_full = false;
+    vfs_->xSetSystemCall(vfs_, nullptr, nullptr);
+  }
+
+ private:
+  sqlite3_vfs* vfs_;
+};
+
+TEST_F(ClientServiceTest, AFullDiskIsTheReasonWhyAJobGetsNoFurther) {
+  const std::string id = submit();
+  const PrepareResult result = prepare_result(poll(0).lease().token(), 10, 40);
+  ASSERT_TRUE(send_result(*worker_, result.header, result.data).ok());
+  const v1::Lease block = poll(0).lease();
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job(id);
+  const auto reader = client_->WatchJob(&context, request);
+  v1::Job seen;
+  ASSERT_TRUE(reader->Read(&seen));
+  v1::ReportResponse response;
+  {
+    const FullDisk full;
+    EXPECT_EQ(send_report(*worker_, block, 0, 4, false, &response).error_code(),
+              grpc::StatusCode::RESOURCE_EXHAUSTED);
+    while (seen.waiting_reason().find("disk is full") == std::string::npos) ASSERT_TRUE(reader->Read(&seen));
+    server_->store().expire_leases();  // writes nothing, so it must not look like room
+    EXPECT_NE(job(id).waiting_reason(), "");
+  }
+  EXPECT_TRUE(send_report(*worker_, block, 0, 4, false, &response).ok());
+  EXPECT_EQ(job(id).waiting_reason(), "");
+  EXPECT_EQ(job(id).directions_done(), 4U);
+  context.TryCancel();
+  reader->Finish();
 }
 
 TEST_F(ClientServiceTest, WholePathWithTwoWorkers) {

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "expect_store_error.h"
 #include "store_fixture.h"
 
@@ -52,6 +54,9 @@ TEST_F(LifecycleTest, RefusesWrongPrepareResults) {
   refused([](auto& r) { r.header.mutable_prepared()->set_directions(21); });
   refused([](auto& r) { r.header.mutable_prepared()->set_directions(0); });
   refused([](auto& r) { r.header.mutable_prepared()->set_volume(0); });
+  refused([](auto& r) { r.header.mutable_prepared()->clear_bbox_min(); });
+  refused(
+      [](auto& r) { r.header.mutable_prepared()->set_bbox_max(1, std::numeric_limits<double>::infinity()); });
   refused([](auto& r) { r.header.set_lattice_bytes(r.header.lattice_bytes() + 1); });
   const PrepareResult good = prepare_result(task.token(), 10, 20);
   EXPECT_NO_THROW(store_->complete(good.header, good.data));
@@ -139,6 +144,15 @@ TEST_F(LifecycleTest, DeterministicFailureFailsTheJobAtOnce) {
   EXPECT_EQ(store_->resume(job.id()).state(), v1::JOB_STATE_QUEUED);
   EXPECT_FALSE(store_->job(job.id()).has_error());
   EXPECT_TRUE(has_work());
+}
+
+TEST_F(LifecycleTest, ReasonsHaveABound) {
+  const v1::Job job = submit();
+  v1::JobError error;
+  error.set_code("BAD_INPUT");
+  error.set_message(std::string(3999, 'x') + "\xC3\xB6" + std::string(1 << 20, 'y'));
+  store_->fail(lease().token(), error, false);
+  EXPECT_EQ(store_->job(job.id()).error().message(), std::string(3999, 'x') + "...");
 }
 
 TEST_F(LifecycleTest, RetryableFailuresAreRetriedAndBounded) {

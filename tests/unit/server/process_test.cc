@@ -4,13 +4,16 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "process/data_dir.h"
+#include "process/log_format.h"
 #include "process/options.h"
+#include "process/run.h"
 #include "process/supervisor.h"
 #include "rpc/listen.h"
 #include "rpc/server.h"
@@ -62,9 +65,28 @@ TEST(OptionsTest, UsageErrorsExitWithTwo) {
   EXPECT_EQ(parse({"--data-dir", "d", "--workers", "many"}).exit_code, 2);
   EXPECT_EQ(parse({"--data-dir", "d", "--workers", "-1"}).exit_code, 2);
   EXPECT_EQ(parse({"--data-dir", "d", "--frobnicate"}).exit_code, 2);
+  for (const char* never : {"nan", "inf", "-1", "soon"}) {
+    EXPECT_EQ(parse({"--data-dir", "d", "--idle-exit", never}).exit_code, 2) << never;
+  }
   EXPECT_EQ(parse({"--data-dir", "d", "--lease-ms", "100", "--report-interval-ms", "100"}).exit_code, 2);
   EXPECT_EQ(parse({"--help"}).exit_code, 0);
   EXPECT_EQ(parse({"--version"}).exit_code, 0);
+}
+
+TEST(RunTest, DamagedDatabaseIsNoInternalError) {
+  const TemporaryDirectory directory;
+  Options options;
+  options.data_dir = directory.path().string();
+  std::ofstream(directory.path() / "affskel.db") << std::string(4096, 'x');
+  EXPECT_EXIT(std::_Exit(run(options)), testing::ExitedWithCode(2), "affskel.db.*not a database");
+}
+
+TEST(LogFormatTest, EveryEntryIsOneLine) {
+  spdlog::memory_buf_t line;
+  log_formatter()->format({"affskel", spdlog::level::warn, "event=failed message=\"a\nevent=done\x1b[31m\""},
+                          line);
+  const std::string text(line.data(), line.size());
+  EXPECT_TRUE(text.ends_with(" level=warning event=failed message=\"a?event=done?[31m\"\n")) << text;
 }
 
 TEST(DataDirTest, IsHeldByOneServer) {
@@ -83,6 +105,18 @@ TEST(DataDirTest, IsHeldByOneServer) {
     }
   }
   EXPECT_NO_THROW(DataDir again(path));
+}
+
+TEST(DataDirTest, NoticesThatItIsGone) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory.path() / "data";
+  const DataDir held(path.string());
+  EXPECT_FALSE(held.lost());
+  std::filesystem::rename(path, directory.path() / "moved");
+  EXPECT_TRUE(held.lost());
+  const DataDir successor(path.string());
+  EXPECT_TRUE(held.lost()) << "another directory of that name is not the one that was held";
+  EXPECT_FALSE(successor.lost());
 }
 
 TEST(DataDirTest, RefusesAFile) {

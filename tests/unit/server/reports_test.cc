@@ -208,6 +208,8 @@ TEST_F(ReportTest, BadReportsAreRefusedWhole) {
   EXPECT_STORE_ERROR(report(block, {range(0, 1), range(15, 17)}, good), kInvalid);  // block ends at 16
   EXPECT_STORE_ERROR(report(block, {range(3, 3)}, good), kInvalid);
   EXPECT_STORE_ERROR(report(block, {range(0, 15)}, good, true), kInvalid);  // 15 is missing
+  const std::vector<v1::PositionRange> flood(17, range(0, 1));
+  EXPECT_STORE_ERROR(report(block, flood, good), kInvalid);
   EXPECT_EQ(store_->job(job.id()).directions_done(), 0U);
   EXPECT_EQ(store_->job(job.id()).counters().reports(), 0U);
   const std::string bytes = read_all(*store_->open_input(block.token(), v1::ARTIFACT_KIND_FIELD));

@@ -3,6 +3,8 @@
 
 #include "rpc/event_hub.h"
 #include "rpc/status.h"
+#include "rpc/streams.h"
+#include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "store/errors.h"
 #include "store_fixture.h"
@@ -30,6 +32,51 @@ TEST(StatusTest, EveryErrorHasItsCode) {
   EXPECT_EQ(code_of(std::bad_alloc()), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_EQ(code_of(std::runtime_error("")), grpc::StatusCode::INTERNAL);
   EXPECT_TRUE(guarded([] {}).ok());
+}
+
+TEST(StatusTest, LongMessagesAreCutAtACharacter) {
+  const std::string quoted = "x" + [] {
+    std::string text;
+    for (int i = 0; i < 100000; ++i) text += "\xC3\xB6";
+    return text;
+  }();
+  const std::string message =
+      status_of(std::make_exception_ptr(StoreError(StoreError::Code::kInvalid, quoted))).error_message();
+  EXPECT_LT(message.size(), 2000U);
+  ASSERT_TRUE(message.ends_with("..."));
+  EXPECT_EQ((message.size() - 4) % 2, 0U);  // x, whole characters of two bytes, the dots
+  EXPECT_EQ(
+      status_of(std::make_exception_ptr(StoreError(StoreError::Code::kInvalid, "short"))).error_message(),
+      "short");
+}
+
+/// An upload of pieces of data.
+struct FakeReader {
+  std::vector<std::size_t> pieces;
+  bool Read(v1::SubmitJobRequest* message) {
+    if (pieces.empty()) return false;
+    message->set_data(std::string(pieces.back(), 'm'));
+    pieces.pop_back();
+    return true;
+  }
+};
+
+TEST(UploadBudgetTest, AllUploadsTogetherStayBelowIt) {
+  UploadBudget budget(100);
+  const auto upload = [](UploadBudget::Share& share, std::vector<std::size_t> pieces) {
+    FakeReader reader{std::move(pieces)};
+    return guarded([&] { receive_data<v1::SubmitJobRequest>(reader, 1000, share); }).error_code();
+  };
+  UploadBudget::Share first(budget);
+  EXPECT_EQ(upload(first, {30, 30}), grpc::StatusCode::OK);
+  {
+    UploadBudget::Share second(budget);
+    EXPECT_EQ(upload(second, {20, 39, 1}), grpc::StatusCode::UNAVAILABLE);
+    EXPECT_EQ(upload(first, {1}), grpc::StatusCode::UNAVAILABLE) << "the second holds what it took so far";
+  }
+  UploadBudget::Share third(budget);
+  EXPECT_EQ(upload(third, {40}), grpc::StatusCode::OK) << "an upload that ended gives back what it took";
+  EXPECT_EQ(upload(third, {1}), grpc::StatusCode::UNAVAILABLE);
 }
 
 class EventHubTest : public testing::Test {

@@ -60,6 +60,10 @@ PrepareResult prepare_result(const std::string& token, std::uint32_t points, std
   header.mutable_prepared()->set_triangles(directions);
   header.mutable_prepared()->set_volume(2.0);
   header.mutable_prepared()->set_spacing(0.25);
+  for (int axis = 0; axis < 3; ++axis) {
+    header.mutable_prepared()->add_bbox_min(0.0);
+    header.mutable_prepared()->add_bbox_max(1.0);
+  }
   header.mutable_prepared()->set_points(points);
   header.mutable_prepared()->set_directions(directions);
   header.set_order_stride(wire::direction_stride(directions));

@@ -36,6 +36,11 @@ TEST_F(SubmitTest, RefusesWrongHeaders) {
   refused([](auto& h) { h.mutable_params()->clear_sampling(); });
   refused([](auto& h) { h.mutable_params()->mutable_sampling()->set_spacing(-1); });
   refused([](auto& h) { h.mutable_params()->set_directions("circle:5"); });
+  refused([](auto& h) {
+    std::string many = "triangles";
+    for (int i = 0; i < 100; ++i) many += "+triangles";
+    h.mutable_params()->set_directions(many);
+  });
   refused([](auto& h) { h.mutable_skeleton()->set_threshold(-1); });
   EXPECT_EQ(store_->counts().total, 0);
 }

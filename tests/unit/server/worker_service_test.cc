@@ -77,6 +77,18 @@ TEST_F(WorkerServiceTest, StoppingServerEndsWaiting) {
   EXPECT_EQ(code.get(), grpc::StatusCode::UNAVAILABLE);
 }
 
+TEST_F(WorkerServiceTest, WorkerWithoutAnIdentityIsRefusedAndForgotten) {
+  for (const std::string& id : {std::string(), std::string(65, 'x')}) {
+    grpc::ClientContext context;
+    v1::LeaseTaskRequest request;
+    *request.mutable_worker() = worker_identity(id);
+    v1::LeaseTaskResponse response;
+    EXPECT_EQ(worker_->LeaseTask(&context, request, &response).error_code(),
+              grpc::StatusCode::INVALID_ARGUMENT);
+  }
+  EXPECT_TRUE(server_->registry().list().empty());
+}
+
 TEST_F(WorkerServiceTest, DrainingServerStillTakesReports) {
   const v1::Lease lease = block();
   server_->drain();

@@ -1,0 +1,42 @@
+#include "compute.h"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "core/mesh_io.h"
+#include "core/shapes.h"
+
+namespace affskel::worker {
+namespace {
+
+TEST(ComputeTest, AnOutputThatCannotBeWrittenTellsWhy) {
+  std::string directory = (std::filesystem::temp_directory_path() / "affskel-compute-XXXXXX").string();
+  ASSERT_NE(mkdtemp(directory.data()), nullptr);
+  ComputeOptions options;
+  options.file = directory + "/box.off";
+  options.spacing = 500;
+  std::ofstream(options.file) << core::write_off(core::make_box(2000, 2000, 2000));
+  const auto error_of = [&](const std::string& output) {
+    options.output = output;
+    try {
+      compute(options);
+    } catch (const std::system_error& error) {
+      EXPECT_NE(std::string(error.what()).find(output), std::string::npos) << error.what();
+      return error.code().value();
+    }
+    return 0;
+  };
+  std::filesystem::create_symlink("/dev/full", directory + "/full.csv");
+  EXPECT_EQ(error_of(directory + "/full.csv"), ENOSPC);
+  EXPECT_EQ(error_of(directory + "/missing/field.csv"), ENOENT);
+  EXPECT_EQ(error_of(directory + "/field.csv"), 0);
+  EXPECT_GT(std::filesystem::file_size(directory + "/field.csv"), 0U);
+  std::filesystem::remove_all(directory);
+}
+
+}  // namespace
+}  // namespace affskel::worker
