@@ -50,7 +50,7 @@ Mesh draw_body() {
 }  // namespace
 
 Mesh draw_solid() {
-  switch (draw_in(0, 6)) {
+  switch (draw_in(0, 8)) {
     case 0:
       return core::make_box(draw(0.5, 3), draw(0.5, 3), draw(0.5, 3), draw_count(1, 3));
     case 1:
@@ -61,6 +61,10 @@ Mesh draw_solid() {
       return draw_torus();
     case 4:
       return draw_hollow_ball();
+    case 5:
+      return core::cup(draw_count(5, 16));
+    case 6:
+      return core::comb(draw_count(2, 4));
     default:
       return draw_body();
   }

@@ -23,7 +23,7 @@ T draw_in(T low, T high) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
 }
 
-/// A torus, ellipsoid, box, cone, hollow ball or body with random sizes, 20 to 300 triangles.
+/// A torus, ellipsoid, box, cone, hollow ball, cup, comb or body with random sizes, up to some 200 triangles.
 core::Mesh draw_solid();
 
 /// About `points` sample points in an axis-parallel lattice with a random offset, so that no point keeps to

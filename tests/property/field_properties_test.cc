@@ -73,7 +73,8 @@ RC_GTEST_PROP(FieldProperties, ScalingMultipliesEByItsCube, ()) {
   RC_ASSERT(d.of_bound <= 1);
 }
 
-// Coordinates keep 33 of their 53 bits: six digits of E, and nine of v0 where E is next to nothing.
+// Coordinates keep 33 of their 53 bits: six digits of E, and next to the surface, where E has
+// fewer, 2e-8 of v0.
 RC_GTEST_PROP(FieldProperties, FarTranslationKeepsSixDigits, ()) {
   static Record record("translation by 1e6 sizes");
   const Mesh mesh = draw_solid();
@@ -82,7 +83,7 @@ RC_GTEST_PROP(FieldProperties, FarTranslationKeepsSixDigits, ()) {
   const double far = 1e6 * norm(solid.bbox_max - solid.bbox_min);
   const AffineMap map = {{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                          far * Vec3{draw_part(), draw_part(), draw_part()}};
-  const Deviation d = deviation(compute(mesh, frame), compute(map.mesh(mesh), map.frame(frame)), 1e-6, 1e-8);
+  const Deviation d = deviation(compute(mesh, frame), compute(map.mesh(mesh), map.frame(frame)), 1e-6, 2e-8);
   record.add(d);
   RC_ASSERT(d.of_bound <= 1);
 }
