@@ -4,16 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <limits>
 #include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "core/body.h"
+#include "core/directions.h"
 #include "core/erosion.h"
 #include "core/error.h"
+#include "core/lattice.h"
 #include "core/shapes.h"
+#include "core/solid.h"
 #include "hard_solids.h"
 #include "test_solids.h"
 
