@@ -40,7 +40,7 @@ struct PublishedField {
 /// integral of the open polyhedron; sample points in it that the plane has passed in this step get the volume
 /// interpolated linearly between the two planes, when it is less than what they have.  The planes stop at
 /// v0/2 or when x_i has left the solid for the last time; while it is outside they are skipped up to its next
-/// entry.
+/// entry.  Points between the last plane before an exit and the exit get nothing from this triangle.
 ///
 /// Where the text is silent: points are a lattice centred on the bounding box, ceil(side / dT) per side, as
 /// the core's.  Planes at x_i or at an entry are put 1e-9 of the solid's size further in, where the component

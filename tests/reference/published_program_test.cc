@@ -221,6 +221,18 @@ TEST(PublishedProgram, ApproachesTheCoreOnAHollowBall) {
   EXPECT_LT(steps.back().mean, 1e-3);
 }
 
+// Planes from the bottom pass beside the cavity, whose part below them is an inner surface of its own: at
+// v0/2 it takes a third of the volume.  Volumes are linear in each step.
+TEST(PublishedProgram, EqualsTheCoreBesideACavity) {
+  Mesh cavity = core::make_box(2.2, 3.2, 3);
+  cavity = core::reversed(core::moved(cavity, {1.4, 0.4, 0.5}));
+  for (const Difference& d :
+       convergence("cavity", joined(core::make_box(4, 4, 4, 2), cavity), 0.3, 0.05, 1)) {
+    EXPECT_LT(d.largest, 1e-12);
+    EXPECT_EQ(d.one_sided, 0);
+  }
+}
+
 // Limbs merge: within a step of a merge the interpolation is off by a whole limb, and the share of such
 // points falls with the step.
 TEST(PublishedProgram, ApproachesTheCoreOnABody) {
