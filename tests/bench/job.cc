@@ -52,6 +52,7 @@ std::vector<std::uint32_t> work_order(std::size_t count, std::uint64_t at_most) 
 
 Job::Job(const std::string& off_file, const RowSpec& row, unsigned threads, bool prune)
     : started_(wall_now()),
+      started_cpu_(process_cpu_now()),
       solid_(read_solid(off_file)),
       lattice_(lattice_of(solid_, row)),
       directions_(core::make_directions(solid_, row.directions)),
@@ -61,6 +62,7 @@ Job::Job(const std::string& off_file, const RowSpec& row, unsigned threads, bool
   options.prune = prune;
   erosion_ = std::make_unique<core::Erosion>(solid_, lattice_, directions_, options);
   cost_.prepare_s = wall_now() - started_;
+  cost_.prepare_cpu_s = process_cpu_now() - started_cpu_;
   cost_.wall_s = cost_.prepare_s;
 }
 

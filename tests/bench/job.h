@@ -15,12 +15,13 @@ namespace affskel::bench {
 
 /// What one run of a job cost, seconds.
 struct JobCost {
-  double prepare_s = 0;    ///< from the OFF text to the first direction
-  double trees_s = 0;      ///< thread time in join trees
-  double sweep_s = 0;      ///< thread time in sweeps
-  double wall_s = 0;       ///< all of it
-  double erode_s = 0;      ///< wall time of the directions alone
-  double erode_cpu_s = 0;  ///< processor time of the directions, all threads
+  double prepare_s = 0;      ///< from the OFF text to the first direction
+  double trees_s = 0;        ///< thread time in join trees
+  double sweep_s = 0;        ///< thread time in sweeps
+  double wall_s = 0;         ///< all of it
+  double erode_s = 0;        ///< wall time of the directions alone
+  double prepare_cpu_s = 0;  ///< processor time of the preparation
+  double erode_cpu_s = 0;    ///< processor time of the directions, all threads
   core::SweepCounts counts;
 };
 
@@ -44,7 +45,7 @@ class Job {
   const std::vector<std::uint32_t>& list() const { return list_; }
 
  private:
-  double started_;
+  double started_, started_cpu_;
   core::Solid solid_;
   core::Lattice lattice_;
   core::DirectionSet directions_;

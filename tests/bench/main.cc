@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "limit.h"
 #include "machine.h"
 #include "measure.h"
 #include "mesh_store.h"
@@ -20,7 +21,8 @@ namespace {
 using namespace affskel::bench;
 
 struct Options {
-  bool quick = false, full = false;
+  bool quick = false, full = false, limit = false;
+  double memory_gb = 0;
   std::string data_dir, json_file, markdown_file, check_file, expect_file, only;
 };
 
@@ -74,7 +76,7 @@ int check(const Options& options, const std::vector<RowSpec>& rows, MeshStore& m
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (!failed(failures, results[i])) continue;
       std::fprintf(stderr, "again: ");
-      results[i] = better_of(results[i], measure_row(rows[i], meshes, {false}));
+      results[i] = better_of(results[i], measure_row(rows[i], meshes, {.two_threads = false}));
     }
     failures = check_ratios(expected, results);
   }
@@ -89,7 +91,8 @@ int run(const Options& options) {
   const std::vector<RowSpec> rows = chosen_rows(options);
   MeshStore meshes(options.data_dir);
   std::vector<RowResult> results;
-  for (const RowSpec& row : rows) results.push_back(measure_row(row, meshes, {!options.quick}));
+  for (const RowSpec& row : rows)
+    results.push_back(measure_row(row, meshes, {.two_threads = !options.quick}));
   const int status = options.check_file.empty() ? 0 : check(options, rows, meshes, results);
   machine.load_at_finish = load_average();
   const std::string page = markdown(machine, results);
@@ -103,6 +106,18 @@ int run(const Options& options) {
   return broken ? 1 : status;
 }
 
+int run_limit(const Options& options) {
+  LimitOptions limit;
+  limit.memory = options.memory_gb > 0 ? static_cast<std::uint64_t>(options.memory_gb * (1 << 30))
+                                       : available_memory() / 10 * 8;
+  limit.done = [](const RowResult& result) { std::fprintf(stderr, "%s\n", summary(result).c_str()); };
+  MeshStore meshes("");
+  const std::string page = limits_markdown(find_limits(meshes, limit));
+  std::fputs(page.c_str(), stdout);
+  write_file(options.markdown_file, page);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -113,6 +128,10 @@ int main(int argc, char** argv) {
   app.add_flag("--full", options.full,
                "also a million points, the largest body with all its directions, and the large ball")
       ->excludes(quick);
+  app.add_flag("--limit", options.limit,
+               "find the largest jobs that run: doubles triangles, then points, until one fails");
+  app.add_option("--memory-gb", options.memory_gb,
+                 "with --limit: memory a job may use; else 80 % of what is available");
   app.add_option("--data", options.data_dir,
                  "directory with mh_man_292.off ... mh_man_apose_107024.off, used for the bodies")
       ->check(CLI::ExistingDirectory);
@@ -128,7 +147,7 @@ int main(int argc, char** argv) {
   app.footer("Example: affskel_bench --full --json bench.json > bench.md");
   CLI11_PARSE(app, argc, argv);
   try {
-    return run(options);
+    return options.limit ? run_limit(options) : run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "affskel_bench: %s\n", error.what());
     return 2;

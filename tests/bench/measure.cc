@@ -25,7 +25,7 @@ double peak_mb() {
 }
 
 double cpu_of(const JobCost& cost) {
-  return cost.erode_cpu_s + cost.prepare_s;
+  return cost.prepare_cpu_s + cost.erode_cpu_s;
 }
 
 void describe(const Job& job, RowResult& result) {
@@ -95,8 +95,8 @@ void keep_less(std::optional<T>& mine, const std::optional<T>& other) {
 RowResult measure(const RowSpec& row, const std::string& off_file, const MeasureOptions& options) {
   RowResult result;
   try {
-    const std::string text =
-        run_forked([&] { return nlohmann::json(measure_here(row, off_file, options)).dump(); });
+    const std::string text = run_forked(
+        [&] { return nlohmann::json(measure_here(row, off_file, options)).dump(); }, options.memory_limit);
     result = nlohmann::json::parse(text).get<RowResult>();
   } catch (const std::exception& error) {
     result.error = error.what();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "result.h"
@@ -8,7 +9,8 @@
 namespace affskel::bench {
 
 struct MeasureOptions {
-  bool two_threads = true;  ///< also on two threads, where one thread takes kLongJob or more
+  bool two_threads = true;         ///< also on two threads, where one thread takes kLongJob or more
+  std::uint64_t memory_limit = 0;  ///< bytes of address space for the row's process; 0: no limit
 };
 
 /// Jobs of at least this many seconds are long enough for a speed-up to mean something.
