@@ -125,8 +125,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Measures what computing erosion fields costs: time, memory, growth, and ratios to yardsticks.");
   auto* quick = app.add_flag("--quick", options.quick, "the smallest rows only, in under a minute");
-  app.add_flag("--full", options.full,
-               "also a million points, the largest body with all its directions, and the large ball")
+  app.add_flag("--full", options.full, "also the largest body with all its directions, and the large ball")
       ->excludes(quick);
   app.add_flag("--limit", options.limit,
                "find the largest jobs that run: doubles triangles, then points, until one fails");

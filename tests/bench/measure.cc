@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "forked.h"
@@ -17,6 +18,10 @@ namespace {
 constexpr double kRepeatSeconds = 2;
 constexpr int kMaxRepeats = 5;
 constexpr int kYardstickRepeats = 3;
+constexpr int kTwoThreadRepeats = 3;
+
+// Processor seconds per second that two threads get when nobody else wants the processors.
+constexpr double kTwoProcessors = 1.96;
 
 double peak_mb() {
   rusage usage{};
@@ -75,12 +80,23 @@ void run_yardsticks(const RowSpec& row, const std::string& off_file, RowResult& 
   result.plain_directions = plain.directions;
 }
 
+// The best of several runs, the first that had two processors to itself being the last.
+double two_threads_s(const RowSpec& row, const std::string& off_file) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kTwoThreadRepeats; ++i) {
+    const JobCost cost = Job(off_file, row, 2).run();
+    best = std::min(best, cost.wall_s);
+    if (cost.erode_cpu_s >= kTwoProcessors * cost.erode_s) break;
+  }
+  return best;
+}
+
 RowResult measure_here(const RowSpec& row, const std::string& off_file, const MeasureOptions& options) {
   RowResult result;
   run_job(row, off_file, result);
   if (row.section == Section::kTable) run_yardsticks(row, off_file, result);
   if (options.two_threads && result.wall_s >= kLongJob) {
-    result.wall_two_threads_s = Job(off_file, row, 2).run().wall_s;
+    result.wall_two_threads_s = two_threads_s(row, off_file);
   }
   return result;
 }

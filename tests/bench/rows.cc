@@ -99,8 +99,8 @@ std::vector<RowSpec> rows_of(RowSet set) {
   rows.push_back(published(body(5000)));
   add_table(rows, 10000);
   add_table(rows, 100000);
+  add_table(rows, 1000000);
   if (set == RowSet::kFull) {
-    add_table(rows, 1000000);
     rows.push_back(with_points(kLargestBody, 100000));
     rows.push_back(with_points(kLargeBall, 1000000));
     rows.back().section = Section::kMemory;

@@ -48,7 +48,7 @@ std::string row_name(const RowSpec& row);
 enum class RowSet {
   kQuick,    ///< under a minute; what the continuous check measures
   kDefault,  ///< under a quarter of an hour on two cores
-  kFull      ///< also a million points, all directions of the largest body, and the large ball
+  kFull      ///< also all directions of the largest body, and the large ball
 };
 
 /// The rows of a set in the order they are measured and printed.
