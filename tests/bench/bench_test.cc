@@ -13,9 +13,11 @@
 #include "forked.h"
 #include "growth.h"
 #include "job.h"
+#include "limit.h"
 #include "measure.h"
 #include "mesh_store.h"
 #include "ratio_check.h"
+#include "reference_time.h"
 #include "report.h"
 #include "result.h"
 #include "rows.h"
@@ -33,8 +35,8 @@ RowResult round_result() {
   r.triangles = 5000;
   r.points = 100000;
   r.directions = r.directions_all = 5000;
-  r.trees_s = 2;
-  r.sweep_s = 0.5;
+  r.trees_s = r.trees_cpu_s = 2;
+  r.sweep_s = r.sweep_cpu_s = 0.5;
   r.prepare_s = 0.5;
   r.wall_s = 3;
   r.peak_mb = 40;
@@ -103,6 +105,44 @@ TEST(Forked, TellsOfASignal) {
   }
 }
 
+TEST(Forked, KeepsToItsMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve more address space than any limit";
+#endif
+  const auto work = [] { return std::to_string(std::vector<char>(std::size_t{1} << 30, 'x').size()); };
+  EXPECT_THROW(run_forked(work, std::uint64_t{1} << 29), std::runtime_error);
+}
+
+TEST(Limit, StopsAtTheTimeAllowed) {
+  MeshStore store("");
+  LimitOptions options;
+  options.first_triangles = 320;
+  options.first_points = 100000;
+  options.longest_s = 0;
+  const std::vector<LimitSearch> searches = find_limits(store, options);
+  ASSERT_EQ(searches.size(), 2U);
+  for (const LimitSearch& search : searches) {
+    EXPECT_EQ(search.results.size(), 1U);
+    EXPECT_EQ(search.reason, "the time allowed for one job");
+  }
+  EXPECT_EQ(searches[0].results[0].triangles, 320U);
+  EXPECT_NE(limits_markdown(searches, options).find("| ball 320, 1e5 points, sphere:20 | 320 |"),
+            std::string::npos);
+  EXPECT_GT(available_memory(), 0U);
+}
+
+TEST(Reference, IsTimedOnASampleAndScaledForSmallRowsWithASpacing) {
+  MeshStore store("");
+  RowSpec row;
+  row.mesh = {Shape::kTorus, 256};
+  row.spacing = 1000;
+  const std::optional<ReferenceTime> time = run_reference(row, store.file(row.mesh), 1e-9);
+  ASSERT_TRUE(time.has_value());
+  EXPECT_EQ(time->triangles_timed, 8U);
+  EXPECT_GT(time->seconds, 0);
+  EXPECT_FALSE(run_reference(small_row(), store.file(row.mesh), 1).has_value());
+}
+
 TEST(Result, DerivedFiguresFollowTheirDefinitions) {
   const RowResult r = round_result();
   EXPECT_DOUBLE_EQ(r.sweep_ns(), 1.0);
@@ -116,7 +156,8 @@ TEST(Result, DerivedFiguresFollowTheirDefinitions) {
 
 TEST(Result, RatiosAreOfProcessorTime) {
   RowResult r = round_result();
-  r.cpu_share = 0.5;  // half of the wall time was somebody else's
+  r.trees_cpu_s = 1;  // half of the wall time was somebody else's
+  r.sweep_cpu_s = 0.25;
   EXPECT_DOUBLE_EQ(r.trees_per_sort().value(), 1.0);
   EXPECT_DOUBLE_EQ(r.plain_per_pruned().value(), 20.0);
 }
@@ -141,17 +182,17 @@ TEST(RatioCheck, FailsOnlyBeyondTheFactorAndOnlyForTheWorse) {
   const std::vector<RowResult> expected{round_result()};
   const nlohmann::json stored = ratios_of(expected, 2);
   RowResult r = round_result();
-  r.trees_s *= 1.9;
+  r.trees_cpu_s *= 1.9;
   EXPECT_TRUE(check_ratios(stored, std::vector{r}).empty());
-  r.trees_s *= 1.1;
+  r.trees_cpu_s *= 1.1;
   ASSERT_EQ(check_ratios(stored, std::vector{r}).size(), 1U);
   EXPECT_NE(check_ratios(stored, std::vector{r})[0].message.find("trees/sort"), std::string::npos);
   r = round_result();
-  r.sweep_s *= 2.1;
+  r.sweep_cpu_s *= 2.1;
   ASSERT_EQ(check_ratios(stored, std::vector{r}).size(), 1U);
   EXPECT_NE(check_ratios(stored, std::vector{r})[0].message.find("plain/pruned"), std::string::npos);
-  r.sweep_s = 0.01;
-  r.trees_s = 0.01;
+  r.sweep_cpu_s = 0.01;
+  r.trees_cpu_s = 0.01;
   EXPECT_TRUE(check_ratios(stored, std::vector{r}).empty());
 }
 
@@ -170,12 +211,12 @@ TEST(RatioCheck, MissesNothing) {
 
 TEST(RatioCheck, BetterOfKeepsTheBestOfEveryFigure) {
   RowResult a = round_result(), b = round_result();
-  a.trees_s = 1;
+  a.trees_cpu_s = 1;
   b.sort_unit_s = 1e-4;
   b.wall_s = 2.5;
   const RowResult best = better_of(a, b);
   EXPECT_DOUBLE_EQ(best.wall_s, 2.5);
-  EXPECT_DOUBLE_EQ(best.trees_s, 1);
+  EXPECT_DOUBLE_EQ(best.trees_cpu_s, 1);
   EXPECT_DOUBLE_EQ(best.sort_unit_s.value(), 1e-4);
   b.error = "failed";
   EXPECT_DOUBLE_EQ(better_of(b, a).wall_s, 3);
@@ -238,6 +279,32 @@ TEST(Job, WorksOnAStretchOfDifferentDirections) {
   const Job job(store.file(row.mesh), row, 1);
   EXPECT_EQ(job.directions().size(), 256U);
   EXPECT_EQ(std::set<std::uint32_t>(job.list().begin(), job.list().end()).size(), 100U);
+}
+
+TEST(Job, BatchesAddUpToTheRun) {
+  MeshStore store("");
+  const RowSpec row = small_row();
+  Job job(store.file(row.mesh), row, 1);
+  const std::vector<Batch> batches = job.run_in_batches(0, job.list().size());
+  double trees = 0, sweep = 0;
+  for (const Batch& b : batches) {
+    trees += b.trees_s;
+    sweep += b.sweep_s;
+  }
+  EXPECT_LE(batches.size(), 256U);
+  EXPECT_NEAR(trees, job.cost().trees_s, 1e-9);
+  EXPECT_NEAR(sweep, job.cost().sweep_s, 1e-9);
+  EXPECT_GE(job.cost().counts.evaluated, job.lattice().points);
+}
+
+TEST(Job, TheFastestOfEveryBatchIsKeptAndFreedOfOtherPeoplesTime) {
+  std::vector<Batch> best;
+  keep_fastest(best, {{2, 2, 4, 4}, {3, 1, 8, 4}});
+  EXPECT_DOUBLE_EQ(trees_cpu(best), 2 + 1.5);
+  EXPECT_DOUBLE_EQ(sweep_cpu(best), 2 + 0.5);
+  keep_fastest(best, {{9, 9, 18, 18}, {3, 1, 4, 4}});
+  EXPECT_DOUBLE_EQ(trees_cpu(best), 2 + 3);
+  EXPECT_DOUBLE_EQ(sweep_cpu(best), 2 + 1);
 }
 
 TEST(Job, BodiesAreScaledToTheirUnits) {

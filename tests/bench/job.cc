@@ -14,6 +14,8 @@
 namespace affskel::bench {
 namespace {
 
+constexpr std::size_t kMostBatches = 256;
+
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be opened for reading");
@@ -52,7 +54,6 @@ std::vector<std::uint32_t> work_order(std::size_t count, std::uint64_t at_most) 
 
 Job::Job(const std::string& off_file, const RowSpec& row, unsigned threads, bool prune)
     : started_(wall_now()),
-      started_cpu_(process_cpu_now()),
       solid_(read_solid(off_file)),
       lattice_(lattice_of(solid_, row)),
       directions_(core::make_directions(solid_, row.directions)),
@@ -62,23 +63,50 @@ Job::Job(const std::string& off_file, const RowSpec& row, unsigned threads, bool
   options.prune = prune;
   erosion_ = std::make_unique<core::Erosion>(solid_, lattice_, directions_, options);
   cost_.prepare_s = wall_now() - started_;
-  cost_.prepare_cpu_s = process_cpu_now() - started_cpu_;
   cost_.wall_s = cost_.prepare_s;
 }
 
-JobCost Job::run(std::size_t begin, std::size_t end) {
+void Job::run(std::size_t begin, std::size_t end) {
   core::ExecutionContext context;
   const double wall = wall_now(), cpu = process_cpu_now();
   erosion_->run(std::span(list_).subspan(begin, end - begin), context);
-  const double spent = wall_now() - wall;
-  cost_.erode_cpu_s += process_cpu_now() - cpu;
-  cost_.erode_s += spent;
-  cost_.wall_s += spent;
+  cost_.wall_s += wall_now() - wall;
+  cost_.cpu_s += process_cpu_now() - cpu;
   const core::ErosionCost cost = erosion_->cost();
   cost_.trees_s = cost.trees_s;
   cost_.sweep_s = cost.sweep_s;
   cost_.counts = cost.counts;
-  return cost_;
+}
+
+std::vector<Batch> Job::run_in_batches(std::size_t begin, std::size_t end) {
+  const std::size_t step = (end - begin + kMostBatches - 1) / kMostBatches;
+  std::vector<Batch> batches;
+  for (std::size_t at = begin; at < end; at += step) {
+    const JobCost before = cost_;
+    run(at, std::min(at + step, end));
+    batches.push_back({cost_.trees_s - before.trees_s, cost_.sweep_s - before.sweep_s,
+                       cost_.wall_s - before.wall_s, cost_.cpu_s - before.cpu_s});
+  }
+  return batches;
+}
+
+void keep_fastest(std::vector<Batch>& best, const std::vector<Batch>& now) {
+  if (best.empty()) best = now;
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    if (now.at(i).wall_s < best[i].wall_s) best[i] = now[i];
+  }
+}
+
+double trees_cpu(const std::vector<Batch>& batches) {
+  double sum = 0;
+  for (const Batch& b : batches) sum += b.cpu_of(b.trees_s);
+  return sum;
+}
+
+double sweep_cpu(const std::vector<Batch>& batches) {
+  double sum = 0;
+  for (const Batch& b : batches) sum += b.cpu_of(b.sweep_s);
+  return sum;
 }
 
 }  // namespace affskel::bench

@@ -73,7 +73,7 @@ std::string result_line(const LimitSearch& search, const RowResult& r) {
 std::vector<LimitSearch> find_limits(MeshStore& meshes, const LimitOptions& options) {
   std::vector<LimitSearch> searches(2);
   searches[0].what = "triangles N";
-  for (std::uint32_t n = 1000000;; n *= 2) {
+  for (std::uint32_t n = options.first_triangles;; n *= 2) {
     if (n > kMostTriangles) {
       searches[0].reason = "the generator's limit";
       break;
@@ -81,7 +81,7 @@ std::vector<LimitSearch> find_limits(MeshStore& meshes, const LimitOptions& opti
     if (!try_next(job_of(n, 100000), meshes, options, searches[0])) break;
   }
   searches[1].what = "points R";
-  for (std::uint64_t r = 10000000;; r *= 2) {
+  for (std::uint64_t r = options.first_points;; r *= 2) {
     if (r > kMostPoints) {
       searches[1].reason = "the lattice's limit";
       break;
@@ -100,8 +100,11 @@ std::uint64_t available_memory() {
   return 0;
 }
 
-std::string limits_markdown(const std::vector<LimitSearch>& searches) {
-  std::string text;
+std::string limits_markdown(const std::vector<LimitSearch>& searches, const LimitOptions& options) {
+  char text_of_options[96];
+  std::snprintf(text_of_options, sizeof text_of_options, "Jobs may use %.1f GB and %.0f s.\n",
+                static_cast<double>(options.memory) / (1 << 30), options.longest_s);
+  std::string text = text_of_options;
   for (const LimitSearch& search : searches) {
     text += "\n### Doubling the " + search.what +
             "\n\n| row | N | R | wall s | peak MB | bytes per further triangle or point |\n"

@@ -9,6 +9,7 @@
 
 #include "forked.h"
 #include "job.h"
+#include "reference_time.h"
 #include "yardsticks.h"
 
 namespace affskel::bench {
@@ -16,7 +17,7 @@ namespace {
 
 // Short jobs are repeated until they have taken this long together, or so often.
 constexpr double kRepeatSeconds = 2;
-constexpr int kMaxRepeats = 5;
+constexpr int kMaxRepeats = 20;
 constexpr int kYardstickRepeats = 3;
 constexpr int kTwoThreadRepeats = 3;
 
@@ -27,10 +28,6 @@ double peak_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-double cpu_of(const JobCost& cost) {
-  return cost.prepare_cpu_s + cost.erode_cpu_s;
 }
 
 void describe(const Job& job, RowResult& result) {
@@ -47,25 +44,27 @@ void take(const JobCost& cost, RowResult& result) {
   result.trees_s = cost.trees_s;
   result.sweep_s = cost.sweep_s;
   result.wall_s = cost.wall_s;
-  result.cpu_share = std::min(1.0, cost.erode_cpu_s / cost.erode_s);
   result.chords_evaluated = cost.counts.evaluated;
   result.chords_tested = cost.counts.tested;
 }
 
 void run_job(const RowSpec& row, const std::string& off_file, RowResult& result) {
   JobCost best;
+  std::vector<Batch> batches;
   double spent = 0;
   for (result.repeats = 0; result.repeats < kMaxRepeats && spent < kRepeatSeconds; ++result.repeats) {
     Job job(off_file, row, 1);
-    const JobCost cost = job.run();
-    spent += cost.wall_s;
+    keep_fastest(batches, job.run_in_batches(0, job.list().size()));
+    spent += job.cost().wall_s;
     if (result.repeats == 0) {
       result.peak_mb = peak_mb();
       describe(job, result);
     }
-    if (result.repeats == 0 || cpu_of(cost) < cpu_of(best)) best = cost;
+    if (result.repeats == 0 || job.cost().wall_s < best.wall_s) best = job.cost();
   }
   take(best, result);
+  result.trees_cpu_s = trees_cpu(batches);
+  result.sweep_cpu_s = sweep_cpu(batches);
 }
 
 void run_yardsticks(const RowSpec& row, const std::string& off_file, RowResult& result) {
@@ -84,9 +83,11 @@ void run_yardsticks(const RowSpec& row, const std::string& off_file, RowResult& 
 double two_threads_s(const RowSpec& row, const std::string& off_file) {
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTwoThreadRepeats; ++i) {
-    const JobCost cost = Job(off_file, row, 2).run();
-    best = std::min(best, cost.wall_s);
-    if (cost.erode_cpu_s >= kTwoProcessors * cost.erode_s) break;
+    Job job(off_file, row, 2);
+    const double prepare_s = job.cost().wall_s;
+    job.run();
+    best = std::min(best, job.cost().wall_s);
+    if (job.cost().cpu_s >= kTwoProcessors * (job.cost().wall_s - prepare_s)) break;
   }
   return best;
 }
@@ -98,6 +99,7 @@ RowResult measure_here(const RowSpec& row, const std::string& off_file, const Me
   if (options.two_threads && result.wall_s >= kLongJob) {
     result.wall_two_threads_s = two_threads_s(row, off_file);
   }
+  if (options.reference_s > 0) result.reference = run_reference(row, off_file, options.reference_s);
   return result;
 }
 
@@ -127,10 +129,11 @@ RowResult better_of(const RowResult& a, const RowResult& b) {
   if (!b.error.empty()) return a;
   RowResult best = a.wall_s <= b.wall_s ? a : b;
   const RowResult& other = a.wall_s <= b.wall_s ? b : a;
-  best.trees_s = std::min(a.trees_s * a.cpu_share, b.trees_s * b.cpu_share) / best.cpu_share;
-  best.sweep_s = std::min(a.sweep_s * a.cpu_share, b.sweep_s * b.cpu_share) / best.cpu_share;
+  best.trees_cpu_s = std::min(a.trees_cpu_s, b.trees_cpu_s);
+  best.sweep_cpu_s = std::min(a.sweep_cpu_s, b.sweep_cpu_s);
   keep_less(best.sort_unit_s, other.sort_unit_s);
   keep_less(best.plain_ns, other.plain_ns);
+  if (!best.reference) best.reference = other.reference;
   return best;
 }
 

@@ -9,6 +9,8 @@
 namespace affskel::bench {
 
 struct MeasureOptions {
+  double reference_s =
+      0;  ///< processor seconds for timing the published program, see run_reference(); 0: do not
   bool two_threads = true;         ///< also on two threads, where one thread takes kLongJob or more
   std::uint64_t memory_limit = 0;  ///< bytes of address space for the row's process; 0: no limit
 };
@@ -21,7 +23,7 @@ inline constexpr double kLongJob = 5;
 /// comes back with its error.
 RowResult measure(const RowSpec& row, const std::string& off_file, const MeasureOptions& options);
 
-/// The better of two measurements of the same row: least processor time for every figure on its own.
+/// The better of two measurements of the same row: the least time for every figure on its own.
 RowResult better_of(const RowResult& a, const RowResult& b);
 
 }  // namespace affskel::bench

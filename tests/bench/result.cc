@@ -32,7 +32,8 @@ void visit_fields(Result& r, const Visit& visit) {
   visit("trees_s", r.trees_s);
   visit("sweep_s", r.sweep_s);
   visit("wall_s", r.wall_s);
-  visit("cpu_share", r.cpu_share);
+  visit("trees_cpu_s", r.trees_cpu_s);
+  visit("sweep_cpu_s", r.sweep_cpu_s);
   visit("repeats", r.repeats);
   visit("peak_mb", r.peak_mb);
   visit("chords_evaluated", r.chords_evaluated);
@@ -45,12 +46,12 @@ void visit_fields(Result& r, const Visit& visit) {
 
 std::optional<double> RowResult::trees_per_sort() const {
   if (!sort_unit_s) return std::nullopt;
-  return trees_s * cpu_share / (static_cast<double>(directions) * *sort_unit_s);
+  return trees_cpu_s / (static_cast<double>(directions) * *sort_unit_s);
 }
 
 std::optional<double> RowResult::plain_per_pruned() const {
   if (!plain_ns) return std::nullopt;
-  return *plain_ns / (sweep_ns() * cpu_share);
+  return *plain_ns * pairs() / (1e9 * sweep_cpu_s);
 }
 
 std::optional<double> RowResult::two_thread_speed_up() const {

@@ -15,8 +15,8 @@ struct ReferenceTime {
   std::uint64_t triangles_timed = 0;  ///< the sample that was timed and scaled from
 };
 
-/// What was measured for one row.  Times are seconds of the run that took the least processor time,
-/// on one thread unless the name says otherwise.
+/// What was measured for one row.  Times are wall-clock seconds of the fastest run, on one thread
+/// unless the name says otherwise.
 struct RowResult {
   std::string name;
   std::string source;  ///< of the mesh: "generated" or a file's name
@@ -31,9 +31,10 @@ struct RowResult {
   double v0 = 0;                     ///< volume, the mesh's units cubed
 
   double prepare_s = 0, trees_s = 0, sweep_s = 0, wall_s = 0;
-  double cpu_share = 1;  ///< processor time over wall time of the directions: 1 on a quiet machine
-  int repeats = 0;       ///< runs, of which the best is reported
-  double peak_mb = 0;    ///< ru_maxrss of the row's own process after its first run, 2^20 bytes
+  double trees_cpu_s = 0,
+         sweep_cpu_s = 0;  ///< processor time, the fastest run of every stretch of directions
+  int repeats = 0;         ///< runs, of which the best is reported
+  double peak_mb = 0;      ///< ru_maxrss of the row's own process after its first run, 2^20 bytes
   std::uint64_t chords_evaluated = 0, chords_tested = 0;
 
   std::optional<double> sort_unit_s;  ///< processor time of one sort of N/2 pairs

@@ -64,16 +64,10 @@ Yardstick plain_sweep(const std::string& off_file, const RowSpec& row, int repea
   const std::size_t before = std::min<std::size_t>(count / 2, 64);
   const std::size_t wanted = std::max<std::size_t>(8, kPlainChords / job.lattice().points);
   const std::size_t sample = std::min(count - before, wanted);
-  JobCost last = job.run(0, before);
-  double best = kInfinity;
-  for (int i = 0; i < repeats; ++i) {
-    const JobCost now = job.run(before, before + sample);
-    // The sweep's share of the processor time: wall times are other people's, too.
-    const double share = (now.sweep_s - last.sweep_s) / (now.erode_s - last.erode_s);
-    best = std::min(best, share * (now.erode_cpu_s - last.erode_cpu_s));
-    last = now;
-  }
-  return {best / static_cast<double>(sample), sample};
+  job.run(0, before);
+  std::vector<Batch> best;
+  for (int i = 0; i < repeats; ++i) keep_fastest(best, job.run_in_batches(before, before + sample));
+  return {sweep_cpu(best) / static_cast<double>(sample), sample};
 }
 
 }  // namespace affskel::bench

@@ -1,0 +1,153 @@
+#include "drawn_solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/body.h"
+#include "core/shapes.h"
+#include "test_solids.h"
+
+namespace affskel::property {
+namespace {
+
+using core::FieldValue;
+using core::LatticeFrame;
+using core::Mesh;
+using core::Vec3;
+
+// A number of three decimals in [low, high].
+double draw(double low, double high) {
+  const int thousandths = draw_in(0, 1001);
+  return low + (high - low) * thousandths / 1000;
+}
+
+std::uint32_t draw_count(std::uint32_t low, std::uint32_t high) {
+  return draw_in(low, high + 1);
+}
+
+Mesh draw_torus() {
+  const double minor = draw(0.3, 1), major = minor * draw(1.3, 4);
+  return core::make_torus(major, minor, 2 * draw_count(4, 9) * draw_count(4, 7));
+}
+
+Mesh draw_hollow_ball() {
+  const double inner = draw(0.5, 1.5);
+  const Vec3 offset = {draw(-0.5, 0.5), draw(-0.5, 0.5), draw(-0.5, 0.5)};
+  return joined(core::make_sphere(3, 80), core::reversed(core::moved(core::make_sphere(inner, 20), offset)));
+}
+
+// Meshing a body takes a second, so there is one, stretched.
+Mesh draw_body() {
+  static const Mesh body = core::make_body({200, 1.8});
+  Mesh mesh = body;
+  const double x = draw(0.7, 1.4), y = draw(0.7, 1.4);
+  for (Vec3& p : mesh.points) p = {x * p.x, y * p.y, p.z};
+  return mesh;
+}
+
+}  // namespace
+
+Mesh draw_solid() {
+  switch (draw_in(0, 6)) {
+    case 0:
+      return core::make_box(draw(0.5, 3), draw(0.5, 3), draw(0.5, 3), draw_count(1, 3));
+    case 1:
+      return core::make_ellipsoid(draw(0.5, 3), draw(0.5, 3), draw(0.5, 3), 20 * draw_count(1, 4));
+    case 2:
+      return core::make_cone(draw(0.5, 3), draw(0.5, 3), draw_count(3, 24));
+    case 3:
+      return draw_torus();
+    case 4:
+      return draw_hollow_ball();
+    default:
+      return draw_body();
+  }
+}
+
+LatticeFrame draw_frame(const Mesh& mesh, double points) {
+  const core::Solid solid = core::make_solid(mesh);
+  const double spacing = std::cbrt(solid.volume / points);
+  const Vec3 side = solid.bbox_max - solid.bbox_min;
+  LatticeFrame frame;
+  frame.origin = solid.bbox_min + spacing * Vec3{draw(0.05, 0.95), draw(0.05, 0.95), draw(0.05, 0.95)};
+  frame.axes = {Vec3{spacing, 0, 0}, {0, spacing, 0}, {0, 0, spacing}};
+  for (int k = 0; k < 3; ++k)
+    frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(std::ceil(side[k] / spacing));
+  return frame;
+}
+
+std::vector<std::uint32_t> draw_order(std::size_t count) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[draw_in<std::size_t>(0, i)]);
+  return order;
+}
+
+Mesh AffineMap::mesh(Mesh m) const {
+  for (Vec3& p : m.points) p = point(p);
+  return m;
+}
+
+LatticeFrame AffineMap::frame(const LatticeFrame& f) const {
+  return {point(f.origin), {vector(f.axes[0]), vector(f.axes[1]), vector(f.axes[2])}, f.dims};
+}
+
+AffineMap draw_unimodular_map() {
+  // A lower times an upper triangular matrix with ones, its rows scaled by factors of product 1.
+  const double a = draw(-1, 1), b = draw(-1, 1), c = draw(-1, 1), p = draw(-1, 1), q = draw(-1, 1),
+               r = draw(-1, 1);
+  const double s = draw(0.71, 1.41), t = draw(0.71, 1.41);
+  return {{s * Vec3{1, p, q}, t * Vec3{a, 1 + a * p, a * q + r},
+           (1 / (s * t)) * Vec3{b, b * p + c, b * q + c * r + 1}},
+          {draw(-3, 3), draw(-3, 3), draw(-3, 3)}};
+}
+
+Field prepare(const Mesh& mesh, const LatticeFrame& frame, const std::string& directions) {
+  Field field{core::make_solid(mesh), {}, {}, {}};
+  const double unit = 1 / field.solid.scale();
+  field.lattice =
+      core::make_lattice(field.solid, {unit * (frame.origin - field.solid.centre),
+                                       {unit * frame.axes[0], unit * frame.axes[1], unit * frame.axes[2]},
+                                       frame.dims});
+  field.directions = core::make_directions(field.solid, directions);
+  return field;
+}
+
+std::vector<FieldValue> inner_values(const Field& field, const std::vector<std::uint32_t>& list,
+                                     unsigned threads) {
+  core::Erosion erosion(field.solid, field.lattice, field.directions, {threads, false, true});
+  core::ExecutionContext context;
+  erosion.run(list, context);
+  std::vector<FieldValue> values;
+  for (std::uint32_t p = 0; p < field.lattice.points; ++p) values.push_back(erosion.field().value(p));
+  return values;
+}
+
+Field compute(const Mesh& mesh, const LatticeFrame& frame, const std::string& directions) {
+  Field field = prepare(mesh, frame, directions);
+  std::vector<std::uint32_t> all(field.directions.size());
+  std::iota(all.begin(), all.end(), 0U);
+  field.value = inner_values(field, all);
+  const double unit = field.solid.scale();
+  for (FieldValue& value : field.value) {
+    value.erosion *= unit * unit * unit;
+    value.area *= unit * unit;
+  }
+  return field;
+}
+
+Deviation deviation(const Field& a, const Field& b, double relative, double absolute, double factor) {
+  if (a.value.size() != b.value.size()) throw std::invalid_argument("fields of different numbers of points");
+  Deviation largest;
+  for (std::size_t p = 0; p < a.value.size(); ++p) {
+    const double e = a.value[p].erosion, off = std::abs(e - b.value[p].erosion / factor);
+    largest.of_volume = std::max(largest.of_volume, off / a.volume());
+    largest.of_erosion = std::max(largest.of_erosion, off / e);
+    largest.of_bound = std::max(largest.of_bound, off / (relative * e + absolute * a.volume()));
+  }
+  return largest;
+}
+
+}  // namespace affskel::property
