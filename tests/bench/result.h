@@ -31,8 +31,8 @@ struct RowResult {
   double v0 = 0;                     ///< volume, the mesh's units cubed
 
   double prepare_s = 0, trees_s = 0, sweep_s = 0, wall_s = 0;
-  double trees_cpu_s = 0,
-         sweep_cpu_s = 0;  ///< processor time, the fastest run of every stretch of directions
+  double trees_cpu_s = 0;  ///< processor time, of every stretch of directions that of its fastest run
+  double sweep_cpu_s = 0;  ///< the same
   int repeats = 0;         ///< runs, of which the best is reported
   double peak_mb = 0;      ///< ru_maxrss of the row's own process after its first run, 2^20 bytes
   std::uint64_t chords_evaluated = 0, chords_tested = 0;
