@@ -13,7 +13,7 @@ namespace affskel::wire {
 namespace {
 
 // Directions are numbered in 32 bits, 2^32 - 1 meaning "none".
-constexpr std::uint64_t kMaxDirections = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxDirections = std::uint64_t{1} << 24;
 constexpr std::uint64_t kMaxTargetPoints = std::uint64_t{1} << 31;
 
 std::string bits(double value) {
@@ -53,7 +53,7 @@ std::string canonical_direction_part(std::string_view part) {
   const bool random = words[0] == "random" && words.size() == 3;
   if (!sphere && !random) throw bad_directions(part, "not a direction set");
   const std::uint64_t count = parse_number(words[1], part, "N is not a number");
-  if (count < 1 || count > kMaxDirections) throw bad_directions(part, "N must be 1 .. 2^31");
+  if (count < 1 || count > kMaxDirections) throw bad_directions(part, "N must be 1 .. 2^24");
   std::string text = std::string(words[0]) + ":" + std::to_string(count);
   if (random)
     text.append(":").append(std::to_string(parse_number(words[2], part, "SEED must be 0 .. 2^64 - 1")));

@@ -21,8 +21,8 @@ struct ErosionOptions {
 
 /// What an erosion cost, added up over threads.
 struct ErosionCost {
-  double trees_s = 0;  ///< thread time in join trees, seconds
-  double sweep_s = 0;  ///< thread time in sweeps, seconds
+  double trees_s = 0;  ///< in join trees, wall seconds of each thread
+  double sweep_s = 0;  ///< in sweeps, likewise
   SweepCounts counts;
 };
 

@@ -9,7 +9,7 @@ ErosionField::ErosionField(std::uint32_t points, bool track_changes)
       changed_(track_changes ? points : 0, 0) {}
 
 void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
-  const std::lock_guard<std::mutex> guard(lock_of(point));
+  const std::lock_guard<SpinLock> guard(lock_of(point));
   if (!offered.improves({erosion_[point], area_[point], direction_[point]})) return;
   std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
   area_[point] = offered.area;
@@ -22,7 +22,7 @@ void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
 }
 
 FieldValue ErosionField::value(std::uint32_t point) const {
-  const std::lock_guard<std::mutex> guard(lock_of(point));
+  const std::lock_guard<SpinLock> guard(lock_of(point));
   return {erosion_[point], area_[point], direction_[point]};
 }
 
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> ErosionField::take_changes() {
   }
   // A point that improves again from here on is listed again; its value read later is at least as new.
   for (std::uint32_t point : taken) {
-    const std::lock_guard<std::mutex> guard(lock_of(point));
+    const std::lock_guard<SpinLock> guard(lock_of(point));
     changed_[point] = 0;
   }
   return taken;

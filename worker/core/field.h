@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace affskel::core {
@@ -54,14 +55,28 @@ class ErosionField {
 
  private:
   static constexpr std::size_t kLocks = 1024;
-  // A run's points share a lock, which keeps neighbouring offers in one cache line.
-  std::mutex& lock_of(std::uint32_t point) const { return locks_[(point >> 4) % kLocks]; }
+  // Held for a few stores; a mutex each would push the field's own values out of the first cache.
+  class SpinLock {
+   public:
+    void lock() {
+      while (flag_.test_and_set(std::memory_order_acquire)) {
+        while (flag_.test(std::memory_order_relaxed)) std::this_thread::yield();
+      }
+    }
+    void unlock() { flag_.clear(std::memory_order_release); }
+
+   private:
+    std::atomic_flag flag_;
+  };
+
+  // A run's points share a lock.
+  SpinLock& lock_of(std::uint32_t point) const { return locks_[(point >> 4) % kLocks]; }
 
   std::vector<double> erosion_;
   std::vector<double> area_;
   std::vector<std::uint32_t> direction_;
   std::vector<std::uint8_t> changed_;  // per point, empty when not tracked
-  mutable std::array<std::mutex, kLocks> locks_;
+  mutable std::array<SpinLock, kLocks> locks_;
   std::mutex changes_mutex_;
   std::vector<std::uint32_t> changes_;
 };

@@ -10,10 +10,10 @@ namespace {
 constexpr double kRounder = 384.0;
 // The tilt that breaks ties; any vector in no special position will do.
 constexpr Vec3 kTilt{0.5497787143782138, 0.7853981633974483, 0.2861788337373061};
-constexpr int kDigitBits = 11;
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-// Below this many vertices clearing the counters costs more than comparing.
-constexpr std::size_t kFewVertices = 700;
+// Up to this many vertices comparing is quicker than clearing counters, and up to that many four passes
+// over 8 bits are quicker than three over 11.
+constexpr std::size_t kFewVertices = 48;
+constexpr std::size_t kManyVertices = 3000;
 
 }  // namespace
 
@@ -77,13 +77,24 @@ void HeightOrder::sort_entries() {
     });
     return;
   }
-  radix_pass(0, entries_, buffer_);
-  radix_pass(kDigitBits, buffer_, entries_);
-  radix_pass(2 * kDigitBits, entries_, buffer_);
-  entries_.swap(buffer_);
+  if (entries_.size() < kManyVertices) {
+    radix_sort<8>();
+  } else {
+    radix_sort<11>();
+  }
 }
 
+template <int bits>
+void HeightOrder::radix_sort() {
+  for (int shift = 0; shift < 32; shift += bits) {
+    radix_pass<bits>(shift, entries_, buffer_);
+    entries_.swap(buffer_);
+  }
+}
+
+template <int bits>
 void HeightOrder::radix_pass(int shift, const std::vector<Entry>& from, std::vector<Entry>& to) {
+  constexpr std::size_t kDigits = std::size_t{1} << bits;
   std::array<std::uint32_t, kDigits> place{};
   for (const Entry& e : from) ++place[(e.key >> shift) & (kDigits - 1)];
   std::uint32_t sum = 0;

@@ -31,6 +31,9 @@ class HeightOrder {
 
   void compute_keys(const Vec3& d);
   void sort_entries();
+  template <int bits>
+  void radix_sort();
+  template <int bits>
   void radix_pass(int shift, const std::vector<Entry>& from, std::vector<Entry>& to);
   void settle_equal_keys();
   bool below(std::uint32_t a, std::uint32_t b) const;

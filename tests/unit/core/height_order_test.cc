@@ -12,9 +12,9 @@
 namespace affskel::core {
 namespace {
 
-// Both sorts (comparison below 700 vertices, radix above) must give the same total order.
+// All three sorts (comparison, 8-bit and 11-bit digits) must give the order of the heights.
 TEST(HeightOrder, SortsByHeight) {
-  for (std::uint32_t triangles : {80U, 20480U}) {
+  for (std::uint32_t triangles : {20U, 320U, 20480U}) {
     const Solid solid = make_solid(make_sphere(1, triangles));
     const std::vector<Vec3>& points = solid.mesh.points;
     HeightOrder heights(points);
