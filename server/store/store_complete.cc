@@ -13,7 +13,8 @@ namespace {
 
 // Blocks: small enough that many workers share a job and a lost one is soon redone elsewhere, large enough
 // that fetching the field for each of them does not count.
-constexpr std::int64_t kMaxBlocks = 64;
+constexpr std::int64_t kLargeBlocks = 16;
+constexpr std::int64_t kFineBlocks = 64;
 constexpr std::int64_t kMinBlockPositions = 16;
 
 // Kept and sent with the job from then on.
@@ -87,10 +88,18 @@ Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view
   return parts;
 }
 
+// Every block costs its worker two round trips and a commit, so most of them are large; the last quarter is
+// cut finer, so that no worker is left alone with a large one while the others have nothing to do.
 void cut_blocks(Tx& tx, const std::string& job_id, std::int64_t directions) {
-  const std::int64_t size = std::max(kMinBlockPositions, (directions + kMaxBlocks - 1) / kMaxBlocks);
-  for (std::int64_t begin = 0; begin < directions; begin += size) {
-    add_block(tx, job_id, {begin, std::min(directions, begin + size)});
+  const auto part = [&](std::int64_t parts) {
+    return std::max(kMinBlockPositions, (directions + parts - 1) / parts);
+  };
+  const std::int64_t finer_from = directions / 4 * 3;
+  for (std::int64_t begin = 0; begin < directions;) {
+    const std::int64_t end =
+        std::min(directions, begin + part(begin < finer_from ? kLargeBlocks : kFineBlocks));
+    add_block(tx, job_id, {begin, end});
+    begin = end;
   }
 }
 
