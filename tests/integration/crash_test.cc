@@ -12,6 +12,9 @@ namespace {
 constexpr const char* kPoints = "100000";
 constexpr const char* kDirections = "triangles+sphere:8000";
 
+// Shares of the job after which the blow falls.
+constexpr double kMoments[] = {0.03, 0.4, 0.8};
+
 class CrashTest : public testing::Test {
  protected:
   // A job of some seconds, and its field computed without any server.
@@ -49,23 +52,26 @@ class CrashTest : public testing::Test {
     EXPECT_TRUE(lab_.read("field.csv") == lab_.read("plain.csv")) << "the fields differ";
   }
 
+  // Kills the worker at each of the moments and starts another in its place.
+  void kill_three_times(Process& worker, const std::string& id) const {
+    for (double moment : kMoments) {
+      const v1::Job job = wait_for_share(id, moment);
+      ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
+      worker.kill_hard();
+      worker = lab_.worker();
+    }
+  }
+
   Lab lab_;
 };
 
-// Shares of the job after which the blow falls.
-constexpr double kMoments[] = {0.03, 0.4, 0.8};
 const std::vector<std::string> kQuickReports = {"--lease-ms", "1000", "--report-interval-ms", "50"};
 
 TEST_F(CrashTest, TheOnlyWorkerIsKilledThreeTimes) {
   Process server = lab_.server(kQuickReports);
   Process worker = lab_.worker();
   const std::string id = submit();
-  for (double moment : kMoments) {
-    const v1::Job job = wait_for_share(id, moment);
-    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
-    worker.kill_hard();
-    worker = lab_.worker();
-  }
+  kill_three_times(worker, id);
   expect_undisturbed_field(id);
 }
 
@@ -74,12 +80,7 @@ TEST_F(CrashTest, OneOfTwoWorkersIsKilledThreeTimes) {
   Process steady = lab_.worker();
   Process worker = lab_.worker();
   const std::string id = submit();
-  for (double moment : kMoments) {
-    const v1::Job job = wait_for_share(id, moment);
-    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
-    worker.kill_hard();
-    worker = lab_.worker();
-  }
+  kill_three_times(worker, id);
   expect_undisturbed_field(id);
 }
 
