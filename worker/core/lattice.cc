@@ -175,7 +175,10 @@ Lattice make_lattice(const Solid& solid, const LatticeFrame& frame) {
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
-  return LatticeBuilder(solid, frame).run();
+  Lattice lattice = LatticeBuilder(solid, frame).run();
+  const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
+  lattice.spacing = solid.scale() * std::cbrt(std::abs(cell));
+  return lattice;
 }
 
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {

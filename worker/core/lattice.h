@@ -38,7 +38,8 @@ struct AxisRuns {
 /// The sample points of a solid: lattice points inside it, numbered in lattice order (axis 2 fastest).
 struct Lattice {
   LatticeFrame frame;  ///< inner coordinates of the solid
-  double spacing = 0;  ///< mesh units; 0 when the frame was given
+  /// dT, mesh units: the cube root of the volume of the frame's cell.
+  double spacing = 0;
   std::uint32_t points = 0;
   std::array<AxisRuns, 3> axis;
 };

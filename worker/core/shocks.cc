@@ -3,49 +3,10 @@
 #include <array>
 
 #include "core/field.h"
+#include "core/slab_index.h"
 
 namespace affskel::core {
 namespace {
-
-constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
-
-// Which sample point stands at (i, j, k), for three neighbouring i at a time: the whole box would be far
-// larger than the solid in it.
-class SlabIndex {
- public:
-  explicit SlabIndex(const Lattice& lattice) : lattice_(lattice) {
-    const auto& dims = lattice.frame.dims;
-    for (auto& slab : slabs_) slab.assign(std::size_t{dims[1]} * dims[2], kOutside);
-  }
-
-  // Makes i - 1, i and i + 1 available; i must grow by one from call to call, starting at 0.
-  void move_to(std::uint32_t i) {
-    if (i == 0) fill(0);
-    fill(i + 1);
-  }
-
-  std::uint32_t at(std::int64_t i, std::int64_t j, std::int64_t k) const {
-    const auto& dims = lattice_.frame.dims;
-    if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2]) return kOutside;
-    return slabs_[static_cast<std::size_t>(i) % 3][static_cast<std::size_t>(j * dims[2] + k)];
-  }
-
- private:
-  void fill(std::uint32_t i) {
-    auto& slab = slabs_[i % 3];
-    std::fill(slab.begin(), slab.end(), kOutside);
-    const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
-    for (; next_ < runs.size() && runs[next_].start[0] == i; ++next_) {
-      const LatticeRun& run = runs[next_];
-      const std::size_t row = std::size_t{run.start[1]} * lattice_.frame.dims[2] + run.start[2];
-      for (std::uint32_t n = 0; n < run.length; ++n) slab[row + n] = run.first + n;
-    }
-  }
-
-  const Lattice& lattice_;
-  std::array<std::vector<std::uint32_t>, 3> slabs_;
-  std::size_t next_ = 0;
-};
 
 class Divergence {
  public:
@@ -57,7 +18,7 @@ class Divergence {
 
   std::vector<double> run() {
     std::vector<double> result(lattice_.points, 0);
-    std::uint32_t reached = kOutside;
+    std::uint32_t reached = SlabIndex::kOutside;
     for (const LatticeRun& run : lattice_.axis[2].runs) {
       while (reached != run.start[0]) slabs_.move_to(++reached);
       for (std::uint32_t n = 0; n < run.length; ++n) {
@@ -77,7 +38,7 @@ class Divergence {
   Vec3 neighbour(const std::array<std::int64_t, 3>& at, const std::array<int, 3>& step,
                  const Vec3& centre) const {
     const std::uint32_t p = slabs_.at(at[0] + step[0], at[1] + step[1], at[2] + step[2]);
-    return p == kOutside ? centre : normal(p);
+    return p == SlabIndex::kOutside ? centre : normal(p);
   }
 
   double at(const std::array<std::int64_t, 3>& place, std::uint32_t point) const {

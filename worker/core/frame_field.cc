@@ -1,0 +1,58 @@
+#include "core/frame_field.h"
+
+#include <cmath>
+
+namespace affskel::core {
+namespace {
+
+bool is_identity(const std::array<Vec3, 3>& f) {
+  return f == std::array{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+}
+
+Vec3 transposed_times(const std::array<Vec3, 3>& f, const Vec3& v) {
+  return {dot(f[0], v), dot(f[1], v), dot(f[2], v)};
+}
+
+}  // namespace
+
+std::array<Vec3, 3> frame_matrix(const Lattice& lattice) {
+  const std::array<Vec3, 3>& axes = lattice.frame.axes;
+  const bool parallel = axes[0].y == 0 && axes[0].z == 0 && axes[1].x == 0 && axes[1].z == 0 &&
+                        axes[2].x == 0 && axes[2].y == 0 && axes[0].x > 0 && axes[0].x == axes[1].y &&
+                        axes[0].x == axes[2].z;
+  if (parallel) return {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  const double step = std::cbrt(std::abs(dot(axes[0], cross(axes[1], axes[2]))));
+  return {(1 / step) * axes[0], (1 / step) * axes[1], (1 / step) * axes[2]};
+}
+
+DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& directions) {
+  const std::array<Vec3, 3> f = frame_matrix(lattice);
+  if (is_identity(f)) return directions;
+  DirectionSet result;
+  result.reserve(directions.size());
+  for (const Vec3& d : directions) {
+    const Vec3 n = transposed_times(f, d);
+    const double length = norm(n);
+    result.push_back(length > 0 ? (1 / length) * n : Vec3{});
+  }
+  return result;
+}
+
+FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,
+                       std::span<const FieldValue> values) {
+  const std::array<Vec3, 3> f = frame_matrix(lattice);
+  FrameField result;
+  result.spacing = lattice.spacing;
+  result.erosion.reserve(values.size());
+  result.gradient.reserve(values.size());
+  result.direction.reserve(values.size());
+  for (const FieldValue& value : values) {
+    const bool known = value.direction != FieldValue::kNoDirection;
+    result.erosion.push_back(value.erosion);
+    result.gradient.push_back(known ? value.area * transposed_times(f, directions[value.direction]) : Vec3{});
+    result.direction.push_back(value.direction);
+  }
+  return result;
+}
+
+}  // namespace affskel::core
