@@ -100,8 +100,10 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
   if (!std::isfinite(params.threshold()) || params.threshold() < 0) {
     throw std::invalid_argument("the skeleton threshold must be a finite number > 0, or 0 for the default");
   }
-  // == also catches -0.
-  if (params.threshold() == 0) result.set_threshold(kZuckerHummelThreshold);
+  // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
+  if (params.threshold() == 0) {
+    result.set_threshold(result.operator_() == v1::OPERATOR_ZUCKER_HUMMEL ? kZuckerHummelThreshold : 0.0);
+  }
   return result;
 }
 
@@ -112,6 +114,37 @@ v1::SurfaceParams canonical(const v1::SurfaceParams& params) {
   }
   if (params.alpha() == 0) result.set_alpha(0.0);
   *result.mutable_skeleton() = canonical(params.skeleton());
+  if (result.skeleton().operator_() == v1::OPERATOR_CHORDS && result.alpha() != 0) {
+    throw std::invalid_argument("alpha is for point skeletons; the sheet of chords has triangles of its own");
+  }
+  return result;
+}
+
+v1::ErodedParams canonical(const v1::ErodedParams& params) {
+  v1::ErodedParams result = params;
+  switch (params.level_case()) {
+    case v1::ErodedParams::kFraction:
+      if (!(params.fraction() > 0 && params.fraction() < 1)) {
+        throw std::invalid_argument("the fraction of the volume must be a number between 0 and 1");
+      }
+      break;
+    case v1::ErodedParams::kVolume:
+      if (!std::isfinite(params.volume()) || params.volume() <= 0) {
+        throw std::invalid_argument("the volume must be a finite number > 0");
+      }
+      break;
+    case v1::ErodedParams::LEVEL_NOT_SET:
+      result.set_fraction(kErodedFraction);
+  }
+  return result;
+}
+
+v1::SkeletonParams divergence_params(const v1::SkeletonParams& params) {
+  if (params.operator_() == v1::OPERATOR_CHORDS) {
+    throw std::invalid_argument("the operator chords compares chords and has no divergence");
+  }
+  v1::SkeletonParams result;
+  result.set_operator_(params.operator_());
   return result;
 }
 
@@ -130,6 +163,11 @@ std::string cache_key(const v1::SkeletonParams& params) {
 
 std::string cache_key(const v1::SurfaceParams& params) {
   return cache_key(params.skeleton()) + " alpha=" + bits(params.alpha());
+}
+
+std::string cache_key(const v1::ErodedParams& params) {
+  return params.level_case() == v1::ErodedParams::kVolume ? "volume=" + bits(params.volume())
+                                                          : "fraction=" + bits(params.fraction());
 }
 
 }  // namespace affskel::wire

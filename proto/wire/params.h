@@ -9,16 +9,25 @@ namespace affskel::wire {
 /// |H| above which the Zucker-Hummel operator keeps a point: the published threshold.
 inline constexpr double kZuckerHummelThreshold = 7.0;
 
+/// Level of an eroded solid when none is asked for, as a share of v0.
+inline constexpr double kErodedFraction = 0.1;
+
 /// Canonical forms: defaults filled in, the direction set spelled in one way, so that equal requests are
 /// equal messages.  Idempotent.
 /// @throws std::invalid_argument, with a message for people, when a value is out of its range.
 v1::ErosionParams canonical(const v1::ErosionParams& params);
 v1::SkeletonParams canonical(const v1::SkeletonParams& params);
 v1::SurfaceParams canonical(const v1::SurfaceParams& params);
+v1::ErodedParams canonical(const v1::ErodedParams& params);
 
-/// Keys of canonical parameters: equal exactly when the results are equal.  Doubles enter with all bits.
+/// What of canonical skeleton parameters the operator's divergence is a function of.
+/// @throws std::invalid_argument for `chords`, which has none.
+v1::SkeletonParams divergence_params(const v1::SkeletonParams& params);
+
+/// Keys of canonical parameters: equal keys, equal results.  Doubles enter with all bits.
 std::string cache_key(const v1::ErosionParams& params);
 std::string cache_key(const v1::SkeletonParams& params);
 std::string cache_key(const v1::SurfaceParams& params);
+std::string cache_key(const v1::ErodedParams& params);
 
 }  // namespace affskel::wire

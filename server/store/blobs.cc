@@ -97,12 +97,14 @@ void put_mesh(Tx& tx, const std::string& sha256, std::string_view bytes) {
   });
 }
 
-void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items) {
+void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items,
+                  const std::string& quality) {
   if (find_artifact(tx.db, key)) return;
   tx.db.run(
       "INSERT INTO artifacts (erosion_id, kind, params_key, bytes, sha256, items) VALUES (?, ?, ?, ?, ?, ?)",
       key.erosion_id, key.kind, key.params_key, bytes.size(), wire::sha256_hex(bytes), items);
   const std::int64_t id = tx.db.last_insert_rowid();
+  if (!quality.empty()) tx.db.run("UPDATE artifacts SET quality = ? WHERE id = ?", Blob{quality}, id);
   cut(bytes, [&](std::size_t index, std::string_view piece) {
     tx.db.run("INSERT INTO artifact_chunks (artifact_id, idx, data) VALUES (?, ?, ?)", id, index,
               Blob{piece});

@@ -17,12 +17,15 @@ void put_mesh(Tx& tx, const std::string& sha256, std::string_view bytes);
 /// What an artefact is about.
 struct ArtifactKey {
   std::int64_t erosion_id = 0;
-  std::string kind;        ///< "lattice", "directions", "skeleton", "surface"
+  std::string kind;        ///< "lattice", "directions", or the name of the task that derives it
   std::string params_key;  ///< empty for lattice and directions
 };
 
 /// Stores an artefact; an equal key that is there already stays as it is.
-void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items);
+/// @param items points, or triangles of a surface.
+/// @param quality of a skeleton: serialized SkeletonQuality; empty for everything else.
+void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items,
+                  const std::string& quality = {});
 
 /// Its row, if stored.
 std::optional<std::int64_t> find_artifact(Database& db, const ArtifactKey& key);

@@ -26,16 +26,42 @@ void check_ours(Database& db, int newest) {
   }
 }
 
+// Tables that are made anew would take along what refers to them, so that foreign keys rest meanwhile.
+class ForeignKeysOff {
+ public:
+  explicit ForeignKeysOff(Database& db) : db_(db) { db_.execute("PRAGMA foreign_keys = OFF"); }
+  ~ForeignKeysOff() {
+    try {
+      db_.execute("PRAGMA foreign_keys = ON");
+    } catch (const SqliteError&) {
+      // A connection that failed so badly is not used any further.
+    }
+  }
+  ForeignKeysOff(const ForeignKeysOff&) = delete;
+  ForeignKeysOff& operator=(const ForeignKeysOff&) = delete;
+
+  void check() const {
+    if (db_.integer("SELECT count(*) FROM pragma_foreign_key_check") != 0) {
+      throw StoreError(StoreError::Code::kUnusable, db_.file() + ": a migration broke a reference");
+    }
+  }
+
+ private:
+  Database& db_;
+};
+
 }  // namespace
 
 int migrate(Database& db, const std::vector<Migration>& migrations) {
   const int newest = migrations.empty() ? 0 : migrations.back().number;
   check_ours(db, newest);
+  const ForeignKeysOff keys(db);
   for (const Migration& step : migrations) {
     Transaction transaction(db);
     if (schema_version(db) >= step.number) continue;
     db.execute(step.sql);
     db.execute("PRAGMA user_version = " + std::to_string(step.number));
+    keys.check();
     transaction.commit();
     spdlog::info("event=migrated schema={} name={}", step.number, step.name);
   }

@@ -48,7 +48,7 @@ constexpr const char* kJobColumns =
     " j.error_message, j.error_line, j.directions_reported, j.directions_repeated, j.reports, "
     "j.leases_granted,"
     " j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested, j.skeleton_points, e.stride,"
-    " j.erosion_id"
+    " j.erosion_id, j.quality"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -98,6 +98,7 @@ v1::Job read_job(const Statement& row) {
   job.set_cancel_requested(row.flag(26));
   job.set_skeleton_points(natural(row, 27));
   job.set_order_stride(natural(row, 28));
+  if (!row.is_null(30)) parse(*job.mutable_quality(), row.blob(30));
   return job;
 }
 

@@ -15,25 +15,41 @@ struct Derived {
   std::string params;
 };
 
-Derived derived_artifact(const JobRow& job, const v1::FetchArtifactRequest& request) {
+template <typename Params>
+Derived derived(const JobRow& job, v1::TaskKind kind, const Params& params) {
+  return {{job.erosion_id, kind_name(kind), wire::cache_key(params)}, kind, params.SerializeAsString()};
+}
+
+/// Nothing for a kind that is not derived.
+std::optional<Derived> derived_artifact(const JobRow& job, const v1::FetchArtifactRequest& request) {
+  v1::SkeletonParams skeleton;
+  skeleton.ParseFromString(job.skeleton);
+  if (request.has_skeleton()) skeleton = wire::canonical(request.skeleton());
+  v1::SurfaceParams surface = request.surface();
+  if (!surface.has_skeleton()) surface.mutable_skeleton()->ParseFromString(job.skeleton);
+  switch (request.kind()) {
+    case v1::ARTIFACT_KIND_SKELETON:
+      return derived(job, v1::TASK_KIND_SKELETON, skeleton);
+    case v1::ARTIFACT_KIND_DIVERGENCE:
+      return derived(job, v1::TASK_KIND_DIVERGENCE, wire::divergence_params(skeleton));
+    case v1::ARTIFACT_KIND_SURFACE:
+      return derived(job, v1::TASK_KIND_SURFACE, wire::canonical(surface));
+    case v1::ARTIFACT_KIND_ERODED_POINTS:
+      return derived(job, v1::TASK_KIND_ERODED_POINTS, wire::canonical(request.eroded()));
+    case v1::ARTIFACT_KIND_ERODED_SURFACE:
+      return derived(job, v1::TASK_KIND_ERODED_SURFACE, wire::canonical(request.eroded()));
+    default:
+      return std::nullopt;
+  }
+}
+
+Derived checked_derived(const JobRow& job, const v1::FetchArtifactRequest& request) {
   try {
-    v1::SkeletonParams own;
-    own.ParseFromString(job.skeleton);
-    if (request.kind() == v1::ARTIFACT_KIND_SKELETON) {
-      const v1::SkeletonParams params = request.has_skeleton() ? wire::canonical(request.skeleton()) : own;
-      return {{job.erosion_id, "skeleton", wire::cache_key(params)},
-              v1::TASK_KIND_SKELETON,
-              params.SerializeAsString()};
-    }
-    v1::SurfaceParams params = request.surface();
-    if (!params.has_skeleton()) *params.mutable_skeleton() = own;
-    params = wire::canonical(params);
-    return {{job.erosion_id, "surface", wire::cache_key(params)},
-            v1::TASK_KIND_SURFACE,
-            params.SerializeAsString()};
+    if (std::optional<Derived> known = derived_artifact(job, request)) return *std::move(known);
   } catch (const std::invalid_argument& error) {
     throw StoreError(StoreError::Code::kInvalid, error.what());
   }
+  throw StoreError(StoreError::Code::kInvalid, "unknown kind of artefact");
 }
 
 std::string progress_of(const JobRow& job) {
@@ -58,17 +74,17 @@ void require_finished(const JobRow& job) {
 }
 
 /// The task that will bring the artefact: one that is queued already, or a new one.
-std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& derived) {
+std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   if (const std::optional<std::int64_t> task = tx.db.integer(
           "SELECT id FROM tasks WHERE job_id = ? AND kind = ? AND params_key = ? AND state IN ('pending', "
           "'leased')"
           " AND (on_request = 1 OR ?) LIMIT 1",
-          job.id, derived.key.kind, derived.key.params_key, job.active() && !job.cancel_requested)) {
+          job.id, wanted.key.kind, wanted.key.params_key, job.active() && !job.cancel_requested)) {
     return *task;
   }
-  tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + derived.key.kind + " " +
-                           derived.key.params_key);
-  return add_derive_task(tx, job.id, derived.kind, derived.params, derived.key.params_key, true);
+  tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + wanted.key.kind + " " +
+                           wanted.key.params_key);
+  return add_derive_task(tx, job.id, wanted.kind, wanted.params, wanted.key.params_key, true);
 }
 
 }  // namespace
@@ -94,16 +110,13 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
         require_finished(job);
         field = job.erosion_id;
         return 0;
-      case v1::ARTIFACT_KIND_SKELETON:
-      case v1::ARTIFACT_KIND_SURFACE:
-        break;
       default:
-        throw StoreError(StoreError::Code::kInvalid, "unknown kind of artefact");
+        break;
     }
+    const Derived wanted = checked_derived(job, request);
     require_finished(job);
-    const Derived derived = derived_artifact(job, request);
-    artifact = find_artifact(tx.db, derived.key).value_or(0);
-    return artifact != 0 ? 0 : request_derived(tx, job, derived);
+    artifact = find_artifact(tx.db, wanted.key).value_or(0);
+    return artifact != 0 ? 0 : request_derived(tx, job, wanted);
   });
   if (!mesh.empty()) state.reader = read_mesh(file_, mesh);
   if (field != 0) state.reader = read_field(file_, field);

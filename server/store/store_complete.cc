@@ -17,7 +17,7 @@ constexpr std::int64_t kLargeBlocks = 16;
 constexpr std::int64_t kFineBlocks = 64;
 constexpr std::int64_t kMinBlockPositions = 16;
 
-// Kept and sent with the job from then on.
+// Kept and sent with the job from then on: reasons of failure, advice on a skeleton.
 constexpr std::size_t kMaxReasonBytes = 4000;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -125,8 +125,10 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
 void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header, std::string_view data) {
   if (header.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 points or triangles");
   const JobRow job = get_job(tx.db, task.job_id);
+  if (header.quality().advice().size() > kMaxReasonBytes) refuse("the advice on the skeleton is too long");
   put_artifact(tx, {job.erosion_id, kind_name(task.kind), task.params_key}, data,
-               static_cast<std::int64_t>(header.points()));
+               static_cast<std::int64_t>(header.points()),
+               header.has_quality() ? header.quality().SerializeAsString() : std::string());
 }
 
 std::string known_code(const std::string& code) {

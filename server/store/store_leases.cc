@@ -83,8 +83,21 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
       positions->set_end(static_cast<std::uint64_t>(range.end));
     }
   }
-  if (task.kind == v1::TASK_KIND_SKELETON) lease.mutable_skeleton()->ParseFromString(task.params);
-  if (task.kind == v1::TASK_KIND_SURFACE) lease.mutable_surface()->ParseFromString(task.params);
+  switch (task.kind) {
+    case v1::TASK_KIND_SKELETON:
+    case v1::TASK_KIND_DIVERGENCE:
+      lease.mutable_skeleton()->ParseFromString(task.params);
+      break;
+    case v1::TASK_KIND_SURFACE:
+      lease.mutable_surface()->ParseFromString(task.params);
+      break;
+    case v1::TASK_KIND_ERODED_POINTS:
+    case v1::TASK_KIND_ERODED_SURFACE:
+      lease.mutable_eroded()->ParseFromString(task.params);
+      break;
+    default:
+      break;
+  }
   return lease;
 }
 

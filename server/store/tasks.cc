@@ -10,11 +10,14 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::array<std::pair<v1::TaskKind, const char*>, 4> kKinds = {{
+constexpr std::array<std::pair<v1::TaskKind, const char*>, 7> kKinds = {{
     {v1::TASK_KIND_PREPARE, "prepare"},
     {v1::TASK_KIND_ERODE, "erode"},
     {v1::TASK_KIND_SKELETON, "skeleton"},
     {v1::TASK_KIND_SURFACE, "surface"},
+    {v1::TASK_KIND_DIVERGENCE, "divergence"},
+    {v1::TASK_KIND_ERODED_POINTS, "eroded-points"},
+    {v1::TASK_KIND_ERODED_SURFACE, "eroded-surface"},
 }};
 
 v1::TaskKind kind_of(const std::string& name) {
@@ -116,7 +119,7 @@ bool finish_derive(Tx& tx, const JobRow& job) {
   }
   tx.db.run(
       "UPDATE jobs SET state = 'done', stage = 'complete', finished_ms = ?, cancel_requested = 0,"
-      " skeleton_points = (SELECT items FROM artifacts WHERE id = ?) WHERE id = ?",
+      " (skeleton_points, quality) = (SELECT items, quality FROM artifacts WHERE id = ?) WHERE id = ?",
       tx.wall_ms, *skeleton, job.id);
   // A skeleton that another job of the same field has brought meanwhile need not be made again.
   tx.db.run(

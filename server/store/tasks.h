@@ -19,7 +19,7 @@ struct TaskRow {
   std::string state;
   bool on_request = false;
   Range block;         // ERODE
-  std::string params;  // SKELETON, SURFACE: serialized
+  std::string params;  // of the derived kinds: serialized
   std::string params_key;
   std::int64_t losses = 0;
   std::string worker;
@@ -36,7 +36,7 @@ std::optional<TaskRow> find_task(Database& db, std::int64_t id);
 /// The task that holds this token, leased or done.  @throws StoreError kFenced when there is none.
 TaskRow task_of_token(Database& db, const std::string& token);
 
-/// Adds a pending task.  `block` for ERODE, `params` and `params_key` for SKELETON and SURFACE.
+/// Adds a pending task.  `block` for ERODE, `params` and `params_key` for the derived kinds.
 std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind);
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block);
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,

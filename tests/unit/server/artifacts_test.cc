@@ -81,6 +81,45 @@ TEST_F(ArtifactTest, SurfaceTakesTheJobsSkeletonByDefault) {
   EXPECT_EQ(read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader), "surface");
 }
 
+TEST_F(ArtifactTest, DivergenceAndErodedSolidsAreMadeOnRequest) {
+  const v1::Job job = complete_job(10, 20);
+  v1::FetchArtifactRequest divergence = skeleton(job.id(), 3);
+  divergence.set_kind(v1::ARTIFACT_KIND_DIVERGENCE);
+  ASSERT_EQ(store_->open_artifact(divergence).reader, nullptr);
+  v1::Lease task = lease();
+  EXPECT_EQ(task.kind(), v1::TASK_KIND_DIVERGENCE);
+  EXPECT_EQ(task.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+  store_->complete(derive_header(task.token(), "H", 10), "H");
+  divergence.mutable_skeleton()->set_threshold(4);
+  EXPECT_EQ(read_all(*store_->open_artifact(divergence).reader), "H") << "the same for every threshold";
+
+  v1::FetchArtifactRequest eroded = request(job.id(), v1::ARTIFACT_KIND_ERODED_SURFACE);
+  ASSERT_EQ(store_->open_artifact(eroded).reader, nullptr);
+  task = lease();
+  EXPECT_EQ(task.kind(), v1::TASK_KIND_ERODED_SURFACE);
+  EXPECT_EQ(task.eroded().fraction(), 0.1);
+  store_->complete(derive_header(task.token(), "mesh", 2), "mesh");
+  EXPECT_EQ(read_all(*store_->open_artifact(eroded).reader), "mesh");
+  eroded.set_kind(v1::ARTIFACT_KIND_ERODED_POINTS);
+  eroded.mutable_eroded()->set_volume(5);
+  ASSERT_EQ(store_->open_artifact(eroded).reader, nullptr);
+  EXPECT_EQ(lease().eroded().volume(), 5);
+}
+
+TEST_F(ArtifactTest, QualityOfTheDefaultSkeletonBelongsToTheJob) {
+  const v1::Job job = submit();
+  prepare(10, 16);
+  finish_block(lease());
+  const v1::Lease task = lease();
+  ASSERT_EQ(task.kind(), v1::TASK_KIND_SKELETON);
+  v1::CompleteTaskHeader header = derive_header(task.token(), "skeleton", 3);
+  header.mutable_quality()->set_components(2);
+  store_->complete(header, "skeleton");
+  EXPECT_EQ(store_->job(job.id()).quality().components(), 2U);
+  open();
+  EXPECT_EQ(store_->job(job.id()).quality().components(), 2U);
+}
+
 TEST_F(ArtifactTest, RequestsComeBeforeJobs) {
   const v1::Job job = complete_job(10, 20);
   v1::SubmitJobHeader urgent = submit_header("OFF 2");
@@ -125,6 +164,12 @@ TEST_F(ArtifactTest, RefusesWrongRequests) {
   v1::FetchArtifactRequest surface = request(job.id(), v1::ARTIFACT_KIND_SURFACE);
   surface.mutable_surface()->set_alpha(-1);
   EXPECT_STORE_ERROR(store_->open_artifact(surface), kInvalid);
+  v1::FetchArtifactRequest eroded = request(job.id(), v1::ARTIFACT_KIND_ERODED_POINTS);
+  eroded.mutable_eroded()->set_fraction(2);
+  EXPECT_STORE_ERROR(store_->open_artifact(eroded), kInvalid);
+  v1::FetchArtifactRequest divergence = request(job.id(), v1::ARTIFACT_KIND_DIVERGENCE);
+  divergence.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  EXPECT_STORE_ERROR(store_->open_artifact(divergence), kInvalid);
 }
 
 TEST_F(ArtifactTest, ReaderSeesOneStateWhileReportsGoOn) {

@@ -77,5 +77,49 @@ TEST(ParamsTest, SurfaceKeysIncludeTheSkeleton) {
   EXPECT_THROW(canonical(bad), std::invalid_argument);
 }
 
+TEST(ParamsTest, OperatorsOtherThanTheFirstKeepTheirDefaultOpen) {
+  v1::SkeletonParams params;
+  params.set_operator_(v1::OPERATOR_CENTRAL);
+  EXPECT_EQ(canonical(params).threshold(), 0);
+  EXPECT_NE(cache_key(canonical(params)), cache_key(canonical(v1::SkeletonParams())));
+  params.set_operator_(static_cast<v1::Operator>(99));
+  EXPECT_THROW(canonical(params), std::invalid_argument);
+}
+
+TEST(ParamsTest, SheetsOfChordsHaveNoAlpha) {
+  v1::SurfaceParams params;
+  params.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  EXPECT_NO_THROW(canonical(params));
+  params.set_alpha(1);
+  EXPECT_THROW(canonical(params), std::invalid_argument);
+}
+
+TEST(ParamsTest, DivergenceDependsOnTheOperatorAlone) {
+  v1::SkeletonParams params;
+  const v1::SkeletonParams first = divergence_params(canonical(params));
+  params.set_threshold(3);
+  EXPECT_EQ(cache_key(divergence_params(canonical(params))), cache_key(first));
+  params.set_operator_(v1::OPERATOR_SOBEL);
+  EXPECT_NE(cache_key(divergence_params(canonical(params))), cache_key(first));
+  params.set_operator_(v1::OPERATOR_CHORDS);
+  EXPECT_THROW(divergence_params(canonical(params)), std::invalid_argument);
+}
+
+TEST(ParamsTest, ErodedLevelsAreSharesOrVolumes) {
+  EXPECT_EQ(canonical(v1::ErodedParams()).fraction(), kErodedFraction);
+  v1::ErodedParams share, volume;
+  share.set_fraction(0.25);
+  volume.set_volume(0.25);
+  EXPECT_NE(cache_key(canonical(share)), cache_key(canonical(volume)));
+  for (double bad : {0.0, 1.0, -0.5, std::nan("")}) {
+    share.set_fraction(bad);
+    EXPECT_THROW(canonical(share), std::invalid_argument) << bad;
+  }
+  for (double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    volume.set_volume(bad);
+    EXPECT_THROW(canonical(volume), std::invalid_argument) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace affskel::wire

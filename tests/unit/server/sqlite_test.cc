@@ -103,6 +103,34 @@ TEST_F(DatabaseTest, FailedMigrationChangesNothing) {
   EXPECT_EQ(db.integer("PRAGMA user_version"), embedded_migrations().back().number);
 }
 
+TEST_F(DatabaseTest, MigratingKeepsWhatIsStored) {
+  Database db(file(), Database::Mode::kReadWrite);
+  const std::vector<Migration>& all = embedded_migrations();
+  migrate(db, {all[0]});
+  const std::string sha(64, 'a'), id(32, '0');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  db.run(
+      "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
+      "created_ms) VALUES (?, 'n', 'o', 5, 'queued', 'prepare', 1, x'', '', 0)",
+      id);
+  db.run("INSERT INTO tasks (id, job_id, kind, state) VALUES (7, ?, 'prepare', 'pending')", id);
+  db.run(
+      "INSERT INTO artifacts (id, erosion_id, kind, params_key, bytes, sha256, items)"
+      " VALUES (5, 1, 'lattice', '', 2, ?, 0)",
+      sha);
+  db.run("INSERT INTO artifact_chunks (artifact_id, idx, data) VALUES (5, 0, x'0102')");
+  migrate(db);
+  EXPECT_EQ(db.integer("SELECT bytes FROM artifacts WHERE id = 5"), 2);
+  EXPECT_EQ(db.integer("SELECT length(data) FROM artifact_chunks WHERE artifact_id = 5"), 2);
+  EXPECT_EQ(db.integer("SELECT count(*) FROM tasks WHERE id = 7 AND kind = 'prepare'"), 1);
+  EXPECT_EQ(db.integer("PRAGMA foreign_keys"), 1);
+  db.run("DELETE FROM jobs");
+  EXPECT_EQ(db.integer("SELECT count(*) FROM tasks"), 0) << "the new tables refer to the old ones";
+  db.run("DELETE FROM erosions");
+  EXPECT_EQ(db.integer("SELECT count(*) FROM artifact_chunks"), 0);
+}
+
 TEST_F(DatabaseTest, RefusesNewerSchema) {
   Database db(file(), Database::Mode::kReadWrite);
   migrate(db);
