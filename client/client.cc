@@ -67,6 +67,8 @@ void run_command(const CLI::App& app, const Options& options, Console& console, 
       return run_skeleton(context, options.job);
     case Command::kSurface:
       return run_surface(context, options.job);
+    case Command::kErode:
+      return run_erode(context, options.job);
     case Command::kCancel:
       return run_cancel(context, options.job);
     case Command::kResume:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "client/help_format.h"
+#include "client/skeleton_text.h"
 #include "client/utf8.h"
 #include "core/directions.h"
 #include "core/error.h"
@@ -12,8 +13,6 @@
 
 namespace affskel::client {
 namespace {
-
-const std::vector<std::string> kOperators = {"zucker-hummel"};
 
 CLI::Validator positive_number() {
   return CLI::Validator(
@@ -98,12 +97,13 @@ void add_output(CLI::App* sub, Options& options, const std::string& what) {
 }
 
 void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
-  sub->add_option("--operator", skeleton.operator_name, "Divergence operator")
-      ->check(CLI::IsMember(kOperators))
+  sub->add_option("--operator", skeleton.operator_name, "How shocks are found")
+      ->check(CLI::IsMember(operator_names()))
       ->capture_default_str()
       ->type_name("OP");
   sub->add_option("--threshold", skeleton.threshold,
-                  "Keep points with |H| above this (default: the operator's)")
+                  "Keep points with |H| above this, of chords what is more significant (default: the "
+                  "operator's)")
       ->check(positive_number())
       ->type_name("T");
 }
@@ -188,13 +188,27 @@ void add_result_commands(CLI::App& app, Options& options) {
                             "  affskel-client fetch @last field -o body.vtkhdf\n"
                             "  affskel-client fetch @last skeleton -o body.csv\n"
                             "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
-                            "Formats by extension: field .csv .dat .vtkhdf; skeleton .csv .ply .off .xyz;\n"
-                            "surface .off .ply .obj .stl; mesh: the submitted bytes");
+                            "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
+                            "Formats by extension: field .csv .dat .vtkhdf; divergence .csv .dat;\n"
+                            "skeleton and eroded points .csv .ply .off .xyz; surface and eroded surface\n"
+                            ".off .ply .obj .stl; mesh: the submitted bytes. Of an eroded solid this is the\n"
+                            "one at a tenth of the volume; see erode");
   add_job(fetch, options);
   fetch->add_option("ARTEFACT", options.job.artifact, "What to fetch")
       ->required()
-      ->check(CLI::IsMember({"field", "skeleton", "surface", "mesh"}))
+      ->check(CLI::IsMember({"field", "divergence", "skeleton", "surface", "eroded", "mesh"}))
       ->type_name("");
+  fetch
+      ->add_option("--operator", options.job.skeleton.operator_name, "Of the divergence (default: the job's)")
+      ->check(CLI::IsMember(operator_names()))
+      ->type_name("OP");
+  fetch->callback([fetch, &options] {
+    options.command = Command::kFetch;
+    options.job.own_skeleton = fetch->count("--operator") == 0;
+    if (!options.job.own_skeleton && options.job.artifact != "divergence") {
+      throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
+    }
+  });
   add_output(fetch, options, "File to write; the format follows the extension");
 
   CLI::App* skeleton = command(app, options, "skeleton", Command::kSkeleton,
@@ -206,7 +220,7 @@ void add_result_commands(CLI::App& app, Options& options) {
   add_output(skeleton, options, "File to write: .csv .ply .off .xyz");
 
   CLI::App* surface = command(app, options, "surface", Command::kSurface,
-                              "Triangulated skeleton: the alpha shape of its points",
+                              "Triangulated skeleton: the alpha shape of its points, or the sheet of chords",
                               "  affskel-client surface @last -o skeleton.stl\n"
                               "  affskel-client surface @last --threshold 5 --alpha 160000 -o skeleton.obj");
   add_job(surface, options);
@@ -216,6 +230,29 @@ void add_result_commands(CLI::App& app, Options& options) {
       ->type_name("A");
   note_own_skeleton(surface, options, Command::kSurface);
   add_output(surface, options, "File to write: .off .ply .obj .stl");
+
+  CLI::App* erode = command(app, options, "erode", Command::kErode,
+                            "Eroded solid: where E is at least a level, from the stored field",
+                            "  affskel-client erode @last --fraction 0.05 -o eroded.stl\n"
+                            "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply");
+  add_job(erode, options);
+  CLI::Option* fraction = erode->add_option("--fraction", options.job.fraction, "Level as a share of v0")
+                              ->check(CLI::Range(0.0, 1.0) & positive_number())
+                              ->type_name("F");
+  erode->add_option("--volume", options.job.volume, "Level in mesh units cubed")
+      ->check(positive_number())
+      ->type_name("V")
+      ->excludes(fraction);
+  erode->add_option("--as", options.job.form, "points or surface (default: what the extension can hold)")
+      ->check(CLI::IsMember({"points", "surface"}))
+      ->type_name("FORM");
+  erode->callback([erode, &options] {
+    options.command = Command::kErode;
+    if (erode->count("--fraction") + erode->count("--volume") == 0) {
+      throw CLI::RequiredError("--fraction or --volume");
+    }
+  });
+  add_output(erode, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl");
 
   CLI::App* render =
       command(app, options, "render", Command::kRender, "Picture of the body with its skeleton",

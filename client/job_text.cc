@@ -8,6 +8,7 @@
 #include "client/console.h"
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
+#include "client/skeleton_text.h"
 
 namespace affskel::client {
 namespace {
@@ -70,12 +71,6 @@ std::string progress_text(const v1::Job& job) {
   return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total());
 }
 
-std::string skeleton_text(const v1::SkeletonParams& s) {
-  const auto* value = v1::Operator_descriptor()->FindValueByNumber(s.operator_());
-  const std::string name = value == nullptr || value->number() == 0 ? "zucker-hummel" : enum_word(*value);
-  return name + (s.threshold() > 0 ? ", threshold " + shortest(s.threshold()) : ", default threshold");
-}
-
 std::string age_text(std::uint64_t then_ms, std::uint64_t now_ms) {
   return duration_text(std::chrono::milliseconds(now_ms > then_ms ? now_ms - then_ms : 0));
 }
@@ -128,12 +123,15 @@ std::string job_details(const v1::Job& job) {
   text += key_line("directions", progress_text(job));
   if (job.state() == v1::JOB_STATE_DONE) {
     text += key_line("skeleton_points", std::to_string(job.skeleton_points()));
+    for (const auto& [key, value] : quality_lines(job.quality())) {
+      if (job.has_quality() && key != "points") text += key_line("skeleton_" + key, value);
+    }
   }
   if (job.has_prepared()) text += prepared_details(job.prepared());
   text += key_line("asked_sampling", asked_sampling(job.params().sampling()));
   text += key_line("asked_directions",
                    job.params().directions().empty() ? "triangles" : job.params().directions());
-  text += key_line("asked_skeleton", skeleton_text(job.skeleton()));
+  text += key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
   text += key_line("repair", job.params().repair() ? "auto" : "none");
   text += key_line("priority", std::to_string(job.priority()));
   text += key_line("mesh_bytes", std::to_string(job.mesh_bytes()));

@@ -14,6 +14,7 @@ enum class Command {
   kFetch,
   kSkeleton,
   kSurface,
+  kErode,
   kCancel,
   kResume,
   kDelete,
@@ -61,10 +62,13 @@ struct ListOptions {
 struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
-  std::string output;        ///< fetch, skeleton, surface, render
-  SkeletonOptions skeleton;  ///< skeleton, surface
+  std::string output;        ///< fetch, skeleton, surface, erode, render
+  SkeletonOptions skeleton;  ///< skeleton, surface, fetch divergence (its operator)
   bool own_skeleton = true;  ///< neither --operator nor --threshold was given: the job's own
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
+  double fraction = 0;       ///< erode; level as a share of v0, 0 = not given
+  double volume = 0;         ///< erode; level, mesh units cubed, 0 = not given
+  std::string form;          ///< erode; "points" or "surface", empty = by the extension
   int width = 1600;          ///< render; pixels
 };
 

@@ -7,6 +7,7 @@
 #include "client/job_json.h"
 #include "client/job_text.h"
 #include "client/progress.h"
+#include "client/skeleton_text.h"
 
 namespace affskel::client {
 
@@ -42,7 +43,12 @@ void throw_unless_done(const v1::Job& job) {
   }
 }
 
-void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::Job& job) {
+void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
+                   const v1::Job& job) {
+  if (!quality.advice().empty()) {
+    console.warning((skeleton_points == 0 ? "the skeleton is empty: " : "the skeleton: ") + quality.advice());
+    return;
+  }
   if (skeleton_points > 0) return;
   constexpr std::uint64_t kCoarse = 2000;  // below this a solid is only a few points thick
   const std::uint64_t points = job.prepared().points();
@@ -56,11 +62,7 @@ void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::Jo
 
 v1::SkeletonParams skeleton_params(const SkeletonOptions& options) {
   v1::SkeletonParams params;
-  if (options.operator_name != "zucker-hummel") {
-    throw ClientError(ExitCode::kUsage,
-                      "no operator '" + options.operator_name + "'; possible is zucker-hummel");
-  }
-  params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  params.set_operator_(operator_named(options.operator_name));
   params.set_threshold(options.threshold);
   return params;
 }

@@ -50,7 +50,7 @@ void run_watch(Context& context, const JobOptions& options) {
   const v1::Job job = follow(context, options.job, true);
   context.console().result(state_word(job.state()) + "\n");
   throw_unless_done(job);
-  warn_if_empty(context.console(), job.skeleton_points(), job);
+  warn_if_empty(context.console(), job.skeleton_points(), job.quality(), job);
 }
 
 void run_cancel(Context& context, const JobOptions& options) {

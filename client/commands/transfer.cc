@@ -6,10 +6,13 @@
 #include <thread>
 
 #include "client/exporters/atomic_file.h"
+#include "client/exporters/divergence_writer.h"
 #include "client/exporters/field_writer.h"
 #include "client/exporters/mesh_writer.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/skeleton_writer.h"
+#include "client/job_json.h"
+#include "client/skeleton_text.h"
 
 namespace affskel::client {
 namespace {
@@ -94,21 +97,39 @@ class RawSink : public ArtifactSink {
   AtomicFile file_;
 };
 
-std::string operator_text(const v1::SkeletonParams& params) {
-  return "operator zucker-hummel, threshold " +
-         (params.threshold() > 0 ? shortest(params.threshold()) : std::string("default"));
-}
+class DivergenceSink : public ArtifactSink {
+ public:
+  DivergenceSink(FileFormat format, const fs::path& file, const LatticePoints& points)
+      : file_(file), writer_(format, file_, points) {}
+  void begin(const v1::ArtifactHeader&) override {}
+  void data(std::string_view bytes) override { writer_.data(bytes); }
+  void end() override {
+    writer_.finish();
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  DivergenceWriter writer_;
+};
 
 // What a file should say about where it comes from.
-std::vector<std::string> comments_for(const v1::Job& job, const v1::SkeletonParams& skeleton) {
-  return {"affine skeleton of " + job.name(),
-          "job " + job.id(),
-          "mesh sha256 " + job.mesh_sha256(),
-          "spacing " + shortest(job.prepared().spacing()) + ", " + std::to_string(job.prepared().points()) +
-              " sample points, v0 " + shortest(job.prepared().volume()),
-          "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) +
-              " (" + std::to_string(job.prepared().directions()) + ")",
-          operator_text(skeleton)};
+std::vector<std::string> comments_for(const v1::Job& job, const std::string& what, const std::string& how,
+                                      const v1::SkeletonQuality* quality = nullptr) {
+  std::vector<std::string> comments = {
+      what + " of " + job.name(),
+      "job " + job.id(),
+      "mesh sha256 " + job.mesh_sha256(),
+      "spacing " + shortest(job.prepared().spacing()) + ", " + std::to_string(job.prepared().points()) +
+          " sample points, v0 " + shortest(job.prepared().volume()),
+      "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) + " (" +
+          std::to_string(job.prepared().directions()) + ")",
+      how};
+  if (quality != nullptr) {
+    for (const auto& [key, value] : quality_lines(*quality))
+      comments.push_back("quality " + key + ": " + value);
+  }
+  return comments;
 }
 
 }  // namespace
@@ -139,7 +160,7 @@ Written transfer_field(Context& context, const std::string& job, const fs::path&
       request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
         return std::make_unique<FieldSink>(format, file, points, directions);
       });
-  return {file, "field", points.count(), header.job()};
+  return {file, "field", "points", points.count(), header.job()};
 }
 
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
@@ -149,11 +170,16 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
   if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
   v1::ArtifactHeader header;
   const v1::SkeletonPoints points = parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
+  const v1::SkeletonParams& params = skeleton ? *skeleton : header.job().skeleton();
+  const v1::SkeletonQuality* quality = points.has_quality() ? &points.quality() : nullptr;
   AtomicFile out(file);
-  write_skeleton(format, points, comments_for(header.job(), skeleton ? *skeleton : header.job().skeleton()),
-                 out);
+  write_skeleton(
+      format, points,
+      comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality),
+      out);
   out.commit();
-  return {file, "skeleton", static_cast<std::uint64_t>(points.point_size()), header.job()};
+  return {file,         "skeleton",      "points", static_cast<std::uint64_t>(points.point_size()),
+          header.job(), points.quality()};
 }
 
 Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
@@ -162,34 +188,87 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
   if (surface != nullptr) *request.mutable_surface() = *surface;
   v1::ArtifactHeader header;
-  const core::Mesh mesh = parse_surface(fetch_patiently(context, request, header, "surface"));
+  const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "surface"));
   const bool own = surface == nullptr || !surface->has_skeleton();
+  const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
+  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
   AtomicFile out(file);
-  write_mesh(format, mesh, comments_for(header.job(), own ? header.job().skeleton() : surface->skeleton()),
+  write_mesh(
+      format, fetched.mesh,
+      comments_for(header.job(), "affine skeleton, triangulated", "operator " + skeleton_params_text(params),
+                   sheet ? &fetched.quality : nullptr),
+      [&](std::string_view bytes) { out.write(bytes); }, fetched.properties);
+  out.commit();
+  return {file, "surface", "triangles", fetched.mesh.triangles.size(), header.job(), fetched.quality};
+}
+
+Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
+                            const fs::path& file) {
+  const FileFormat format = choose_format(file, divergence_formats(), "divergence");
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_DIVERGENCE);
+  if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
+  request.set_job(context.session().get_job(job).id());
+  const LatticePoints points(
+      fetch_message<v1::Lattice>(context, request.job(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  const WaitingNote note(context.console(), "divergence");
+  const v1::ArtifactHeader header = context.session().fetch(request, [&]() -> std::unique_ptr<ArtifactSink> {
+    return std::make_unique<DivergenceSink>(format, file, points);
+  });
+  return {file, "divergence", "points", points.count(), header.job()};
+}
+
+Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
+                               const fs::path& file) {
+  const FileFormat format = choose_format(file, skeleton_formats(), "eroded solid's points");
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_POINTS);
+  *request.mutable_eroded() = params;
+  v1::ArtifactHeader header;
+  const v1::SkeletonPoints points =
+      parse_eroded_points(fetch_patiently(context, request, header, "eroded solid"));
+  AtomicFile out(file);
+  write_skeleton(format, points,
+                 comments_for(header.job(), "eroded solid", "level " + eroded_params_text(params)), out);
+  out.commit();
+  return {file, "eroded", "points", static_cast<std::uint64_t>(points.point_size()), header.job()};
+}
+
+Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
+                                const fs::path& file) {
+  const FileFormat format = choose_format(file, surface_formats(), "eroded solid's surface");
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_SURFACE);
+  *request.mutable_eroded() = params;
+  v1::ArtifactHeader header;
+  const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "eroded solid"));
+  AtomicFile out(file);
+  write_mesh(format, fetched.mesh,
+             comments_for(header.job(), "eroded solid",
+                          "level " + eroded_params_text(params) + ", volume " + shortest(fetched.volume)),
              [&](std::string_view bytes) { out.write(bytes); });
   out.commit();
-  return {file, "surface", mesh.triangles.size(), header.job()};
+  return {file, "eroded", "triangles", fetched.mesh.triangles.size(), header.job(), {}, fetched.volume};
 }
 
 Written transfer_mesh(Context& context, const std::string& job, const fs::path& file) {
   const v1::ArtifactHeader header = context.session().fetch(
       request_for(job, v1::ARTIFACT_KIND_MESH),
       [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(file); });
-  return {file, "mesh", header.bytes(), header.job()};
+  return {file, "mesh", "bytes", header.bytes(), header.job()};
 }
 
 nlohmann::ordered_json written_json(const Written& written) {
-  const char* unit = written.kind == "surface" ? "triangles" : written.kind == "mesh" ? "bytes" : "points";
-  return {{"job", written.job.id()},
-          {"artefact", written.kind},
-          {"file", written.file.string()},
-          {unit, written.items}};
+  nlohmann::ordered_json document = {{"job", written.job.id()},
+                                     {"artefact", written.kind},
+                                     {"file", written.file.string()},
+                                     {written.unit, written.items}};
+  if (written.volume > 0) document["volume"] = written.volume;
+  if (written.quality.points() > 0) document["quality"] = to_json(written.quality);
+  return document;
 }
 
 void tell_written(Console& console, const Written& written) {
-  const char* unit = written.kind == "surface" ? "triangles" : written.kind == "mesh" ? "bytes" : "points";
   console.note("wrote " + written.file.string() + " (" + written.kind + ", " + std::to_string(written.items) +
-               " " + unit + ")");
+               " " + written.unit +
+               (written.volume > 0 ? ", volume " + rounded(written.volume, 6) : std::string()) + ")");
 }
 
 }  // namespace affskel::client

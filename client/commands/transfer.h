@@ -10,18 +10,27 @@ namespace affskel::client {
 /// What a transfer wrote.
 struct Written {
   std::filesystem::path file;
-  std::string kind;         ///< "field", "skeleton", "surface", "mesh"
-  std::uint64_t items = 0;  ///< points, triangles or bytes
-  v1::Job job;              ///< as the server sent it along
+  std::string kind;                  ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
+  std::string unit;                  ///< what is counted: "points", "triangles" or "bytes"
+  std::uint64_t items = 0;           ///< how many
+  v1::Job job;                       ///< as the server sent it along
+  v1::SkeletonQuality quality = {};  ///< of a skeleton, or a sheet of chords
+  double volume = 0;                 ///< enclosed by an eroded solid's surface
 };
 
 /// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
-/// parameters.
+/// parameters.  Those that have to be computed first are waited for.
 Written transfer_field(Context& context, const std::string& job, const std::filesystem::path& file);
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
                           const std::filesystem::path& file);
 Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
                          const std::filesystem::path& file);
+Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
+                            const std::filesystem::path& file);
+Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
+                               const std::filesystem::path& file);
+Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
+                                const std::filesystem::path& file);
 Written transfer_mesh(Context& context, const std::string& job, const std::filesystem::path& file);
 
 /// Runs a fetch that may have to wait for a worker; says so after a moment.

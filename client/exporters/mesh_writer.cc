@@ -2,8 +2,8 @@
 
 #include <limits>
 #include <string_view>
+#include <utility>
 
-#include "affskel/v1/types.pb.h"
 #include "client/console.h"
 #include "client/error.h"
 #include "client/exporters/numbers.h"
@@ -14,16 +14,25 @@ namespace {
 
 using Write = std::function<void(std::string_view)>;
 
-void write_ply(const core::Mesh& mesh, const std::vector<std::string>& comments, const Write& write) {
+void write_ply(const core::Mesh& mesh, const std::vector<std::string>& comments,
+               const std::vector<VertexProperty>& properties, const Write& write) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   for (const std::string& comment : comments) text += "comment " + printable(comment) + "\n";
   text += "element vertex " + std::to_string(mesh.points.size()) +
-          "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-          std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+          "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (const VertexProperty& property : properties) {
+    for (const std::string& name : property.components) text += "property double " + name + "\n";
+  }
+  text += "element face " + std::to_string(mesh.triangles.size()) +
+          "\nproperty list uchar int vertex_indices\nend_header\n";
   write(text);
-  for (const core::Vec3& p : mesh.points) {
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     text.clear();
-    for (int c = 0; c < 3; ++c) append_bytes(text, p[c]);
+    for (int c = 0; c < 3; ++c) append_bytes(text, mesh.points[v][c]);
+    for (const VertexProperty& property : properties) {
+      const std::size_t n = property.components.size();
+      for (std::size_t c = 0; c < n; ++c) append_bytes(text, property.values[n * v + c]);
+    }
     write(text);
   }
   for (const core::Triangle& t : mesh.triangles) {
@@ -71,31 +80,49 @@ void write_stl(const core::Mesh& mesh, const Write& write) {
   }
 }
 
+[[noreturn]] void damaged(const std::string& what) {
+  throw ClientError(ExitCode::kInternal, "the server sent a damaged surface: " + what);
+}
+
+void add_property(FetchedSurface& surface, std::vector<std::string> components,
+                  const google::protobuf::RepeatedField<double>& values) {
+  if (values.empty()) return;
+  if (static_cast<std::size_t>(values.size()) != components.size() * surface.mesh.points.size()) {
+    damaged("a vertex without its properties");
+  }
+  surface.properties.push_back({std::move(components), {values.begin(), values.end()}});
+}
+
 }  // namespace
 
-core::Mesh parse_surface(const std::string& bytes) {
+FetchedSurface parse_surface(const std::string& bytes) {
   v1::TriangleMesh message;
   if (!message.ParseFromString(bytes) || message.xyz_size() % 3 != 0 || message.corners_size() % 3 != 0) {
-    throw ClientError(ExitCode::kInternal, "the server sent a damaged surface");
+    damaged("odd numbers");
   }
-  core::Mesh mesh;
+  FetchedSurface surface;
   for (int i = 0; i < message.xyz_size(); i += 3) {
-    mesh.points.push_back({message.xyz(i), message.xyz(i + 1), message.xyz(i + 2)});
+    surface.mesh.points.push_back({message.xyz(i), message.xyz(i + 1), message.xyz(i + 2)});
   }
   for (int i = 0; i < message.corners_size(); i += 3) {
     const core::Triangle t = {message.corners(i), message.corners(i + 1), message.corners(i + 2)};
     for (const std::uint32_t corner : t) {
-      if (corner >= mesh.points.size()) {
-        throw ClientError(ExitCode::kInternal, "the server sent a damaged surface: a corner out of range");
-      }
+      if (corner >= surface.mesh.points.size()) damaged("a corner out of range");
     }
-    mesh.triangles.push_back(t);
+    surface.mesh.triangles.push_back(t);
   }
-  return mesh;
+  add_property(surface, {"E"}, message.erosion());
+  add_property(surface, {"strength"}, message.strength());
+  add_property(surface, {"area"}, message.area());
+  add_property(surface, {"nx_a", "ny_a", "nz_a"}, message.normal_a());
+  add_property(surface, {"nx_b", "ny_b", "nz_b"}, message.normal_b());
+  surface.quality = message.quality();
+  surface.volume = message.volume();
+  return surface;
 }
 
 void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std::string>& comments,
-                const Write& write) {
+                const Write& write, const std::vector<VertexProperty>& properties) {
   if (mesh.points.size() > std::size_t{std::numeric_limits<std::int32_t>::max()} ||
       mesh.triangles.size() > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
     throw ClientError(ExitCode::kLimit, "the mesh has too many elements for this format");
@@ -104,7 +131,7 @@ void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std
     case FileFormat::kOff:
       return write(core::write_off(mesh));
     case FileFormat::kPly:
-      return write_ply(mesh, comments, write);
+      return write_ply(mesh, comments, properties, write);
     case FileFormat::kObj:
       return write_obj(mesh, comments, write);
     case FileFormat::kStl:

@@ -4,21 +4,37 @@
 #include <string>
 #include <vector>
 
+#include "affskel/v1/types.pb.h"
 #include "client/exporters/format.h"
 #include "core/mesh.h"
 
 namespace affskel::client {
 
-/// Parses a SURFACE artefact.
-/// @throws ClientError kInternal when an index is out of range.
-core::Mesh parse_surface(const std::string& bytes);
+/// A number per vertex, or three (`components`), one vertex after the other.
+struct VertexProperty {
+  std::vector<std::string> components;  ///< their names
+  std::vector<double> values;
+};
+
+/// A surface as the server sends it.
+struct FetchedSurface {
+  core::Mesh mesh;
+  std::vector<VertexProperty> properties;  ///< of a sheet of chords
+  v1::SkeletonQuality quality;             ///< of a sheet of chords
+  double volume = 0;                       ///< of an eroded solid
+};
+
+/// Parses a SURFACE or ERODED_SURFACE artefact.
+/// @throws ClientError kInternal when an index is out of range or a vertex lacks a property.
+FetchedSurface parse_surface(const std::string& bytes);
 
 /// Writes a mesh in one of surface_formats(): .off and .obj as text that reads back exactly, .ply binary with
-/// double coordinates, .stl binary (single precision, which is all that STL has).
+/// double coordinates and the properties, .stl binary (single precision, which is all that STL has).
 /// @param comments lines for formats that have comments (PLY, OBJ), without line breaks.
 /// @param write takes the bytes, piece by piece.
 /// @throws ClientError kLimit when the mesh has more elements than the format can count.
 void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std::string>& comments,
-                const std::function<void(std::string_view)>& write);
+                const std::function<void(std::string_view)>& write,
+                const std::vector<VertexProperty>& properties = {});
 
 }  // namespace affskel::client

@@ -16,7 +16,8 @@ void append_position(std::string& row, const v1::SkeletonPoints& s, int p, char 
 }
 
 void write_csv(const v1::SkeletonPoints& s, AtomicFile& file) {
-  file.write("x,y,z,E,nx,ny,nz,direction,H\n");
+  const bool divergence = !s.divergence().empty() || s.point_size() == 0;
+  file.write(divergence ? "x,y,z,E,nx,ny,nz,direction,H\n" : "x,y,z,E,nx,ny,nz,direction\n");
   std::string row;
   for (int p = 0; p < s.point_size(); ++p) {
     row.clear();
@@ -28,20 +29,24 @@ void write_csv(const v1::SkeletonPoints& s, AtomicFile& file) {
     }
     row.push_back(',');
     append_integer(row, s.direction(p));
-    row.push_back(',');
-    append_exact(row, s.divergence(p));
+    if (divergence) {
+      row.push_back(',');
+      append_exact(row, s.divergence(p));
+    }
     row.push_back('\n');
     file.write(row);
   }
 }
 
 void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comments, AtomicFile& file) {
+  const bool divergence = !s.divergence().empty() || s.point_size() == 0;
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   for (const std::string& comment : comments) header += "comment " + printable(comment) + "\n";
   header += "element vertex " + std::to_string(s.point_size()) + "\n";
-  for (const char* name : {"x", "y", "z", "E", "nx", "ny", "nz", "H"}) {
+  for (const char* name : {"x", "y", "z", "E", "nx", "ny", "nz"}) {
     header += std::string("property double ") + name + "\n";
   }
+  if (divergence) header += "property double H\n";
   header += "property int direction\nend_header\n";
   file.write(header);
   std::string row;
@@ -50,7 +55,7 @@ void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comm
     for (int c = 0; c < 3; ++c) append_bytes(row, s.xyz(3 * p + c));
     append_bytes(row, s.erosion(p));
     for (int c = 0; c < 3; ++c) append_bytes(row, s.normal(3 * p + c));
-    append_bytes(row, s.divergence(p));
+    if (divergence) append_bytes(row, s.divergence(p));
     append_bytes(row, static_cast<std::int32_t>(s.direction(p)));
     file.write(row);
   }
@@ -66,15 +71,26 @@ void write_coordinates(const v1::SkeletonPoints& s, AtomicFile& file) {
   }
 }
 
+bool consistent(const v1::SkeletonPoints& s) {
+  const int n = s.point_size();
+  return s.xyz_size() == 3 * n && s.erosion_size() == n && s.normal_size() == 3 * n &&
+         s.direction_size() == n;
+}
+
 }  // namespace
 
 v1::SkeletonPoints parse_skeleton(const std::string& bytes) {
   v1::SkeletonPoints s;
-  const bool parsed = s.ParseFromString(bytes);
-  const int n = s.point_size();
-  if (!parsed || s.xyz_size() != 3 * n || s.erosion_size() != n || s.normal_size() != 3 * n ||
-      s.direction_size() != n || s.divergence_size() != n) {
+  if (!s.ParseFromString(bytes) || !consistent(s) || s.divergence_size() != s.point_size()) {
     throw ClientError(ExitCode::kInternal, "the server sent a damaged skeleton");
+  }
+  return s;
+}
+
+v1::SkeletonPoints parse_eroded_points(const std::string& bytes) {
+  v1::SkeletonPoints s;
+  if (!s.ParseFromString(bytes) || !consistent(s) || s.divergence_size() != 0) {
+    throw ClientError(ExitCode::kInternal, "the server sent a damaged eroded solid");
   }
   return s;
 }

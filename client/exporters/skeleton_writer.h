@@ -9,12 +9,13 @@
 
 namespace affskel::client {
 
-/// Parses a SKELETON artefact.
+/// Parse a SKELETON and an ERODED_POINTS artefact (whose points have no H).
 /// @throws ClientError kInternal when its arrays differ in length.
 v1::SkeletonPoints parse_skeleton(const std::string& bytes);
+v1::SkeletonPoints parse_eroded_points(const std::string& bytes);
 
 /// Writes skeleton points in one of skeleton_formats(): .csv `x,y,z,E,nx,ny,nz,direction,H`; .ply binary with
-/// the same as properties; .off and .xyz coordinates alone.
+/// the same as properties; .off and .xyz coordinates alone.  Points of an eroded solid come without H.
 /// @param comments lines for formats that have comments (PLY), without line breaks.
 void write_skeleton(FileFormat format, const v1::SkeletonPoints& skeleton,
                     const std::vector<std::string>& comments, AtomicFile& file);

@@ -18,9 +18,9 @@ inline constexpr std::size_t kFieldRecordBytes = 20;
 /// Where a server listens: `unix:PATH` or `HOST:PORT`.
 struct Address {
   bool is_unix = false;
-  std::string path;   ///< of the socket, when is_unix
-  std::string host;   ///< name or IP, without brackets, when not
-  int port = 0;       ///< 0 = any free one (listening only)
+  std::string path;  ///< of the socket, when is_unix
+  std::string host;  ///< name or IP, without brackets, when not
+  int port = 0;      ///< 0 = any free one (listening only)
 
   /// For gRPC: `unix:PATH`, `HOST:PORT` or `[V6]:PORT`.
   std::string target() const;

@@ -1,15 +1,12 @@
 // The client from its arguments to its exit code, against a server in this process.
 #include "client/client.h"
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "client_fixture.h"
 #include "core/mesh_io.h"
 #include "core/shapes.h"
-#include "fake_service.h"
-#include "sample_data.h"
 #include "test_environment.h"
 #include "wire/sha256.h"
 
@@ -17,70 +14,6 @@ namespace affskel::client {
 namespace {
 
 using nlohmann::json;
-
-v1::Job sample_job(v1::JobState state) {
-  v1::Job job;
-  job.set_id("0123456789abcdef0123456789abcdef");
-  job.set_name("cube");
-  job.set_owner("me");
-  job.set_state(state);
-  job.set_stage(state == v1::JOB_STATE_DONE ? v1::JOB_STAGE_COMPLETE : v1::JOB_STAGE_ERODE);
-  job.set_directions_done(state == v1::JOB_STATE_DONE ? 12 : 5);
-  job.set_directions_total(12);
-  job.mutable_prepared()->set_points(5);
-  job.mutable_prepared()->set_directions(2);
-  job.mutable_prepared()->set_volume(8e9);
-  job.mutable_prepared()->set_spacing(200);
-  job.mutable_counters()->set_reports(3);
-  job.set_skeleton_points(state == v1::JOB_STATE_DONE ? 2 : 0);
-  job.set_mesh_bytes(std::uint64_t{1} << 53);
-  return job;
-}
-
-struct Outcome {
-  int exit_code = 0;
-  std::string out, err;
-};
-
-class ClientTest : public ::testing::Test {
- protected:
-  ClientTest() : server_(service_) {
-    service_.job = sample_job(v1::JOB_STATE_DONE);
-    service_.watch = {sample_job(v1::JOB_STATE_QUEUED), sample_job(v1::JOB_STATE_RUNNING), service_.job};
-    service_.artifacts[v1::ARTIFACT_KIND_LATTICE] = sample_lattice().SerializeAsString();
-    service_.artifacts[v1::ARTIFACT_KIND_DIRECTIONS] = sample_directions().SerializeAsString();
-    service_.artifacts[v1::ARTIFACT_KIND_FIELD] = sample_field();
-    service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = sample_skeleton().SerializeAsString();
-    v1::TriangleMesh surface;
-    for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) surface.add_xyz(v);
-    for (const unsigned c : {0u, 1u, 2u}) surface.add_corners(c);
-    service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = surface.SerializeAsString();
-    mesh_ = core::write_off(core::make_box(2000, 2000, 2000));
-    service_.artifacts[v1::ARTIFACT_KIND_MESH] = mesh_;
-    spit(dir_ / "cube.off", mesh_);
-    spit(dir_ / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n");
-    spit(dir_ / "open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  }
-
-  Outcome run(std::vector<std::string> arguments, const std::string& address = "") {
-    std::ostringstream out, err;
-    arguments.insert(arguments.begin(), {"--server", address.empty() ? server_.address() : address});
-    RetryPolicy retry;
-    retry.first_pause = std::chrono::milliseconds(1);
-    retry.patience = std::chrono::milliseconds(200);
-    Outcome outcome;
-    outcome.exit_code =
-        run_client(arguments, {out, err, false, test_environment({{"HOME", dir_.path()}}), retry});
-    outcome.out = out.str();
-    outcome.err = err.str();
-    return outcome;
-  }
-
-  TempDir dir_;
-  FakeService service_;
-  FakeServer server_;
-  std::string mesh_;
-};
 
 TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   const Outcome done =
@@ -274,66 +207,6 @@ TEST_F(ClientTest, ListPassesFiltersOn) {
   EXPECT_EQ(service_.listed.limit(), 3u);
   EXPECT_NE(outcome.out.find("0123456789ab  done"), std::string::npos) << outcome.out;
   EXPECT_EQ(json::parse(run({"--json", "list"}).out).at("jobs").size(), 1u);
-}
-
-TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
-  EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.csv"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "f.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
-  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.xyz"}).exit_code, 0);
-  EXPECT_EQ(run({"fetch", "@last", "surface", "-o", dir_ / "s.stl"}).exit_code, 0);
-  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.anything"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "m.anything"), mesh_);
-  EXPECT_FALSE(service_.fetches.back().has_skeleton());
-  EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.ply"}).exit_code, 2);
-  EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
-}
-
-TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
-  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out, "");
-  const json document = json::parse(run({"--json", "fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out);
-  EXPECT_EQ(document.at("points"), 2);
-  EXPECT_EQ(document.at("file"), dir_ / "s.csv");
-}
-
-TEST_F(ClientTest, DamagedTransfersLeaveNoFile) {
-  service_.damage = true;
-  for (const auto& [kind, name] : {std::pair("mesh", "m.off"), std::pair("skeleton", "s.ply"),
-                                   std::pair("surface", "s.obj"), std::pair("field", "f.csv")}) {
-    const Outcome outcome = run({"fetch", "@last", kind, "-o", dir_ / name});
-    EXPECT_EQ(outcome.exit_code, 70) << kind;
-    EXPECT_NE(outcome.err.find("SHA-256"), std::string::npos) << outcome.err;
-    EXPECT_FALSE(std::filesystem::exists(dir_ / name)) << kind;
-  }
-  EXPECT_EQ(dir_.names().size(), 3u) << "only the inputs";
-}
-
-TEST_F(ClientTest, AFieldThatIsNotFinishedIsNoSuchArtefact) {
-  service_.job = sample_job(v1::JOB_STATE_RUNNING);
-  const Outcome outcome = run({"fetch", "@last", "field", "-o", dir_ / "f.csv"});
-  EXPECT_EQ(outcome.exit_code, 4);
-  EXPECT_NE(outcome.err.find("5 of 12"), std::string::npos);
-  service_.artifacts.erase(v1::ARTIFACT_KIND_SKELETON);
-  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).exit_code, 4);
-}
-
-TEST_F(ClientTest, SkeletonAndSurfaceSendTheirParameters) {
-  EXPECT_EQ(run({"skeleton", "@last", "--threshold", "3.5", "-o", dir_ / "s.ply"}).exit_code, 0);
-  EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 3.5);
-  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.ply"}).exit_code, 0);
-  EXPECT_FALSE(service_.fetches.back().has_skeleton());
-  EXPECT_EQ(run({"surface", "@last", "--alpha", "120000", "-o", dir_ / "s.off"}).exit_code, 0);
-  EXPECT_EQ(service_.fetches.back().surface().alpha(), 120000);
-  EXPECT_FALSE(service_.fetches.back().surface().has_skeleton());
-  EXPECT_EQ(run({"surface", "@last", "--threshold", "2", "-o", dir_ / "s.off"}).exit_code, 0);
-  EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 2);
-}
-
-TEST_F(ClientTest, RenderWritesAPng) {
-  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
-  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "3"}).exit_code, 2);
-  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.jpg"}).exit_code, 2);
-  EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
 }
 
 TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {

@@ -96,7 +96,7 @@ TEST(ParseSurface, RefusesCornersOutOfRange) {
   v1::TriangleMesh message;
   for (int i = 0; i < 9; ++i) message.add_xyz(i);
   for (const unsigned c : {0u, 1u, 2u}) message.add_corners(c);
-  EXPECT_EQ(parse_surface(message.SerializeAsString()).triangles.size(), 1u);
+  EXPECT_EQ(parse_surface(message.SerializeAsString()).mesh.triangles.size(), 1u);
   message.set_corners(2, 3);
   EXPECT_THROW(parse_surface(message.SerializeAsString()), ClientError);
 }

@@ -46,6 +46,15 @@ inline std::string sample_field() {
   return bytes;
 }
 
+/// The five values of a DIVERGENCE artefact.
+inline std::string sample_divergence() {
+  std::string bytes;
+  for (const double value : {0.0, -7.25, 1.0 / 3, 2.0, 9.1}) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  return bytes;
+}
+
 /// Two skeleton points: ranks 1 and 4 of the sample lattice.
 inline v1::SkeletonPoints sample_skeleton() {
   v1::SkeletonPoints s;

@@ -1,0 +1,152 @@
+// Commands that write results, against a server in this process.
+#include <nlohmann/json.hpp>
+
+#include "client_fixture.h"
+#include "sample_data.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
+  EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.csv"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "f.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.xyz"}).exit_code, 0);
+  EXPECT_EQ(run({"fetch", "@last", "surface", "-o", dir_ / "s.stl"}).exit_code, 0);
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.anything"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "m.anything"), mesh_);
+  EXPECT_FALSE(service_.fetches.back().has_skeleton());
+  EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.ply"}).exit_code, 2);
+  EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out, "");
+  const json document = json::parse(run({"--json", "fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out);
+  EXPECT_EQ(document.at("points"), 2);
+  EXPECT_EQ(document.at("file"), dir_ / "s.csv");
+}
+
+TEST_F(ClientTest, DamagedTransfersLeaveNoFile) {
+  service_.damage = true;
+  for (const auto& [kind, name] : {std::pair("mesh", "m.off"), std::pair("skeleton", "s.ply"),
+                                   std::pair("surface", "s.obj"), std::pair("field", "f.csv")}) {
+    const Outcome outcome = run({"fetch", "@last", kind, "-o", dir_ / name});
+    EXPECT_EQ(outcome.exit_code, 70) << kind;
+    EXPECT_NE(outcome.err.find("SHA-256"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(dir_ / name)) << kind;
+  }
+  EXPECT_EQ(dir_.names().size(), 3u) << "only the inputs";
+}
+
+TEST_F(ClientTest, AFieldThatIsNotFinishedIsNoSuchArtefact) {
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  const Outcome outcome = run({"fetch", "@last", "field", "-o", dir_ / "f.csv"});
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.err.find("5 of 12"), std::string::npos);
+  service_.artifacts.erase(v1::ARTIFACT_KIND_SKELETON);
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).exit_code, 4);
+}
+
+TEST_F(ClientTest, SkeletonAndSurfaceSendTheirParameters) {
+  EXPECT_EQ(run({"skeleton", "@last", "--threshold", "3.5", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 3.5);
+  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_FALSE(service_.fetches.back().has_skeleton());
+  EXPECT_EQ(run({"surface", "@last", "--alpha", "120000", "-o", dir_ / "s.off"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().surface().alpha(), 120000);
+  EXPECT_FALSE(service_.fetches.back().surface().has_skeleton());
+  EXPECT_EQ(run({"surface", "@last", "--threshold", "2", "-o", dir_ / "s.off"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 2);
+}
+
+TEST_F(ClientTest, RenderWritesAPng) {
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "3"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.jpg"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
+}
+
+TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
+  EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.csv"}).exit_code, 0);
+  const std::string text = slurp(dir_ / "H.csv");
+  EXPECT_EQ(text.substr(0, 8), "x,y,z,H\n");
+  EXPECT_NE(text.find(",-7.25\n"), std::string::npos) << text;
+  EXPECT_FALSE(service_.fetches.back().has_skeleton()) << "the job's own operator";
+  EXPECT_EQ(run({"fetch", "@last", "divergence", "--operator", "sobel", "-o", dir_ / "H.dat"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "--operator", "sobel", "-o", dir_ / "m.off"}).exit_code, 2);
+  service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(4 * 8);
+  EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "short.csv"}).exit_code, 70);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "short.csv"));
+}
+
+TEST_F(ClientTest, ErodeWritesPointsOrASurface) {
+  EXPECT_EQ(run({"erode", "@last", "--fraction", "0.25", "-o", dir_ / "e.stl"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
+  EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.25);
+  EXPECT_EQ(run({"erode", "@last", "--volume", "3e9", "-o", dir_ / "e.csv"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_POINTS);
+  EXPECT_EQ(service_.fetches.back().eroded().volume(), 3e9);
+  EXPECT_EQ(slurp(dir_ / "e.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
+  EXPECT_EQ(run({"erode", "@last", "--volume", "3", "--as", "points", "-o", dir_ / "e.ply"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "e.ply").find("property double H"), std::string::npos);
+  const Outcome told = run({"--json", "erode", "@last", "--fraction", "0.5", "-o", dir_ / "e.ply"});
+  EXPECT_EQ(json::parse(told.out).at("volume"), 8e8);
+  EXPECT_NE(slurp(dir_ / "e.ply").find("volume 8e+08"), std::string::npos);
+  EXPECT_EQ(run({"fetch", "@last", "eroded", "-o", dir_ / "f.off"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.1);
+}
+
+TEST_F(ClientTest, ErodeRefusesWrongLevels) {
+  for (const std::vector<std::string>& level :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--fraction", "0"},
+                                             {"--fraction", "1.5"},
+                                             {"--volume", "-1"},
+                                             {"--fraction", "0.5", "--volume", "1"}}) {
+    std::vector<std::string> arguments = {"erode", "@last", "-o", dir_ / "e.off"};
+    arguments.insert(arguments.end(), level.begin(), level.end());
+    EXPECT_EQ(run(arguments).exit_code, 2) << level.size();
+  }
+  EXPECT_EQ(run({"erode", "@last", "--fraction", "0.5", "--as", "points", "-o", dir_ / "e.stl"}).exit_code,
+            2);
+}
+
+TEST_F(ClientTest, QualityIsToldEverywhere) {
+  v1::SkeletonPoints skeleton = sample_skeleton();
+  skeleton.mutable_quality()->set_points(2);
+  skeleton.mutable_quality()->set_components(1);
+  skeleton.mutable_quality()->set_inside_share(1);
+  service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
+  *service_.job.mutable_quality() = skeleton.quality();
+  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_NE(slurp(dir_ / "s.ply").find("comment quality betti: 1, 0, 0"), std::string::npos);
+  EXPECT_NE(run({"status", "@last"}).out.find("skeleton_inside:      100 %"), std::string::npos);
+  EXPECT_EQ(json::parse(run({"--json", "status", "@last"}).out).at("quality").at("components"), 1);
+  skeleton.mutable_quality()->set_advice("take more directions");
+  service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
+  EXPECT_NE(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.ply"}).err.find("take more directions"),
+            std::string::npos);
+}
+
+TEST_F(ClientTest, SheetsOfChordsKeepTheirProperties) {
+  v1::TriangleMesh sheet;
+  for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) sheet.add_xyz(v);
+  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
+  for (const double e : {3., 4., 5.}) sheet.add_erosion(e);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"surface", "@last", "--operator", "chords", "-o", dir_ / "c.ply"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
+  const std::string ply = slurp(dir_ / "c.ply");
+  EXPECT_NE(ply.find("property double E\n"), std::string::npos);
+  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 3 * 4 * 8 + 13);
+  sheet.add_erosion(6);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"surface", "@last", "-o", dir_ / "d.ply"}).exit_code, 70);
+}
+
+}  // namespace
+}  // namespace affskel::client
