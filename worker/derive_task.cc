@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "core/shocks.h"
 #include "core/skeleton.h"
 #include "core/surface.h"
+#include "core/zucker_hummel.h"
 
 namespace affskel::worker {
 namespace {

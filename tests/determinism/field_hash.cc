@@ -11,7 +11,7 @@
 #include "core/body.h"
 #include "core/erosion.h"
 #include "core/shapes.h"
-#include "core/shocks.h"
+#include "core/zucker_hummel.h"
 
 namespace {
 

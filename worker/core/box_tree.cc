@@ -58,23 +58,7 @@ std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t count) {
 
 void BoxTree::find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const {
   out.clear();
-  if (nodes_.empty()) return;
-  std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
-  std::size_t depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t index = stack[--depth];
-    const Node& node = nodes_[index];
-    if (node.greatest <= above || !node.box.meets(query)) continue;
-    if (node.right != 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (items_[i] > above && boxes_[items_[i]].meets(query)) out.push_back(items_[i]);
-    }
-  }
+  walk(query, above, [&](std::uint32_t index) { out.push_back(index); });
   std::sort(out.begin(), out.end());
 }
 

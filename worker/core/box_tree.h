@@ -33,6 +33,12 @@ class BoxTree {
   /// Replaces `out` by the indices of the boxes that meet `query` and are > `above`, ascending.
   void find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const;
 
+  /// Calls visit(index) for every box that meets `query`, in an order of the tree's own.
+  template <class Visit>
+  void visit(const Box& query, Visit visit) const {
+    walk(query, -1, visit);
+  }
+
  private:
   /// A node covers items_[first, first + count); its left half is the next node, its right half `right`.
   struct Node {
@@ -43,6 +49,27 @@ class BoxTree {
   };
 
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
+
+  template <class Visit>
+  void walk(const Box& query, std::int64_t above, Visit visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t index = stack[--depth];
+      const Node& node = nodes_[index];
+      if (node.greatest <= above || !node.box.meets(query)) continue;
+      if (node.right != 0) {
+        stack[depth++] = node.right;
+        stack[depth++] = index + 1;
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        if (items_[i] > above && boxes_[items_[i]].meets(query)) visit(items_[i]);
+      }
+    }
+  }
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> items_;

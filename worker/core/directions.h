@@ -14,6 +14,9 @@ namespace affskel::core {
 /// (0, 0, 0) stands for a triangle without area and is never an optimum.
 using DirectionSet = std::vector<Vec3>;
 
+/// Optimal direction per sample point: indices into a direction set, FieldValue::kNoDirection = none yet.
+using OptimalDirections = std::vector<std::uint32_t>;
+
 struct DirectionOptions {
   std::uint64_t max_directions = std::uint64_t{1} << 24;  ///< refuse larger sets
 };

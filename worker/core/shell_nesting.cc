@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/ray_crossing.h"
+
 namespace affskel::core {
 namespace {
 
@@ -10,20 +12,6 @@ struct Shape {
   std::array<std::uint32_t, 6> extreme{};  // vertices with the least and greatest x, y, z
   std::vector<std::uint32_t> triangles;
 };
-
-// Whether the edge a-b, seen along z, crosses the line from q towards +x (half-open in y, ends compared
-// exactly; the side of q is computed the same way from both triangles of the edge).
-bool crosses(const Vec3& a, const Vec3& b, const Vec3& q) {
-  if ((a.y <= q.y) == (b.y <= q.y)) return false;
-  const Vec3 &low = a.y < b.y ? a : b, &high = a.y < b.y ? b : a;
-  return low.x + (q.y - low.y) / (high.y - low.y) * (high.x - low.x) > q.x;
-}
-
-double height_above(const Mesh& mesh, const Triangle& t, const Vec3& q) {
-  const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-  const Vec3 n = cross(b - a, c - a);
-  return n.z == 0 ? a.z - q.z : a.z - ((q.x - a.x) * n.x + (q.y - a.y) * n.y) / n.z - q.z;
-}
 
 class Nester {
  public:
@@ -81,11 +69,8 @@ class Nester {
     bool odd = false;
     for (std::uint32_t t : shape.triangles) {
       const Triangle& corner = mesh_.triangles[t];
-      bool covers = false;
-      for (std::size_t i = 0; i < 3; ++i) {
-        covers ^= crosses(mesh_.points[corner[i]], mesh_.points[corner[(i + 1) % 3]], q);
-      }
-      if (covers && height_above(mesh_, corner, q) > 0) odd = !odd;
+      const bool covers = winding_round_line(mesh_, corner, q, 2) != 0;
+      if (covers && distance_along(mesh_, corner, q, 2) > 0) odd = !odd;
     }
     return odd;
   }

@@ -3,12 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/shocks.h"
-
 namespace affskel::core {
 
 struct SkeletonOptions {
-  double threshold = 7;  ///< keep points with |H| above this; > 0
+  double threshold = 7;  ///< keep points with |H| above this; > 0, of the operator (see shock_operator.h)
 };
 
 struct SkeletonPoint {

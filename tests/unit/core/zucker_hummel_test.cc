@@ -1,4 +1,4 @@
-#include "core/shocks.h"
+#include "core/zucker_hummel.h"
 
 #include <gtest/gtest.h>
 

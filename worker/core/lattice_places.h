@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice.h"
+
+namespace affskel::core {
+
+/// Lattice indices (i, j, k).
+using LatticePlace = std::array<std::uint32_t, 3>;
+
+/// Where sample points stand, found in one walk over the runs.
+/// @param points ranks of sample points, ascending.
+std::vector<LatticePlace> lattice_places(const Lattice& lattice, std::span<const std::uint32_t> points);
+
+}  // namespace affskel::core
