@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "core/version.h"
-#include "derive_task.h"
+#include "derive/derive.h"
 #include "erode_task.h"
 #include "prepared_job.h"
 #include "result_bytes.h"
@@ -176,6 +176,9 @@ class LeaseLoop {
         return erode_block(lease);
       case v1::TASK_KIND_SKELETON:
       case v1::TASK_KIND_SURFACE:
+      case v1::TASK_KIND_DIVERGENCE:
+      case v1::TASK_KIND_ERODED_POINTS:
+      case v1::TASK_KIND_ERODED_SURFACE:
         return derive(lease);
       default:
         throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
@@ -226,19 +229,12 @@ class LeaseLoop {
     const LeaseKeeper keeper(link_, lease);
     const PreparedJob& job = obtain(lease);
     const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
+    const Derived derived = affskel::worker::derive(lease, job, stored);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
-    std::string data;
-    if (lease.kind() == v1::TASK_KIND_SKELETON) {
-      const v1::SkeletonPoints skeleton = derive_skeleton(job, stored, lease.skeleton());
-      header.set_points(static_cast<std::uint64_t>(skeleton.point_size()));
-      append_result(data, skeleton, "the skeleton (a higher threshold keeps fewer points)");
-    } else {
-      const v1::TriangleMesh surface = derive_surface(job, stored, lease.surface());
-      header.set_points(static_cast<std::uint64_t>(surface.corners_size()) / 3);
-      append_result(data, surface, "the surface (a higher threshold keeps fewer points)");
-    }
-    link_.complete(header, data);
+    header.set_points(derived.items);
+    if (derived.quality) *header.mutable_quality() = *derived.quality;
+    link_.complete(header, derived.data);
   }
 
   // The prepared job of the lease: the one in hand, or made from the mesh.

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "derive_task.h"
+#include "derive/derive.h"
 #include "erode_task.h"
 #include "fake_server.h"
 #include "lease_loop.h"
