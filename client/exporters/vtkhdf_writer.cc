@@ -1,14 +1,23 @@
 // The VTKHDF file format, ImageData, version 1.0: a group VTKHDF with attributes that place the image and
 // a group PointData with one dataset per array.  VTK's x is fastest, so dataset dimensions are (z, y, x)
 // while the points arrive with x slowest: planes of constant x are collected in slabs as thick as a chunk.
+//
+// Point (i, j, k) lies at Origin + Direction (Spacing * (i, j, k)), Direction's columns being the unit
+// vectors along the lattice's axes.  Of an affine frame these are not orthogonal; VTK (checked: 9.1) applies
+// and inverts the matrix as it stands, so that places, sections and isosurfaces are right all the same.
+// Programs that read Origin and Spacing alone would take any turned or sheared lattice for an upright one:
+// for these the field array "frame" holds the frame's vectors as 9 numbers, one vector after the other, and
+// its presence says that the image is not upright.
 #include <hdf5.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <limits>
 
 #include "client/error.h"
 #include "client/exporters/field_writer.h"
+#include "core/matrix3.h"
 
 namespace affskel::client {
 namespace {
@@ -231,6 +240,32 @@ class VtkHdfWriter : public FieldWriter {
     }
     set_attribute(root, "Spacing", spacing);
     set_attribute(root, "Direction", direction);
+    if (!is_upright(points)) write_frame(points);
+  }
+
+  static bool is_upright(const LatticePoints& points) {
+    const core::Vec3 &x = points.axis(0), &y = points.axis(1), &z = points.axis(2);
+    return x.y == 0 && x.z == 0 && y.x == 0 && y.z == 0 && z.x == 0 && z.y == 0 && x.x == y.y && y.y == z.z;
+  }
+
+  // The axes divided by the lattice's spacing, the cube root of the cell's volume.
+  void write_frame(const LatticePoints& points) {
+    const core::Matrix3 axes = {points.axis(0), points.axis(1), points.axis(2)};
+    const double spacing = std::cbrt(std::abs(core::determinant(axes)));
+    std::array<double, 9> frame{};
+    for (std::size_t i = 0; i < 9; ++i) frame[i] = axes[i / 3][static_cast<int>(i % 3)] / spacing;
+    const hsize_t size = frame.size();
+    const Handle group(H5Gcreate2(open_->root, "FieldData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                       "group");
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "frame");
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "frame");
+    H5Pset_obj_track_times(properties, false);
+    const Handle dataset(
+        H5Dcreate2(group, "frame", H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
+        "frame");
+    if (H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, frame.data()) < 0) {
+      throw hdf5_error("cannot write");
+    }
   }
 
   AtomicFile& file_;
