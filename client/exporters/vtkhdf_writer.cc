@@ -3,11 +3,12 @@
 // while the points arrive with x slowest: planes of constant x are collected in slabs as thick as a chunk.
 //
 // Point (i, j, k) lies at Origin + Direction (Spacing * (i, j, k)), Direction's columns being the unit
-// vectors along the lattice's axes.  Of an affine frame these are not orthogonal; VTK (checked: 9.1) applies
-// and inverts the matrix as it stands, so that places, sections and isosurfaces are right all the same.
-// Programs that read Origin and Spacing alone would take any turned or sheared lattice for an upright one:
-// for these the field array "frame" holds the frame's vectors as 9 numbers, one vector after the other, and
-// its presence says that the image is not upright.
+// vectors along the lattice's axes.  Of an affine frame these are not orthogonal; VTK's image data applies
+// and inverts the matrix as it stands, so that places, cells and isosurfaces are right all the same (tried
+// with 9.1, whose reader of these files only keeps the matrix, turned or sheared, without using it until
+// SetDirectionMatrix is called with it).  The attribute "frame", 9 numbers, one vector of the frame after the
+// other, says that a lattice is not parallel to the mesh's axes: then whoever takes Origin and Spacing alone
+// gets wrong places.  It is an attribute because VTK 9.1 refuses images with a FieldData group.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -254,18 +255,7 @@ class VtkHdfWriter : public FieldWriter {
     const double spacing = std::cbrt(std::abs(core::determinant(axes)));
     std::array<double, 9> frame{};
     for (std::size_t i = 0; i < 9; ++i) frame[i] = axes[i / 3][static_cast<int>(i % 3)] / spacing;
-    const hsize_t size = frame.size();
-    const Handle group(H5Gcreate2(open_->root, "FieldData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                       "group");
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "frame");
-    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "frame");
-    H5Pset_obj_track_times(properties, false);
-    const Handle dataset(
-        H5Dcreate2(group, "frame", H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
-        "frame");
-    if (H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, frame.data()) < 0) {
-      throw hdf5_error("cannot write");
-    }
+    set_attribute(open_->root, "frame", frame);
   }
 
   AtomicFile& file_;

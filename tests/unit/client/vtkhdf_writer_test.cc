@@ -133,12 +133,8 @@ TEST(VtkHdfWriter, PlacesAShearedImage) {
     EXPECT_NEAR(place, wanted[static_cast<int>(row)], 1e-9);
   }
   // The cell has the volume 1.515625, the frame determinant 1.
-  std::vector<double> frame(9);
-  const hid_t dataset = H5Dopen2(root, "FieldData/frame", H5P_DEFAULT);
-  ASSERT_GE(dataset, 0);
-  EXPECT_GE(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, frame.data()), 0);
+  const auto frame = read_attribute<double>(root, "frame", H5T_NATIVE_DOUBLE, 9);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(frame[i] * std::cbrt(1.515625), axes[i], 1e-15);
-  H5Dclose(dataset);
   H5Gclose(root);
   H5Fclose(file);
 }
@@ -150,7 +146,7 @@ TEST(VtkHdfWriter, AnUprightImageHasNoFrame) {
   make_vtkhdf_writer(out, points)->finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  EXPECT_EQ(H5Lexists(file, "VTKHDF/FieldData", H5P_DEFAULT), 0);
+  EXPECT_EQ(H5Aexists_by_name(file, "VTKHDF", "frame", H5P_DEFAULT), 0);
   H5Fclose(file);
 }
 
