@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <condition_variable>
 #include <mutex>
@@ -48,6 +49,12 @@ v1::WorkerIdentity own_identity(unsigned threads) {
   identity.set_threads(threads);
   identity.set_core_version(core::kCoreVersion);
   return identity;
+}
+
+// Jobs prepared before there were frames have none, and no other than the mesh's.
+bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& own) {
+  return stored.frame_size() == 0 ||
+         std::equal(stored.frame().begin(), stored.frame().end(), own.frame().begin(), own.frame().end());
 }
 
 // Renews a lease in the background while a task computes that has nothing to report in between.
@@ -205,7 +212,8 @@ class LeaseLoop {
       const LeaseKeeper keeper(link_, lease);
       PreparedJob& job = obtain(lease);
       if (job.lattice().points != lease.job().prepared().points() ||
-          job.directions().size() != lease.job().directions_total()) {
+          job.directions().size() != lease.job().directions_total() ||
+          !same_frame(lease.job().prepared(), job.summary())) {
         throw core::CoreError(core::CoreError::Code::kInternal,
                               "this worker's core lays another lattice than the one that prepared the job");
       }
