@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "client/comparison.h"
@@ -27,10 +26,6 @@ double shown_radius(const Comparison& c, double radius) {
 
 double area(const Comparison& c, const core::DistanceCurve& curve) {
   return c.squared ? curve.area_under_squared(c.radii.back()) : curve.area_under(c.radii.back());
-}
-
-std::string file_name(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
 }
 
 // The columns of table and CSV, in their order.
@@ -90,17 +85,15 @@ ordered_json side_json(const ComparedPoints& side) {
   return {{"file", side.file}, {"points", side.points.size()}, {"surface", side.from_surface}};
 }
 
-PlotCurve plotted(const Comparison& c, const core::DistanceCurve& curve, const std::string& label,
-                  const char* colour, bool dashed) {
+PlotCurve plotted(const Comparison& c, const core::DistanceCurve& curve, PlotCurve style) {
   constexpr int kSteps = 400;
-  PlotCurve result{label, colour, dashed, {}};
   const double last = c.radii.back();
   for (int i = 0; i <= kSteps; ++i) {
     const double part = static_cast<double>(i) / kSteps;
     const double radius = c.squared ? std::sqrt(part) * last : part * last;
-    result.points.emplace_back(shown_radius(c, last) * part, curve.share_within(radius));
+    style.points.emplace_back(shown_radius(c, last) * part, curve.share_within(radius));
   }
-  return result;
+  return style;
 }
 
 }  // namespace
@@ -164,16 +157,21 @@ ordered_json comparison_json(const Comparison& c) {
 
 SharePlot comparison_plot(const Comparison& c) {
   SharePlot plot;
-  plot.title = "Similarity of A = " + file_name(c.a.file) + " and B = " + file_name(c.b.file);
+  plot.title = "Similarity of two skeletons";
+  plot.notes = {"A: " + side_text(c.a), "B: " + side_text(c.b)};
   plot.x_label = c.squared ? "squared distance r^2, mesh units squared" : "distance r, mesh units";
   plot.x_max = shown_radius(c, c.radii.back());
   plot.marked = shown_radius(c, c.radius);
   plot.marked_label = (c.squared ? "r^2 = " : "r = ") + rounded(plot.marked, 4);
-  plot.curves.push_back(plotted(c, c.curves.a_in_b, "points of A within r of B", "#0b62a4", false));
-  plot.curves.push_back(plotted(c, c.curves.b_in_a, "points of B within r of A", "#d1600a", false));
+  // A lies below B and is broader, so that both show where they are one.
+  plot.curves.push_back(plotted(c, c.curves.a_in_b, {"points of A within r of B", "#0b62a4", false, 4, {}}));
+  plot.curves.push_back(
+      plotted(c, c.curves.b_in_a, {"points of B within r of A", "#e07b1a", false, 1.7, {}}));
   if (c.chance) {
-    plot.curves.push_back(plotted(c, c.chance->in_b, "chance: inner points within r of B", "#7aa6c8", true));
-    plot.curves.push_back(plotted(c, c.chance->in_a, "chance: inner points within r of A", "#e3a878", true));
+    plot.curves.push_back(
+        plotted(c, c.chance->in_b, {"chance: inner points within r of B", "#7aa6c8", true, 2.6, {}}));
+    plot.curves.push_back(
+        plotted(c, c.chance->in_a, {"chance: inner points within r of A", "#e3a878", true, 1.5, {}}));
   }
   return plot;
 }

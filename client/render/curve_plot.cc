@@ -10,8 +10,8 @@ namespace affskel::client {
 namespace {
 
 // Pixels.  The legend stands above the axes, where no curve can be.
-constexpr double kWidth = 800, kHeight = 520;
-constexpr double kLeft = 70, kRight = 770, kTop = 120, kBottom = 460;
+constexpr double kWidth = 800, kHeight = 560;
+constexpr double kLeft = 70, kRight = 770, kTop = 150, kBottom = 490;
 
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -41,6 +41,13 @@ std::string pixel(double value) {
   return shortest(std::round(100 * value) / 100);
 }
 
+// What fits beside the left margin; the end of a file's name tells more than its beginning.
+std::string shortened(const std::string& words) {
+  constexpr std::size_t kMost = 95, kHead = 20;
+  if (words.size() <= kMost) return words;
+  return words.substr(0, kHead) + " ... " + words.substr(words.size() - (kMost - kHead - 5));
+}
+
 std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
   return "<line x1=\"" + pixel(x1) + "\" y1=\"" + pixel(y1) + "\" x2=\"" + pixel(x2) + "\" y2=\"" +
          pixel(y2) + "\" " + style + "/>\n";
@@ -61,6 +68,10 @@ class Drawing {
            "fill=\"#222\">\n<title>" +
            escaped(plot_.title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     svg_ += text(kLeft, 28, "font-size=\"17\" font-weight=\"bold\"", plot_.title);
+    for (std::size_t i = 0; i < plot_.notes.size(); ++i) {
+      svg_ += text(kLeft, 50 + 18 * static_cast<double>(i), "font-size=\"13\" fill=\"#555\"",
+                   shortened(plot_.notes[i]));
+    }
     draw_axes();
     draw_marked();
     for (const PlotCurve& curve : plot_.curves) draw_curve(curve);
@@ -103,7 +114,7 @@ class Drawing {
   }
 
   static std::string stroke(const PlotCurve& curve) {
-    return "stroke=\"" + curve.colour + "\" stroke-width=\"2.2\"" +
+    return "stroke=\"" + curve.colour + "\" stroke-width=\"" + pixel(curve.width) + "\"" +
            (curve.dashed ? " stroke-dasharray=\"7 5\"" : "");
   }
 
@@ -116,7 +127,7 @@ class Drawing {
   void draw_legend() {
     for (std::size_t i = 0; i < plot_.curves.size(); ++i) {
       const double x = i % 2 == 0 ? kLeft : (kLeft + kRight) / 2;
-      const double y = 56 + 24 * static_cast<double>(i / 2);
+      const double y = 98 + 23 * static_cast<double>(i / 2);
       svg_ += line(x, y - 5, x + 34, y - 5, stroke(plot_.curves[i]));
       svg_ += text(x + 42, y, "", plot_.curves[i].label);
     }

@@ -11,12 +11,14 @@ struct PlotCurve {
   std::string label;
   std::string colour;  ///< as SVG names it
   bool dashed = false;
+  double width = 2;                               ///< pixels
   std::vector<std::pair<double, double>> points;  ///< x ascending; y 0 .. 1
 };
 
 /// Shares (0 .. 100 %) over a length or its square.
 struct SharePlot {
   std::string title;
+  std::vector<std::string> notes;  ///< lines below the title, at most two
   std::string x_label;
   double x_max = 1;   ///< > 0
   double marked = 0;  ///< an x with a line of its own; none unless 0 < marked <= x_max
