@@ -35,8 +35,8 @@ std::span<const FileFormat> picture_formats() {
 }
 
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 9> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off",
-                                                      ".xyz", ".obj", ".stl",    ".png"};
+  constexpr std::array<std::string_view, 10> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off",
+                                                       ".xyz", ".obj", ".stl",    ".png", ".svg"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -7,7 +7,7 @@
 
 namespace affskel::client {
 
-enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng };
+enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng, kSvg };
 
 /// What can be written as which formats.
 std::span<const FileFormat> field_formats();       // csv dat vtkhdf
