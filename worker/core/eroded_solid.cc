@@ -16,12 +16,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/lattice_cuts.h"
 #include "core/level_crossing.h"
+#include "core/loose_vertices.h"
 #include "core/number_text.h"
 #include "core/slab_index.h"
 #include "core/tidy_mesh.h"
@@ -42,12 +45,7 @@ constexpr double kMargin = 1e-3;
 class Marcher {
  public:
   Marcher(const Solid& solid, const Lattice& lattice, const FrameField& field, double level)
-      : lattice_(lattice),
-        field_(field),
-        level_(level),
-        places_(solid, lattice),
-        cuts_(solid, lattice),
-        ranks_(lattice) {
+      : field_(field), level_(level), cuts_(solid, lattice), ranks_(lattice) {
     for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.frame.dims[a];
     for (Layer& layer : layers_) {
       const auto size = static_cast<std::size_t>((dims_[1] + 2) * (dims_[2] + 2));
@@ -56,14 +54,14 @@ class Marcher {
     }
   }
 
+  /// In lattice coordinates.
   Mesh run() {
     for (at_[0] = -1; at_[0] < dims_[0]; ++at_[0]) {
       fill_layer(at_[0] + 1);
       for (at_[1] = -1; at_[1] < dims_[1]; ++at_[1]) march_row();
     }
-    if (dot(lattice_.frame.axes[0], cross(lattice_.frame.axes[1], lattice_.frame.axes[2])) < 0) {
-      for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
-    }
+    constexpr int kRounds = 40;  // enough for steps of a few voxels
+    settle_loose_vertices(loose_, kRounds, mesh_);
     return std::move(mesh_);
   }
 
@@ -228,7 +226,7 @@ class Marcher {
     const auto [name, is_new] = layer(at[0]).rims.try_emplace(key, 0U);
     if (is_new) {
       const Vec3 gap = 0.5 * (mesh_.points[a] + mesh_.points[b]);
-      name->second = add_vertex(gap + 0.25 * (position(place(other), place(other), 0) - gap));
+      name->second = add_vertex(gap + 0.25 * (position(place(other)) - gap));
     }
     return name->second;
   }
@@ -239,31 +237,37 @@ class Marcher {
     const Place at = place(low);
     const std::uint64_t edge = cuts_.edge(at[0], at[1], at[2], p ^ q);
     const auto [name, is_new] = layer(at[0]).stops.try_emplace(edge * 2 + (p == low ? 0 : 1), 0U);
-    if (is_new) name->second = add_vertex(position(place(p), place(q), share(p, q, cuts_.find(edge))));
+    if (is_new) name->second = add_stop(p, q, cuts_.find(edge));
     return name->second;
   }
 
-  /// The stop's place as a share of the edge, kept away from the ends and from the other stop.
-  double share(unsigned p, unsigned q, const LatticeCut* cut) const {
-    const bool upward = p == (p & q);
-    const double found = unlimited_share(p, q, cut);
-    if (!full(q)) return std::clamp(found, kMargin, 1 - kMargin);
-    const double gap = std::clamp((cut->leaves + cut->enters) / 2, 3 * kMargin, 1 - 3 * kMargin);
-    return std::clamp(found, kMargin, (upward ? gap : 1 - gap) - kMargin);
+  std::uint32_t add_stop(unsigned p, unsigned q, const LatticeCut* cut) {
+    LevelCrossing found = crossing(p, q, cut);
+    double most = 1 - kMargin;
+    if (full(q)) {  // stay on this side of the gap
+      const double gap = std::clamp((cut->leaves + cut->enters) / 2, 3 * kMargin, 1 - 3 * kMargin);
+      most = (p == (p & q) ? gap : 1 - gap) - kMargin;
+    }
+    for (double* t : {&found.share, &found.least, &found.most}) *t = std::clamp(*t, kMargin, most);
+    const Place from = place(p), to = place(q);
+    const Vec3 start = position(from), along = position(to) - start;
+    const std::uint32_t vertex = add_vertex(start + found.share * along);
+    if (found.least < found.most) {
+      loose_.push_back({vertex, start, along, found.least, found.most, found.share});
+    }
+    return vertex;
   }
 
-  double unlimited_share(unsigned p, unsigned q, const LatticeCut* cut) const {
+  LevelCrossing crossing(unsigned p, unsigned q, const LatticeCut* cut) const {
     const std::uint32_t x = rank(p), y = rank(q);
-    const Place from = place(p), to = place(q);
-    const Vec3 delta =
-        field_.spacing * Vec3{static_cast<double>(to[0] - from[0]), static_cast<double>(to[1] - from[1]),
-                              static_cast<double>(to[2] - from[2])};
+    const Vec3 delta = field_.spacing * (position(place(q)) - position(place(p)));
     const Vec3& g = field_.gradient[x];
     const EdgeValue here{field_.erosion[x], dot(g, delta)};
     if (y == SlabIndex::kOutside || has_gap(p, q)) {
       // Without a cut, p and q disagree about the surface by rounding, and it is near one of them.
       const double surface = cut == nullptr ? 1 : p == (p & q) ? cut->leaves : 1 - cut->enters;
-      return level_crossing_before_surface(here, surface, level_);
+      const double t = level_crossing_before_surface(here, surface, level_);
+      return {t, t, t};
     }
     const Vec3& h = field_.gradient[y];
     constexpr double kMostCosine = 0.5;  // of normals that count as different, as for operator `chords`
@@ -276,18 +280,12 @@ class Marcher {
     return ranks_.at(at[0], at[1], at[2]);
   }
 
-  Vec3 position(const Place& from, const Place& to, double share) const {
-    const auto along = [&](std::size_t a) {
-      return static_cast<double>(from[a]) + share * static_cast<double>(to[a] - from[a]);
-    };
-    const std::array<Vec3, 3>& axes = places_.axes();
-    return places_.origin() + (along(0) * axes[0] + (along(1) * axes[1] + along(2) * axes[2]));
+  static Vec3 position(const Place& at) {
+    return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
   }
 
-  const Lattice& lattice_;
   const FrameField& field_;
   double level_;
-  SamplePlaces places_;
   LatticeCuts cuts_;
   SlabIndex ranks_;  // of the layer filled last and the two beside it
   Place dims_{};
@@ -302,6 +300,7 @@ class Marcher {
   std::vector<std::uint32_t> loop_;
   bool has_rim_ = false;
   Mesh mesh_;
+  std::vector<LooseVertex> loose_;
 };
 
 void check(const Lattice& lattice, const FrameField& field, const ErodedSurfaceOptions& options) {
@@ -318,6 +317,16 @@ void check(const Lattice& lattice, const FrameField& field, const ErodedSurfaceO
     throw CoreError(CoreError::Code::kBadInput, "eroded solid: the field has " +
                                                     std::to_string(field.erosion.size()) +
                                                     " points, the lattice " + std::to_string(lattice.points));
+  }
+}
+
+/// From lattice coordinates to mesh units, outward also when the lattice's axes are left-handed.
+void place_mesh(const Solid& solid, const Lattice& lattice, Mesh& mesh) {
+  const SamplePlaces places(solid, lattice);
+  const std::array<Vec3, 3>& axes = places.axes();
+  for (Vec3& p : mesh.points) p = places.origin() + (p.x * axes[0] + (p.y * axes[1] + p.z * axes[2]));
+  if (dot(axes[0], cross(axes[1], axes[2])) < 0) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
 }
 
@@ -347,8 +356,9 @@ ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const F
   ErodedSurface result;
   result.mesh = Marcher(solid, lattice, field, options.level).run();
   if (options.shortest_edge > 0) {
-    result.mesh = tidy_mesh(result.mesh, {.shortest_edge = options.shortest_edge * field.spacing});
+    result.mesh = tidy_mesh(result.mesh, {.shortest_edge = options.shortest_edge});
   }
+  place_mesh(solid, lattice, result.mesh);
   result.volume = enclosed_volume(result.mesh);
   return result;
 }

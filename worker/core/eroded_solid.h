@@ -36,8 +36,10 @@ struct ErodedSurface {
 /// every vertex is such a crossing, at most a voxel's diagonal away from a sample point above the level,
 /// except those that close the end of a gap narrower than the spacing.
 ///
-/// Time and memory in the order of the lattice's box (time), two of its layers, and the surface's size.
-/// The result is a function of its arguments alone.
+/// All that decides the mesh's shape happens in lattice coordinates; the vertices are then mapped to mesh
+/// units, so lattices in affinely mapped frames give affinely mapped surfaces. Time in the order of the
+/// lattice's box and the surface's size; memory in that of two layers of the box, the lattice's lines and the
+/// surface. The result is a function of its arguments alone.
 /// @throws CoreError kBadInput when the level is not a finite number >= 0, the shortest edge not in [0, 1),
 /// or
 ///   the field is not one of this lattice.

@@ -27,20 +27,42 @@ bool find_kink(const EdgeValue& x, const EdgeValue& y, double& t) {
   return t >= 0 && t <= 1;
 }
 
+/// Whether E falls faster than either end says.
+bool jumps(const EdgeValue& x, const EdgeValue& y) {
+  constexpr double kMostFall = 1.5;
+  return x.erosion - y.erosion > kMostFall * std::max({-x.slope, -y.slope, 0.0});
+}
+
+/// Above the level as far as the tangent at x says, below it as far as the one at y says.
+LevelCrossing across_jump(const EdgeValue& x, const EdgeValue& y, double level) {
+  const double most = x.slope < 0 ? std::min((level - x.erosion) / x.slope, 1.0) : 1;
+  const double least = y.slope < 0 ? std::max(1 + (level - y.erosion) / y.slope, 0.0) : 0;
+  return {(least + most) / 2, std::min(least, most), std::max(least, most)};
+}
+
+double across_kink(const EdgeValue& x, const EdgeValue& y, double level, double kink) {
+  const double t =
+      x.erosion + kink * x.slope >= level ? 1 + (level - y.erosion) / y.slope : (level - x.erosion) / x.slope;
+  return std::clamp(t, 0.0, 1.0);
+}
+
+/// Root of the cubic a + t (b + t (c + t d)).
+double across_smooth(const EdgeValue& x, const EdgeValue& y, double level) {
+  const double a = x.erosion - level, b = x.slope, fall = y.erosion - x.erosion;
+  const double c = 3 * fall - 2 * b - y.slope, d = b + y.slope - 2 * fall;
+  return root([&](double t) { return a + t * (b + t * (c + t * d)); });
+}
+
 }  // namespace
 
-double level_crossing_between(const EdgeValue& above, const EdgeValue& below, double level, bool kinked) {
-  if (!std::isfinite(above.erosion) || !std::isfinite(below.erosion)) return 0.5;
+LevelCrossing level_crossing_between(const EdgeValue& above, const EdgeValue& below, double level,
+                                     bool kinked) {
+  if (!std::isfinite(above.erosion) || !std::isfinite(below.erosion)) return {0.5, 0, 1};
+  if (jumps(above, below)) return across_jump(above, below, level);
   double kink = 0;
-  if (kinked && find_kink(above, below, kink)) {
-    const double t = above.erosion + kink * above.slope >= level ? 1 + (level - below.erosion) / below.slope
-                                                                 : (level - above.erosion) / above.slope;
-    return std::clamp(t, 0.0, 1.0);
-  }
-  // The cubic a + t (b + t (c + t d)).
-  const double a = above.erosion - level, b = above.slope, fall = below.erosion - above.erosion;
-  const double c = 3 * fall - 2 * b - below.slope, d = b + below.slope - 2 * fall;
-  return root([&](double t) { return a + t * (b + t * (c + t * d)); });
+  const double t = kinked && find_kink(above, below, kink) ? across_kink(above, below, level, kink)
+                                                           : across_smooth(above, below, level);
+  return {t, t, t};
 }
 
 double level_crossing_before_surface(const EdgeValue& above, double surface, double level) {
