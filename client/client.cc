@@ -81,6 +81,8 @@ void run_command(const CLI::App& app, const Options& options, Console& console, 
       return run_make(console, options.make);
     case Command::kRender:
       return run_render(context, options.job);
+    case Command::kView:
+      return run_view(context, options.job);
     case Command::kCompletions:
       io.out << completion_script(app, options.shell);
       return;

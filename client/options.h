@@ -21,6 +21,7 @@ enum class Command {
   kInspect,
   kMake,
   kRender,
+  kView,
   kCompletions,
 };
 
@@ -61,8 +62,8 @@ struct ListOptions {
 struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
-  std::string output;        ///< fetch, skeleton, surface, render
-  SkeletonOptions skeleton;  ///< skeleton, surface
+  std::string output;        ///< fetch, skeleton, surface, render, view
+  SkeletonOptions skeleton;  ///< skeleton, surface, view
   bool own_skeleton = true;  ///< neither --operator nor --threshold was given: the job's own
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
   int width = 1600;          ///< render; pixels
