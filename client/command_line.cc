@@ -13,7 +13,7 @@ namespace affskel::client {
 namespace {
 
 
-// Without options of their own, skeleton and surface use the job's.
+// Without options of their own, skeleton, surface and view use the job's.
 void note_own_skeleton(CLI::App* sub, Options& options, Command which) {
   sub->callback([sub, &options, which] {
     options.command = which;
@@ -218,6 +218,16 @@ void add_result_commands(CLI::App& app, Options& options) {
       ->capture_default_str()
       ->type_name("W");
   add_output(render, options, "PNG file to write");
+
+  CLI::App* view = command(app, options, "view", Command::kView,
+                           "Page for any browser: the body and its skeleton to turn, with sliders for the\n"
+                           "shock threshold and the erosion level; one file that needs no network",
+                           "  affskel-client view @last -o body.html\n"
+                           "  affskel-client view 3f2a9c --threshold 5 -o body.html");
+  add_job(view, options);
+  add_skeleton_options(view, options.job.skeleton);
+  note_own_skeleton(view, options, Command::kView);
+  add_output(view, options, "HTML file to write");
 }
 
 CLI::App* shape(CLI::App* make, Options& options, const std::string& name, Shape which,
@@ -333,6 +343,7 @@ void build_command_line(CLI::App& app, Options& options) {
       "  affskel-client make body -o body.off\n"
       "  affskel-client submit body.off --spacing 200 -o OUT\n"
       "  affskel-client render @last -o body.png\n"
+      "  affskel-client view @last -o body.html\n"
       "'affskel-client COMMAND --help' tells more. Exit codes: 0 done, 1 job failed, 2 usage, 3 bad input\n"
       "file, 4 no such job or artefact, 5 server unreachable, 6 cancelled, 7 not allowed, 8 limit reached,\n"
       "70 internal error.");

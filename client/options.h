@@ -28,6 +28,7 @@ enum class Command {
   kCompare,
   kTransform,
   kPerturb,
+  kView,
   kCompletions,
 };
 
@@ -69,8 +70,8 @@ struct ListOptions {
 struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
-  std::string output;        ///< fetch, skeleton, surface, erode, render
-  SkeletonOptions skeleton;  ///< skeleton, surface, fetch divergence (its operator)
+  std::string output;        ///< fetch, skeleton, surface, erode, render, view
+  SkeletonOptions skeleton;  ///< skeleton, surface, view, fetch divergence
   bool own_skeleton = true;  ///< neither --operator nor --threshold was given: the job's own
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
   double fraction = 0;       ///< erode; level as a share of v0, 0 = not given

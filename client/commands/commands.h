@@ -23,6 +23,7 @@ void run_skeleton(Context& context, const JobOptions& options);
 void run_surface(Context& context, const JobOptions& options);
 void run_erode(Context& context, const JobOptions& options);
 void run_render(Context& context, const JobOptions& options);
+void run_view(Context& context, const JobOptions& options);
 /// Needs no server.
 void run_inspect(Console& console, const std::string& file);
 /// Needs no server.
