@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/frame_field.h"
-#include "core/lattice_places.h"
+#include "core/lattice_coordinates.h"
 #include "prepared_job.h"
 
 namespace affskel::worker {

@@ -25,4 +25,23 @@ void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message) {
   }
 }
 
+v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality) {
+  v1::SkeletonQuality message;
+  message.set_points(quality.points);
+  message.set_components(quality.skeleton.components);
+  message.set_holes(quality.skeleton.holes);
+  message.set_cavities(quality.skeleton.cavities);
+  message.set_inside_share(quality.inside_share);
+  message.set_mean_thickness(quality.mean_thickness);
+  message.set_solid_components(quality.solid.components);
+  message.set_solid_genus(static_cast<std::int64_t>(quality.solid.holes));
+  message.set_solid_cavities(quality.solid.cavities);
+  if (quality.hausdorff_there) message.set_hausdorff_there(*quality.hausdorff_there);
+  if (quality.hausdorff_back) message.set_hausdorff_back(*quality.hausdorff_back);
+  message.set_other_threshold(quality.other_threshold);
+  message.set_chance_level(quality.chance_level);
+  message.set_advice(quality.advice);
+  return message;
+}
+
 }  // namespace affskel::worker

@@ -2,6 +2,7 @@
 
 #include "affskel/v1/types.pb.h"
 #include "core/mesh.h"
+#include "core/skeleton_quality.h"
 #include "derive/finished_field.h"
 
 namespace affskel::worker {
@@ -14,5 +15,7 @@ void append_point(const FinishedField& field, std::uint32_t point, const core::L
                   v1::SkeletonPoints& message);
 
 void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message);
+
+v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality);
 
 }  // namespace affskel::worker

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/shock_operator.h"
 #include "core/skeleton.h"
+#include "core/skeleton_quality.h"
 #include "core/surface.h"
 #include "derive/messages.h"
 
@@ -39,10 +40,6 @@ double threshold_of(const FinishedField& field, const v1::SkeletonParams& params
   return core::default_threshold(core_operator(params.operator_()), field.lattice().spacing);
 }
 
-std::vector<core::SkeletonPoint> kept_points(const FinishedField& field, const v1::SkeletonParams& params) {
-  return core::skeleton_points(divergence_of(field, core_operator(params.operator_())),
-                               {threshold_of(field, params)});
-}
 
 std::vector<core::LatticePlace> places_of(const FinishedField& field,
                                           const std::vector<core::SkeletonPoint>& points) {
@@ -55,21 +52,27 @@ std::vector<core::LatticePlace> places_of(const FinishedField& field,
 }  // namespace
 
 v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
-  const std::vector<core::SkeletonPoint> kept = kept_points(field, params);
+  const core::ShockOperator which = core_operator(params.operator_());
+  const double threshold = threshold_of(field, params);
+  const std::vector<double> divergence = divergence_of(field, which);
+  const std::vector<core::SkeletonPoint> kept = core::skeleton_points(divergence, {threshold});
   const std::vector<core::LatticePlace> places = places_of(field, kept);
   v1::SkeletonPoints message;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     append_point(field, kept[i].point, places[i], message);
     message.add_divergence(kept[i].divergence);
   }
+  *message.mutable_quality() = quality_message(core::skeleton_quality(
+      field.job().solid(), field.lattice(), field.optimal(), divergence, {which, threshold}));
   return message;
 }
 
 v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceParams& params) {
+  const std::vector<core::SkeletonPoint> kept =
+      core::skeleton_points(divergence_of(field, core_operator(params.skeleton().operator_())),
+                            {threshold_of(field, params.skeleton())});
   std::vector<core::Vec3> points;
-  for (const core::LatticePlace& place : places_of(field, kept_points(field, params.skeleton()))) {
-    points.push_back(field.in_frame(place));
-  }
+  for (const core::LatticePlace& place : places_of(field, kept)) points.push_back(field.in_frame(place));
   core::AlphaSurfaceOptions options;
   options.alpha = params.alpha();
   options.spacing = field.lattice().spacing;
