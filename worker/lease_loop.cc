@@ -246,7 +246,7 @@ class LeaseLoop {
     if (job_ && job_id_ == lease.job().id()) return *job_;
     forget();
     const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH);
-    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params());
+    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params(), options_.threads);
     job_id_ = lease.job().id();
     return *job_;
   }

@@ -14,16 +14,19 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "field records are little-endian on disk and on the wire");
 
-core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, std::uint64_t& polygons_cut) {
+core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, unsigned threads,
+                       std::uint64_t& polygons_cut) {
   const core::OffMesh off = core::read_off(bytes);
   polygons_cut = off.polygons_cut;
   core::SolidOptions options;
   options.repair = params.repair();
+  options.threads = threads;
   return core::make_solid(off.mesh, options, off.vertex_line, off.triangle_line);
 }
 
-core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling) {
+core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling, unsigned threads) {
   core::LatticeOptions options;
+  options.threads = threads;
   if (sampling.has_spacing()) {
     options.spacing = sampling.spacing();
   } else {
@@ -40,9 +43,9 @@ void add(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
 
 }  // namespace
 
-PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params)
-    : solid_(read_solid(mesh_bytes, params, polygons_cut_)),
-      lattice_(lay_lattice(solid_, params.sampling())),
+PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads)
+    : solid_(read_solid(mesh_bytes, params, threads, polygons_cut_)),
+      lattice_(lay_lattice(solid_, params.sampling(), threads)),
       directions_(
           core::make_directions(solid_, params.directions().empty() ? "triangles" : params.directions())) {}
 

@@ -68,6 +68,7 @@ struct LatticeOptions {
   double spacing = 0;                                 ///< dT, mesh units; > 0, or 0 to use target_points
   std::uint64_t target_points = 0;                    ///< sets dT = (v0 / target_points)^(1/3)
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
+  unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
 };
 
 /// Axis-parallel lattice, centred on the solid's bounding box, ceil(side / dT) points per side, and the
@@ -79,6 +80,6 @@ struct LatticeOptions {
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame);
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1);
 
 }  // namespace affskel::core

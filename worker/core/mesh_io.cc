@@ -1,6 +1,7 @@
 #include "core/mesh_io.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -20,6 +21,20 @@ std::string quoted(std::string_view text) {
   std::string shown = "'";
   for (char c : text.substr(0, 40)) shown.push_back(c >= ' ' && c < 127 ? c : '?');
   return shown + (text.size() > 40 ? "...'" : "'");
+}
+
+enum class Kind : std::uint8_t { kWord, kBlank, kSpecial };
+
+constexpr std::array<Kind, 256> kind_table() {
+  std::array<Kind, 256> kinds{};
+  for (char c : {' ', '\t', '\v', '\f'}) kinds[static_cast<unsigned char>(c)] = Kind::kBlank;
+  for (char c : {'\0', '\r', '#'}) kinds[static_cast<unsigned char>(c)] = Kind::kSpecial;
+  return kinds;
+}
+constexpr std::array<Kind, 256> kKinds = kind_table();
+
+inline Kind kind_of(char c) {
+  return kKinds[static_cast<unsigned char>(c)];
 }
 
 // Rows of an OFF file: lines without comments and line ends, blank ones skipped, cut into words.
@@ -46,10 +61,26 @@ class Rows {
   void drop_first_word() { words_.erase(words_.begin()); }
 
  private:
+  // Most lines are plain words between blanks: one look at each character.
   void split(std::string_view text) {
     words_.clear();
-    if (text.find('\0') != std::string_view::npos) fail(line_, "a NUL byte in what should be text");
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (;;) {
+      while (at != end && kind_of(*at) == Kind::kBlank) ++at;
+      const char* const begin = at;
+      while (at != end && kind_of(*at) == Kind::kWord) ++at;
+      if (at != end && kind_of(*at) == Kind::kSpecial) return split_carefully(text);
+      if (at == begin) return;
+      words_.emplace_back(begin, static_cast<std::size_t>(at - begin));
+    }
+  }
+
+  // Lines with comments or with characters that do not belong into text.
+  void split_carefully(std::string_view text) {
+    words_.clear();
+    if (text.find('\0') != std::string_view::npos) fail(line_, "a NUL byte in what should be text");
     text = text.substr(0, text.find('#'));
     if (text.find('\r') != std::string_view::npos) {
       fail(line_, "a carriage return inside the line (old Macintosh line ends are not supported)");
@@ -238,6 +269,10 @@ class OffReader {
   }
 
   std::optional<std::uint32_t> repeated_corner() {
+    if (corners_.size() == 3 && corners_[0] != corners_[1] && corners_[1] != corners_[2] &&
+        corners_[2] != corners_[0]) {
+      return std::nullopt;
+    }
     sorted_ = corners_;
     std::sort(sorted_.begin(), sorted_.end());
     const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());
