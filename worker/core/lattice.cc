@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/scan_conversion.h"
 
 namespace affskel::core {
@@ -22,14 +23,14 @@ std::string in_words(double number) {
 
 class LatticeBuilder {
  public:
-  LatticeBuilder(const Solid& solid, const LatticeFrame& frame) : mesh_(solid.mesh) {
+  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, unsigned threads)
+      : mesh_(solid.mesh), threads_(threads) {
     lattice_.frame = frame;
   }
 
   Lattice run() {
     fill_axis_2();
-    fill_axis(0);
-    fill_axis(1);
+    parallel_for(threads_, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
     return std::move(lattice_);
   }
 
@@ -45,7 +46,7 @@ class LatticeBuilder {
   // Axis 2 decides what is inside and numbers the points.
   void fill_axis_2() {
     const LatticeFrame& frame = lattice_.frame;
-    const LineCrossings lines = scan_convert(mesh_, frame, 2);
+    const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_);
     std::uint64_t points = 0;
     for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
       for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
@@ -155,6 +156,7 @@ class LatticeBuilder {
   }
 
   const Mesh& mesh_;
+  unsigned threads_;
   Lattice lattice_;
 };
 
@@ -190,12 +192,12 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
 
 }  // namespace
 
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame) {
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads) {
   for (std::uint32_t n : frame.dims) {
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
-  Lattice lattice = LatticeBuilder(solid, frame).run();
+  Lattice lattice = LatticeBuilder(solid, frame, threads).run();
   const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
   lattice.spacing = solid.scale() * std::cbrt(std::abs(cell));
   return lattice;
@@ -227,7 +229,7 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   }
   const Vec3 corner{origin[0], origin[1], origin[2]};
   frame.origin = box.centre + options.frame * corner;
-  Lattice lattice = make_lattice(solid, frame);
+  Lattice lattice = make_lattice(solid, frame, options.threads);
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +

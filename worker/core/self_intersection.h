@@ -14,6 +14,7 @@ struct SelfIntersectionOptions {
   /// Also report every degenerate triangle (corners equal or on one line) as a pair with itself, as CGAL
   /// does.
   bool degenerate_triangles = false;
+  unsigned threads = 1;  ///< >= 1; the pairs do not depend on it
 };
 
 /// The first `options.max_pairs` pairs (i, j), in lexicographic order, of triangles that share a point

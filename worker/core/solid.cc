@@ -47,9 +47,12 @@ class SolidBuilder {
     if (solid_.mesh.triangles.empty()) refuse("the mesh has no triangles");
     check_points();
     drop_unused_vertices();
-    if (!every_edge_is_shared(solid_.mesh)) weld();
     const TrianglePlace where = [this](std::uint32_t t) { return place(t); };
-    HalfEdges mates = find_mates(solid_.mesh, where);
+    HalfEdges mates;
+    if (!find_mates_if_closed(solid_.mesh, options_.threads, mates)) {
+      if (!every_edge_is_shared(solid_.mesh)) weld();
+      mates = find_mates(solid_.mesh, where);
+    }
     make_orientation_agree(mates, where);
     note_split(split_pinched_vertices(solid_.mesh, mates));
     normalise();
@@ -335,6 +338,7 @@ class SolidBuilder {
   void look_for_self_intersections() {
     SelfIntersectionOptions options;
     options.max_pairs = 1000;
+    options.threads = options_.threads;
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;

@@ -11,6 +11,7 @@ namespace affskel::core {
 struct SolidOptions {
   bool repair = true;  ///< weld equal vertices, turn faces to agree, drop what nothing uses; false: refuse
   bool check_self_intersections = true;
+  unsigned threads = 1;  ///< >= 1; the solid does not depend on it
 };
 
 /// One thing worth telling about a mesh.

@@ -12,7 +12,7 @@ namespace affskel::core {
 
 /// What TreeInput holds; for the sources of the join tree only.
 struct TreeInput::Data {
-  explicit Data(const Solid& solid);
+  Data(const Solid& solid, unsigned threads);
 
   /// Triangles round a vertex.
   std::span<const std::uint32_t> fan(std::uint32_t vertex) const {
