@@ -153,7 +153,9 @@ TEST(ErodedSurfaceTest, OfABallIsAConcentricBall) {
   for (double radius : {0.95, 0.8, 0.5, 0.25}) {
     const ErodedSurface found = e.surface(ball_level(radius));
     expect_solid_boundary(found.mesh);
-    for (const Vec3& p : found.mesh.points) EXPECT_NEAR(norm(p), radius, 0.004 * 0.1 / radius);
+    // Edges that leave the ball know E at one end only.
+    const double tolerance = (radius > 0.9 ? 0.05 : 0.01) * 0.1;
+    for (const Vec3& p : found.mesh.points) EXPECT_NEAR(norm(p), radius, tolerance);
     EXPECT_DOUBLE_EQ(found.volume, mesh_facts(found.mesh).volume);
     // Chords of a sphere: the deficit of an inscribed mesh.
     const double exact = 4 * kPi / 3 * radius * radius * radius;

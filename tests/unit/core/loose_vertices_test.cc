@@ -47,7 +47,8 @@ TEST(LooseVerticesTest, StayWithinTheirBounds) {
   std::vector<LooseVertex> loose = roughen_top(mesh, 0.6, 0.9);
   settle_loose_vertices(loose, 50, mesh);
   for (const LooseVertex& l : loose) {
-    EXPECT_NEAR(l.share, 0.6, 1e-12);
+    EXPECT_GE(l.share, 0.6);
+    EXPECT_LT(l.share, 0.7);  // the plane round it is at 0.5
     EXPECT_EQ(mesh.points[l.vertex], l.from + l.share * l.along);
   }
 }
