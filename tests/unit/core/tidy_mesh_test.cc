@@ -43,8 +43,7 @@ void expect_points_of(const Mesh& part, const Mesh& whole) {
 
 TEST(TidyMeshTest, RemovesTheNeedlesAndCapsOfABall) {
   const ImplicitFunction ball = [](const Vec3& p) { return norm(p - Vec3{0.03, 0.01, 0.02}) - 1; };
-  const Mesh mesh =
-      mesh_zero_set(ball, {.low = {-1.5, -1.5, -1.5}, .high = {1.5, 1.5, 1.5}, .spacing = 0.1});
+  const Mesh mesh = mesh_zero_set(ball, {.low = {-1.5, -1.5, -1.5}, .high = {1.5, 1.5, 1.5}, .spacing = 0.1});
   ASSERT_LT(shape_of(mesh).shortest_edge, 0.01);
   const Mesh tidy = tidy_mesh(mesh, {.shortest_edge = 0.04});
   expect_solid_boundary(tidy);
@@ -79,8 +78,8 @@ TEST(TidyMeshTest, FlipsACap) {
   // On the longest side but for a thousandth.
   const Vec3 sides = {norm(b - a), norm(c - b), norm(a - c)};
   const std::size_t k = sides.x > 1.1 ? 0 : sides.y > 1.1 ? 1 : 2;
-  const Vec3 middle = 0.4995 * (mesh.points[cut[k]] + mesh.points[cut[(k + 1) % 3]]) +
-                      0.001 * mesh.points[cut[(k + 2) % 3]];
+  const Vec3 middle =
+      0.4995 * (mesh.points[cut[k]] + mesh.points[cut[(k + 1) % 3]]) + 0.001 * mesh.points[cut[(k + 2) % 3]];
   const auto v = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.push_back(middle);
   mesh.triangles[0] = {cut[0], cut[1], v};
