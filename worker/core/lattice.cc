@@ -35,10 +35,25 @@ class LatticeBuilder {
   }
 
  private:
-  // The first triangle from crossing `c` upward where the line leaves the solid.
-  static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end) {
+  // Follows a line through its crossings.  Where the surface crosses itself the line may enter twice before
+  // it leaves: `entered` is the crossing at which it came in from outside.
+  struct Passage {
+    std::int32_t winding = 0;
+    std::uint32_t entered = 0;
+
+    void pass(const Crossing& crossing) {
+      const bool outside = winding <= 0;
+      winding -= crossing.exits;
+      if (outside && winding > 0) entered = crossing.triangle;
+    }
+  };
+
+  // The triangle from crossing `c` upward where a line, within the solid so far, leaves it.
+  static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end,
+                                 Passage passage) {
     for (std::uint64_t e = c; e < end; ++e) {
-      if (lines.crossings[e].exits > 0) return lines.crossings[e].triangle;
+      passage.pass(lines.crossings[e]);
+      if (passage.winding <= 0) return lines.crossings[e].triangle;
     }
     return lines.crossings[c].triangle;
   }
@@ -52,19 +67,17 @@ class LatticeBuilder {
       for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
         const std::size_t line = std::size_t{i} * frame.dims[1] + j;
         const std::uint64_t last = lines.begin[line + 1];
-        std::int32_t winding = 0;
-        std::uint32_t entered = 0;
+        Passage passage;
         for (std::uint64_t c = lines.begin[line]; c + 1 < last; ++c) {
           const Crossing &low = lines.crossings[c], &high = lines.crossings[c + 1];
-          winding -= low.exits;
-          if (low.exits < 0) entered = low.triangle;
-          if (winding <= 0) continue;
+          passage.pass(low);
+          if (passage.winding <= 0) continue;
           const std::uint32_t k = clip(low.depth), end = clip(high.depth);
           if (k >= end) continue;
           lattice_.axis[2].runs.push_back({static_cast<std::uint32_t>(points),
                                            end - k,
-                                           entered,
-                                           exit_from(lines, c + 1, last),
+                                           passage.entered,
+                                           exit_from(lines, c + 1, last, passage),
                                            {i, j, k}});
           points += end - k;
           if (points > 0xFFFFFFFEU) {
@@ -126,8 +139,7 @@ class LatticeBuilder {
                 const std::vector<std::uint32_t>& run_of) {
     std::uint64_t next = lines.begin[line];
     const std::uint64_t end = lines.begin[line + 1];
-    std::int32_t winding = 0;
-    std::uint32_t entered = 0;
+    Passage passage;
     LatticeRun* open = nullptr;
     for (std::uint32_t o = from; o < to; ++o) {
       const std::uint32_t point = order[o];
@@ -135,19 +147,18 @@ class LatticeBuilder {
       std::array<std::uint32_t, 3> at = column.start;
       at[2] += point - column.first;
       for (; next < end && lines.crossings[next].depth <= at[a]; ++next) {
-        winding -= lines.crossings[next].exits;
-        if (lines.crossings[next].exits < 0) entered = lines.crossings[next].triangle;
+        passage.pass(lines.crossings[next]);
         open = nullptr;
       }
       AxisRuns& axis = lattice_.axis[a];
-      if (winding <= 0 || next == end) {
+      if (passage.winding <= 0 || next == end) {
         axis.strays.push_back({point, 1, column.low, column.high, at});
         open = nullptr;
         continue;
       }
       if (open == nullptr) {
         axis.runs.push_back(
-            {static_cast<std::uint32_t>(axis.order.size()), 0, entered, exit_from(lines, next, end), at});
+            {static_cast<std::uint32_t>(axis.order.size()), 0, passage.entered, exit_from(lines, next, end, passage), at});
         open = &axis.runs.back();
       }
       ++open->length;

@@ -55,6 +55,11 @@ Turned shared_first(const Triangle& t, const Triangle& other) {
   return turned;
 }
 
+Point point_of(const Mesh& mesh, std::uint32_t v) {
+  const Vec3& p = mesh.points[v];
+  return {p.x, p.y, p.z};
+}
+
 class PairTest {
  public:
   explicit PairTest(const Mesh& mesh) : mesh_(mesh) {}
@@ -83,10 +88,7 @@ class PairTest {
   }
 
  private:
-  Point point(std::uint32_t v) const {
-    const Vec3& p = mesh_.points[v];
-    return {p.x, p.y, p.z};
-  }
+  Point point(std::uint32_t v) const { return point_of(mesh_, v); }
   Kernel::Segment_3 segment(std::uint32_t v, std::uint32_t w) const { return {point(v), point(w)}; }
   Kernel::Triangle_3 triangle(const Triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
 
@@ -166,7 +168,25 @@ class Search {
   std::vector<Box> boxes_;
 };
 
+bool pierces(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Triangle& t) {
+  const Point p = point_of(mesh, from), q = point_of(mesh, to);
+  const std::array<Point, 3> c = {point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2])};
+  const CGAL::Orientation side = CGAL::orientation(c[0], c[1], c[2], p);
+  if (side == CGAL::COPLANAR || CGAL::orientation(c[0], c[1], c[2], q) != -side) return false;
+  const CGAL::Orientation turn = CGAL::orientation(p, q, c[0], c[1]);
+  return turn != CGAL::COPLANAR && CGAL::orientation(p, q, c[1], c[2]) == turn &&
+         CGAL::orientation(p, q, c[2], c[0]) == turn;
+}
+
 }  // namespace
+
+bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
+  const Triangle &s = mesh.triangles[i], &t = mesh.triangles[j];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (pierces(mesh, s[k], s[(k + 1) % 3], t) || pierces(mesh, t[k], t[(k + 1) % 3], s)) return true;
+  }
+  return false;
+}
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options) {

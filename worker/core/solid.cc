@@ -337,11 +337,15 @@ class SolidBuilder {
 
   void look_for_self_intersections() {
     SelfIntersectionOptions options;
-    options.max_pairs = 1000;
+    // Folded noise has a few per triangle.  More could fill the memory, and would say nothing new.
+    options.max_pairs = 32 * solid_.mesh.triangles.size();
     options.threads = options_.threads;
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;
+    for (const auto& [i, j] : pairs) {
+      if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
+    }
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
                                                                : "at least " + std::to_string(pairs.size());
     note(MeshNote::Severity::kWarning, "self-intersecting",

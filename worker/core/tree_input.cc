@@ -1,9 +1,12 @@
 #include "core/tree_input.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
+#include "core/solid_membership.h"
 
 namespace affskel::core {
 namespace {
@@ -57,10 +60,43 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
           pseudonormal_of(mesh, static_cast<std::uint32_t>(v), fan(static_cast<std::uint32_t>(v)));
     }
   });
+  if (!s.crossings.empty()) {
+    find_crossings();
+    find_nested(threads);
+  }
   for (double v : s.solid_volume) {
     solid_volume.push_back(std::ldexp(v, -3 * s.exponent));
     volume += solid_volume.back();
   }
+}
+
+void TreeInput::Data::find_crossings() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // vertex, triangle
+  for (const auto& [i, j] : solid.crossings) {
+    for (std::uint32_t v : solid.mesh.triangles[i]) entries.emplace_back(v, j);
+    for (std::uint32_t v : solid.mesh.triangles[j]) entries.emplace_back(v, i);
+  }
+  std::sort(entries.begin(), entries.end());
+  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+  crossing_begin.assign(solid.mesh.points.size() + 1, 0);
+  for (const auto& [vertex, triangle] : entries) {
+    ++crossing_begin[vertex + 1];
+    crossing_triangles.push_back(triangle);
+  }
+  for (std::size_t v = 1; v < crossing_begin.size(); ++v) crossing_begin[v] += crossing_begin[v - 1];
+}
+
+void TreeInput::Data::find_nested(unsigned threads) {
+  constexpr double kStep = 1e-7;  // far less than the spacing of any lattice
+  const SolidMembership membership(solid.mesh);
+  nested.resize(solid.mesh.points.size());
+  parallel_ranges(threads, nested.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const double length = norm(pseudonormal[v]);
+      if (length == 0) continue;
+      nested[v] = membership.contains(solid.mesh.points[v] + (kStep / length) * pseudonormal[v]);
+    }
+  });
 }
 
 TreeInput::TreeInput(const Solid& solid, unsigned threads) : data_(std::make_unique<Data>(solid, threads)) {}
