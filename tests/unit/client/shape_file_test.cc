@@ -149,9 +149,23 @@ TEST_F(ShapeFileTest, PlyErrorsNameThePlace) {
   expect_bad("a.ply", good + "1 2 3\n4 y 6\n", 9, "not a number");
   expect_bad("a.ply", good + "1 2 3\n4 5 6\n7 8 9\n", 10, "goes on");
   expect_bad("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 1\nproperty list uchar int vertex_indices\nend_header\ninf 0 1 2\n",
+             10, "a list of inf");
+  expect_bad("a.ply",
              "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
              "property float y\nproperty float z\nend_header\n",
              7, "announced");
+}
+
+TEST_F(ShapeFileTest, ColumnsOfWholeNumbersThatAreNotKeepTheirValues) {
+  const ShapeFile csv = read("d.csv", "x,y,z,direction,H\n1,2,3,1.5,1\n4,5,6,nan,2\n");
+  std::string bytes;
+  write_shape(FileFormat::kPly, csv, {}, [&](std::string_view piece) { bytes += piece; });
+  const ShapeFile ply = read("d.ply", bytes);
+  EXPECT_EQ(ply.column("direction")->values[0], 1.5);
+  EXPECT_NE(ply.column("direction")->values[1], ply.column("direction")->values[1]);
+  EXPECT_EQ(ply.column("H")->values, (std::vector<double>{1, 2}));
 }
 
 TEST_F(ShapeFileTest, TablesOfNumbers) {
