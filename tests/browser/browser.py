@@ -18,7 +18,6 @@ PATIENCE = 60  # seconds, for a loaded machine; nothing waits for it when all is
 FLAGS = [
     "--headless", "--no-sandbox", "--hide-scrollbars", "--disable-quic", "--no-first-run", "--disable-sync",
     "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage",
-    "--force-prefers-reduced-motion",
 ]
 SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 NO_GL = ["--disable-gpu", "--disable-3d-apis"]
