@@ -51,6 +51,7 @@ class Page:
 
     def __init__(self, driver, file):
         self.driver = driver
+        self.file = file
         self.driver.get("file://" + file)
 
     def script(self, text, *arguments):
@@ -90,9 +91,10 @@ class Page:
         return [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def requests(self):
-        """Addresses of everything that was asked for."""
+        """Addresses of everything that the page asked for, itself included."""
         messages = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
-        return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+        asked = [m["params"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+        return [a["request"]["url"] for a in asked if a["documentURL"] == "file://" + self.file]
 
 
 def colours(picture):

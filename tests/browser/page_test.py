@@ -40,7 +40,9 @@ class WithPage(unittest.TestCase):
 
     def tearDown(self):
         self.assertEqual(self.page.errors(), [])
-        self.assertEqual([url for url in self.page.requests() if not url.startswith(("file:///", "data:"))], [])
+        asked = self.page.requests()
+        self.assertIn("file://" + self.page.file, asked)
+        self.assertEqual([url for url in asked if not url.startswith(("file:///", "data:"))], [])
 
 
 class Desktop(WithPage):
@@ -53,6 +55,7 @@ class Desktop(WithPage):
         number, background = colours(self.page.canvas_picture())
         self.assertGreater(number, 500)
         self.assertLess(background, 0.97)
+        print(f"{self.page.script('return affskel.frameTime(10)'):.1f} ms per frame, drawn without a GPU")
         for layer in ["mesh", "skeleton", "axes"]:
             self.page.click("show-" + layer)
         self.assertEqual(colours(self.page.canvas_picture()), (1, 1.0))
@@ -60,7 +63,6 @@ class Desktop(WithPage):
             self.page.click("show-" + layer)
             self.assertGreater(colours(self.page.canvas_picture())[0], 1, layer)
             self.page.click("show-" + layer)
-        print(f"{self.page.script('return affskel.frameTime(10)'):.1f} ms per frame, drawn without a GPU")
 
     def test_the_threshold_chooses_the_skeleton(self):
         self.assertEqual(self.page.state()["threshold"], 7)

@@ -1,6 +1,6 @@
 // Writes a page whose skeleton is a sheet of `chords`, made up so that a test knows every number on it:
 // affskel_sheet_page FILE.  A box of 4 x 4 x 4 with a level sheet of 8 x 8 squares through its middle; the
-// strength of a vertex is 0.5 + 0.05 times its column, E is 1 % to 9 % of the volume by column.
+// strength of a vertex is 0.5 + 0.05 times its column, the colour of its E goes evenly from left to right.
 #include <exception>
 #include <iostream>
 
@@ -14,6 +14,7 @@ using affskel::client::ViewInput;
 using affskel::client::ViewPoint;
 
 constexpr unsigned kSquares = 8, kVertices = kSquares + 1;
+constexpr double kVolume = 64, kHighestShare = 0.125;
 
 void add_sheet(ViewInput& input) {
   input.sheet_is_skeleton = true;
@@ -21,7 +22,8 @@ void add_sheet(ViewInput& input) {
     for (unsigned column = 0; column < kVertices; ++column) {
       for (const double c : {0.5 * column, 0.5 * row, 2.0}) input.sheet.add_xyz(c);
       input.sheet.add_strength(0.5 + 0.05 * column);
-      input.sheet.add_erosion(0.64 * (column + 1));
+      input.sheet.add_erosion(kVolume * kHighestShare * column * column * column /
+                              (kSquares * kSquares * kSquares));
     }
   }
   for (unsigned row = 0; row < kSquares; ++row) {
@@ -38,7 +40,7 @@ ViewInput made_up() {
   ViewInput input;
   input.job.set_name("sheet");
   input.job.set_id("0123456789abcdef0123456789abcdef");
-  input.job.mutable_prepared()->set_volume(64);
+  input.job.mutable_prepared()->set_volume(kVolume);
   input.job.mutable_prepared()->set_spacing(0.5);
   input.mesh = affskel::core::make_box(4, 4, 4);
   input.operator_name = "chords";
@@ -47,7 +49,7 @@ ViewInput made_up() {
   for (std::uint16_t k = 1; k < kVertices - 1; ++k) {
     ViewPoint point;
     point.step = {4, 4, k};
-    point.share = 0.125f;
+    point.share = kHighestShare;
     point.inward = {0, 0, 1};
     input.points.push_back(point);
   }
