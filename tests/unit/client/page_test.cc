@@ -147,6 +147,7 @@ TEST(Page, NoNameBreaksOutOfItsElement) {
   input.job.set_name(name);
   const std::string page = view_page(input);
   EXPECT_EQ(facts(page).at("name"), name);
+  EXPECT_EQ(element(page, "facts").find_first_of("<>&"), std::string::npos);
   EXPECT_EQ(page.find("alert(\"1\")</script>"), std::string::npos);
   const std::string shown =
       "&lt;/script&gt;&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;";

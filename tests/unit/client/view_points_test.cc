@@ -93,8 +93,9 @@ TEST(ViewPoints, ALongAxisIsCoarsenedToSixteenBits) {
   EXPECT_EQ(grid.lattice_steps[2], 3u);
   EXPECT_EQ(grid.axes[2].z, 1.5);
   const ViewSelection all;
+  const std::vector<float> none;
   std::vector<ViewPoint> points;
-  ViewPointCollector collector(grid, all, {}, 1, points);
+  ViewPointCollector collector(grid, all, none, 1, points);
   FieldPoint last;
   last.k = 149999;
   collector.put(last);
