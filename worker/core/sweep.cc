@@ -133,25 +133,46 @@ class Sweeper::Pass {
     std::uint32_t start_;
   };
 
+  // Whether a test holds is hard to foresee, and a wrong guess costs the processor more than the test: what
+  // passes is listed without a branch, here and in pruned_segment(), and worked off afterwards.
   template <std::size_t a, bool rising>
   void pruned_runs() {
     const std::vector<LatticeRun>& runs = owner_.lattice_.axis[a].runs;
-    AxisBounds& bounds = owner_.bounds_[a];
+    const AxisBounds& bounds = owner_.bounds_[a];
     counts_.tested += runs.size();
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      const LatticeRun& run = runs[r];
-      const RunHeights<a> heights(*this, run);
-      const Arc* arc = first_arc(run, rising);
-      const double h = heights.at(rising ? 0 : run.length - 1);
-      climb(arc, h);
-      const double bound = load(bounds.run[r]);
-      if (exceeds(*arc, h, bound)) continue;
-      double* segments = &bounds.segment[bounds.first_segment[r]];
-      // A run of one segment: what was tested for it holds for the segment, too.
-      store(bounds.run[r], run.length <= kSegment
-                               ? pruned_segment<a, rising>(run, heights, 0, run.length, arc)
-                               : pruned_run<a, rising>(run, heights, arc, bound, segments));
+    struct Passed {
+      std::size_t run;
+      const Arc* arc;
+      double bound;
+    };
+    std::array<Passed, 64> passed;
+    for (std::size_t begin = 0; begin < runs.size(); begin += passed.size()) {
+      std::size_t count = 0;
+      for (std::size_t r = begin; r < std::min(begin + passed.size(), runs.size()); ++r) {
+        const LatticeRun& run = runs[r];
+        const Arc* arc = first_arc(run, rising);
+        const double h = RunHeights<a>(*this, run).at(rising ? 0 : run.length - 1);
+        climb(arc, h);
+        const double bound = load(bounds.run[r]);
+        passed[count] = {r, arc, bound};
+        count += exceeds(*arc, h, bound) ? 0 : 1;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        improve_run<a, rising>(passed[i].run, passed[i].arc, passed[i].bound);
+      }
     }
+  }
+
+  template <std::size_t a, bool rising>
+  void improve_run(std::size_t r, const Arc* arc, double bound) {
+    AxisBounds& bounds = owner_.bounds_[a];
+    const LatticeRun& run = owner_.lattice_.axis[a].runs[r];
+    const RunHeights<a> heights(*this, run);
+    // A run of one segment: what was tested for it holds for the segment, too.
+    store(bounds.run[r],
+          run.length <= kSegment
+              ? pruned_segment<a, rising>(run, heights, 0, run.length, arc)
+              : pruned_run<a, rising>(run, heights, arc, bound, &bounds.segment[bounds.first_segment[r]]));
   }
 
   // Goes up the run segment by segment; returns the largest E left in it.
@@ -182,18 +203,28 @@ class Sweeper::Pass {
   template <std::size_t a, bool rising>
   double pruned_segment(const LatticeRun& run, const RunHeights<a>& heights, std::uint32_t begin,
                         std::uint32_t end, const Arc* arc) {
+    struct Passed {
+      const Arc* arc;
+      double h;
+      std::uint32_t point;
+    };
+    std::array<Passed, kSegment> passed;
+    std::size_t count = 0;
     double largest = 0;
     for (std::uint32_t n = 0; n < end - begin; ++n) {
       const std::uint32_t offset = rising ? begin + n : end - 1 - n;
       const std::uint32_t p = point(a, run, offset);
       const double h = heights.at(offset);
       climb(arc, h);
-      double erosion = owner_.field_.erosion(p);
-      if (!exceeds(*arc, h, erosion)) {
-        evaluate(p, *arc, h);
-        erosion = owner_.field_.erosion(p);
-      }
-      largest = std::max(largest, erosion);
+      const double erosion = owner_.field_.erosion(p);
+      const bool exceeded = exceeds(*arc, h, erosion);
+      passed[count] = {arc, h, p};
+      count += exceeded ? 0 : 1;
+      largest = std::max(largest, exceeded ? erosion : 0);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      evaluate(passed[i].point, *passed[i].arc, passed[i].h);
+      largest = std::max(largest, owner_.field_.erosion(passed[i].point));
     }
     return largest;
   }
