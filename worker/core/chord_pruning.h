@@ -48,7 +48,7 @@ struct SignificantShocks {
 /// 3. what is left is joined by the cheapest ways through weaker shocks, as far as there are any (shortest
 ///    paths from all pieces at once, then a least spanning tree: Mehlhorn 1988);
 /// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept ones.
-/// Everything here is a function of r, E and o alone, and so affinely invariant when the opening is (see
+/// Everything here is a function of r, E, o and N alone, and so affinely invariant when these are (see
 /// chord_shocks.h).  Shares are relative: in a job of several solids small ones may be dropped as a whole.
 /// @param candidates of this lattice, strong and weak, in the order chord_shocks() gives them.
 /// @throws CoreError kBadInput when an option is not finite or out of range.
