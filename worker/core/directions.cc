@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/split_mix64.h"
 
 namespace affskel::core {
 namespace {
@@ -117,24 +118,6 @@ void add_sphere(std::uint64_t count, DirectionSet& set) {
   const std::uint64_t f = sphere_frequency(count);
   for (const auto& face : kFaces) add_face(v[face[0]], v[face[1]], v[face[2]], f, set);
 }
-
-class SplitMix64 {
- public:
-  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
-
-  // Uniform in [-1, 1), a multiple of 2^-52.
-  double symmetric() {
-    state_ += 0x9E3779B97F4A7C15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    z ^= z >> 31;
-    return static_cast<double>(z >> 11) * 0x1p-52 - 1;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 void add_random(std::uint64_t count, std::uint64_t seed, DirectionSet& set) {
   SplitMix64 random(seed);

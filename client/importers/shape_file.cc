@@ -1,0 +1,114 @@
+#include "client/importers/shape_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "client/error.h"
+#include "client/importers/shape_parsers.h"
+#include "client/input_file.h"
+#include "core/error.h"
+#include "core/polygon_cut.h"
+
+namespace affskel::client {
+namespace {
+
+ShapeFile parse_off(std::string_view bytes) {
+  ShapeFile file;
+  file.off = core::read_off(bytes);
+  return file;
+}
+
+using Parser = ShapeFile (*)(std::string_view);
+
+constexpr std::array<std::pair<std::string_view, Parser>, 7> kParsers = {{{".csv", parse_csv},
+                                                                          {".dat", parse_dat},
+                                                                          {".xyz", parse_xyz},
+                                                                          {".off", parse_off},
+                                                                          {".ply", parse_ply},
+                                                                          {".obj", parse_obj},
+                                                                          {".stl", parse_stl}}};
+
+Parser parser_for(const std::string& path, std::string_view bytes) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& [name, parser] : kParsers) {
+    if (extension == name) return parser;
+  }
+  if (bytes.starts_with("ply")) return parse_ply;
+  if (bytes.starts_with("OFF")) return parse_off;
+  throw ClientError(ExitCode::kBadInput,
+                    "not a known kind of file; points are read from .csv .ply .off .xyz .dat, surfaces from "
+                    ".off .ply .obj .stl",
+                    path);
+}
+
+void check_finite(const ShapeFile& file) {
+  for (const PointColumn& column : file.columns) {
+    if (!is_normal_column(column.name)) continue;
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+      if (!std::isfinite(column.values[i])) {
+        throw core::CoreError(core::CoreError::Code::kBadInput,
+                              "point " + std::to_string(i) + ": " + column.name + " is not finite");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const PointColumn* ShapeFile::column(std::string_view name) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const PointColumn& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+ShapeFile read_shape(const std::string& path) {
+  const std::string bytes = read_file(path);
+  const Parser parser = parser_for(path, bytes);
+  try {
+    ShapeFile file = parser(bytes);
+    check_finite(file);
+    file.path = path;
+    return file;
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, path);
+  }
+}
+
+bool is_normal_column(std::string_view name) {
+  return !name.empty() && (name.front() == 'n' || name.front() == 'N') &&
+         name.find_first_of("xyz") != std::string_view::npos;
+}
+
+void add_polygon(core::Mesh& mesh, const std::vector<std::int64_t>& corners, const std::string& place,
+                 std::uint64_t line) {
+  if (corners.size() < 3) {
+    fail_at(line, place + " has " + std::to_string(corners.size()) + " corners, needs 3");
+  }
+  std::vector<std::uint32_t> indices;
+  for (const std::int64_t corner : corners) {
+    if (corner < 0 || static_cast<std::uint64_t>(corner) >= mesh.points.size()) {
+      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(mesh.points.size()) +
+                        " vertices are known)");
+    }
+    indices.push_back(static_cast<std::uint32_t>(corner));
+  }
+  std::vector<std::uint32_t> sorted = indices;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+    fail_at(line, place + " uses a vertex twice");
+  }
+  core::cut_polygon(mesh.points, indices, mesh.triangles);
+}
+
+void fail_at(std::uint64_t line, const std::string& message) {
+  const std::string where = line > 0 ? "line " + std::to_string(line) + ": " : std::string();
+  throw core::CoreError(core::CoreError::Code::kBadInput, where + message, line);
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/mesh_io.h"
+
+namespace affskel::client {
+
+/// One number per point beside its coordinates: E, H, part of a normal, ...
+struct PointColumn {
+  std::string name;
+  bool whole = false;  ///< holds whole numbers, each exactly a double
+  std::vector<double> values;
+};
+
+/// A file of points or of triangles: a skeleton, a field, a mesh, a surface.
+struct ShapeFile {
+  std::string path;
+  core::OffMesh off;  ///< triangles empty: points alone; the lines only where the format has them
+  std::vector<PointColumn> columns;  ///< one value per point each
+
+  const core::Mesh& mesh() const { return off.mesh; }
+  bool is_surface() const { return !off.mesh.triangles.empty(); }
+  const PointColumn* column(std::string_view name) const;
+};
+
+/// Reads by the extension, whatever its case; without a known one by the first bytes (PLY, OFF):
+///   .csv          header line with x, y, z and any further columns of numbers;
+///   .dat          x y z E nx ny nz per row;
+///   .xyz          x y z or x y z nx ny nz per row;
+///   .off          Geomview OFF text, with or without faces;
+///   .ply          ASCII or binary of either byte order, any properties, polygons cut into triangles;
+///   .obj          v and f, polygons cut; the rest is passed over;
+///   .stl          text or binary; corners at the same place become one vertex.
+/// Coordinates and normals are finite.
+/// @throws ClientError kBadInput with the line where there is one; kLimit when the file is too large.
+ShapeFile read_shape(const std::string& path);
+
+}  // namespace affskel::client
