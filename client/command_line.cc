@@ -132,6 +132,12 @@ void add_submit(CLI::App& app, Options& options) {
       ->check(direction_set())
       ->capture_default_str()
       ->type_name("SET");
+  sub->add_option("--frame", o.frame,
+                  "Axes of the lattice: the mesh's, the principal ones, the least box's, or those that make "
+                  "the result affinely invariant")
+      ->check(CLI::IsMember({"axis", "pca", "obb", "affine"}))
+      ->capture_default_str()
+      ->type_name("FRAME");
   add_skeleton_options(sub, o.skeleton);
   sub->add_option("--name", o.name, "Name for people (default: the file's)")
       ->check(utf8_text())

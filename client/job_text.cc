@@ -27,6 +27,25 @@ std::string triple(const google::protobuf::RepeatedField<double>& values) {
   return text;
 }
 
+// By columns, as the message holds it.
+bool is_identity(const google::protobuf::RepeatedField<double>& frame) {
+  for (int i = 0; i < 9; ++i) {
+    if (frame[i] != (i % 4 == 0 ? 1 : 0)) return false;
+  }
+  return true;
+}
+
+std::string frame_text(const google::protobuf::RepeatedField<double>& frame) {
+  std::string text;
+  for (int i = 0; i < 9; ++i) text += (i == 0 ? "" : i % 3 == 0 ? ", " : " ") + shortest(frame[i]);
+  return text;
+}
+
+std::string frame_word(v1::Frame frame) {
+  return frame == v1::FRAME_UNSPECIFIED ? "axis"
+                                        : or_unknown(v1::Frame_descriptor()->FindValueByNumber(frame));
+}
+
 std::string prepared_details(const v1::PreparedSummary& p) {
   std::string text;
   text += key_line("points", std::to_string(p.points()));
@@ -38,6 +57,9 @@ std::string prepared_details(const v1::PreparedSummary& p) {
   text += key_line("surfaces", std::to_string(p.components()));
   text += key_line("cavities", std::to_string(p.cavities()));
   text += key_line("genus", std::to_string(p.genus()));
+  if (p.frame_size() == 9 && !is_identity(p.frame())) {
+    text += key_line("frame_vectors", frame_text(p.frame()));
+  }
   text += key_line("bbox_min", triple(p.bbox_min()));
   text += key_line("bbox_max", triple(p.bbox_max()));
   for (const v1::MeshNote& note : p.notes()) {
@@ -131,6 +153,9 @@ std::string job_details(const v1::Job& job) {
   text += key_line("asked_sampling", asked_sampling(job.params().sampling()));
   text += key_line("asked_directions",
                    job.params().directions().empty() ? "triangles" : job.params().directions());
+  if (frame_word(job.params().frame()) != "axis") {
+    text += key_line("asked_frame", frame_word(job.params().frame()));
+  }
   text += key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
   text += key_line("repair", job.params().repair() ? "auto" : "none");
   text += key_line("priority", std::to_string(job.priority()));

@@ -45,6 +45,7 @@ struct SubmitOptions {
   double spacing = 0;      ///< mesh units; 0 = by points
   std::uint64_t points = 100000;
   std::string directions = "triangles";
+  std::string frame = "axis";
   SkeletonOptions skeleton;
   std::string name;  ///< empty = the file's stem
   unsigned priority = 5;

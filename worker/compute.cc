@@ -21,6 +21,7 @@
 #include "core/lattice.h"
 #include "core/mesh_io.h"
 #include "core/solid.h"
+#include "core/solid_frame.h"
 #include "wire/direction_order.h"
 
 namespace affskel::worker {
@@ -119,8 +120,12 @@ void compute(const ComputeOptions& options) {
   core::LatticeOptions lattice_options;
   lattice_options.spacing = options.spacing;
   lattice_options.target_points = options.points;
+  lattice_options.frame = core::solid_frame(solid, core::parse_frame(options.frame));
   const core::Lattice lattice = core::make_lattice(solid, lattice_options);
-  const core::DirectionSet directions = core::make_directions(solid, options.directions);
+  core::DirectionOptions direction_options;
+  direction_options.frame = lattice_options.frame;
+  const core::DirectionSet directions =
+      core::make_directions(solid, options.directions, direction_options);
   core::ErosionOptions erosion_options;
   erosion_options.threads = options.threads;
   erosion_options.prune = options.prune;

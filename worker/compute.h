@@ -10,6 +10,7 @@ struct ComputeOptions {
   double spacing = 0;                    ///< dT, mesh units; 0 = use points
   std::uint64_t points = 100000;         ///< sample points aimed at when spacing is 0
   std::string directions = "triangles";  ///< see core::make_directions
+  std::string frame = "axis";            ///< of the lattice, see core::parse_frame
   unsigned threads = 1;
   std::string repair_mode = "auto";  ///< "auto" or "none"
   bool prune = true;

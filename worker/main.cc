@@ -129,6 +129,9 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       ->add_option("--directions", flags.compute.directions,
                    "triangles, sphere:N, random:N:SEED, joined by +")
       ->capture_default_str();
+  compute->add_option("--frame", flags.compute.frame, "axes of the lattice: axis, pca, obb or affine")
+      ->check(CLI::IsMember({"axis", "pca", "obb", "affine"}))
+      ->capture_default_str();
   compute->add_option("--threads", flags.compute.threads, "computing threads")
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();

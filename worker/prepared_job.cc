@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/mesh_io.h"
+#include "core/solid_frame.h"
 #include "wire/address.h"
 
 namespace affskel::worker {
@@ -22,8 +23,34 @@ core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, 
   return core::make_solid(off.mesh, options, off.vertex_line, off.triangle_line);
 }
 
-core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling) {
+core::FrameKind frame_kind(v1::Frame frame) {
+  switch (frame) {
+    case v1::FRAME_UNSPECIFIED:
+    case v1::FRAME_AXIS:
+      return core::FrameKind::kAxis;
+    case v1::FRAME_PCA:
+      return core::FrameKind::kPca;
+    case v1::FRAME_OBB:
+      return core::FrameKind::kObb;
+    case v1::FRAME_AFFINE:
+      return core::FrameKind::kAffine;
+    default:
+      throw core::CoreError(core::CoreError::Code::kBadInput,
+                            "frame " + std::to_string(frame) + " is not known to this worker");
+  }
+}
+
+core::DirectionSet take_directions(const core::Solid& solid, const std::string& spec,
+                                   const core::Matrix3& frame) {
+  core::DirectionOptions options;
+  options.frame = frame;
+  return core::make_directions(solid, spec.empty() ? "triangles" : spec, options);
+}
+
+core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling,
+                          const core::Matrix3& frame) {
   core::LatticeOptions options;
+  options.frame = frame;
   if (sampling.has_spacing()) {
     options.spacing = sampling.spacing();
   } else {
@@ -42,9 +69,9 @@ void add(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
 
 PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params)
     : solid_(read_solid(mesh_bytes, params, polygons_cut_)),
-      lattice_(lay_lattice(solid_, params.sampling())),
-      directions_(
-          core::make_directions(solid_, params.directions().empty() ? "triangles" : params.directions())) {}
+      frame_(core::solid_frame(solid_, frame_kind(params.frame()))),
+      lattice_(lay_lattice(solid_, params.sampling(), frame_)),
+      directions_(take_directions(solid_, params.directions(), frame_)) {}
 
 v1::PreparedSummary PreparedJob::summary() const {
   v1::PreparedSummary summary;
@@ -62,6 +89,7 @@ v1::PreparedSummary PreparedJob::summary() const {
   summary.set_points(lattice_.points);
   summary.set_directions(directions_.size());
   summary.set_spacing(lattice_.spacing);
+  for (const core::Vec3& axis : frame_) add(axis, summary.mutable_frame());
   if (polygons_cut_ != 0) {
     v1::MeshNote* note = summary.add_notes();
     note->set_severity("repaired");

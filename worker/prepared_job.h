@@ -8,6 +8,7 @@
 #include "core/directions.h"
 #include "core/erosion.h"
 #include "core/lattice.h"
+#include "core/matrix3.h"
 #include "core/solid.h"
 
 namespace affskel::worker {
@@ -42,6 +43,7 @@ class PreparedJob {
  private:
   std::uint64_t polygons_cut_ = 0;  // before solid_, whose making sets it
   core::Solid solid_;
+  core::Matrix3 frame_;
   core::Lattice lattice_;
   core::DirectionSet directions_;
   std::unique_ptr<core::Erosion> erosion_;

@@ -31,6 +31,13 @@ void require_short(const std::string& text, std::size_t bytes, const std::string
   }
 }
 
+v1::Frame frame_named(const std::string& name) {
+  if (name == "pca") return v1::FRAME_PCA;
+  if (name == "obb") return v1::FRAME_OBB;
+  if (name == "affine") return v1::FRAME_AFFINE;
+  return v1::FRAME_AXIS;
+}
+
 v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& input,
                                const std::string& owner) {
   require_short(options.name, kMaxName, "--name");
@@ -47,6 +54,7 @@ v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& in
     sampling.set_target_points(options.points);
   }
   header.mutable_params()->set_directions(options.directions);
+  header.mutable_params()->set_frame(frame_named(options.frame));
   header.mutable_params()->set_repair(options.repair == "auto");
   *header.mutable_skeleton() = skeleton_params(options.skeleton);
   header.set_request_id(options.request_id);

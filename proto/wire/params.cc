@@ -90,6 +90,8 @@ v1::ErosionParams canonical(const v1::ErosionParams& params) {
       throw std::invalid_argument("neither a spacing nor a number of sample points is given");
   }
   result.set_directions(canonical_directions(params.directions()));
+  if (params.frame() == v1::FRAME_UNSPECIFIED) result.set_frame(v1::FRAME_AXIS);
+  if (!v1::Frame_IsValid(result.frame())) throw std::invalid_argument("unknown frame of the lattice");
   return result;
 }
 
@@ -153,7 +155,10 @@ std::string cache_key(const v1::ErosionParams& params) {
   const std::string density = sampling.density_case() == v1::Sampling::kSpacing
                                   ? "spacing=" + bits(sampling.spacing())
                                   : "points=" + std::to_string(sampling.target_points());
-  return density + " directions=" + params.directions() + " repair=" + (params.repair() ? "1" : "0");
+  // Keys from before there were frames stay valid.
+  const std::string frame =
+      params.frame() == v1::FRAME_AXIS ? "" : " frame=" + std::to_string(static_cast<int>(params.frame()));
+  return density + " directions=" + params.directions() + " repair=" + (params.repair() ? "1" : "0") + frame;
 }
 
 std::string cache_key(const v1::SkeletonParams& params) {

@@ -130,6 +130,13 @@ void add_random(std::uint64_t count, std::uint64_t seed, DirectionSet& set) {
   }
 }
 
+// Normals from `first` on: from the frame's coordinates to the mesh's.
+void map_from_frame(const Matrix3& frame, std::size_t first, DirectionSet& set) {
+  if (frame == kIdentity3) return;  // not a bit may change
+  const Matrix3 map = inverse_transposed(frame);
+  for (std::size_t i = first; i < set.size(); ++i) set[i] = unit(map * set[i]);
+}
+
 }  // namespace
 
 DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options) {
@@ -145,6 +152,7 @@ DirectionSet make_directions(const Solid& solid, std::string_view spec, const Di
   }
   DirectionSet set;
   for (const Part& part : parts) {
+    const std::size_t before = set.size();
     switch (part.kind) {
       case Part::Kind::kTriangles:
         add_triangles(solid, set);
@@ -156,6 +164,7 @@ DirectionSet make_directions(const Solid& solid, std::string_view spec, const Di
         add_random(part.count, part.seed, set);
         break;
     }
+    if (part.kind != Part::Kind::kTriangles) map_from_frame(options.frame, before, set);
   }
   return set;
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/matrix3.h"
 #include "core/solid.h"
 #include "core/vec3.h"
 
@@ -19,6 +20,7 @@ using OptimalDirections = std::vector<std::uint32_t>;
 
 struct DirectionOptions {
   std::uint64_t max_directions = std::uint64_t{1} << 24;  ///< refuse larger sets
+  Matrix3 frame = kIdentity3;                             ///< F of sphere and random, see solid_frame
 };
 
 /// The set that `spec` names, parts joined by "+" in their order:
@@ -26,6 +28,8 @@ struct DirectionOptions {
 ///   sphere:N       the inward normals of the geodesic sphere of 20 f^2 triangles (the icosahedron's faces
 ///                  cut f-fold), f least with 20 f^2 >= N;
 ///   random:N:SEED  N uniform unit vectors (rejection from the cube, SplitMix64 from SEED).
+/// Those of sphere and random are normals n_u in the frame's coordinates: in the mesh's F^-T n_u, normalised.
+/// So they go along with a map of solid and frame, as the triangles' normals do by themselves.
 /// Only +, -, *, / and sqrt are used, so that all machines agree on every bit.
 /// @throws CoreError kBadInput for a spec that does not parse; kLimit for too many directions.
 DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options = {});

@@ -2,15 +2,14 @@
 
 #include <cmath>
 
+#include "core/cube_root.h"
+#include "core/matrix3.h"
+
 namespace affskel::core {
 namespace {
 
 bool is_identity(const std::array<Vec3, 3>& f) {
   return f == std::array{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-}
-
-Vec3 transposed_times(const std::array<Vec3, 3>& f, const Vec3& v) {
-  return {dot(f[0], v), dot(f[1], v), dot(f[2], v)};
 }
 
 }  // namespace
@@ -21,7 +20,7 @@ std::array<Vec3, 3> frame_matrix(const Lattice& lattice) {
                         axes[2].x == 0 && axes[2].y == 0 && axes[0].x > 0 && axes[0].x == axes[1].y &&
                         axes[0].x == axes[2].z;
   if (parallel) return {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  const double step = std::cbrt(std::abs(dot(axes[0], cross(axes[1], axes[2]))));
+  const double step = cube_root(std::abs(dot(axes[0], cross(axes[1], axes[2]))));
   return {(1 / step) * axes[0], (1 / step) * axes[1], (1 / step) * axes[2]};
 }
 

@@ -168,6 +168,26 @@ double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
   return options.spacing;
 }
 
+// The solid's bounding box in a frame's coordinates.
+struct FrameBox {
+  Vec3 sides;         // mesh units
+  Vec3 centre;        // inner coordinates
+  double shrunk = 1;  // what sides are to be multiplied by before they are counted in steps
+};
+
+FrameBox box_in(const Solid& solid, const Matrix3& f) {
+  if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}, 1};
+  const Matrix3 inverse = inverse_transposed(f);
+  const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
+  Vec3 low = in_frame(solid.mesh.points.front()), high = low;
+  for (const Vec3& p : solid.mesh.points) {
+    const Vec3 u = in_frame(p);
+    low = {std::min(low.x, u.x), std::min(low.y, u.y), std::min(low.z, u.z)};
+    high = {std::max(high.x, u.x), std::max(high.y, u.y), std::max(high.z, u.z)};
+  }
+  return {solid.scale() * (high - low), f * (0.5 * (low + high)), 1 - 1e-9};
+}
+
 }  // namespace
 
 Lattice make_lattice(const Solid& solid, const LatticeFrame& frame) {
@@ -183,7 +203,8 @@ Lattice make_lattice(const Solid& solid, const LatticeFrame& frame) {
 
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   const double spacing = wanted_spacing(solid, options);
-  const Vec3 sides = solid.bbox_max - solid.bbox_min;
+  const FrameBox box = box_in(solid, options.frame);
+  const Vec3& sides = box.sides;
   const double lines = (sides.x / spacing + 1) * (sides.y / spacing + 1) +
                        (sides.y / spacing + 1) * (sides.z / spacing + 1) +
                        (sides.z / spacing + 1) * (sides.x / spacing + 1);
@@ -197,14 +218,15 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   }
   LatticeFrame frame;
   const double step = std::ldexp(spacing, -solid.exponent);
-  frame.axes = {Vec3{step, 0, 0}, Vec3{0, step, 0}, Vec3{0, 0, step}};
+  frame.axes = step * options.frame;
   std::array<double, 3> origin{};
   for (int k = 0; k < 3; ++k) {
-    const double count = std::max(1.0, std::ceil(sides[k] / spacing));
+    const double count = std::max(1.0, std::ceil(sides[k] / spacing * box.shrunk));
     frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
     origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
   }
-  frame.origin = {origin[0], origin[1], origin[2]};
+  const Vec3 corner{origin[0], origin[1], origin[2]};
+  frame.origin = box.centre + options.frame * corner;
   Lattice lattice = make_lattice(solid, frame);
   lattice.spacing = spacing;
   if (lattice.points == 0) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/matrix3.h"
 #include "core/solid.h"
 #include "core/vec3.h"
 
@@ -67,15 +68,20 @@ class SamplePlaces {
 struct LatticeOptions {
   double spacing = 0;                                 ///< dT, mesh units; > 0, or 0 to use target_points
   std::uint64_t target_points = 0;                    ///< sets dT = (v0 / target_points)^(1/3)
+  Matrix3 frame = kIdentity3;                         ///< F of det 1, see solid_frame
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
 };
 
-/// Axis-parallel lattice, centred on the solid's bounding box, ceil(side / dT) points per side, and the
+/// Lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
+/// bounding box in the frame's coordinates u = F^-1 (x - centre), ceil(side / dT) points per side, and the
 /// watertight scan conversion of the solid in it: a point is inside when the surfaces below it along
 /// axis 2 enter more often than they leave (half-open, decided the same way from both triangles of every
 /// edge, so that the count of crossings of a line is always even).
 /// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
 ///   more than max_points would.
+///
+/// Sides that are whole multiples of dT to 1e-9 count as such in any frame but the mesh's own, where rounding
+/// in F would decide otherwise.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.

@@ -80,6 +80,24 @@ TEST(JobDetails, TellsWhyAJobFailedOrWaits) {
   EXPECT_NE(job_details(job).find("reason:               no workers\n"), std::string::npos);
 }
 
+TEST(JobDetails, ShowsTheFrameUnlessItIsTheMeshs) {
+  v1::Job job;
+  for (const double v : {1, 0, 0, 0, 1, 0, 0, 0, 1}) job.mutable_prepared()->add_frame(v);
+  for (const v1::Frame own : {v1::FRAME_UNSPECIFIED, v1::FRAME_AXIS}) {
+    job.mutable_params()->set_frame(own);
+    EXPECT_EQ(job_details(job).find("frame"), std::string::npos);
+  }
+  job.mutable_params()->set_frame(v1::FRAME_AFFINE);
+  job.mutable_prepared()->clear_frame();
+  for (const double v : {2.0, 0.0, 0.25, 0.0, 1.0, 0.0, -1.0, 0.0, 0.5}) job.mutable_prepared()->add_frame(v);
+  const std::string text = job_details(job);
+  EXPECT_NE(text.find("asked_frame:          affine\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("frame_vectors:        2 0 0.25, 0 1 0, -1 0 0.5\n"), std::string::npos) << text;
+  const nlohmann::ordered_json json = to_json(job);
+  EXPECT_EQ(json["params"]["frame"], "affine");
+  EXPECT_EQ(json["prepared"]["frame"].size(), 9U);
+}
+
 v1::Job eroding(std::uint64_t done) {
   v1::Job job;
   job.set_state(v1::JOB_STATE_RUNNING);

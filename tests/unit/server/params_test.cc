@@ -55,6 +55,23 @@ TEST(ParamsTest, KeysTellEveryBitOfTheSpacing) {
   EXPECT_NE(cache_key(canonical(erosion("", spacing))), cache_key(canonical(repaired)));
 }
 
+TEST(ParamsTest, FramesAreNamedInKeysUnlessTheyAreTheMeshs) {
+  const v1::ErosionParams plain = canonical(erosion("", 200));
+  EXPECT_EQ(plain.frame(), v1::FRAME_AXIS);
+  EXPECT_EQ(cache_key(plain), "spacing=4069000000000000 directions=triangles repair=0")
+      << "keys of stored jobs must stay what they are";
+  v1::ErosionParams axis = erosion("", 200), affine = axis, pca = axis, unknown = axis;
+  axis.set_frame(v1::FRAME_AXIS);
+  EXPECT_EQ(cache_key(canonical(axis)), cache_key(plain));
+  affine.set_frame(v1::FRAME_AFFINE);
+  EXPECT_EQ(canonical(affine).frame(), v1::FRAME_AFFINE);
+  EXPECT_EQ(cache_key(canonical(affine)), cache_key(plain) + " frame=4");
+  pca.set_frame(v1::FRAME_PCA);
+  EXPECT_EQ(cache_key(canonical(pca)), cache_key(plain) + " frame=2");
+  unknown.set_frame(static_cast<v1::Frame>(77));
+  EXPECT_THROW(canonical(unknown), std::invalid_argument);
+}
+
 TEST(ParamsTest, SkeletonDefaultsAreFilledIn) {
   const v1::SkeletonParams filled = canonical(v1::SkeletonParams());
   EXPECT_EQ(filled.operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
