@@ -83,6 +83,14 @@ void run_command(const CLI::App& app, const Options& options, Console& console, 
       return run_make(console, options.make);
     case Command::kRender:
       return run_render(context, options.job);
+    case Command::kCompare:
+      return run_compare(console, options.compare);
+    case Command::kTransform:
+      return run_transform(console, options.transform);
+    case Command::kPerturb:
+      return run_perturb(console, options.perturb);
+    case Command::kView:
+      return run_view(context, options.job);
     case Command::kCompletions:
       io.out << completion_script(app, options.shell);
       return;

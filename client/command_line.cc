@@ -1,12 +1,10 @@
 #include "client/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
 
+#include "client/command_parts.h"
 #include "client/help_format.h"
 #include "client/skeleton_text.h"
-#include "client/utf8.h"
 #include "core/directions.h"
 #include "core/error.h"
 #include "wire/version.h"
@@ -14,52 +12,13 @@
 namespace affskel::client {
 namespace {
 
-CLI::Validator positive_number() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool good = error == std::errc{} && end == text.data() + text.size();
-        return good && std::isfinite(value) && value > 0 ? "" : "must be a number > 0, not '" + text + "'";
-      },
-      "");
-}
 
-// Without options of their own, skeleton and surface use the job's.
+// Without options of their own, skeleton, surface and view use the job's.
 void note_own_skeleton(CLI::App* sub, Options& options, Command which) {
   sub->callback([sub, &options, which] {
     options.command = which;
     options.job.own_skeleton = sub->count("--operator") == 0 && sub->count("--threshold") == 0;
   });
-}
-
-CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
-  return CLI::Validator(
-      [low, high](std::string& text) -> std::string {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool whole = error == std::errc{} && end == text.data() + text.size();
-        return whole && value >= low && value <= high
-                   ? ""
-                   : "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
-                         ", not '" + text + "'";
-      },
-      "");
-}
-
-// An empty variable of a script must not mean another server than the one that was meant.
-CLI::Validator given() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
-}
-
-// What becomes a string of the protocol.
-CLI::Validator utf8_text() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string {
-        return is_utf8(text) ? "" : "must be UTF-8 text, not '" + to_utf8(text) + "'";
-      },
-      "");
 }
 
 CLI::Validator direction_set() {
@@ -73,16 +32,6 @@ CLI::Validator direction_set() {
         }
       },
       "");
-}
-
-CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
-                  const std::string& description, const std::string& examples) {
-  CLI::App* sub = parent.add_subcommand(name, description);
-  sub->group("Commands");
-  sub->footer("Examples:\n" + examples +
-              "\nOptions for all commands (--server, --json, --quiet): affskel-client --help");
-  sub->callback([&options, which] { options.command = which; });
-  return sub;
 }
 
 void add_job(CLI::App* sub, Options& options) {
@@ -269,6 +218,16 @@ void add_result_commands(CLI::App& app, Options& options) {
       ->capture_default_str()
       ->type_name("W");
   add_output(render, options, "PNG file to write");
+
+  CLI::App* view = command(app, options, "view", Command::kView,
+                           "Page for any browser: the body and its skeleton to turn, with sliders for the\n"
+                           "shock threshold and the erosion level; one file that needs no network",
+                           "  affskel-client view @last -o body.html\n"
+                           "  affskel-client view 3f2a9c --threshold 5 -o body.html");
+  add_job(view, options);
+  add_skeleton_options(view, options.job.skeleton);
+  note_own_skeleton(view, options, Command::kView);
+  add_output(view, options, "HTML file to write");
 }
 
 CLI::App* shape(CLI::App* make, Options& options, const std::string& name, Shape which,
@@ -377,12 +336,14 @@ void build_command_line(CLI::App& app, Options& options) {
   add_result_commands(app, options);
   add_inspect(app, options);
   add_make(app, options);
+  add_shape_file_commands(app, options);
   add_other_commands(app, options);
   app.footer(
       "Examples:\n"
       "  affskel-client make body -o body.off\n"
       "  affskel-client submit body.off --spacing 200 -o OUT\n"
       "  affskel-client render @last -o body.png\n"
+      "  affskel-client view @last -o body.html\n"
       "'affskel-client COMMAND --help' tells more. Exit codes: 0 done, 1 job failed, 2 usage, 3 bad input\n"
       "file, 4 no such job or artefact, 5 server unreachable, 6 cancelled, 7 not allowed, 8 limit reached,\n"
       "70 internal error.");

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "client/affine_steps.h"
 
 namespace affskel::client {
 
@@ -22,6 +25,10 @@ enum class Command {
   kInspect,
   kMake,
   kRender,
+  kCompare,
+  kTransform,
+  kPerturb,
+  kView,
   kCompletions,
 };
 
@@ -63,8 +70,8 @@ struct ListOptions {
 struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
-  std::string output;        ///< fetch, skeleton, surface, erode, render
-  SkeletonOptions skeleton;  ///< skeleton, surface, fetch divergence (its operator)
+  std::string output;        ///< fetch, skeleton, surface, erode, render, view
+  SkeletonOptions skeleton;  ///< skeleton, surface, view, fetch divergence
   bool own_skeleton = true;  ///< neither --operator nor --threshold was given: the job's own
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
   double fraction = 0;       ///< erode; level as a share of v0, 0 = not given
@@ -92,6 +99,29 @@ struct MakeOptions {
   double body_height = 18000;
 };
 
+struct CompareOptions {
+  std::string a, b;
+  double radius = 0;              ///< 0 = the voxel diagonal of the box
+  std::string radii;              ///< comma-separated; empty = 0 .. 4 radius
+  bool squared = false;           ///< radii are given and shown squared
+  std::string solid;              ///< mesh for the chance level; empty = none
+  std::string plot, output;       ///< SVG and CSV; empty = none
+  std::uint64_t samples = 50000;  ///< points on a surface
+};
+
+struct TransformOptions {
+  std::string file, output;
+  std::vector<AffineStep> steps;  ///< in the order given
+  bool inverse = false;
+};
+
+struct PerturbOptions {
+  std::string file, output;
+  std::string noise;            ///< share of the box diagonal, "0.5%" or "0.005"; empty = sigma
+  std::optional<double> sigma;  ///< mesh units
+  std::uint64_t seed = 1;
+};
+
 /// Everything the command line can say.
 struct Options {
   GlobalOptions global;
@@ -101,6 +131,9 @@ struct Options {
   JobOptions job;
   std::string inspect_file;
   MakeOptions make;
+  CompareOptions compare;
+  TransformOptions transform;
+  PerturbOptions perturb;
   std::string shell;
 };
 

@@ -124,8 +124,7 @@ void compute(const ComputeOptions& options) {
   const core::Lattice lattice = core::make_lattice(solid, lattice_options);
   core::DirectionOptions direction_options;
   direction_options.frame = lattice_options.frame;
-  const core::DirectionSet directions =
-      core::make_directions(solid, options.directions, direction_options);
+  const core::DirectionSet directions = core::make_directions(solid, options.directions, direction_options);
   core::ErosionOptions erosion_options;
   erosion_options.threads = options.threads;
   erosion_options.prune = options.prune;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <condition_variable>
 #include <mutex>
@@ -13,7 +14,7 @@
 
 #include "core/error.h"
 #include "core/version.h"
-#include "derive_task.h"
+#include "derive/derive.h"
 #include "erode_task.h"
 #include "prepared_job.h"
 #include "result_bytes.h"
@@ -48,6 +49,12 @@ v1::WorkerIdentity own_identity(unsigned threads) {
   identity.set_threads(threads);
   identity.set_core_version(core::kCoreVersion);
   return identity;
+}
+
+// Jobs prepared before there were frames have none, and no other than the mesh's.
+bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& own) {
+  return stored.frame_size() == 0 ||
+         std::equal(stored.frame().begin(), stored.frame().end(), own.frame().begin(), own.frame().end());
 }
 
 // Renews a lease in the background while a task computes that has nothing to report in between.
@@ -176,6 +183,9 @@ class LeaseLoop {
         return erode_block(lease);
       case v1::TASK_KIND_SKELETON:
       case v1::TASK_KIND_SURFACE:
+      case v1::TASK_KIND_DIVERGENCE:
+      case v1::TASK_KIND_ERODED_POINTS:
+      case v1::TASK_KIND_ERODED_SURFACE:
         return derive(lease);
       default:
         throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
@@ -202,7 +212,8 @@ class LeaseLoop {
       const LeaseKeeper keeper(link_, lease);
       PreparedJob& job = obtain(lease);
       if (job.lattice().points != lease.job().prepared().points() ||
-          job.directions().size() != lease.job().directions_total()) {
+          job.directions().size() != lease.job().directions_total() ||
+          !same_frame(lease.job().prepared(), job.summary())) {
         throw core::CoreError(core::CoreError::Code::kInternal,
                               "this worker's core lays another lattice than the one that prepared the job");
       }
@@ -226,19 +237,12 @@ class LeaseLoop {
     const LeaseKeeper keeper(link_, lease);
     const PreparedJob& job = obtain(lease);
     const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
+    const Derived derived = affskel::worker::derive(lease, job, stored);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
-    std::string data;
-    if (lease.kind() == v1::TASK_KIND_SKELETON) {
-      const v1::SkeletonPoints skeleton = derive_skeleton(job, stored, lease.skeleton());
-      header.set_points(static_cast<std::uint64_t>(skeleton.point_size()));
-      append_result(data, skeleton, "the skeleton (a higher threshold keeps fewer points)");
-    } else {
-      const v1::TriangleMesh surface = derive_surface(job, stored, lease.surface());
-      header.set_points(static_cast<std::uint64_t>(surface.corners_size()) / 3);
-      append_result(data, surface, "the surface (a higher threshold keeps fewer points)");
-    }
-    link_.complete(header, data);
+    header.set_points(derived.items);
+    if (derived.quality) *header.mutable_quality() = *derived.quality;
+    link_.complete(header, derived.data);
   }
 
   // The prepared job of the lease: the one in hand, or made from the mesh.

@@ -23,9 +23,16 @@ void run_skeleton(Context& context, const JobOptions& options);
 void run_surface(Context& context, const JobOptions& options);
 void run_erode(Context& context, const JobOptions& options);
 void run_render(Context& context, const JobOptions& options);
+void run_view(Context& context, const JobOptions& options);
 /// Needs no server.
 void run_inspect(Console& console, const std::string& file);
 /// Needs no server.
 void run_make(Console& console, const MakeOptions& options);
+/// Needs no server.
+void run_compare(Console& console, const CompareOptions& options);
+/// Needs no server.
+void run_transform(Console& console, const TransformOptions& options);
+/// Needs no server.
+void run_perturb(Console& console, const PerturbOptions& options);
 
 }  // namespace affskel::client

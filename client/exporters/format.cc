@@ -14,6 +14,7 @@ constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat};
 constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz};
 constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl};
 constexpr std::array kPicture = {FileFormat::kPng};
+constexpr std::array kPage = {FileFormat::kHtml};
 
 }  // namespace
 
@@ -34,9 +35,13 @@ std::span<const FileFormat> picture_formats() {
   return kPicture;
 }
 
+std::span<const FileFormat> page_formats() {
+  return kPage;
+}
+
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 9> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off",
-                                                      ".xyz", ".obj", ".stl",    ".png"};
+  constexpr std::array<std::string_view, 11> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off",
+                                                       ".xyz", ".obj", ".stl",    ".png", ".svg", ".html"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

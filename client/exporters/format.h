@@ -7,7 +7,7 @@
 
 namespace affskel::client {
 
-enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng };
+enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng, kSvg, kHtml };
 
 /// What can be written as which formats.
 std::span<const FileFormat> field_formats();       // csv dat vtkhdf
@@ -15,6 +15,7 @@ std::span<const FileFormat> divergence_formats();  // csv dat
 std::span<const FileFormat> skeleton_formats();    // csv ply off xyz
 std::span<const FileFormat> surface_formats();     // off ply obj stl
 std::span<const FileFormat> picture_formats();     // png
+std::span<const FileFormat> page_formats();        // html
 
 /// With the dot, e.g. ".csv".
 std::string_view extension_of(FileFormat format);

@@ -1,14 +1,24 @@
 // The VTKHDF file format, ImageData, version 1.0: a group VTKHDF with attributes that place the image and
 // a group PointData with one dataset per array.  VTK's x is fastest, so dataset dimensions are (z, y, x)
 // while the points arrive with x slowest: planes of constant x are collected in slabs as thick as a chunk.
+//
+// Point (i, j, k) lies at Origin + Direction (Spacing * (i, j, k)), Direction's columns being the unit
+// vectors along the lattice's axes.  Of an affine frame these are not orthogonal; VTK's image data applies
+// and inverts the matrix as it stands, so that places, cells and isosurfaces are right all the same (tried
+// with 9.1, whose reader of these files only keeps the matrix, turned or sheared, without using it until
+// SetDirectionMatrix is called with it).  The attribute "frame", 9 numbers, one vector of the frame after the
+// other, says that a lattice is not parallel to the mesh's axes: then whoever takes Origin and Spacing alone
+// gets wrong places.  It is an attribute because VTK 9.1 refuses images with a FieldData group.
 #include <hdf5.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <limits>
 
 #include "client/error.h"
 #include "client/exporters/field_writer.h"
+#include "core/matrix3.h"
 
 namespace affskel::client {
 namespace {
@@ -231,6 +241,21 @@ class VtkHdfWriter : public FieldWriter {
     }
     set_attribute(root, "Spacing", spacing);
     set_attribute(root, "Direction", direction);
+    if (!is_upright(points)) write_frame(points);
+  }
+
+  static bool is_upright(const LatticePoints& points) {
+    const core::Vec3 &x = points.axis(0), &y = points.axis(1), &z = points.axis(2);
+    return x.y == 0 && x.z == 0 && y.x == 0 && y.z == 0 && z.x == 0 && z.y == 0 && x.x == y.y && y.y == z.z;
+  }
+
+  // The axes divided by the lattice's spacing, the cube root of the cell's volume.
+  void write_frame(const LatticePoints& points) {
+    const core::Matrix3 axes = {points.axis(0), points.axis(1), points.axis(2)};
+    const double spacing = std::cbrt(std::abs(core::determinant(axes)));
+    std::array<double, 9> frame{};
+    for (std::size_t i = 0; i < 9; ++i) frame[i] = axes[i / 3][static_cast<int>(i % 3)] / spacing;
+    set_attribute(open_->root, "frame", frame);
   }
 
   AtomicFile& file_;

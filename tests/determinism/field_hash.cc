@@ -11,6 +11,7 @@
 #include "core/body.h"
 #include "core/erosion.h"
 #include "core/shapes.h"
+#include "core/solid_frame.h"
 #include "core/zucker_hummel.h"
 
 namespace {
@@ -38,13 +39,17 @@ Mesh hollow_ball() {
   return mesh;
 }
 
-void print_hash(const char* name, const Mesh& mesh, const std::string& directions, unsigned threads) {
+void print_hash(const char* name, const Mesh& mesh, const std::string& directions, unsigned threads,
+                affskel::core::FrameKind frame = affskel::core::FrameKind::kAxis) {
   using namespace affskel::core;
   const Solid solid = make_solid(mesh);
   LatticeOptions lattice_options;
   lattice_options.target_points = 4000;
+  lattice_options.frame = solid_frame(solid, frame);
   const Lattice lattice = make_lattice(solid, lattice_options);
-  const DirectionSet set = make_directions(solid, directions);
+  DirectionOptions direction_options;
+  direction_options.frame = lattice_options.frame;
+  const DirectionSet set = make_directions(solid, directions, direction_options);
   ErosionOptions options;
   options.threads = threads;
   Erosion erosion(solid, lattice, set, options);
@@ -53,6 +58,10 @@ void print_hash(const char* name, const Mesh& mesh, const std::string& direction
   ExecutionContext context;
   erosion.run(list, context);
   Hash hash;
+  for (const Vec3& axis : lattice.frame.axes) {
+    if (frame == FrameKind::kAxis) break;  // known, and not in the hashes of old
+    for (int k = 0; k < 3; ++k) hash.add(axis[k]);
+  }
   OptimalDirections optimal;
   for (std::uint32_t p = 0; p < lattice.points; ++p) {
     const FieldValue value = erosion.field().value(p);
@@ -76,5 +85,9 @@ int main(int argc, char** argv) {
   print_hash("cylinder", make_cylinder(1, 2, 37), "triangles", threads);
   print_hash("hollow-ball", hollow_ball(), "triangles", threads);
   print_hash("body", make_body({292, 18000}), "triangles", threads);
+  const Mesh body = make_body({292, 18000});
+  print_hash("body-pca", body, "triangles", threads, FrameKind::kPca);
+  print_hash("body-obb", body, "triangles", threads, FrameKind::kObb);
+  print_hash("body-affine", body, "triangles+sphere:80", threads, FrameKind::kAffine);
   return 0;
 }

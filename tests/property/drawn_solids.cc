@@ -7,6 +7,7 @@
 
 #include "core/body.h"
 #include "core/shapes.h"
+#include "core/solid_frame.h"
 #include "test_solids.h"
 
 namespace affskel::property {
@@ -70,6 +71,20 @@ Mesh draw_solid() {
   }
 }
 
+Mesh draw_crooked_solid() {
+  Mesh mesh = draw_solid();
+  const core::Solid solid = core::make_solid(mesh);
+  const Vec3 middle = 0.5 * (solid.bbox_min + solid.bbox_max), side = solid.bbox_max - solid.bbox_min;
+  const double a = draw(0.3, 0.6), b = draw(0.3, 0.6), c = draw(0.3, 0.6), d = draw(0.1, 0.3);
+  for (Vec3& p : mesh.points) {
+    // Each coordinate moves by a function of those before it: a bijection of space, and nothing is folded.
+    const double x = (p.x - middle.x) / side.x, y = (p.y - middle.y) / side.y + a * x * x + d * x * x * x,
+                 z = (p.z - middle.z) / side.z + b * y * y + c * x * y - d * x * x * y;
+    p = {side.x * (x + a * z * z), side.y * y, side.z * z};
+  }
+  return mesh;
+}
+
 LatticeFrame draw_frame(const Mesh& mesh, double points) {
   const core::Solid solid = core::make_solid(mesh);
   const double spacing = std::cbrt(solid.volume / points);
@@ -129,8 +144,19 @@ std::vector<FieldValue> inner_values(const Field& field, const std::vector<std::
   return values;
 }
 
-Field compute(const Mesh& mesh, const LatticeFrame& frame, const std::string& directions) {
-  Field field = prepare(mesh, frame, directions);
+Field prepare_affine(const Mesh& mesh, const std::string& directions, std::uint64_t points) {
+  Field field{core::make_solid(mesh), {}, {}, {}};
+  core::LatticeOptions lattice;
+  lattice.target_points = points;
+  lattice.frame = core::solid_frame(field.solid, core::FrameKind::kAffine);
+  field.lattice = core::make_lattice(field.solid, lattice);
+  core::DirectionOptions options;
+  options.frame = lattice.frame;
+  field.directions = core::make_directions(field.solid, directions, options);
+  return field;
+}
+
+void compute_values(Field& field) {
   std::vector<std::uint32_t> all(field.directions.size());
   std::iota(all.begin(), all.end(), 0U);
   field.value = inner_values(field, all);
@@ -139,6 +165,11 @@ Field compute(const Mesh& mesh, const LatticeFrame& frame, const std::string& di
     value.erosion *= unit * unit * unit;
     value.area *= unit * unit;
   }
+}
+
+Field compute(const Mesh& mesh, const LatticeFrame& frame, const std::string& directions) {
+  Field field = prepare(mesh, frame, directions);
+  compute_values(field);
   return field;
 }
 

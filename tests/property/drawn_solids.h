@@ -26,6 +26,9 @@ T draw_in(T low, T high) {
 /// A torus, ellipsoid, box, cone, hollow ball, cup, comb or body with random sizes, up to some 200 triangles.
 core::Mesh draw_solid();
 
+/// The same, bent so that no symmetry is left: its moments determine its affine frame.
+core::Mesh draw_crooked_solid();
+
 /// About `points` sample points in an axis-parallel lattice with a random offset, so that no point keeps to
 /// the solid's planes of symmetry.  In mesh units, unlike the core's own frames.
 core::LatticeFrame draw_frame(const core::Mesh& mesh, double points = 150);
@@ -59,6 +62,12 @@ struct Field {
 
 /// The parts of a field but its values.
 Field prepare(const core::Mesh& mesh, const core::LatticeFrame& frame, const std::string& directions);
+
+/// The parts of a field but its values, in the solid's affine frame: about `points` sample points.
+Field prepare_affine(const core::Mesh& mesh, const std::string& directions, std::uint64_t points = 150);
+
+/// The values of a prepared field, of all its directions.
+void compute_values(Field& field);
 
 /// Values of the directions `list` alone, inner units, as they come from the core.
 std::vector<core::FieldValue> inner_values(const Field& field, const std::vector<std::uint32_t>& list,

@@ -61,6 +61,68 @@ RC_GTEST_PROP(FieldProperties, UnimodularMapsLeaveEUnchanged, ()) {
   RC_ASSERT(d.of_bound <= 1);
 }
 
+// Whether direction `mine[p]` of `field` attains E at every point p, as well as the field's own.
+bool attains(const Field& field, const std::vector<std::uint32_t>& mine) {
+  std::map<std::uint32_t, std::vector<FieldValue>> alone;
+  const double unit = std::pow(field.solid.scale(), 3);
+  for (std::size_t p = 0; p < mine.size(); ++p) {
+    if (mine[p] == field.value[p].direction) continue;
+    const auto [at, fresh] = alone.try_emplace(mine[p]);
+    if (fresh) at->second = inner_values(field, {mine[p]});
+    if (at->second[p].erosion * unit > field.value[p].erosion + 1e-11 * field.volume()) return false;
+  }
+  return true;
+}
+
+// How far sample point after sample point of b is from that of a, mapped, of the object's size.
+double place_deviation(const Field& a, const Field& b, const AffineMap& map) {
+  const core::SamplePlaces before(a.solid, a.lattice), after(b.solid, b.lattice);
+  const double size = norm(b.solid.bbox_max - b.solid.bbox_min);
+  double largest = 0;
+  const auto& runs = a.lattice.axis[2].runs;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const auto& s = runs[r].start;
+    if (b.lattice.axis[2].runs[r].start != s) return 1;
+    largest =
+        std::max(largest, norm(after.at(s[0], s[1], s[2]) - map.point(before.at(s[0], s[1], s[2]))) / size);
+  }
+  return largest;
+}
+
+// Unit normals go along as covectors: those of b pulled back are those of a.
+double direction_deviation(const Field& a, const Field& b, const AffineMap& map) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.directions.size(); ++i) {
+    const Vec3& n = b.directions[i];
+    const Vec3 back = n.x * map.rows[0] + n.y * map.rows[1] + n.z * map.rows[2];
+    largest = std::max(largest, norm((1 / norm(back)) * back - a.directions[i]));
+  }
+  return largest;
+}
+
+// In the affine frame the whole job goes along: lattice, directions of the sphere, field.
+RC_GTEST_PROP(FieldProperties, AffineFramesMakeTheWholeJobInvariant, ()) {
+  static Record record("affine frame");
+  const Mesh mesh = draw_crooked_solid();
+  const AffineMap map = draw_unimodular_map();
+  const std::string directions = "triangles+sphere:20+random:9:" + std::to_string(draw_in(0, 1000));
+  Field before = prepare_affine(mesh, directions), after = prepare_affine(map.mesh(mesh), directions);
+  RC_PRE(!before.solid.self_intersecting &&
+         !after.solid.self_intersecting);  // bent into itself: E is not defined
+  RC_ASSERT(before.lattice.frame.dims == after.lattice.frame.dims);
+  RC_ASSERT(before.lattice.points == after.lattice.points);
+  RC_ASSERT(place_deviation(before, after, map) < 1e-10);
+  RC_ASSERT(direction_deviation(before, after, map) < 1e-9);
+  compute_values(before);
+  compute_values(after);
+  const Deviation d = deviation(before, after, 1e-9, 1e-11);
+  record.add(d);
+  RC_ASSERT(d.of_bound <= 1);
+  std::vector<std::uint32_t> mine;
+  for (const FieldValue& value : before.value) mine.push_back(value.direction);
+  RC_ASSERT(attains(after, mine));
+}
+
 RC_GTEST_PROP(FieldProperties, ScalingMultipliesEByItsCube, ()) {
   static Record record("scaling");
   const Mesh mesh = draw_solid();
@@ -86,19 +148,6 @@ RC_GTEST_PROP(FieldProperties, FarTranslationKeepsSixDigits, ()) {
   const Deviation d = deviation(compute(mesh, frame), compute(map.mesh(mesh), map.frame(frame)), 1e-6, 2e-8);
   record.add(d);
   RC_ASSERT(d.of_bound <= 1);
-}
-
-// Whether direction `mine[p]` of `field` attains E at every point p, as well as the field's own.
-bool attains(const Field& field, const std::vector<std::uint32_t>& mine) {
-  std::map<std::uint32_t, std::vector<FieldValue>> alone;
-  const double unit = std::pow(field.solid.scale(), 3);
-  for (std::size_t p = 0; p < mine.size(); ++p) {
-    if (mine[p] == field.value[p].direction) continue;
-    const auto [at, fresh] = alone.try_emplace(mine[p]);
-    if (fresh) at->second = inner_values(field, {mine[p]});
-    if (at->second[p].erosion * unit > field.value[p].erosion + 1e-11 * field.volume()) return false;
-  }
-  return true;
 }
 
 // Another order of triangles, corners and vertices; of_triangle[i]: where old triangle i is now.

@@ -29,7 +29,8 @@ inline int winding_round_line(const Mesh& mesh, const Triangle& t, const Vec3& q
   return winding;
 }
 
-/// How far along the axis the triangle's plane is from q; for a triangle parallel to the axis its first corner.
+/// How far along the axis the triangle's plane is from q; for a triangle parallel to the axis its first
+/// corner.
 inline double distance_along(const Mesh& mesh, const Triangle& t, const Vec3& q, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];

@@ -37,9 +37,7 @@ class Thickness {
 
   // Takes the runs along axis a, on lines (u, v).
   void walk(std::size_t u, std::size_t v, std::size_t a) {
-    const auto key = [&](std::uint32_t p) {
-      return std::tuple(voxels_[p][u], voxels_[p][v], voxels_[p][a]);
-    };
+    const auto key = [&](std::uint32_t p) { return std::tuple(voxels_[p][u], voxels_[p][v], voxels_[p][a]); };
     if (a != 2) {
       std::sort(order_.begin(), order_.end(),
                 [&](std::uint32_t p, std::uint32_t q) { return key(p) < key(q); });

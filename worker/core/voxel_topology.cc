@@ -45,7 +45,8 @@ class Rows {
       begin_[row + 1] = static_cast<std::uint32_t>(runs_.size());
     }
     // Empty rows end where the row before them does.
-    for (std::size_t row = 1; row < begin_.size(); ++row) begin_[row] = std::max(begin_[row], begin_[row - 1]);
+    for (std::size_t row = 1; row < begin_.size(); ++row)
+      begin_[row] = std::max(begin_[row], begin_[row - 1]);
   }
 
   std::int64_t side(int axis) const { return side_[static_cast<std::size_t>(axis)]; }

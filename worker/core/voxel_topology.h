@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/betti_numbers.h"
-#include "core/lattice_places.h"
+#include "core/lattice_coordinates.h"
 
 namespace affskel::core {
 

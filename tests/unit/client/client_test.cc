@@ -16,9 +16,9 @@ namespace {
 using nlohmann::json;
 
 TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
-  const Outcome done =
-      run({"submit", dir_ / "cube.off", "--spacing", "200", "--directions", "triangles+sphere:20",
-           "--priority", "7", "--request-id", "k1", "--threshold", "5", "--repair", "none"});
+  const Outcome done = run({"submit", dir_ / "cube.off", "--spacing", "200", "--frame", "affine",
+                            "--directions", "triangles+sphere:20", "--priority", "7", "--request-id", "k1",
+                            "--threshold", "5", "--repair", "none"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(done.out, service_.job.id() + "\n");
   EXPECT_EQ(service_.mesh, mesh_);
@@ -31,6 +31,7 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_EQ(header.request_id(), "k1");
   EXPECT_EQ(header.params().sampling().spacing(), 200);
   EXPECT_EQ(header.params().directions(), "triangles+sphere:20");
+  EXPECT_EQ(header.params().frame(), v1::FRAME_AFFINE);
   EXPECT_FALSE(header.params().repair());
   EXPECT_EQ(header.skeleton().threshold(), 5);
   EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
@@ -39,6 +40,7 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
 TEST_F(ClientTest, SubmitAimsAtAHundredThousandPointsByDefault) {
   EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 0);
   EXPECT_EQ(service_.submitted.params().sampling().target_points(), 100000u);
+  EXPECT_EQ(service_.submitted.params().frame(), v1::FRAME_AXIS);
   EXPECT_EQ(service_.submitted.priority(), 5u);
   EXPECT_TRUE(service_.submitted.params().repair());
 }

@@ -41,6 +41,7 @@ TEST(CommandLine, SubmitDefaults) {
   EXPECT_EQ(options.submit.directions, "triangles");
   EXPECT_EQ(options.submit.priority, 5u);
   EXPECT_EQ(options.submit.repair, "auto");
+  EXPECT_EQ(options.submit.frame, "axis");
   EXPECT_FALSE(options.submit.wait);
 }
 
@@ -65,10 +66,17 @@ TEST(CommandLine, RefusesValuesOutOfRange) {
                                              {"--operator", "laplace"},
                                              {"--threshold", "0"},
                                              {"--repair", "maybe"},
-                                             {"--frame", "axis"}}) {
+                                             {"--frame", "world"},
+                                             {"--frame", ""}}) {
     std::vector<std::string> arguments = {"submit", "a.off"};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     EXPECT_THROW(parse(arguments), CLI::ParseError) << extra[0] << " " << extra[1];
+  }
+}
+
+TEST(CommandLine, KnowsTheFrames) {
+  for (const std::string frame : {"axis", "pca", "obb", "affine"}) {
+    EXPECT_EQ(parse({"submit", "a.off", "--frame", frame}).submit.frame, frame);
   }
 }
 
@@ -115,7 +123,7 @@ TEST(CommandLine, EveryCommandHasADescriptionAndExamples) {
       EXPECT_FALSE(option->get_description().empty()) << command.get_name() << " " << option->get_name();
     }
   });
-  EXPECT_EQ(commands, 16 + 8);
+  EXPECT_EQ(commands, 20 + 8);
 }
 
 std::string script(const std::string& shell) {
@@ -165,6 +173,7 @@ TEST(Completions, WorkInBash) {
   EXPECT_EQ(completed_by_bash("affskel-client --server unix:/s sk"), "skeleton ");
   EXPECT_EQ(completed_by_bash("affskel-client submit --re"), "--request-id --repair ");
   EXPECT_EQ(completed_by_bash("affskel-client submit --repair ''"), "auto none ");
+  EXPECT_EQ(completed_by_bash("affskel-client submit --frame ''"), "axis pca obb affine ");
   EXPECT_EQ(completed_by_bash("affskel-client make t"), "torus tetrahedron ");
   EXPECT_EQ(completed_by_bash("affskel-client make torus --m"), "--major --minor ");
   EXPECT_EQ(completed_by_bash("affskel-client fetch @last s"), "skeleton surface ");

@@ -110,6 +110,46 @@ TEST(VtkHdfWriter, PlacesTheImage) {
   H5Fclose(file);
 }
 
+// Index to place, as VTK does it.
+TEST(VtkHdfWriter, PlacesAShearedImage) {
+  v1::Lattice lattice = sample_lattice();
+  const std::array<double, 9> axes = {2, 0, 0.5, 0.25, 1, 0, -1, 0.125, 0.5};
+  for (int i = 0; i < 9; ++i) lattice.set_axes(i, axes[static_cast<std::size_t>(i)]);
+  const LatticePoints points(lattice);
+  const TempDir dir;
+  AtomicFile out(dir / "f.vtkhdf");
+  make_vtkhdf_writer(out, points)->finish();
+  out.commit();
+  const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  const hid_t root = H5Gopen2(file, "VTKHDF", H5P_DEFAULT);
+  const auto origin = read_attribute<double>(root, "Origin", H5T_NATIVE_DOUBLE, 3);
+  const auto spacing = read_attribute<double>(root, "Spacing", H5T_NATIVE_DOUBLE, 3);
+  const auto direction = read_attribute<double>(root, "Direction", H5T_NATIVE_DOUBLE, 9);
+  const core::Vec3 wanted = points.position(2, 1, 3);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double place = origin[row] + direction[3 * row] * spacing[0] * 2 +
+                         direction[3 * row + 1] * spacing[1] * 1 + direction[3 * row + 2] * spacing[2] * 3;
+    EXPECT_NEAR(place, wanted[static_cast<int>(row)], 1e-9);
+  }
+  // The cell has the volume 1.515625, the frame determinant 1.
+  const auto frame = read_attribute<double>(root, "frame", H5T_NATIVE_DOUBLE, 9);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(frame[i] * std::cbrt(1.515625), axes[i], 1e-15);
+  H5Gclose(root);
+  H5Fclose(file);
+}
+
+TEST(VtkHdfWriter, AnUprightImageHasNoFrame) {
+  const TempDir dir;
+  AtomicFile out(dir / "f.vtkhdf");
+  const LatticePoints points(sample_lattice());
+  make_vtkhdf_writer(out, points)->finish();
+  out.commit();
+  const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  EXPECT_EQ(H5Aexists_by_name(file, "VTKHDF", "frame", H5P_DEFAULT), 0);
+  H5Fclose(file);
+}
+
 // A lattice of several slabs and chunks, every third line inside, with an empty slab in between.
 TEST(VtkHdfWriter, ArraysReadBackExactlyAcrossSlabs) {
   v1::Lattice lattice;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/mesh_checks.h"
 #include "core/scan_conversion.h"
 #include "core/shapes.h"
 
@@ -29,18 +30,6 @@ std::vector<Vec3> places_of(const Solid& solid, const Lattice& lattice) {
   }
   EXPECT_EQ(result.size(), lattice.points);
   return result;
-}
-
-// Winding number of a closed mesh about a point: solid angles (van Oosterom & Strackee 1983) over 4 pi.
-double winding_number(const Mesh& mesh, const Vec3& q) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.points[t[0]] - q, b = mesh.points[t[1]] - q, c = mesh.points[t[2]] - q;
-    const double la = norm(a), lb = norm(b), lc = norm(c);
-    sum +=
-        2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-  }
-  return sum / (4 * 3.14159265358979323846);
 }
 
 TEST(MakeLattice, FillsABoxSymmetrically) {

@@ -135,4 +135,15 @@ std::size_t section_curves(const Mesh& mesh, double z) {
   return roots.size();
 }
 
+double winding_number(const Mesh& mesh, const Vec3& q) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.points[t[0]] - q, b = mesh.points[t[1]] - q, c = mesh.points[t[2]] - q;
+    const double la = norm(a), lb = norm(b), lc = norm(c);
+    sum +=
+        2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  }
+  return sum / (4 * 3.14159265358979323846);
+}
+
 }  // namespace affskel::core

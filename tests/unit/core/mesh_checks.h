@@ -29,4 +29,8 @@ void expect_solid_boundary(const Mesh& mesh, std::int64_t genus = 0);
 /// Number of closed curves in which the plane z = `z` cuts a closed mesh that has no vertex at that height.
 std::size_t section_curves(const Mesh& mesh, double z);
 
+/// Winding number of a closed mesh about a point that is not on it: solid angles (van Oosterom & Strackee
+/// 1983) over 4 pi.
+double winding_number(const Mesh& mesh, const Vec3& q);
+
 }  // namespace affskel::core

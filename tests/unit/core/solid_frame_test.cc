@@ -99,7 +99,7 @@ TEST(SolidFrame, PcaAndObbFindTheAxesOfATurnedBox) {
 }
 
 // Second moments do not see the box of a body whose mass lies off its middle.
-TEST(SolidFrame, ObbIsNoLargerThanTheBoxItWasTurnedFrom) {
+TEST(SolidFrame, ObbFindsTheBoxOfALopsidedSolid) {
   const Mesh slab = make_box(4, 3, 1), block = moved(make_box(0.5, 0.75, 0.5), {0.1, 0.1, 1});
   const Mesh turned = mapped(joined(slab, block), turn());
   const Matrix3 f = frame_of(turned, FrameKind::kObb);

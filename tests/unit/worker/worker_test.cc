@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "derive_task.h"
+#include "derive/derive.h"
 #include "erode_task.h"
 #include "fake_server.h"
 #include "lease_loop.h"
@@ -32,6 +32,39 @@ TEST(PreparedJob, DescribesWhatItPrepared) {
     EXPECT_EQ(lattice.run_start(r) / lattice.dims(2), (end - 1) / lattice.dims(2)) << "a run leaves its line";
   }
   EXPECT_EQ(points, summary.points());
+}
+
+TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {
+  v1::ErosionParams params = sample_params();
+  const v1::PreparedSummary plain = PreparedJob(sample_mesh(), params).summary();
+  ASSERT_EQ(plain.frame_size(), 9);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(plain.frame(i), i % 4 == 0 ? 1 : 0);
+  params.set_frame(v1::FRAME_AFFINE);
+  params.set_directions("triangles+sphere:20");
+  const PreparedJob affine(sample_mesh(), params);
+  const v1::PreparedSummary summary = affine.summary();
+  const v1::Lattice lattice = affine.lattice_message();
+  // A torus about z is wide and flat.
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = summary.frame(3 * axis), y = summary.frame(3 * axis + 1),
+                 z = summary.frame(3 * axis + 2);
+    if (std::abs(z) > 0.1) {
+      EXPECT_LT(std::abs(z), 0.9);
+    } else {
+      EXPECT_GT(std::hypot(x, y), 1.1);
+    }
+  }
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(lattice.axes(i), 500 * summary.frame(i), 1e-9);
+  EXPECT_EQ(summary.spacing(), 500);
+  // The sphere's directions crowd round the axis that the frame has shortened.
+  double along_x = 0, along_z = 0;
+  for (std::size_t i = 256; i < affine.directions().size(); ++i) {
+    along_x += std::abs(affine.directions()[i].x);
+    along_z += std::abs(affine.directions()[i].z);
+  }
+  EXPECT_GT(along_z, 1.2 * along_x);
+  params.set_frame(static_cast<v1::Frame>(99));
+  EXPECT_THROW(PreparedJob(sample_mesh(), params), core::CoreError);
 }
 
 TEST(PreparedJob, StartsFromTheStoredField) {

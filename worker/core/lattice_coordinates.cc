@@ -1,4 +1,4 @@
-#include "core/lattice_places.h"
+#include "core/lattice_coordinates.h"
 
 namespace affskel::core {
 

@@ -1,0 +1,59 @@
+#include "client/command_parts.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "client/utf8.h"
+
+namespace affskel::client {
+
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = error == std::errc{} && end == text.data() + text.size();
+        return good && std::isfinite(value) && value > 0 ? "" : "must be a number > 0, not '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
+  return CLI::Validator(
+      [low, high](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc{} && end == text.data() + text.size();
+        return whole && value >= low && value <= high
+                   ? ""
+                   : "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+                         ", not '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator given() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
+CLI::Validator utf8_text() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        return is_utf8(text) ? "" : "must be UTF-8 text, not '" + to_utf8(text) + "'";
+      },
+      "");
+}
+
+CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
+                  const std::string& description, const std::string& examples) {
+  CLI::App* sub = parent.add_subcommand(name, description);
+  sub->group("Commands");
+  sub->footer("Examples:\n" + examples +
+              "\nOptions for all commands (--server, --json, --quiet): affskel-client --help");
+  sub->callback([&options, which] { options.command = which; });
+  return sub;
+}
+
+}  // namespace affskel::client

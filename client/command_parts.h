@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+
+#include "client/options.h"
+
+namespace affskel::client {
+
+// What the files that build the command line share.
+
+CLI::Validator positive_number();
+CLI::Validator whole_in(std::uint64_t low, std::uint64_t high);
+/// An empty variable of a script must not mean another server or file than the one that was meant.
+CLI::Validator given();
+/// For what becomes a string of the protocol.
+CLI::Validator utf8_text();
+
+/// A command with its description and examples; choosing it sets options.command.
+CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
+                  const std::string& description, const std::string& examples);
+
+/// compare, transform and perturb: commands on files, without a server.
+void add_shape_file_commands(CLI::App& app, Options& options);
+
+}  // namespace affskel::client

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "client/commands/commands.h"
+#include "client/commands/shapes.h"
+#include "client/exporters/atomic_file.h"
+#include "client/exporters/numbers.h"
+#include "client/exporters/shape_writer.h"
+#include "core/error.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The three columns of a normal: names that begin with n and differ in one letter, as nx ny nz or nx_a ny_a
+// nz_a do; `first` is the one with the x.  Empty when the column is not the first of three.
+std::vector<PointColumn*> normal_columns(ShapeFile& shape, const std::string& first) {
+  for (std::size_t at = first.find('x', 1); at != std::string::npos; at = first.find('x', at + 1)) {
+    std::vector<PointColumn*> found;
+    for (const char letter : {'x', 'y', 'z'}) {
+      std::string name = first;
+      name[at] = letter;
+      for (PointColumn& column : shape.columns) {
+        if (column.name == name) found.push_back(&column);
+      }
+    }
+    if (found.size() == 3) return found;
+  }
+  return {};
+}
+
+// Normals as those of planes, renormalised; E as a volume; everything else stays.
+void map_columns(const core::AffineMap& map, ShapeFile& shape) {
+  const double volumes = std::abs(core::determinant(map));
+  const core::NormalMap normals(map);
+  for (PointColumn& column : shape.columns) {
+    if (column.name == "E") {
+      for (double& e : column.values) e *= volumes;
+    }
+    if (column.name.front() != 'n' && column.name.front() != 'N') continue;
+    const std::vector<PointColumn*> n = normal_columns(shape, column.name);
+    if (n.empty()) continue;
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+      const core::Vec3 mapped = normals({n[0]->values[i], n[1]->values[i], n[2]->values[i]});
+      for (int c = 0; c < 3; ++c) n[static_cast<std::size_t>(c)]->values[i] = mapped[c];
+    }
+    for (PointColumn* part : n) part->whole = false;
+  }
+}
+
+std::vector<double> numbers_of(const core::AffineMap& map) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const core::Vec3& row = map.rows[i];
+    numbers.insert(numbers.end(), {row.x, row.y, row.z, map.shift[static_cast<int>(i)]});
+  }
+  return numbers;
+}
+
+std::string comment_for(const std::vector<double>& numbers) {
+  std::string text = "mapped by the affine map";
+  for (const double number : numbers) text += " " + shortest(number);
+  return text;
+}
+
+}  // namespace
+
+void run_transform(Console& console, const TransformOptions& options) {
+  if (options.steps.empty()) {
+    throw ClientError(ExitCode::kUsage,
+                      "no map was given; use --matrix, --scale, --rotate, --translate or --shear");
+  }
+  core::AffineMap map = affine_map_of(options.steps);
+  if (options.inverse) map = core::inverse(map);
+  ShapeFile shape = read_shape(options.file);
+  const FileFormat format =
+      choose_format(options.output, shape_formats(shape), shape.is_surface() ? "surface" : "file of points");
+  try {
+    shape.off.mesh = core::map_mesh(map, shape.mesh());
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, options.file);
+  }
+  map_columns(map, shape);
+  tell_what_is_lost(console, shape, format, options.output);
+
+  const std::vector<double> numbers = numbers_of(map);
+  AtomicFile file(options.output);
+  write_shape(format, shape, {comment_for(numbers)}, [&](std::string_view bytes) { file.write(bytes); });
+  file.commit();
+  const double det = core::determinant(map);
+  console.note("wrote " + options.output + " (" + counts_text(shape) + ", volumes times " +
+               rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
+  console.document({{"file", options.output},
+                    {"points", shape.mesh().points.size()},
+                    {"triangles", shape.mesh().triangles.size()},
+                    {"determinant", det},
+                    {"matrix", numbers}});
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,162 @@
+// The page that shows a job: fetches what it needs, hands it to client/view.
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "client/commands/commands.h"
+#include "client/commands/follow.h"
+#include "client/commands/transfer.h"
+#include "client/exporters/atomic_file.h"
+#include "client/exporters/numbers.h"
+#include "client/input_file.h"
+#include "client/job_json.h"
+#include "client/view/page.h"
+#include "wire/params.h"
+
+namespace affskel::client {
+namespace {
+
+// Beyond this a phone takes long to open the page; about 19 bytes each.
+constexpr std::uint64_t kMostPoints = 400000;
+
+v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
+  v1::FetchArtifactRequest request;
+  request.set_job(job);
+  request.set_kind(kind);
+  return request;
+}
+
+// A field on its way into a page; a transfer that breaks off begins again from nothing.
+class PointSink : public ArtifactSink {
+ public:
+  PointSink(const LatticePoints& lattice, const v1::Directions& directions,
+            const std::vector<float>& divergences, double volume, ViewInput& input)
+      : input_(input),
+        collector_(input.grid, input.selection, divergences, volume, input.points),
+        decoder_(lattice, directions, collector_) {}
+  void begin(const v1::ArtifactHeader&) override { input_.points.clear(); }
+  void data(std::string_view bytes) override { decoder_.data(bytes); }
+  void end() override { decoder_.finish(); }
+
+ private:
+  ViewInput& input_;
+  ViewPointCollector collector_;
+  FieldDecoder decoder_;
+};
+
+v1::SkeletonParams params_for(const JobOptions& options, const v1::Job& job) {
+  v1::SkeletonParams params = options.own_skeleton ? job.skeleton() : skeleton_params(options.skeleton);
+  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  return params;
+}
+
+v1::Job finished_job(Context& context, const std::string& name) {
+  v1::Job job = context.session().get_job(name);
+  if (job.state() == v1::JOB_STATE_DONE) return job;
+  throw ClientError(ExitCode::kNotFound, "job " + job.id() +
+                                             " is not done yet: " + std::to_string(job.directions_done()) +
+                                             " of " + std::to_string(job.directions_total()) + " directions");
+}
+
+// The threshold that the operator has by itself.
+double default_threshold(v1::Operator which, double spacing) {
+  const bool difference = which == v1::OPERATOR_INTERMEDIATE || which == v1::OPERATOR_CENTRAL;
+  return difference ? 1 / spacing : wire::kZuckerHummelThreshold;
+}
+
+std::vector<float> fetch_divergences(Context& context, const std::string& job,
+                                     const v1::SkeletonParams& params, std::uint64_t points) {
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_DIVERGENCE);
+  *request.mutable_skeleton() = params;
+  v1::ArtifactHeader header;
+  const std::string bytes = fetch_patiently(context, request, header, "divergence");
+  if (bytes.size() != points * sizeof(double)) {
+    throw ClientError(ExitCode::kInternal, "the server sent a divergence of another lattice");
+  }
+  std::vector<float> divergences(points);
+  for (std::size_t p = 0; p < points; ++p) {
+    double value = 0;
+    std::memcpy(&value, bytes.data() + p * sizeof value, sizeof value);
+    divergences[p] = view_divergence(value);
+  }
+  return divergences;
+}
+
+bool is_sheet(const v1::TriangleMesh& mesh) {
+  const int vertices = mesh.xyz_size() / 3;
+  const auto in_range = [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); };
+  return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices &&
+         mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 &&
+         std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range);
+}
+
+v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params) {
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
+  *request.mutable_surface()->mutable_skeleton() = params;
+  v1::ArtifactHeader header;
+  v1::TriangleMesh sheet;
+  if (!sheet.ParseFromString(fetch_patiently(context, request, header, "sheet")) || !is_sheet(sheet)) {
+    throw ClientError(ExitCode::kInternal, "the server sent a damaged sheet");
+  }
+  return sheet;
+}
+
+template <typename Message>
+Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
+  Message message;
+  if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
+    throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);
+  }
+  return message;
+}
+
+ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
+  ViewInput input;
+  input.job = job;
+  input.operator_name = enum_word(*v1::Operator_descriptor()->FindValueByNumber(params.operator_()));
+  input.sheet_is_skeleton = params.operator_() == v1::OPERATOR_CHORDS;
+  const double spacing = job.prepared().spacing();
+  input.threshold =
+      params.threshold() > 0 ? params.threshold() : default_threshold(params.operator_(), spacing);
+  const LatticePoints lattice(
+      fetch_message<v1::Lattice>(context, job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  std::vector<float> divergences;
+  if (input.sheet_is_skeleton) {
+    input.sheet = fetch_sheet(context, job.id(), params);
+  } else {
+    divergences = fetch_divergences(context, job.id(), params, lattice.count());
+  }
+  input.grid = view_grid(lattice);
+  input.selection = select_view_points(lattice.count(), divergences, input.threshold, kMostPoints);
+  const auto directions =
+      fetch_message<v1::Directions>(context, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
+  context.session().fetch(
+      request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
+        return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), input);
+      });
+  input.mesh = parse_mesh(context.session().fetch_bytes(request_for(job.id(), v1::ARTIFACT_KIND_MESH)),
+                          "mesh of job " + job.id())
+                   .mesh;
+  return input;
+}
+
+}  // namespace
+
+void run_view(Context& context, const JobOptions& options) {
+  choose_format(options.output, page_formats(), "page");
+  const v1::Job job = finished_job(context, options.job);
+  const ViewInput input = fetch_input(context, job, params_for(options, job));
+  const std::string page = view_page(input);
+  AtomicFile file(options.output);
+  file.write(page);
+  file.commit();
+  context.console().note("wrote " + options.output + " (page, " + std::to_string(input.points.size()) +
+                         " points, " + std::to_string(page.size()) + " bytes): open it in a browser");
+  context.console().document({{"job", job.id()},
+                              {"artefact", "page"},
+                              {"file", options.output},
+                              {"points", input.points.size()},
+                              {"bytes", page.size()}});
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,138 @@
+#include "client/exporters/shape_writer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "client/console.h"
+#include "client/error.h"
+#include "client/exporters/mesh_writer.h"
+#include "client/exporters/numbers.h"
+
+namespace affskel::client {
+namespace {
+
+using Write = std::function<void(std::string_view)>;
+
+void write_csv(const ShapeFile& shape, const Write& write) {
+  std::string row = "x,y,z";
+  for (const PointColumn& column : shape.columns) row += "," + column.name;
+  write(row + "\n");
+  for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
+    row.clear();
+    for (int c = 0; c < 3; ++c) {
+      if (c > 0) row.push_back(',');
+      append_exact(row, shape.mesh().points[i][c]);
+    }
+    for (const PointColumn& column : shape.columns) {
+      row.push_back(',');
+      append_exact(row, column.values[i]);
+    }
+    row.push_back('\n');
+    write(row);
+  }
+}
+
+void write_coordinates(const ShapeFile& shape, const Write& write) {
+  std::string row;
+  for (const core::Vec3& p : shape.mesh().points) {
+    row.clear();
+    for (int c = 0; c < 3; ++c) {
+      append_exact(row, p[c]);
+      row.push_back(c < 2 ? ' ' : '\n');
+    }
+    write(row);
+  }
+}
+
+enum class Stored { kInt, kUint, kDouble };
+
+Stored stored_as(const PointColumn& column) {
+  if (!column.whole || column.values.empty()) return column.whole ? Stored::kInt : Stored::kDouble;
+  const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+  if (*low >= std::numeric_limits<std::int32_t>::min() && *high <= std::numeric_limits<std::int32_t>::max()) {
+    return Stored::kInt;
+  }
+  return *low >= 0 && *high <= std::numeric_limits<std::uint32_t>::max() ? Stored::kUint : Stored::kDouble;
+}
+
+std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored,
+                       const std::vector<std::string>& comments) {
+  constexpr const char* kTypes[] = {"int", "uint", "double"};
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : comments) text += "comment " + printable(comment) + "\n";
+  text += "element vertex " + std::to_string(shape.mesh().points.size()) +
+          "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    text += std::string("property ") + kTypes[static_cast<std::size_t>(stored[i])] + " " +
+            shape.columns[i].name + "\n";
+  }
+  if (shape.is_surface()) {
+    text += "element face " + std::to_string(shape.mesh().triangles.size()) +
+            "\nproperty list uchar int vertex_indices\n";
+  }
+  return text + "end_header\n";
+}
+
+void append_stored(std::string& row, double value, Stored stored) {
+  switch (stored) {
+    case Stored::kInt:
+      return append_bytes(row, static_cast<std::int32_t>(value));
+    case Stored::kUint:
+      return append_bytes(row, static_cast<std::uint32_t>(value));
+    case Stored::kDouble:
+      return append_bytes(row, value);
+  }
+}
+
+void write_ply(const ShapeFile& shape, const std::vector<std::string>& comments, const Write& write) {
+  std::vector<Stored> stored;
+  for (const PointColumn& column : shape.columns) stored.push_back(stored_as(column));
+  write(ply_header(shape, stored, comments));
+  std::string row;
+  for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
+    row.clear();
+    for (int c = 0; c < 3; ++c) append_bytes(row, shape.mesh().points[i][c]);
+    for (std::size_t k = 0; k < stored.size(); ++k) {
+      append_stored(row, shape.columns[k].values[i], stored[k]);
+    }
+    write(row);
+  }
+  for (const core::Triangle& t : shape.mesh().triangles) {
+    row.clear();
+    append_bytes(row, std::uint8_t{3});
+    for (const std::uint32_t corner : t) append_bytes(row, static_cast<std::int32_t>(corner));
+    write(row);
+  }
+}
+
+}  // namespace
+
+std::span<const FileFormat> shape_formats(const ShapeFile& shape) {
+  return shape.is_surface() ? surface_formats() : skeleton_formats();
+}
+
+bool holds_columns(FileFormat format) {
+  return format == FileFormat::kCsv || format == FileFormat::kPly;
+}
+
+void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                 const Write& write) {
+  if (shape.mesh().points.size() > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
+    throw ClientError(ExitCode::kLimit, "the shape has too many points for this format");
+  }
+  if (format == FileFormat::kPly) return write_ply(shape, comments, write);
+  if (shape.is_surface()) return write_mesh(format, shape.mesh(), comments, write);
+  switch (format) {
+    case FileFormat::kCsv:
+      return write_csv(shape, write);
+    case FileFormat::kOff:
+      write("OFF\n" + std::to_string(shape.mesh().points.size()) + " 0 0\n");
+      return write_coordinates(shape, write);
+    case FileFormat::kXyz:
+      return write_coordinates(shape, write);
+    default:
+      throw ClientError(ExitCode::kInternal, "no point writer for " + std::string(extension_of(format)));
+  }
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/exporters/format.h"
+#include "client/importers/shape_file.h"
+
+namespace affskel::client {
+
+/// What the shape can be written as: points as skeletons are, triangles as surfaces are.
+std::span<const FileFormat> shape_formats(const ShapeFile& shape);
+
+/// Whether the format has a place for columns beside the coordinates.
+bool holds_columns(FileFormat format);
+
+/// Writes a shape in one of its formats.  Points: .csv with a header line and 17 significant digits, .ply
+/// binary with all columns, .off and .xyz coordinates alone.  Surfaces: as write_mesh does, and .ply with the
+/// columns of the vertices.
+/// @param comments lines for formats that have comments (PLY, OBJ), without line breaks.
+/// @param write takes the bytes, piece by piece.
+void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                 const std::function<void(std::string_view)>& write);
+
+}  // namespace affskel::client

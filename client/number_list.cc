@@ -1,0 +1,30 @@
+#include "client/number_list.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace affskel::client {
+
+std::optional<double> parse_number(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::vector<double>> parse_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0;;) {
+    const std::size_t comma = text.find(',', at);
+    const std::optional<double> number = parse_number(text.substr(at, comma - at));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    if (comma == std::string_view::npos) return numbers;
+    at = comma + 1;
+  }
+}
+
+}  // namespace affskel::client

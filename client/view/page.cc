@@ -1,0 +1,261 @@
+// Writes the page.  Lengths in the page are scaled so that the body's box lies about the origin and its
+// longest side goes from -1 to 1: "page units".  Numbers are read by client/view/web/decode.js.
+#include "client/view/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "client/error.h"
+#include "client/exporters/numbers.h"
+#include "client/job_json.h"
+#include "client/view/base64.h"
+#include "client/view/resources.h"
+#include "wire/version.h"
+
+namespace affskel::client {
+namespace {
+
+using core::Vec3;
+using nlohmann::ordered_json;
+
+constexpr double kClearlyLonger = 1.25;  // a body's height against its arm span is below
+constexpr std::uint16_t kQuantum = 65535;
+
+std::array<double, 3> components(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+struct Box {
+  Vec3 low, high;
+};
+
+Box bounds(const core::Mesh& mesh) {
+  Box box{mesh.points.at(0), mesh.points.at(0)};
+  for (const Vec3& p : mesh.points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+// From mesh to page units.
+struct Scale {
+  Vec3 centre;
+  double unit = 1;  // mesh units per page unit
+
+  std::array<double, 3> length(const Vec3& v) const { return components((1 / unit) * v); }
+  std::array<double, 3> place(const Vec3& v) const { return length(v - centre); }
+};
+
+Scale scale_of(const Box& box) {
+  const Vec3 size = box.high - box.low;
+  return {0.5 * (box.low + box.high), 0.5 * std::max({size.x, size.y, size.z})};
+}
+
+// The arrays of a page, one after the other, each at a multiple of 4 bytes.
+class Arrays {
+ public:
+  // type: u16, u32, f32 or i8.
+  template <typename Number>
+  void add(const char* name, const char* type, const std::vector<Number>& values) {
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    directory_[name] = {type, bytes_.size(), values.size()};
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number));
+  }
+
+  const ordered_json& directory() const { return directory_; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  ordered_json directory_;
+  std::string bytes_;
+};
+
+// Vertices to 1/65535 of the box, which no screen shows.
+ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
+  const std::array<double, 3> low = components(box.low), size = components(box.high - box.low);
+  std::vector<std::uint16_t> steps;
+  steps.reserve(3 * mesh.points.size());
+  for (const Vec3& point : mesh.points) {
+    const std::array<double, 3> at = components(point);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double part = size[a] > 0 ? (at[a] - low[a]) / size[a] : 0;
+      steps.push_back(static_cast<std::uint16_t>(std::lround(kQuantum * part)));
+    }
+  }
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const core::Triangle& triangle : mesh.triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  arrays.add("meshSteps", "u16", steps);
+  if (mesh.points.size() <= kQuantum) {
+    arrays.add("meshCorners", "u16", std::vector<std::uint16_t>(corners.begin(), corners.end()));
+  } else {
+    arrays.add("meshCorners", "u32", corners);
+  }
+  ordered_json axes = ordered_json::array();
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::array<double, 3> axis{};
+    axis[a] = size[a] / kQuantum / scale.unit;
+    axes.push_back(axis);
+  }
+  return {{"origin", scale.place(box.low)}, {"axes", axes}};
+}
+
+std::int8_t quantised(double component) {
+  return static_cast<std::int8_t>(std::lround(127 * std::clamp(component, -1.0, 1.0)));
+}
+
+ordered_json add_points(Arrays& arrays, const ViewInput& input, const Scale& scale) {
+  std::vector<std::uint16_t> steps;
+  std::vector<float> shares, divergences;
+  std::vector<std::int8_t> inward;
+  for (const ViewPoint& point : input.points) {
+    steps.insert(steps.end(), point.step.begin(), point.step.end());
+    shares.push_back(point.share);
+    divergences.push_back(point.divergence);
+    for (const double c : components(point.inward)) inward.push_back(quantised(c));
+  }
+  arrays.add("pointSteps", "u16", steps);
+  arrays.add("pointShares", "f32", shares);
+  arrays.add("pointDivergences", "f32", divergences);
+  arrays.add("pointInward", "i8", inward);
+  ordered_json axes = ordered_json::array();
+  for (const Vec3& axis : input.grid.axes) axes.push_back(scale.length(axis));
+  return {{"origin", scale.place(input.grid.origin)}, {"axes", axes}};
+}
+
+void add_sheet(Arrays& arrays, const ViewInput& input, const Scale& scale) {
+  const v1::TriangleMesh& sheet = input.sheet;
+  std::vector<float> positions, shares, strengths;
+  for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
+    const Vec3 at{sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)};
+    for (const double c : scale.place(at)) positions.push_back(static_cast<float>(c));
+    shares.push_back(view_share(sheet.erosion(v), input.job.prepared().volume()));
+    strengths.push_back(view_divergence(sheet.strength(v)));
+  }
+  arrays.add("sheetPositions", "f32", positions);
+  arrays.add("sheetShares", "f32", shares);
+  arrays.add("sheetStrengths", "f32", strengths);
+  arrays.add("sheetCorners", "u32",
+             std::vector<std::uint32_t>(sheet.corners().begin(), sheet.corners().end()));
+}
+
+// The edge of a cube as large as a lattice cell.
+double cell_edge(const ViewGrid& grid) {
+  std::array<Vec3, 3> axes = grid.axes;
+  for (std::size_t a = 0; a < 3; ++a) axes[a] = (1.0 / grid.lattice_steps[a]) * axes[a];
+  return std::cbrt(std::fabs(core::dot(axes[0], core::cross(axes[1], axes[2]))));
+}
+
+float highest_share(const ViewInput& input) {
+  float highest = 0;
+  for (const ViewPoint& point : input.points) highest = std::max(highest, point.share);
+  return highest;
+}
+
+std::string frame_name(const v1::Job& job) {
+  const auto* value = v1::Frame_descriptor()->FindValueByNumber(job.params().frame());
+  const std::string word = value == nullptr ? "" : enum_word(*value);
+  return word.empty() ? "axis" : word;
+}
+
+ordered_json facts_of(const ViewInput& input, const Box& box, const Scale& scale) {
+  const v1::PreparedSummary& prepared = input.job.prepared();
+  const Vec3 size = box.high - box.low;
+  const double step = cell_edge(input.grid) / scale.unit;
+  return {{"name", input.job.name()},
+          {"job", input.job.id()},
+          {"operator", input.operator_name},
+          {"frame", frame_name(input.job)},
+          {"threshold", input.threshold},
+          {"lowestThreshold", input.selection.lowest_threshold},
+          {"thinning", input.selection.thinning},
+          {"triangles", input.mesh.triangles.size()},
+          {"points", prepared.points()},
+          {"pointsHere", input.points.size()},
+          {"directions", prepared.directions()},
+          {"spacing", prepared.spacing()},
+          {"volume", prepared.volume()},
+          {"highestShare", highest_share(input)},
+          {"box", components(size)},
+          {"up", std::string(1, up_axis(size))},
+          {"unit", scale.unit},
+          {"halfBox", scale.length(0.5 * size)},
+          {"pointStep", step},
+          {"skinStep", step * std::cbrt(double(input.selection.thinning))}};
+}
+
+// JSON that no HTML parser takes for the end of its element, whatever names it holds.
+std::string json_for_html(const ordered_json& value) {
+  std::string text;
+  for (const char c : value.dump(-1, ' ', true, ordered_json::error_handler_t::replace)) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else if (c == '>') {
+      text += "\\u003e";
+    } else if (c == '&') {
+      text += "\\u0026";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string html_text(const std::string& text) {
+  static const std::map<char, std::string> kEntities = {
+      {'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+  std::string escaped;
+  for (const char c : text) {
+    const auto entity = kEntities.find(c);
+    escaped += entity == kEntities.end() ? std::string(1, c) : entity->second;
+  }
+  return escaped;
+}
+
+// The template with every {{mark}} replaced; what is put in is not looked at again.
+std::string fill(std::string_view text, const std::map<std::string_view, std::string_view>& values) {
+  std::string filled;
+  for (;;) {
+    const std::size_t mark = text.find("{{");
+    filled.append(text.substr(0, mark));
+    if (mark == std::string_view::npos) return filled;
+    const std::size_t end = text.find("}}", mark);
+    filled.append(values.at(text.substr(mark + 2, end - mark - 2)));
+    text.remove_prefix(end + 2);
+  }
+}
+
+}  // namespace
+
+char up_axis(const Vec3& box_size) {
+  return box_size.y > kClearlyLonger * std::max(box_size.x, box_size.z) ? 'y' : 'z';
+}
+
+std::string view_page(const ViewInput& input) {
+  if (input.mesh.triangles.empty())
+    throw ClientError(ExitCode::kBadInput, "the mesh has no triangles to draw");
+  const Box box = bounds(input.mesh);
+  const Scale scale = scale_of(box);
+  Arrays arrays;
+  ordered_json facts = facts_of(input, box, scale);
+  facts["meshGrid"] = add_mesh(arrays, input.mesh, box, scale);
+  facts["pointGrid"] = add_points(arrays, input, scale);
+  if (input.sheet_is_skeleton) add_sheet(arrays, input, scale);
+  facts["arrays"] = arrays.directory();
+  const std::string name = html_text(input.job.name()), data = json_for_html(facts),
+                    block = base64(arrays.bytes());
+  return fill(page_template(), {{"name", name},
+                                {"version", wire::kVersion},
+                                {"style", page_style()},
+                                {"script", page_script()},
+                                {"facts", data},
+                                {"arrays", block}});
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "client/exporters/field_writer.h"
+#include "client/exporters/lattice_points.h"
+#include "core/vec3.h"
+
+namespace affskel::client {
+
+/// A sample point as a page holds it.  The two numbers that sliders compare are rounded to float so that a
+/// comparison with any float gives what it would have given before: |H| up, E / v0 down.
+struct ViewPoint {
+  std::array<std::uint16_t, 3> step{};  ///< place in ViewPoints' grid
+  float share = 0;                      ///< E / v0
+  float divergence = 0;                 ///< |H|, 0 without an operator that gives it
+  core::Vec3 inward;                    ///< the optimal direction, unit
+};
+
+/// Steps of a lattice in 16 bits.  Only along an axis of more than 65536 steps does one step stand for
+/// several of the lattice's.
+struct ViewGrid {
+  core::Vec3 origin;
+  std::array<core::Vec3, 3> axes;
+  std::array<std::uint32_t, 3> lattice_steps{};  ///< of the lattice, per step of the grid
+};
+
+/// |H| of all points in the order of the lattice, rounded up to float.
+float view_divergence(double divergence);
+
+/// E / v0, rounded down to float.
+float view_share(double erosion, double volume);
+
+ViewGrid view_grid(const LatticePoints& lattice);
+
+/// Which points a page holds.
+struct ViewSelection {
+  float lowest_threshold = 0;  ///< every point with |H| above this is held
+  std::uint32_t thinning = 1;  ///< of all others one in this many, a power of two; evenly spread
+
+  bool keeps(float divergence, std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
+};
+
+/// All points when there are at most `most`; otherwise the skeleton at `threshold` whole, the candidates
+/// below it as far as there is room for half of the page, and the others thinned.
+/// @param divergences |H| of all points, as view_divergence; empty = no skeleton points at all.
+ViewSelection select_view_points(std::uint64_t points, const std::vector<float>& divergences,
+                                 double threshold, std::uint64_t most);
+
+/// Gathers a page's points from a field.
+class ViewPointCollector : public FieldWriter {
+ public:
+  /// All arguments must outlive it.  @param divergences as in select_view_points.
+  ViewPointCollector(const ViewGrid& grid, const ViewSelection& selection,
+                     const std::vector<float>& divergences, double volume, std::vector<ViewPoint>& points)
+      : grid_(grid), selection_(selection), divergences_(divergences), volume_(volume), points_(points) {}
+
+  void put(const FieldPoint& point) override;
+  /// Sorts by descending |H|, equal ones in lattice order.
+  void finish() override;
+
+ private:
+  const ViewGrid& grid_;
+  const ViewSelection& selection_;
+  const std::vector<float>& divergences_;
+  double volume_;
+  std::vector<ViewPoint>& points_;
+  std::uint64_t rank_ = 0;
+};
+
+}  // namespace affskel::client

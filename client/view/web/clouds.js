@@ -1,0 +1,115 @@
+// Sample points as balls (the skeleton) and as a smooth skin (the eroded solid).  A slider only moves the end of
+// a range in a fixed order, so that it costs nothing.
+import { BufferAttribute, BufferGeometry, Group, LessDepth, LessEqualDepth, Points, ShaderMaterial } from 'three';
+
+const kBallVertex = `
+  attribute vec4 colour;
+  uniform float size;
+  varying vec3 vColour;
+  void main() {
+    vColour = colour.rgb;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    gl_PointSize = size;
+  }`;
+
+const kBallFragment = `
+  uniform float size, lift;
+  varying vec3 vColour;
+  void main() {
+    vec2 at = 2.0 * gl_PointCoord - 1.0;
+    float rest = 1.0 - dot(at, at);
+    if (rest < 0.0) discard;
+    float lit = max(0.0, dot(vec3(at.x, -at.y, sqrt(rest)), vec3(-0.42, 0.55, 0.72)));
+    float shade = mix(1.0, 0.55 + 0.45 * lit, smoothstep(2.0, 6.0, size));
+    gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
+  }`;
+
+// Equal depths would be blended twice: every point is moved by less than a hundredth of a spacing.
+const kSkinVertex = `
+  attribute vec3 inward;
+  uniform float size, step;
+  varying vec3 vNormal;
+  void main() {
+    vNormal = normalMatrix * -inward;
+    vec4 at = modelViewMatrix * vec4(position, 1.0);
+    at.z += 0.01 * step * fract(sin(dot(position, vec3(127.1, 311.7, 74.7))) * 43758.5);
+    gl_Position = projectionMatrix * at;
+    gl_PointSize = size;
+  }`;
+
+const kSkinFragment = `
+  uniform vec3 tint;
+  uniform float opacity;
+  varying vec3 vNormal;
+  void main() {
+    vec2 at = 2.0 * gl_PointCoord - 1.0;
+    if (dot(at, at) > 1.0) discard;
+    float lit = dot(normalize(vNormal), vec3(-0.42, 0.55, 0.72));
+    gl_FragColor = vec4(tint * (0.62 + 0.38 * lit), opacity);
+  }`;
+
+function cloud(geometry, material, order) {
+  const points = new Points(geometry, material);
+  points.frustumCulled = false; // what is drawn is a part of the geometry
+  points.renderOrder = order;
+  return points;
+}
+
+export class BallCloud {
+  // radius: page units.
+  constructor(positions, colours, radius) {
+    this.radius = radius;
+    this.geometry = new BufferGeometry();
+    this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    this.geometry.setAttribute('colour', new BufferAttribute(colours, 4, true));
+    this.uniforms = { size: { value: 1 }, lift: { value: 0 } };
+    this.object = cloud(this.geometry, new ShaderMaterial({
+      vertexShader: kBallVertex, fragmentShader: kBallFragment, uniforms: this.uniforms,
+    }), 0);
+  }
+
+  showFirst(count) {
+    this.geometry.setDrawRange(0, count);
+  }
+
+  // pixels: of the drawing buffer, per page unit.
+  scale(pixels) {
+    this.uniforms.size.value = Math.max(2, 2 * this.radius * pixels);
+  }
+
+  paint(theme) {
+    this.uniforms.lift.value = theme.lift;
+  }
+}
+
+export class SkinCloud {
+  // inward: unit normals as bytes, 3 per point; order: indices into the positions; step: the distance of
+  // neighbours, page units.
+  constructor(positions, inward, order, step) {
+    this.radius = 0.85 * step; // neighbours overlap in every direction
+    this.geometry = new BufferGeometry();
+    this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    this.geometry.setAttribute('inward', new BufferAttribute(inward, 3, true));
+    this.geometry.setIndex(new BufferAttribute(order, 1));
+    this.uniforms = {
+      size: { value: 1 }, step: { value: step }, opacity: { value: 0.6 }, tint: { value: [0.93, 0.56, 0.28] },
+    };
+    // First only the depth, then the colour of what is nearest: one translucent layer, sorted by nothing.
+    this.object = new Group();
+    for (const colour of [false, true]) {
+      this.object.add(cloud(this.geometry, new ShaderMaterial({
+        vertexShader: kSkinVertex, fragmentShader: kSkinFragment, uniforms: this.uniforms,
+        transparent: true, colorWrite: colour, depthWrite: !colour,
+        depthFunc: colour ? LessEqualDepth : LessDepth,
+      }), colour ? 2 : 1));
+    }
+  }
+
+  showFirst(count) {
+    this.geometry.setDrawRange(0, count);
+  }
+
+  scale(pixels) {
+    this.uniforms.size.value = Math.max(2, 2 * this.radius * pixels);
+  }
+}

@@ -1,0 +1,40 @@
+// Samples of van der Walt and Smith's viridis at equal distances, as in the renderer of pictures.
+const kViridis = [
+  [68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
+  [31, 158, 137], [53, 183, 121], [110, 206, 88], [181, 222, 43], [253, 231, 37],
+];
+
+export function viridis(t) {
+  const place = Math.min(1, Math.max(0, t)) * (kViridis.length - 1);
+  const low = Math.min(Math.floor(place), kViridis.length - 2);
+  const part = place - low;
+  return kViridis[low].map((value, c) => value + part * (kViridis[low + 1][c] - value));
+}
+
+export const viridisGradient = `linear-gradient(to right, ${kViridis.map((c) => `rgb(${c})`).join(', ')})`;
+
+// E varies over orders of magnitude, like a volume: its cube root is like a length.
+export const colourPosition = (share, highest) => (highest > 0 ? Math.cbrt(Math.max(0, share) / highest) : 0);
+export const shareAt = (position, highest) => position ** 3 * highest;
+
+// One colour per value, as bytes r, g, b, 255.
+export function coloursOf(shares, highest) {
+  const bytes = new Uint8Array(4 * shares.length);
+  for (let i = 0; i < shares.length; ++i) {
+    const colour = viridis(colourPosition(shares[i], highest));
+    for (let c = 0; c < 3; ++c) bytes[4 * i + c] = Math.round(colour[c]);
+    bytes[4 * i + 3] = 255;
+  }
+  return bytes;
+}
+
+const kDark = {
+  background: 0x14181f, ink: 0xe8ecf1, glassDark: [0.42, 0.5, 0.62], glassLight: [0.86, 0.91, 0.97],
+  glass: 0.075, rim: 0.42, lift: 0.12,
+};
+const kLight = {
+  background: 0xffffff, ink: 0x20252c, glassDark: [0.3, 0.38, 0.5], glassLight: [0.72, 0.79, 0.88],
+  glass: 0.1, rim: 0.42, lift: 0,
+};
+
+export const themeColours = (name) => (name === 'dark' ? kDark : kLight);

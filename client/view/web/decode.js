@@ -1,0 +1,54 @@
+// Reads what the page was written with (client/view/page.cc): a JSON document and one block of little-endian
+// arrays in base64.
+const kTypes = { u16: Uint16Array, u32: Uint32Array, f32: Float32Array, i8: Int8Array };
+
+function bytesOf(base64) {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+// The facts of the job, with its arrays under `arrays`; absent arrays are empty.
+export function decodePage(document) {
+  const facts = JSON.parse(document.getElementById('facts').textContent);
+  const bytes = bytesOf(document.getElementById('arrays').textContent.trim());
+  const arrays = {};
+  for (const [name, [type, offset, count]] of Object.entries(facts.arrays)) {
+    arrays[name] = new kTypes[type](bytes.buffer, offset, count);
+  }
+  return { ...facts, arrays };
+}
+
+// Positions in page coordinates: the body's box about the origin, its longest side from -1 to 1.
+function grid(steps, { origin, axes }) {
+  const positions = new Float32Array(steps.length);
+  for (let p = 0; p < steps.length; p += 3) {
+    for (let c = 0; c < 3; ++c) {
+      positions[p + c] =
+        origin[c] + steps[p] * axes[0][c] + steps[p + 1] * axes[1][c] + steps[p + 2] * axes[2][c];
+    }
+  }
+  return positions;
+}
+
+export const meshPositions = (page) => grid(page.arrays.meshSteps, page.meshGrid);
+export const pointPositions = (page) => grid(page.arrays.pointSteps, page.pointGrid);
+
+// Shown ranges are prefixes of a descending order: how many of `values`, taken in `order`, satisfy `inside`.
+export function prefixLength(values, order, inside) {
+  let low = 0;
+  let high = order ? order.length : values.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (inside(values[order ? order[middle] : middle])) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+// Indices of `values` by descending value.
+export function descending(values) {
+  const order = Uint32Array.from(values.keys());
+  return order.sort((a, b) => values[b] - values[a] || a - b);
+}

@@ -1,0 +1,108 @@
+// The body as glass: clear where it faces the viewer, denser towards the outline.
+import {
+  BackSide, BufferAttribute, BufferGeometry, Color, FrontSide, Group, Mesh, ShaderMaterial,
+} from 'three';
+
+const kCreaseCosine = 0.643; // of 50 degrees: sharper edges stay edges
+
+const kVertexShader = `
+  varying vec3 vNormal;
+  void main() {
+    vNormal = normalMatrix * normal;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  }`;
+
+const kFragmentShader = `
+  uniform vec3 dark, light;
+  uniform float clear, rim, fade;
+  varying vec3 vNormal;
+  void main() {
+    vec3 n = normalize(vNormal);
+    if (n.z < 0.0) n = -n;
+    float lit = clamp(dot(n, vec3(-0.42, 0.55, 0.72)), 0.0, 1.0);
+    gl_FragColor = vec4(mix(dark, light, lit), fade * (clear + rim * pow(1.0 - n.z, 2.5)));
+  }`;
+
+// Twice the area times the normal, per triangle.
+function areaVectors(points, corners) {
+  const areas = new Float32Array(corners.length);
+  for (let t = 0; t < corners.length; t += 3) {
+    const [a, b, c] = [3 * corners[t], 3 * corners[t + 1], 3 * corners[t + 2]];
+    const u = [points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]];
+    const v = [points[c] - points[a], points[c + 1] - points[a + 1], points[c + 2] - points[a + 2]];
+    areas[t] = u[1] * v[2] - u[2] * v[1];
+    areas[t + 1] = u[2] * v[0] - u[0] * v[2];
+    areas[t + 2] = u[0] * v[1] - u[1] * v[0];
+  }
+  return areas;
+}
+
+// The corners round every vertex v: corner[start[v]] .. corner[start[v + 1] - 1].
+function cornersAround(corners, vertices) {
+  const start = new Uint32Array(vertices + 1);
+  for (const v of corners) ++start[v + 1];
+  for (let v = 0; v < vertices; ++v) start[v + 1] += start[v];
+  const next = start.slice();
+  const corner = new Uint32Array(corners.length);
+  corners.forEach((v, c) => (corner[next[v]++] = c));
+  return { start, corner };
+}
+
+// One normal per corner: the area-weighted mean over the triangles round the vertex that meet without a crease.
+function cornerNormals(points, corners) {
+  const areas = areaVectors(points, corners);
+  const around = cornersAround(corners, points.length / 3);
+  const normals = new Float32Array(3 * corners.length);
+  const length = (t) => Math.hypot(areas[t], areas[t + 1], areas[t + 2]);
+  for (let c = 0; c < corners.length; ++c) {
+    const own = c - (c % 3);
+    for (let i = around.start[corners[c]]; i < around.start[corners[c] + 1]; ++i) {
+      const other = around.corner[i] - (around.corner[i] % 3);
+      const cosine =
+        areas[own] * areas[other] + areas[own + 1] * areas[other + 1] + areas[own + 2] * areas[other + 2];
+      if (other !== own && cosine <= kCreaseCosine * length(own) * length(other)) continue;
+      for (let k = 0; k < 3; ++k) normals[3 * c + k] += areas[other + k];
+    }
+    const size = Math.hypot(normals[3 * c], normals[3 * c + 1], normals[3 * c + 2]) || 1;
+    for (let k = 0; k < 3; ++k) normals[3 * c + k] /= size;
+  }
+  return normals;
+}
+
+export class Glass {
+  // points: 3 per vertex, page units; corners: 3 per triangle.
+  constructor(points, corners) {
+    const positions = new Float32Array(3 * corners.length);
+    corners.forEach((v, c) => positions.set(points.subarray(3 * v, 3 * v + 3), 3 * c));
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    geometry.setAttribute('normal', new BufferAttribute(cornerNormals(points, corners), 3));
+    this.uniforms = {
+      dark: { value: new Color() }, light: { value: new Color() },
+      clear: { value: 0 }, rim: { value: 0 }, fade: { value: 1 },
+    };
+    this.object = new Group();
+    // The far wall first; nothing is sorted, and nothing needs to be.
+    for (const [side, order] of [[BackSide, 3], [FrontSide, 4]]) {
+      const material = new ShaderMaterial({
+        vertexShader: kVertexShader, fragmentShader: kFragmentShader, uniforms: this.uniforms,
+        side, transparent: true, depthWrite: false,
+      });
+      const mesh = new Mesh(geometry, material);
+      mesh.renderOrder = order;
+      this.object.add(mesh);
+    }
+  }
+
+  paint(theme) {
+    this.uniforms.dark.value.setRGB(...theme.glassDark);
+    this.uniforms.light.value.setRGB(...theme.glassLight);
+    this.uniforms.clear.value = theme.glass;
+    this.uniforms.rim.value = theme.rim;
+  }
+
+  // 1 = as usual, less = fainter.
+  fade(factor) {
+    this.uniforms.fade.value = factor;
+  }
+}

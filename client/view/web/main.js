@@ -1,0 +1,215 @@
+// The page: reads its data, builds the scene, wires the controls.
+import { Color } from 'three';
+import { themeColours } from './colours.js';
+import { SkinCloud } from './clouds.js';
+import { decodePage, meshPositions, pointPositions } from './decode.js';
+import { BoxFrame } from './frame.js';
+import { Glass } from './glass.js';
+import { rounded, whole } from './numbers.js';
+import { drawCross, drawLegend, drawScaleBar } from './overlay.js';
+import { makeErosion, makeSkeleton } from './skeleton.js';
+import { Slider } from './slider.js';
+import { Stage } from './stage.js';
+
+const element = (id) => document.getElementById(id);
+
+function fail(message) {
+  const box = element('failure');
+  box.textContent = message;
+  box.hidden = false;
+  document.body.classList.add('failed');
+}
+
+class Viewer {
+  constructor(page) {
+    this.page = page;
+    const positions = pointPositions(page);
+    this.skeleton = makeSkeleton(page, positions);
+    this.erosion = makeErosion(page.arrays.pointShares);
+    this.skin = new SkinCloud(positions, page.arrays.pointInward, this.erosion.order, page.skinStep);
+    this.glass = new Glass(meshPositions(page), page.arrays.meshCorners);
+    this.frame = new BoxFrame(page.halfBox, page.unit);
+    this.stage = new Stage(element('canvas'), page.up, page.halfBox, () => this.beforeFrame());
+    this.layers = {
+      mesh: this.glass.object, skeleton: this.skeleton.drawn.object, eroded: this.skin.object,
+      axes: this.frame.object,
+    };
+    this.stage.scene.add(...Object.values(this.layers));
+    this.shown = { skeleton: 0, eroded: 0 };
+    this.tellFacts();
+    this.wireSliders();
+    this.wireToggles();
+    this.wireButtons();
+    this.setTheme(window.matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
+  }
+
+  beforeFrame() {
+    const pixels = this.stage.pixelsPerUnit();
+    const buffer = pixels * this.stage.renderer.getPixelRatio();
+    this.skeleton.drawn.scale(buffer);
+    this.skin.scale(buffer);
+    drawCross(element('cross'), this.stage.camera);
+    drawScaleBar(element('scale'), pixels / this.page.unit, this.stage.canvas.clientWidth);
+  }
+
+  tellFacts() {
+    const { page } = this;
+    const facts = {
+      triangles: whole(page.triangles), 'sample points': whole(page.points), spacing: rounded(page.spacing, 5),
+      directions: whole(page.directions), operator: page.operator, frame: page.frame,
+      v0: rounded(page.volume), box: page.box.map((side) => rounded(side, 4)).join(' × '), job: page.job.slice(0, 12),
+    };
+    for (const [name, value] of Object.entries(facts)) {
+      element('facts-list').append(
+        Object.assign(document.createElement('dt'), { textContent: name }),
+        Object.assign(document.createElement('dd'), { textContent: value }));
+    }
+    element('ticks').textContent = `Ticks on the box every ${rounded(this.frame.tickDistance, 6)} units.`;
+    if (page.thinning > 1) {
+      element('thinned').hidden = false;
+      element('thinned').textContent =
+        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: all that any ` +
+        `threshold of the slider can show, and of the others one in ${whole(page.thinning)}, for the eroded solid.`;
+    }
+    drawLegend(element('legend'), page.highestShare);
+  }
+
+  wireSliders() {
+    const { page, skeleton } = this;
+    element('threshold-symbol').textContent = skeleton.symbol;
+    this.threshold = new Slider(element('threshold'), {
+      low: skeleton.low, high: skeleton.high, changed: () => this.applyThreshold(),
+    });
+    this.level = new Slider(element('level'), {
+      low: 0, high: 100 * page.highestShare, curve: 3,
+      changed: () => {
+        this.toggle('eroded', true);
+        this.applyLevel();
+      },
+    });
+    this.resetSliders();
+  }
+
+  resetSliders() {
+    this.threshold.set(this.page.arrays.sheetCorners ? this.skeleton.low : this.page.threshold);
+    this.level.set(10 * this.page.highestShare);
+    this.applyThreshold();
+    this.applyLevel();
+  }
+
+  applyThreshold() {
+    this.shown.skeleton = this.skeleton.show(this.threshold.value);
+    element('threshold-count').textContent = `${whole(this.shown.skeleton)} ${this.skeleton.items}`;
+    this.stage.requestFrame();
+  }
+
+  applyLevel() {
+    const { page } = this;
+    this.shown.eroded = this.erosion.count(this.share());
+    this.skin.showFirst(this.shown.eroded);
+    const volume = (100 * this.shown.eroded) / page.pointsHere;
+    element('level-count').textContent =
+      `${whole(this.shown.eroded)} points` + (page.thinning > 1 ? ' of this page' : `, ${rounded(volume, 3)} % of all`);
+    this.stage.requestFrame();
+  }
+
+  // The erosion level as a share of v0.
+  share() {
+    return this.level.value / 100;
+  }
+
+  toggle(name, on) {
+    element(`show-${name}`).checked = on;
+    if (this.layers[name]) this.layers[name].visible = on;
+    if (name === 'axes') element('cross').classList.toggle('off', !on);
+    if (name === 'scale') element('scale').classList.toggle('off', !on);
+    this.glass.fade(element('show-eroded').checked ? 0.45 : 1);
+    this.stage.requestFrame();
+  }
+
+  wireToggles() {
+    for (const name of ['mesh', 'skeleton', 'eroded', 'axes', 'scale']) {
+      const box = element(`show-${name}`);
+      box.addEventListener('change', () => this.toggle(name, box.checked));
+      this.toggle(name, box.checked);
+    }
+  }
+
+  wireButtons() {
+    for (const view of ['front', 'side', 'top']) {
+      element(`view-${view}`).addEventListener('click', () => this.stage.show(view));
+    }
+    element('reset').addEventListener('click', () => this.reset());
+    element('theme').addEventListener('click', () => this.setTheme(this.theme === 'dark' ? 'light' : 'dark'));
+    element('fold').addEventListener('click', () => {
+      const open = document.body.classList.toggle('open');
+      element('fold').setAttribute('aria-expanded', open);
+    });
+    document.addEventListener('keydown', (event) => {
+      const view = { 1: 'front', 2: 'side', 3: 'top' }[event.key];
+      if (event.target.matches('input') || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (view) this.stage.show(view);
+      if (event.key === '0') this.reset();
+    });
+  }
+
+  reset() {
+    for (const name of ['mesh', 'skeleton', 'axes', 'scale']) this.toggle(name, true);
+    this.toggle('eroded', false);
+    this.resetSliders();
+    this.stage.show('start');
+  }
+
+  setTheme(name) {
+    this.theme = name;
+    document.documentElement.dataset.theme = name;
+    const colours = themeColours(name);
+    this.stage.renderer.setClearColor(new Color(colours.background));
+    for (const layer of [this.glass, this.skeleton.drawn, this.frame]) layer.paint(colours);
+    this.stage.requestFrame();
+  }
+
+  // For tests and the curious.
+  state() {
+    const { camera, controls } = this.stage;
+    return {
+      operator: this.page.operator,
+      threshold: this.threshold.value,
+      level: this.share(),
+      skeletonShown: this.shown.skeleton,
+      erodedShown: this.shown.eroded,
+      pointsHere: this.page.pointsHere,
+      thinning: this.page.thinning,
+      camera: { position: camera.position.toArray(), target: controls.target.toArray(), zoom: camera.zoom },
+      visible: Object.fromEntries(Object.entries(this.layers).map(([name, layer]) => [name, layer.visible])),
+      theme: this.theme,
+    };
+  }
+
+  // Mean milliseconds per frame over `frames` frames, each waited for.
+  frameTime(frames) {
+    const gl = this.stage.renderer.getContext();
+    const pixel = new Uint8Array(4);
+    const start = performance.now();
+    for (let f = 0; f < frames; ++f) {
+      this.stage.orbit(0.05, 0);
+      this.stage.draw();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    }
+    return (performance.now() - start) / frames;
+  }
+}
+
+function start() {
+  const probe = document.createElement('canvas');
+  if (!probe.getContext('webgl')) {
+    fail('This page draws with WebGL, which this browser does not offer. Enable hardware acceleration or WebGL ' +
+      'in its settings, or open the page in another browser.');
+    return;
+  }
+  element('canvas').addEventListener('webglcontextlost', () => fail('The graphics driver gave up. Reload the page.'));
+  const viewer = new Viewer(decodePage(document));
+  window.affskel = { state: () => viewer.state(), frameTime: (frames) => viewer.frameTime(frames) };
+}
+
+start();

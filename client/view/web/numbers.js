@@ -1,0 +1,20 @@
+// Numbers for people.
+const kSuperscripts = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+
+export const whole = (value) => Math.round(value).toLocaleString('en-US');
+
+export function rounded(value, digits = 4) {
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-4 && size < 1e7)) {
+    return size >= 1e4 ? whole(Number(value.toPrecision(digits + 1))) : String(Number(value.toPrecision(digits)));
+  }
+  const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
+  const power = String(Math.abs(Number(exponent)), 10).replace(/\d/g, (d) => kSuperscripts[d]);
+  return `${Number(mantissa)} × 10${Number(exponent) < 0 ? '⁻' : ''}${power}`;
+}
+
+// 1, 2 or 5 times a power of ten, at most `limit`.
+export function roundLength(limit) {
+  const power = 10 ** Math.floor(Math.log10(limit));
+  return Number(((limit >= 5 * power ? 5 : limit >= 2 * power ? 2 : 1) * power).toPrecision(12));
+}

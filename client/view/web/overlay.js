@@ -1,0 +1,42 @@
+// What lies over the canvas: the cross of axes, the scale bar, the legend.
+import { Vector3 } from 'three';
+import { shareAt, viridisGradient } from './colours.js';
+import { rounded, roundLength } from './numbers.js';
+
+const kCrossRadius = 24; // of the 72 wide drawing
+const kTicks = [0, 0.25, 0.5, 0.75, 1];
+
+export function drawCross(svg, camera) {
+  camera.updateMatrixWorld();
+  for (const [axis, direction] of [['x', [1, 0, 0]], ['y', [0, 1, 0]], ['z', [0, 0, 1]]]) {
+    const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
+    const line = svg.querySelector(`line.${axis}`);
+    const label = svg.querySelector(`text.${axis}`);
+    line.setAttribute('x2', kCrossRadius * at.x);
+    line.setAttribute('y2', -kCrossRadius * at.y);
+    label.setAttribute('x', (kCrossRadius + 8) * at.x);
+    label.setAttribute('y', -(kCrossRadius + 8) * at.y);
+    // An axis that points at the viewer has no place for its letter.
+    label.style.opacity = Math.hypot(at.x, at.y) < 0.3 ? 0 : 1;
+  }
+}
+
+// unitPixels: screen pixels per mesh unit.
+export function drawScaleBar(element, unitPixels, room) {
+  const length = roundLength(Math.max(60, Math.min(180, 0.3 * room)) / unitPixels);
+  element.querySelector('.bar').style.width = `${length * unitPixels}px`;
+  const text = `${rounded(length, 6)} ${length === 1 ? 'unit' : 'units'}`;
+  const label = element.querySelector('.length');
+  if (label.textContent !== text) label.textContent = text;
+}
+
+// Labels in per cent of v0, at equal distances of the cube root, as the colours are.
+export function drawLegend(element, highest) {
+  element.querySelector('.colours').style.background = viridisGradient;
+  const numbers = element.querySelector('.numbers');
+  for (const tick of kTicks) {
+    const label = numbers.ownerDocument.createElement('span');
+    label.textContent = tick === 0 ? '0' : rounded(100 * shareAt(tick, highest), 2);
+    numbers.append(label);
+  }
+}

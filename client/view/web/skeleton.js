@@ -1,0 +1,48 @@
+// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet with the
+// strength of the shock.  Both come, or are put, in the order of what the threshold slider compares.
+import { BallCloud } from './clouds.js';
+import { coloursOf } from './colours.js';
+import { descending, prefixLength } from './decode.js';
+import { Sheet } from './sheet.js';
+
+function makeSheet({ arrays, highestShare }) {
+  const colours = coloursOf(arrays.sheetShares, highestShare);
+  const sheet = new Sheet(arrays.sheetPositions, colours, arrays.sheetStrengths, arrays.sheetCorners);
+  const values = sheet.strengths;
+  return {
+    drawn: sheet, values, order: null, items: 'triangles of the sheet', symbol: 'strength',
+    low: values.length ? Math.floor(100 * values[values.length - 1]) / 100 : 0,
+  };
+}
+
+function makeBalls({ arrays, highestShare, pointStep, lowestThreshold, threshold }, positions) {
+  const colours = coloursOf(arrays.pointShares, highestShare);
+  const values = arrays.pointDivergences; // descending, see page.cc
+  return {
+    drawn: new BallCloud(positions, colours, 0.55 * pointStep), values, order: null,
+    items: 'skeleton points', symbol: '|H|', low: Math.max(lowestThreshold, threshold / 10),
+  };
+}
+
+// positions: of the sample points, page units.
+export function makeSkeleton(page, positions) {
+  const made = page.arrays.sheetCorners ? makeSheet(page) : makeBalls(page, positions);
+  const { drawn, values, low } = made;
+  return {
+    ...made,
+    high: values.length ? Math.max(values[0], low) : low,
+    total: values.length,
+    // Strictly above, as the threshold is defined.  Returns how many are shown.
+    show(threshold) {
+      const count = prefixLength(values, null, (value) => value > threshold);
+      drawn.showFirst(count);
+      return count;
+    },
+  };
+}
+
+// The points by descending E, with `show(share)` for E >= share of v0.
+export function makeErosion(shares) {
+  const order = descending(shares);
+  return { order, count: (share) => prefixLength(shares, order, (value) => value >= share) };
+}

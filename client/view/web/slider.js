@@ -1,0 +1,41 @@
+// A slider with its value in a number field beside it: the slider gives round values, the field takes any.
+const kSteps = 1000;
+
+// root: holds a range and a number input.  low, high: what both are kept to.  curve: place on the slider
+// (0 .. 1) = (share of the range) ^ (1 / curve).  changed(value): after every change by the user.
+export class Slider {
+  constructor(root, { low, high, curve = 1, changed }) {
+    this.range = root.querySelector('input[type=range]');
+    this.field = root.querySelector('input[type=number]');
+    Object.assign(this, { low, high, curve, changed });
+    this.range.max = kSteps;
+    this.range.addEventListener('input', () => {
+      this.put(this.round(low + (high - low) * (this.range.valueAsNumber / kSteps) ** curve));
+      changed(this.value);
+    });
+    this.field.addEventListener('change', () => {
+      const typed = this.field.valueAsNumber;
+      this.set(Number.isFinite(typed) ? typed : this.value);
+      changed(this.value);
+    });
+  }
+
+  // Three digits, never beyond the ends: the last step must not lose the last points.
+  round(value) {
+    if (value <= this.low) return this.low;
+    const unit = 10 ** (Math.floor(Math.log10(value)) - 2);
+    return Math.max(this.low, Number((Math.floor(value / unit + 1e-9) * unit).toPrecision(3)));
+  }
+
+  put(value) {
+    this.value = value;
+    this.field.value = String(Number(value.toPrecision(9)));
+    this.range.setAttribute('aria-valuetext', this.field.value);
+  }
+
+  set(value) {
+    this.put(Math.min(Math.max(value, this.low), Math.max(this.high, this.low)));
+    const share = this.high > this.low ? (this.value - this.low) / (this.high - this.low) : 0;
+    this.range.value = Math.round(kSteps * share ** (1 / this.curve));
+  }
+}

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/frame_field.h"
+#include "core/lattice.h"
+#include "core/mesh.h"
+#include "core/solid.h"
+
+namespace affskel::core {
+
+/// Ranks of the sample points with E >= `level` (mesh units cubed), in lattice order.
+std::vector<std::uint32_t> eroded_points(const FrameField& field, double level);
+
+struct ErodedSurfaceOptions {
+  double level = 0;  ///< E of the surface, mesh units cubed, >= 0
+  double shortest_edge =
+      0.4;  ///< shorter ones are collapsed where the shape allows it; spacings, < 1; 0 = none
+};
+
+struct ErodedSurface {
+  Mesh mesh;          ///< mesh units
+  double volume = 0;  ///< that the mesh encloses, exact but for rounding; mesh units cubed
+};
+
+/// The boundary of the eroded solid {x in V : E(x) >= level}: closed, outward-oriented and manifold (whatever
+/// the field is), one piece for every wall of every component; empty when no sample point reaches the level.
+///
+/// Marching tetrahedra (Doi & Koide 1991) on the Freudenthal split of the lattice with one layer of places
+/// outside it.  A vertex lies on an edge of the split between a sample point above the level and a place that
+/// is not in the eroded solid, or is cut off from it by the surface of V: where E falls to the level or,
+/// where E has a limit above the level (at concave parts), on the surface of V (see level_crossing.h and
+/// lattice_cuts.h).  So two sample points above the level with a gap of V between them, however narrow, are
+/// not joined along their edge.  Short edges are collapsed onto one of their ends (see tidy_mesh.h), so
+/// every vertex is such a crossing, at most a voxel's diagonal away from a sample point above the level,
+/// except those that close the end of a gap narrower than the spacing.
+///
+/// All that decides the mesh's shape happens in lattice coordinates; the vertices are then mapped to mesh
+/// units, so lattices in affinely mapped frames give affinely mapped surfaces. Time in the order of the
+/// lattice's box and the surface's size; memory in that of two layers of the box, the lattice's lines and the
+/// surface. The result is a function of its arguments alone.
+/// @throws CoreError kBadInput when the level is not a finite number >= 0, the shortest edge not in [0, 1),
+/// or
+///   the field is not one of this lattice.
+ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const FrameField& field,
+                             const ErodedSurfaceOptions& options);
+
+}  // namespace affskel::core

@@ -1,0 +1,55 @@
+#include "derive/derive.h"
+
+#include "derive/chord_skeleton.h"
+#include "derive/eroded_solid.h"
+#include "derive/operator_skeleton.h"
+#include "result_bytes.h"
+
+namespace affskel::worker {
+namespace {
+
+bool by_chords(const v1::SkeletonParams& params) {
+  return params.operator_() == v1::OPERATOR_CHORDS;
+}
+
+Derived packed(const v1::SkeletonPoints& points, const std::string& what) {
+  Derived result;
+  append_result(result.data, points, what);
+  result.items = static_cast<std::uint64_t>(points.point_size());
+  if (points.has_quality()) result.quality = points.quality();
+  return result;
+}
+
+Derived packed(const v1::TriangleMesh& mesh, const std::string& what) {
+  Derived result;
+  append_result(result.data, mesh, what);
+  result.items = static_cast<std::uint64_t>(mesh.corners_size()) / 3;
+  return result;
+}
+
+}  // namespace
+
+Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored) {
+  const FinishedField field(job, stored);
+  switch (lease.kind()) {
+    case v1::TASK_KIND_SKELETON:
+      return packed(by_chords(lease.skeleton()) ? chord_skeleton(field, lease.skeleton())
+                                                : operator_skeleton(field, lease.skeleton()),
+                    "the skeleton (a higher threshold keeps fewer points)");
+    case v1::TASK_KIND_SURFACE:
+      return packed(by_chords(lease.surface().skeleton()) ? chord_sheet(field, lease.surface().skeleton())
+                                                          : operator_surface(field, lease.surface()),
+                    "the surface (a higher threshold keeps fewer points)");
+    case v1::TASK_KIND_DIVERGENCE:
+      return {operator_divergence(field, lease.skeleton().operator_()), job.lattice().points, std::nullopt};
+    case v1::TASK_KIND_ERODED_POINTS:
+      return packed(eroded_points(field, lease.eroded()),
+                    "the eroded solid (a higher level has fewer points)");
+    case v1::TASK_KIND_ERODED_SURFACE:
+      return packed(eroded_surface(field, lease.eroded()), "the eroded solid (a higher level is smaller)");
+    default:
+      throw std::logic_error("not a derive task");
+  }
+}
+
+}  // namespace affskel::worker

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "affskel/v1/worker_service.pb.h"
+#include "prepared_job.h"
+
+namespace affskel::worker {
+
+/// What a derive task hands in.
+struct Derived {
+  std::string data;         ///< the artefact, see ArtifactKind
+  std::uint64_t items = 0;  ///< points, or triangles of a surface
+  std::optional<v1::SkeletonQuality> quality;
+};
+
+/// Computes the artefact that the lease asks for from the finished field.
+/// @param stored the field's bytes, see ARTIFACT_KIND_FIELD.
+/// @throws core::CoreError for a wrong parameter, or an artefact too large to be sent.
+Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored);
+
+}  // namespace affskel::worker

@@ -1,0 +1,39 @@
+#include "derive/eroded_solid.h"
+
+#include "core/eroded_solid.h"
+#include "derive/messages.h"
+#include "wire/params.h"
+
+namespace affskel::worker {
+namespace {
+
+// E of the level, mesh units cubed.
+double level_of(const FinishedField& field, const v1::ErodedParams& params) {
+  const v1::ErodedParams full = wire::canonical(params);
+  return full.level_case() == v1::ErodedParams::kVolume ? full.volume()
+                                                        : full.fraction() * field.job().solid().volume;
+}
+
+}  // namespace
+
+v1::SkeletonPoints eroded_points(const FinishedField& field, const v1::ErodedParams& params) {
+  const std::vector<std::uint32_t> points = core::eroded_points(field.in_frame(), level_of(field, params));
+  const std::vector<core::LatticePlace> places = core::lattice_places(field.lattice(), points);
+  v1::SkeletonPoints message;
+  for (std::size_t i = 0; i < points.size(); ++i) append_point(field, points[i], places[i], message);
+  return message;
+}
+
+v1::TriangleMesh eroded_surface(const FinishedField& field, const v1::ErodedParams& params) {
+  core::ErodedSurfaceOptions options;
+  options.level = level_of(field, params);
+  const core::ErodedSurface surface =
+      core::eroded_surface(field.job().solid(), field.lattice(), field.in_frame(), options);
+  v1::TriangleMesh message;
+  for (const core::Vec3& p : surface.mesh.points) append(p, message.mutable_xyz());
+  append_corners(surface.mesh, message);
+  message.set_volume(surface.volume);
+  return message;
+}
+
+}  // namespace affskel::worker

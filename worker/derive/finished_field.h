@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/frame_field.h"
+#include "core/lattice_coordinates.h"
+#include "prepared_job.h"
+
+namespace affskel::worker {
+
+/// A job's finished field as the derive tasks look at it.  Keeps a reference to the job.
+class FinishedField {
+ public:
+  /// @param stored the server's bytes, see ARTIFACT_KIND_FIELD.
+  /// @throws core::CoreError kInternal when their number does not fit the job.
+  FinishedField(const PreparedJob& job, std::string_view stored);
+
+  const PreparedJob& job() const { return job_; }
+  const core::Lattice& lattice() const { return job_.lattice(); }
+  /// Per sample point, mesh units.
+  const std::vector<core::FieldValue>& values() const { return values_; }
+  /// The job's directions as unit normals in the lattice's frame.
+  const core::DirectionSet& frame_directions() const { return frame_directions_; }
+  core::OptimalDirections optimal() const;
+  core::FrameField in_frame() const;
+
+  /// Mesh place of a lattice place, and of a point in the frame's coordinates.
+  core::Vec3 place(const core::LatticePlace& at) const { return places_.at(at[0], at[1], at[2]); }
+  core::Vec3 to_mesh(const core::Vec3& frame_point) const;
+  /// A lattice place in the frame's coordinates.
+  core::Vec3 in_frame(const core::LatticePlace& at) const;
+  /// The optimal normal of a sample point in mesh coordinates; 0 where there is none.
+  core::Vec3 normal(std::uint32_t point) const;
+
+ private:
+  const PreparedJob& job_;
+  std::vector<core::FieldValue> values_;
+  core::DirectionSet frame_directions_;
+  core::SamplePlaces places_;
+};
+
+}  // namespace affskel::worker

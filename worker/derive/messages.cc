@@ -1,0 +1,47 @@
+#include "derive/messages.h"
+
+namespace affskel::worker {
+
+void append(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
+  list->Add(v.x);
+  list->Add(v.y);
+  list->Add(v.z);
+}
+
+void append_point(const FinishedField& field, std::uint32_t point, const core::LatticePlace& place,
+                  v1::SkeletonPoints& message) {
+  const core::FieldValue& value = field.values()[point];
+  message.add_point(point);
+  append(field.place(place), message.mutable_xyz());
+  message.add_erosion(value.erosion);
+  append(field.normal(point), message.mutable_normal());
+  message.add_direction(value.direction);
+}
+
+void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message) {
+  message.mutable_corners()->Reserve(static_cast<int>(3 * mesh.triangles.size()));
+  for (const core::Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) message.add_corners(v);
+  }
+}
+
+v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality) {
+  v1::SkeletonQuality message;
+  message.set_points(quality.points);
+  message.set_components(quality.skeleton.components);
+  message.set_holes(quality.skeleton.holes);
+  message.set_cavities(quality.skeleton.cavities);
+  message.set_inside_share(quality.inside_share);
+  message.set_mean_thickness(quality.mean_thickness);
+  message.set_solid_components(quality.solid.components);
+  message.set_solid_genus(static_cast<std::int64_t>(quality.solid.holes));
+  message.set_solid_cavities(quality.solid.cavities);
+  if (quality.hausdorff_there) message.set_hausdorff_there(*quality.hausdorff_there);
+  if (quality.hausdorff_back) message.set_hausdorff_back(*quality.hausdorff_back);
+  message.set_other_threshold(quality.other_threshold);
+  message.set_chance_level(quality.chance_level);
+  message.set_advice(quality.advice);
+  return message;
+}
+
+}  // namespace affskel::worker

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "affskel/v1/types.pb.h"
+#include "core/mesh.h"
+#include "core/skeleton_quality.h"
+#include "derive/finished_field.h"
+
+namespace affskel::worker {
+
+/// Appends x, y, z.
+void append(const core::Vec3& v, google::protobuf::RepeatedField<double>* list);
+
+/// Appends a sample point with E, optimal normal and direction.
+void append_point(const FinishedField& field, std::uint32_t point, const core::LatticePlace& place,
+                  v1::SkeletonPoints& message);
+
+void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message);
+
+v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality);
+
+}  // namespace affskel::worker

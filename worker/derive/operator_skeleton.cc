@@ -1,0 +1,92 @@
+#include "derive/operator_skeleton.h"
+
+#include <bit>
+
+#include "core/error.h"
+#include "core/shock_operator.h"
+#include "core/skeleton.h"
+#include "core/skeleton_quality.h"
+#include "core/surface.h"
+#include "derive/messages.h"
+
+namespace affskel::worker {
+namespace {
+
+core::ShockOperator core_operator(v1::Operator which) {
+  switch (which) {
+    case v1::OPERATOR_UNSPECIFIED:
+    case v1::OPERATOR_ZUCKER_HUMMEL:
+      return core::ShockOperator::kZuckerHummel;
+    case v1::OPERATOR_INTERMEDIATE:
+      return core::ShockOperator::kIntermediate;
+    case v1::OPERATOR_CENTRAL:
+      return core::ShockOperator::kCentral;
+    case v1::OPERATOR_SOBEL:
+      return core::ShockOperator::kSobel;
+    case v1::OPERATOR_FLUX:
+      return core::ShockOperator::kFlux;
+    default:
+      throw core::CoreError(core::CoreError::Code::kBadInput,
+                            "this worker does not know the skeleton operator; update the worker");
+  }
+}
+
+std::vector<double> divergence_of(const FinishedField& field, core::ShockOperator which) {
+  return core::divergence(which, field.lattice(), field.frame_directions(), field.optimal());
+}
+
+double threshold_of(const FinishedField& field, const v1::SkeletonParams& params) {
+  if (params.threshold() != 0) return params.threshold();
+  return core::default_threshold(core_operator(params.operator_()), field.lattice().spacing);
+}
+
+
+std::vector<core::LatticePlace> places_of(const FinishedField& field,
+                                          const std::vector<core::SkeletonPoint>& points) {
+  std::vector<std::uint32_t> ranks;
+  ranks.reserve(points.size());
+  for (const core::SkeletonPoint& kept : points) ranks.push_back(kept.point);
+  return core::lattice_places(field.lattice(), ranks);
+}
+
+}  // namespace
+
+v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
+  const core::ShockOperator which = core_operator(params.operator_());
+  const double threshold = threshold_of(field, params);
+  const std::vector<double> divergence = divergence_of(field, which);
+  const std::vector<core::SkeletonPoint> kept = core::skeleton_points(divergence, {threshold});
+  const std::vector<core::LatticePlace> places = places_of(field, kept);
+  v1::SkeletonPoints message;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    append_point(field, kept[i].point, places[i], message);
+    message.add_divergence(kept[i].divergence);
+  }
+  *message.mutable_quality() = quality_message(core::skeleton_quality(
+      field.job().solid(), field.lattice(), field.optimal(), divergence, {which, threshold}));
+  return message;
+}
+
+v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceParams& params) {
+  const std::vector<core::SkeletonPoint> kept =
+      core::skeleton_points(divergence_of(field, core_operator(params.skeleton().operator_())),
+                            {threshold_of(field, params.skeleton())});
+  std::vector<core::Vec3> points;
+  for (const core::LatticePlace& place : places_of(field, kept)) points.push_back(field.in_frame(place));
+  core::AlphaSurfaceOptions options;
+  options.alpha = params.alpha();
+  options.spacing = field.lattice().spacing;
+  const core::Mesh surface = core::alpha_surface(points, options);
+  v1::TriangleMesh message;
+  for (const core::Vec3& p : surface.points) append(field.to_mesh(p), message.mutable_xyz());
+  append_corners(surface, message);
+  return message;
+}
+
+std::string operator_divergence(const FinishedField& field, v1::Operator which) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::vector<double> values = divergence_of(field, core_operator(which));
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
+}  // namespace affskel::worker
