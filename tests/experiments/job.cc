@@ -9,7 +9,7 @@
 #include "core/disjoint_sets.h"
 #include "core/erosion.h"
 #include "core/frame_field.h"
-#include "core/lattice_places.h"
+#include "core/lattice_coordinates.h"
 #include "core/skeleton.h"
 #include "core/voxel_topology.h"
 #include "wire/direction_order.h"

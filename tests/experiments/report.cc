@@ -34,12 +34,19 @@ std::string check_table(const std::vector<Check>& checks) {
 }  // namespace
 
 std::string format(const char* pattern, ...) {
-  char text[1024];
-  va_list values;
+  va_list values, again;
   va_start(values, pattern);
-  std::vsnprintf(text, sizeof text, pattern, values);
+  va_copy(again, values);
+  const int length = std::vsnprintf(nullptr, 0, pattern, values);
   va_end(values);
+  std::string text(static_cast<std::size_t>(std::max(0, length)), ' ');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
   return text;
+}
+
+std::string count_of(std::size_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string duration(double seconds) {

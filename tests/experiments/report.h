@@ -12,6 +12,9 @@ namespace affskel::experiments {
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
+/// "1 piece", "2 pieces".
+std::string count_of(std::size_t count, const char* noun);
+
 /// Seconds as people say them: "0.42 s", "35 min 41 s", "180 h".
 std::string duration(double seconds);
 

@@ -20,7 +20,7 @@ struct Result {
 
 Exhibit exhibit(const Job& job, const Result& r) {
   return {{format("threshold %g", r.threshold),
-           format("%zu points, %zu pieces", r.skeleton.size(), r.pieces.size())},
+           format("%zu points, ", r.skeleton.size()) + count_of(r.pieces.size(), "piece")},
           job.mesh,
           r.skeleton.place,
           r.skeleton.erosion,
@@ -38,8 +38,8 @@ void write_thresholds(const Job& job, const std::vector<Result>& results, Report
     table.rows.push_back({format("%g", r.threshold), std::to_string(r.skeleton.size()),
                           format("%.1f %%", 100 * size / job.lattice.points), std::to_string(r.pieces.size()),
                           format("%.1f %%", 100 * largest)});
-    here += format("%s%g: %zu points, %zu pieces", here.empty() ? "" : "; ", r.threshold, r.skeleton.size(),
-                   r.pieces.size());
+    here += format("%s%g: %zu points, ", here.empty() ? "" : "; ", r.threshold, r.skeleton.size()) +
+            count_of(r.pieces.size(), "piece");
   }
   report.table(table);
   std::vector<Exhibit> shown;
@@ -78,11 +78,14 @@ void write_surface(const Job& job, const Cloud& skeleton, Report& report) {
   report.picture("triangulation",
                  gallery({inside, alone}, {{Side::kFront, Side::kSide, Side::kOblique}, 2000}),
                  "The triangulated skeleton of the body of 292 triangles: front, side, oblique");
-  report.text(format(
+  report.text(
       "Published: an alpha shape of the points, alpha found by trial and error. Here alpha follows from the "
-      "spacing: balls of radius sqrt(3) dT join exactly the lattice neighbours. The points are %g voxels "
-      "thick in places, and their alpha shape has a front and a back there: it is a surface round the sheet.",
-      2.0));
+      "spacing: "
+      "3 dT^2, the square of a voxel's diagonal, so that neighbours on the lattice are always joined. Where "
+      "the "
+      "points are two voxels thick or more the shape is the boundary of a solid part, a surface round the "
+      "sheet, and "
+      "points inside that part are not used.");
   report.compare({"triangulation, body of 292", "alpha shape, alpha by trial and error",
                   format("%zu triangles, alpha from the spacing", surface.triangles.size()), "agrees"});
   report.expect("triangles of the alpha shape per skeleton point",
