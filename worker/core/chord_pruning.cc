@@ -1,0 +1,267 @@
+#include "core/chord_pruning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "core/chord_cells.h"
+#include "core/error.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+// Disjoint sets of shocks; the least member stands for its set.
+class Groups {
+ public:
+  explicit Groups(std::size_t size) : parent_(size) {
+    for (std::size_t i = 0; i < size; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  // Whether they were apart.
+  bool join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return false;
+    parent_[std::max(a, b)] = std::min(a, b);
+    return true;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+double weight(const ChordShock& shock) {
+  const Vec3 normal = shock.gradient_low - shock.gradient_high;
+  return std::abs(normal[shock.axis]) / norm(normal) * shock.strength * shock.opening;
+}
+
+double cost(const ChordShock& shock) {
+  return 1 / (shock.strength * shock.opening);
+}
+
+// Every cell's cheapest way to a piece, and the ways between pieces that follow from them.  A piece is named
+// by a shock of it.
+class Ways {
+ public:
+  struct Way {
+    double cost;
+    std::uint32_t shock, a, b;  // leads from cell a through the shock to cell b
+  };
+
+  // piece: per cell, kNone where there is none.
+  Ways(const std::vector<ChordShock>& shocks, const ChordCells& cells, std::vector<std::uint32_t> piece)
+      : shocks_(shocks),
+        cells_(cells),
+        piece_(std::move(piece)),
+        through_(cells.size(), kNone),
+        from_(cells.size(), kNone),
+        distance_(cells.size(), std::numeric_limits<double>::infinity()) {
+    spread();
+  }
+
+  std::uint32_t piece(std::uint32_t cell) const { return piece_[cell]; }
+
+  // Between different pieces, cheapest first.
+  std::vector<Way> list() const {
+    std::vector<Way> ways;
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      for (std::uint32_t a : cells_.ring[s]) {
+        for (std::uint32_t b : cells_.ring[s]) {
+          if (a >= b || piece_[a] == kNone || piece_[b] == kNone || piece_[a] == piece_[b]) continue;
+          ways.push_back({distance_[a] + cost(shocks_[s]) + distance_[b], s, a, b});
+        }
+      }
+    }
+    std::stable_sort(ways.begin(), ways.end(), [](const Way& p, const Way& q) { return p.cost < q.cost; });
+    return ways;
+  }
+
+  // All shocks on a way, from piece to piece.
+  template <class Visit>
+  void for_each_shock(const Way& way, Visit visit) const {
+    visit(way.shock);
+    for (std::uint32_t end : {way.a, way.b}) {
+      for (std::uint32_t cell = end; through_[cell] != kNone; cell = from_[cell]) visit(through_[cell]);
+    }
+  }
+
+ private:
+  void spread() {
+    using Item = std::pair<double, std::uint32_t>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+      if (piece_[cell] == kNone) continue;
+      distance_[cell] = 0;
+      front.push({0, cell});
+    }
+    while (!front.empty()) {
+      const auto [distance, cell] = front.top();
+      front.pop();
+      if (distance > distance_[cell]) continue;
+      for (std::uint32_t s : cells_.shocks_of(cell)) {
+        const double there = distance + cost(shocks_[s]);
+        for (std::uint32_t next : cells_.ring[s]) {
+          if (!(there < distance_[next])) continue;
+          distance_[next] = there;
+          through_[next] = s;
+          from_[next] = cell;
+          piece_[next] = piece_[cell];
+          front.push({there, next});
+        }
+      }
+    }
+  }
+
+  const std::vector<ChordShock>& shocks_;
+  const ChordCells& cells_;
+  std::vector<std::uint32_t> piece_, through_, from_;
+  std::vector<double> distance_;
+};
+
+class Pruning {
+ public:
+  Pruning(const Lattice& lattice, const std::vector<ChordShock>& shocks, const ChordPruningOptions& options)
+      : shocks_(shocks),
+        options_(options),
+        cells_(chord_cells(lattice, shocks)),
+        pieces_(shocks.size()),
+        owner_(shocks.size(), kNone) {
+    const double volume = lattice.points * (lattice.spacing * lattice.spacing * lattice.spacing);
+    least_erosion_ = options.least_erosion * volume;
+  }
+
+  SignificantShocks run() {
+    join_touching();
+    keep_significant();
+    join_kept();
+    fill_holes();
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      if (kept(s)) result_.shocks.push_back(shocks_[s]);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool strong(std::uint32_t s) const {
+    return shocks_[s].opening >= options_.strong_opening && shocks_[s].erosion >= least_erosion_;
+  }
+
+  void join_touching() {
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+      std::uint32_t first = kNone;
+      for (std::uint32_t s : cells_.shocks_of(cell)) {
+        if (!strong(s)) continue;
+        if (first == kNone) first = s;
+        pieces_.join(first, s);
+      }
+    }
+  }
+
+  bool kept(std::uint32_t s) const { return owner_[s] != kNone; }
+
+  // The pieces that the chosen shocks' cells belong to.
+  template <class PieceOf>
+  std::vector<std::uint32_t> pieces_by_cell(PieceOf piece_of) {
+    std::vector<std::uint32_t> piece(cells_.size(), kNone);
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      const std::uint32_t p = piece_of(s);
+      if (p == kNone) continue;
+      for (std::uint32_t cell : cells_.ring[s]) piece[cell] = p;
+    }
+    return piece;
+  }
+
+  void keep_significant() {
+    const Ways ways(shocks_, cells_,
+                    pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNone; }));
+    std::vector<Ways::Way> used;
+    for (const Ways::Way& way : ways.list()) {
+      if (way.cost > options_.near_cost) break;
+      if (pieces_.join(ways.piece(way.a), ways.piece(way.b))) used.push_back(way);
+    }
+    std::vector<double> mass(shocks_.size(), 0);
+    double whole = 0;
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      if (!strong(s)) continue;
+      mass[pieces_.find(s)] += weight(shocks_[s]);
+      whole += weight(shocks_[s]);
+    }
+    const auto significant = [&](std::uint32_t s) {
+      return mass[pieces_.find(s)] >= options_.significance * whole;
+    };
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      if (!strong(s) || !significant(s)) continue;
+      owner_[s] = pieces_.find(s);
+      if (owner_[s] == s) result_.pieces.push_back(mass[s] / whole);
+    }
+    std::sort(result_.pieces.begin(), result_.pieces.end(), std::greater<>());
+    for (const Ways::Way& way : used) {
+      if (significant(ways.piece(way.a))) keep_way(ways, way);
+    }
+  }
+
+  void keep_way(const Ways& ways, const Ways::Way& way) {
+    ways.for_each_shock(way, [&](std::uint32_t s) {
+      if (!kept(s)) owner_[s] = pieces_.find(ways.piece(way.a));
+    });
+  }
+
+  void join_kept() {
+    const Ways ways(shocks_, cells_, pieces_by_cell([&](std::uint32_t s) { return owner_[s]; }));
+    for (const Ways::Way& way : ways.list()) {
+      if (!pieces_.join(ways.piece(way.a), ways.piece(way.b))) continue;
+      ++result_.bridges;
+      keep_way(ways, way);
+    }
+  }
+
+  // All at once, so that the order does not matter.
+  void fill_holes() {
+    std::vector<std::uint8_t> used(cells_.size(), 0);
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      if (!kept(s)) continue;
+      for (std::uint32_t cell : cells_.ring[s]) used[cell] = 1;
+    }
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      const auto& ring = cells_.ring[s];
+      if (kept(s) || !std::all_of(ring.begin(), ring.end(), [&](std::uint32_t c) { return used[c] != 0; }))
+        continue;
+      owner_[s] = s;
+    }
+  }
+
+  const std::vector<ChordShock>& shocks_;
+  const ChordPruningOptions& options_;
+  const ChordCells cells_;
+  Groups pieces_;
+  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNone if dropped
+  double least_erosion_ = 0;
+  SignificantShocks result_;
+};
+
+void check(double value, double low, double high, const char* message) {
+  if (!(value >= low && value <= high)) throw CoreError(CoreError::Code::kBadInput, message);
+}
+
+}  // namespace
+
+SignificantShocks significant_shocks(const Lattice& lattice, const std::vector<ChordShock>& candidates,
+                                     const ChordPruningOptions& options) {
+  check(options.significance, 0, 1, "the significance must lie between 0 and 1");
+  check(options.strong_opening, 0, 1, "the opening of strong shocks must lie between 0 and 1");
+  check(options.least_erosion, 0, 1, "the least erosion must be a share of the volume between 0 and 1");
+  check(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
+  return Pruning(lattice, candidates, options).run();
+}
+
+}  // namespace affskel::core

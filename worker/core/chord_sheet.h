@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "core/chord_pruning.h"
+#include "core/chord_shocks.h"
+#include "core/frame_field.h"
+#include "core/lattice.h"
+#include "core/mesh.h"
+
+namespace affskel::core {
+
+struct ChordSheetOptions {
+  ChordShockOptions shocks;     ///< the candidates
+  ChordPruningOptions pruning;  ///< which of them stay; its `significance` is the threshold of `chords`
+  /// Pull of the shocks' mean on a vertex, against 1 for all tangent planes together, > 0.
+  double regularisation = 0.05;
+};
+
+struct ChordSheetVertex {
+  Vec3 position;            ///< frame coordinates, in the vertex's lattice cell
+  double erosion = 0;       ///< E, volume
+  double strength = 0;      ///< mean relative strength r of the cell's shocks
+  double area = 0;          ///< mean area of the sections of the two chords, mesh units squared
+  Vec3 normal_a, normal_b;  ///< unit normals of the two chords, frame coordinates: a rises to the sheet from
+                            ///< the side that normal_a - normal_b points away from
+};
+
+/// The shock surface of the E field.
+struct ChordSheet {
+  std::vector<ChordShock> shocks;          ///< the skeleton's points, by (point, axis)
+  std::vector<double> pieces;              ///< see SignificantShocks
+  std::vector<ChordSheetVertex> vertices;  ///< in lattice order of their cells
+  std::vector<Triangle> triangles;         ///< two per shock, in the order of the shocks
+};
+
+/// The significant shocks joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002):
+/// every lattice cell that has shocks on its edges has one vertex, every shock a quadrilateral through the
+/// vertices of the four cells round its edge, cut along its shorter diagonal.  All four always exist, cells
+/// partly outside the solid included, so that the sheet has holes only where shocks are missing, and ends
+/// where they end: at most half a spacing beyond the outermost.
+///
+/// A vertex is placed by least squares on the tangent planes of its cell's shocks (normal g_x - g_y), drawn
+/// towards their mean, and kept in the cell.  On the rim the mean alone would lie on the outermost shocks
+/// and a strip one shock wide would have no area; there the vertex is drawn half the way to the middle of
+/// its cell, in the sheet's plane, unless a corner of the cell lies outside the solid.
+///
+/// The sheet branches where three chords are equal (edges with three and more triangles) and may be
+/// one-sided: triangles have no common orientation.  Shocks lie inside the solid always; vertices are means
+/// of them and may not, where the solid is concave.  Bytes depend on the field alone.
+/// @param field of this lattice.
+/// @throws CoreError kBadInput when an option is not finite or out of range.
+ChordSheet chord_sheet(const Lattice& lattice, const FrameField& field,
+                       const ChordSheetOptions& options = {});
+
+}  // namespace affskel::core
