@@ -1,6 +1,7 @@
 #include "erode_task.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -36,6 +37,10 @@ class Progress : public core::ExecutionContext {
     const std::lock_guard<std::mutex> guard(mutex_);
     done_.push_back(positions_[item]);
     ++done_in_all_;
+    if (!nearly_done_ && time_left() < kAhead) {
+      nearly_done_ = true;
+      changed_.notify_all();
+    }
   }
 
   void finish() {
@@ -46,11 +51,17 @@ class Progress : public core::ExecutionContext {
     changed_.notify_all();
   }
 
-  // Waits for the computation to end or the time to pass; true when it has ended.
-  bool wait_for_end(std::chrono::milliseconds time, const std::stop_token& stop) {
+  enum class Event { kTime, kNearlyDone, kEnd };
+
+  // Waits for the computation to end, to come near its end (told once), or the time to pass.
+  Event wait_for_event(std::chrono::steady_clock::time_point until, const std::stop_token& stop) {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, stop, time, [this] { return finished_; });
-    return finished_;
+    const auto something = [this] { return finished_ || (nearly_done_ && !nearly_done_told_); };
+    changed_.wait_until(lock, stop, until, something);
+    if (finished_) return Event::kEnd;
+    if (!nearly_done_ || nearly_done_told_) return Event::kTime;
+    nearly_done_told_ = true;
+    return Event::kNearlyDone;
   }
 
   void wait_for_end() {
@@ -80,6 +91,19 @@ class Progress : public core::ExecutionContext {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  // Longer than it takes to lease a block from a server that stores a large report at the moment; short,
+  // for another worker may have nothing to do while a block waits here for its turn.
+  static constexpr auto kAhead = std::chrono::milliseconds(150);
+
+  // For what is not done, at the speed so far.
+  Clock::duration time_left() const {
+    const auto left = static_cast<double>(positions_.size() - done_in_all_);
+    return std::chrono::duration_cast<Clock::duration>((Clock::now() - start_) *
+                                                       (left / static_cast<double>(done_in_all_)));
+  }
+
+  const Clock::time_point start_ = Clock::now();
   std::vector<std::uint64_t> positions_;
   std::vector<std::uint32_t> directions_;
   std::atomic<bool> stop_{false};
@@ -87,12 +111,13 @@ class Progress : public core::ExecutionContext {
   std::condition_variable_any changed_;
   std::vector<std::uint64_t> done_;  // guarded by mutex_
   std::uint64_t done_in_all_ = 0;    // guarded by mutex_
+  bool nearly_done_ = false;         // guarded by mutex_
+  bool nearly_done_told_ = false;    // guarded by mutex_
   bool finished_ = false;            // guarded by mutex_
 };
 
 v1::FieldRecords take_records(PreparedJob& job, core::ErosionField& field) {
-  std::vector<std::uint32_t> points = field.take_changes();
-  std::sort(points.begin(), points.end());
+  const std::vector<std::uint32_t> points = field.take_changes();
   v1::FieldRecords records;
   const int count = static_cast<int>(points.size());
   records.mutable_point()->Reserve(count);
@@ -113,7 +138,7 @@ v1::FieldRecords take_records(PreparedJob& job, core::ErosionField& field) {
 }  // namespace
 
 ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion, ServerLink& link,
-               std::stop_token stop) {
+               std::stop_token stop, LastReport& last, const std::function<void()>& nearly_done) {
   Progress progress(lease);
   std::exception_ptr error;
   std::jthread computing([&] {
@@ -131,25 +156,35 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
   } joiner{progress};
 
   std::chrono::milliseconds interval(lease.report_interval_ms());
+  auto next_report = std::chrono::steady_clock::now() + interval;
   for (;;) {
-    bool ended = progress.wait_for_end(interval, stop);
-    const bool stopping = !ended && stop.stop_requested();
-    if (stopping) {
+    const Progress::Event event = progress.wait_for_event(next_report, stop);
+    bool ended = event == Progress::Event::kEnd;
+    if (!ended && stop.stop_requested()) {
       progress.stop();
       progress.wait_for_end();
       ended = true;
+    } else if (event == Progress::Event::kNearlyDone) {
+      nearly_done();
+      continue;
     }
     if (ended) computing.join();
     if (ended && error) std::rethrow_exception(error);
     v1::ReportErosionHeader header;
     header.set_token(lease.token());
     progress.take_done(header);
+    if (header.block_done()) {
+      last.start(
+          [&job, &erosion, &link, header] { link.report(header, take_records(job, erosion.field())); });
+      return ErodeEnd::kBlockDone;
+    }
+    last.wait();
     const v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
-    if (header.block_done()) return ErodeEnd::kBlockDone;
     if (response.cancelled()) return ErodeEnd::kCancelled;
     if (ended) return ErodeEnd::kStopped;
     if (response.report_interval_ms() != 0)
       interval = std::chrono::milliseconds(response.report_interval_ms());
+    next_report = std::chrono::steady_clock::now() + interval;
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <stop_token>
 
 #include "affskel/v1/worker_service.pb.h"
+#include "last_report.h"
 #include "prepared_job.h"
 #include "server_link.h"
 
@@ -10,7 +12,7 @@ namespace affskel::worker {
 
 /// How an erode task ended.
 enum class ErodeEnd {
-  kBlockDone,  ///< everything reported; the lease is over
+  kBlockDone,  ///< everything computed, and its last report started; the lease is over
   kStopped,    ///< stop requested: what was finished is reported, the lease is still ours
   kCancelled,  ///< the server took the task away; the engine's field holds unreported work: discard it
 };
@@ -18,8 +20,14 @@ enum class ErodeEnd {
 /// Computes the positions of an ERODE lease and reports about every lease.report_interval_ms() what is
 /// finished and which points improved.  A report claims a direction only after all its offers are in the
 /// field and before the field's changes are taken, so that what is acknowledged is complete.
-/// @throws LeaseLost, ServerGone, core::CoreError; then, too, discard the engine.
+///
+/// The block's last report is sent by `last`, so that the next block need not wait for it; a report of that
+/// one may hold points that this one improved, and the other way round, so nothing is reported before the
+/// report that `last` holds from the block before is acknowledged.
+/// @param nearly_done called once, shortly before the block ends: the time to lease the next one.
+/// @throws LeaseLost (also when it was the block before that lost its lease), ServerGone, core::CoreError;
+///   then, too, discard the engine.
 ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion, ServerLink& link,
-               std::stop_token stop);
+               std::stop_token stop, LastReport& last, const std::function<void()>& nearly_done);
 
 }  // namespace affskel::worker

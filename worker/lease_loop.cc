@@ -8,14 +8,17 @@
 #include <condition_variable>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <random>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "core/version.h"
 #include "derive/derive.h"
 #include "erode_task.h"
+#include "last_report.h"
 #include "prepared_job.h"
 #include "result_bytes.h"
 #include "server_link.h"
@@ -102,7 +105,6 @@ class LeaseLoop {
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
       : options_(options), stop_(stop), link_({options.server, options.patience}, stop) {
     *request_.mutable_worker() = own_identity(options.threads);
-    request_.set_wait_ms(kLeaseWaitMs);
   }
 
   int run() {
@@ -110,21 +112,54 @@ class LeaseLoop {
                  options_.threads);
     Clock::time_point last_work = Clock::now();
     while (!stop_.stop_requested()) {
-      request_.set_preferred_job(job_id_);
-      const std::optional<v1::Lease> lease = link_.lease(request_);
+      const std::optional<v1::Lease> lease = next_lease();
       if (lease) {
         if (!accept(*lease)) break;
         work_on(*lease);
         last_work = Clock::now();
-      } else if (options_.idle_exit.count() > 0 && Clock::now() - last_work >= options_.idle_exit) {
+        continue;
+      }
+      settle_last_report();
+      if (options_.idle_exit.count() > 0 && Clock::now() - last_work >= options_.idle_exit) {
         spdlog::info("worker={} msg=\"idle, leaving\"", request_.worker().id());
         break;
       }
     }
+    settle_last_report();
+    give_back_next();
     return 0;
   }
 
  private:
+  std::optional<v1::Lease> next_lease() {
+    if (next_) return std::exchange(next_, std::nullopt);
+    request_.set_preferred_job(job_id_);
+    request_.set_wait_ms(kLeaseWaitMs);
+    return link_.lease(request_);
+  }
+
+  // Takes the next lease, if there is one, while the present task is still computed.
+  void look_ahead() {
+    request_.set_preferred_job(job_id_);
+    request_.set_wait_ms(0);
+    next_ = link_.lease(request_);
+  }
+
+  // With nothing else to do: learns how the last report ended.
+  void settle_last_report() {
+    try {
+      last_report_.wait();
+    } catch (const LeaseLost& lost) {
+      spdlog::warn("job={} msg=\"lease lost\" cause=\"{}\"", job_id_, lost.what());
+      forget();
+    }
+  }
+
+  void give_back_next() {
+    if (next_) link_.give_back(next_->token());
+    next_.reset();
+  }
+
   bool accept(const v1::Lease& lease) {
     if (options_.max_jobs != 0 && jobs_.count(lease.job().id()) == 0 && jobs_.size() == options_.max_jobs) {
       link_.give_back(lease.token());
@@ -143,6 +178,8 @@ class LeaseLoop {
       spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(),
                    lost.what());
       forget();
+      // It may have been the block before that lost its lease; this one would then lie idle.
+      link_.give_back(lease.token());
     } catch (const core::CoreError& error) {
       fail(lease, describe(error), false);
     } catch (const std::bad_alloc&) {
@@ -176,6 +213,7 @@ class LeaseLoop {
   }
 
   void dispatch(const v1::Lease& lease) {
+    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) last_report_.wait();
     switch (lease.kind()) {
       case v1::TASK_KIND_PREPARE:
         return prepare(lease);
@@ -221,13 +259,14 @@ class LeaseLoop {
           job.has_erosion() ? std::string() : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
       erosion = &job.erosion(options_.threads, stored);
     }
-    switch (erode(lease, *job_, *erosion, link_, stop_)) {
+    switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [this] { look_ahead(); })) {
       case ErodeEnd::kBlockDone:
         break;
       case ErodeEnd::kStopped:
         link_.give_back(lease.token());
         break;
       case ErodeEnd::kCancelled:
+        if (next_ && next_->job().id() == lease.job().id()) give_back_next();
         forget();
         break;
     }
@@ -250,12 +289,13 @@ class LeaseLoop {
     if (job_ && job_id_ == lease.job().id()) return *job_;
     forget();
     const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH);
-    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params());
+    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params(), options_.threads);
     job_id_ = lease.job().id();
     return *job_;
   }
 
   void forget() {
+    last_report_.drop();
     job_.reset();
     job_id_.clear();
   }
@@ -269,6 +309,8 @@ class LeaseLoop {
   // server did not acknowledge: such points would not be reported again.
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
+  LastReport last_report_;         // uses job_
+  std::optional<v1::Lease> next_;  // taken ahead
 };
 
 }  // namespace

@@ -15,11 +15,13 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "field records are little-endian on disk and on the wire");
 
-core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, std::uint64_t& polygons_cut) {
+core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, unsigned threads,
+                       std::uint64_t& polygons_cut) {
   const core::OffMesh off = core::read_off(bytes);
   polygons_cut = off.polygons_cut;
   core::SolidOptions options;
   options.repair = params.repair();
+  options.threads = threads;
   return core::make_solid(off.mesh, options, off.vertex_line, off.triangle_line);
 }
 
@@ -48,9 +50,10 @@ core::DirectionSet take_directions(const core::Solid& solid, const std::string& 
 }
 
 core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling,
-                          const core::Matrix3& frame) {
+                          const core::Matrix3& frame, unsigned threads) {
   core::LatticeOptions options;
   options.frame = frame;
+  options.threads = threads;
   if (sampling.has_spacing()) {
     options.spacing = sampling.spacing();
   } else {
@@ -67,10 +70,10 @@ void add(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
 
 }  // namespace
 
-PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params)
-    : solid_(read_solid(mesh_bytes, params, polygons_cut_)),
+PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads)
+    : solid_(read_solid(mesh_bytes, params, threads, polygons_cut_)),
       frame_(core::solid_frame(solid_, frame_kind(params.frame()))),
-      lattice_(lay_lattice(solid_, params.sampling(), frame_)),
+      lattice_(lay_lattice(solid_, params.sampling(), frame_, threads)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
 
 v1::PreparedSummary PreparedJob::summary() const {

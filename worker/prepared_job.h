@@ -19,7 +19,7 @@ namespace affskel::worker {
 class PreparedJob {
  public:
   /// @throws core::CoreError when the mesh or a parameter is wrong.
-  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params);
+  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1);
   PreparedJob(const PreparedJob&) = delete;
   PreparedJob& operator=(const PreparedJob&) = delete;
 

@@ -25,13 +25,14 @@ std::string read_file(const std::string& path) {
   return std::move(bytes).str();
 }
 
-core::Solid read_solid(const std::string& path) {
+core::Solid read_solid(const std::string& path, unsigned threads) {
   const core::OffMesh off = core::read_off(read_file(path));
-  return core::make_solid(off.mesh, {}, off.vertex_line, off.triangle_line);
+  return core::make_solid(off.mesh, {true, true, threads}, off.vertex_line, off.triangle_line);
 }
 
-core::Lattice lattice_of(const core::Solid& solid, const RowSpec& row) {
+core::Lattice lattice_of(const core::Solid& solid, const RowSpec& row, unsigned threads) {
   core::LatticeOptions options;
+  options.threads = threads;
   options.target_points = row.points;
   options.spacing = row.spacing;
   if (row.mesh.shape == Shape::kBody) {
@@ -54,8 +55,8 @@ std::vector<std::uint32_t> work_order(std::size_t count, std::uint64_t at_most) 
 
 Job::Job(const std::string& off_file, const RowSpec& row, unsigned threads, bool prune)
     : started_(wall_now()),
-      solid_(read_solid(off_file)),
-      lattice_(lattice_of(solid_, row)),
+      solid_(read_solid(off_file, threads)),
+      lattice_(lattice_of(solid_, row, threads)),
       directions_(core::make_directions(solid_, row.directions)),
       list_(work_order(directions_.size(), row.max_directions)) {
   core::ErosionOptions options;

@@ -1,7 +1,6 @@
 #include "published_program.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -9,31 +8,20 @@
 #include <string>
 #include <utility>
 
+#include "core/stopwatch.h"
 #include "open_surface.h"
 
 namespace affskel::reference {
 namespace {
 
 using core::Mesh;
+using core::Stopwatch;
 using core::Triangle;
 using core::Vec3;
 
 // Relative to the size of the solid.
 constexpr double kOnPlane = 1e-12;
 constexpr double kInwards = 1e-9;
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 struct Bounds {
   Vec3 low, high;

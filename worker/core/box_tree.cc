@@ -4,7 +4,14 @@
 #include <numeric>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kLeaf = 4;
+
+}  // namespace
 
 void Box::include(const Box& other) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -24,23 +31,23 @@ Box box_of(const Mesh& mesh, const Triangle& triangle) {
   return box;
 }
 
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), items_(boxes_.size()) {
+BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
   std::iota(items_.begin(), items_.end(), 0u);
-  nodes_.reserve(boxes_.size());
-  if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(items_.size()));
+  const auto count = static_cast<std::uint32_t>(items_.size());
+  if (count == 0) return;
+  nodes_.resize(halving_nodes(count, kLeaf));
+  build(0, 0, count, threads);
 }
 
-std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t count) {
-  constexpr std::uint32_t kLeaf = 4;
+void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads) {
   Box box = boxes_[items_[first]];
   std::uint32_t greatest = items_[first];
   for (std::uint32_t i = first + 1; i < first + count; ++i) {
     box.include(boxes_[items_[i]]);
     greatest = std::max(greatest, items_[i]);
   }
-  const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({box, first, count, 0, greatest});
-  if (count <= kLeaf) return index;
+  nodes_[index] = {box, first, count, 0, greatest};
+  if (count <= kLeaf) return;
 
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
@@ -51,9 +58,11 @@ std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t count) {
   std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t i, std::uint32_t j) {
     return std::pair(centre(i), i) < std::pair(centre(j), j);
   });
-  build(first, count / 2);
-  nodes_[index].right = build(first + count / 2, count - count / 2);
-  return index;
+  const std::uint32_t left = count / 2, right_node = index + 1 + halving_nodes(left, kLeaf);
+  nodes_[index].right = right_node;
+  parallel_halves(
+      threads, [&](unsigned share) { build(index + 1, first, left, share); },
+      [&](unsigned share) { build(right_node, first + left, count - left, share); });
 }
 
 void BoxTree::find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const {

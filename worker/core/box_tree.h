@@ -28,7 +28,8 @@ Box box_of(const Mesh& mesh, const Triangle& triangle);
 /// threads are safe.
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes);
+  /// O(N log N), on up to `threads` threads.
+  explicit BoxTree(std::vector<Box> boxes, unsigned threads = 1);
 
   /// Replaces `out` by the indices of the boxes that meet `query` and are > `above`, ascending.
   void find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const;
@@ -48,7 +49,7 @@ class BoxTree {
     std::uint32_t greatest;  // of the indices below
   };
 
-  std::uint32_t build(std::uint32_t first, std::uint32_t count);
+  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
 
   template <class Visit>
   void walk(const Box& query, std::int64_t above, Visit visit) const {

@@ -36,6 +36,14 @@ struct ErodedSurface {
 /// every vertex is such a crossing, at most a voxel's diagonal away from a sample point above the level,
 /// except those that close the end of a gap narrower than the spacing.
 ///
+/// Where E jumps (chordal pieces that begin to take in another part of the solid), the data leave a vertex
+/// open on its edge, and it settles evenly among its neighbours (see loose_vertices.h).
+///
+/// Accuracy, measured: on a ball of radius 1, with the level's ball of radius r, vertices lie within 0.02
+/// spacings of it at the spacings 0.1 and 0.05 (0.05 within a spacing of the surface), and the volume falls
+/// short by 0.4 (spacing / r)^2 of itself or less; on a torus of radii 2 and 0.7, levels of 0.001 to 0.03 v0,
+/// halving the spacing from 0.2 to 0.1 changes the volume by less than 2 %.
+///
 /// All that decides the mesh's shape happens in lattice coordinates; the vertices are then mapped to mesh
 /// units, so lattices in affinely mapped frames give affinely mapped surfaces. Time in the order of the
 /// lattice's box and the surface's size; memory in that of two layers of the box, the lattice's lines and the

@@ -1,68 +1,44 @@
 #include "core/erosion.h"
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "core/join_tree.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
 
 namespace affskel::core {
-namespace {
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
 class Erosion::Engine {
  public:
   Engine(const Solid& solid, const Lattice& lattice, const DirectionSet& directions,
          const ErosionOptions& options)
       : directions_(directions),
-        trees_(solid),
+        trees_(solid, options.threads),
         field_(lattice.points, options.track_changes),
         // Volumes may fall along a run where a mesh crosses itself: nothing can be left out there.
         sweeper_(lattice, field_,
                  {options.prune && !solid.self_intersecting, 2 * trees_.volume_tolerance(),
                   std::ldexp(solid.volume, -3 * solid.exponent)}) {
     const JoinTreeOptions tree_options{!solid.self_intersecting};
-    for (unsigned i = 0; i < std::max(1U, options.threads); ++i) {
-      builders_.push_back(std::make_unique<JoinTreeBuilder>(trees_, tree_options));
-    }
+    builders_.resize(std::max(1U, options.threads));
+    parallel_for(options.threads, builders_.size(), [&](std::size_t i) {
+      builders_[i] = std::make_unique<JoinTreeBuilder>(trees_, tree_options);
+    });
   }
 
   void run(std::span<const std::uint32_t> list, ExecutionContext& context) {
     std::atomic<std::uint64_t> next{0};
     std::atomic<bool> failed{false};
-    std::exception_ptr error;
-    const auto work = [&](JoinTreeBuilder& builder) {
+    parallel_for(static_cast<unsigned>(builders_.size()), builders_.size(), [&](std::size_t i) {
       try {
-        work_off(builder, list, next, failed, context);
+        work_off(*builders_[i], list, next, failed, context);
       } catch (...) {
-        const std::lock_guard<std::mutex> guard(mutex_);
-        if (!error) error = std::current_exception();
         failed = true;
+        throw;
       }
-    };
-    std::vector<std::thread> helpers;
-    for (std::size_t i = 1; i < builders_.size(); ++i) helpers.emplace_back(work, std::ref(*builders_[i]));
-    work(*builders_[0]);
-    for (std::thread& helper : helpers) helper.join();
-    if (error) std::rethrow_exception(error);
+    });
   }
 
   ErosionField& field() { return field_; }

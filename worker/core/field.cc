@@ -1,6 +1,28 @@
 #include "core/field.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace affskel::core {
+namespace {
+
+// Sorts different numbers below `limit`.
+void sort_points(std::vector<std::uint32_t>& points, std::uint32_t limit) {
+  if (points.size() < limit / 64) {
+    std::sort(points.begin(), points.end());
+    return;
+  }
+  std::vector<std::uint64_t> present(limit / 64 + 1, 0);
+  for (std::uint32_t p : points) present[p / 64] |= std::uint64_t{1} << (p % 64);
+  auto to = points.begin();
+  for (std::uint32_t word = 0; word < present.size(); ++word) {
+    for (std::uint64_t bits = present[word]; bits != 0; bits &= bits - 1) {
+      *to++ = 64 * word + static_cast<std::uint32_t>(std::countr_zero(bits));
+    }
+  }
+}
+
+}  // namespace
 
 ErosionField::ErosionField(std::uint32_t points, bool track_changes)
     : erosion_(points, std::numeric_limits<double>::infinity()),
@@ -32,6 +54,7 @@ std::vector<std::uint32_t> ErosionField::take_changes() {
     const std::lock_guard<std::mutex> guard(changes_mutex_);
     taken.swap(changes_);
   }
+  sort_points(taken, size());
   // A point that improves again from here on is listed again; its value read later is at least as new.
   for (std::uint32_t point : taken) {
     const std::lock_guard<SpinLock> guard(lock_of(point));

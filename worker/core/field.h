@@ -50,7 +50,7 @@ class ErosionField {
   /// A consistent copy of one value.
   FieldValue value(std::uint32_t point) const;
 
-  /// Points improved since the last call, each once, in no particular order.
+  /// Points improved since the last call, each once, ascending.
   std::vector<std::uint32_t> take_changes();
 
  private:

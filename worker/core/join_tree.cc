@@ -1,6 +1,10 @@
 // Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A(t) is
 // the area of a component's section at height t, V(t) its integral, the component's volume below t.  A is
 // quadratic between vertices; what changes at them is prepared by section_bends.
+//
+// A surface that crosses itself bounds the region that it winds round at least once, with overlaps counted
+// twice in volumes.  Components of that region are those of the surface's parts, joined where parts cross
+// (at_crossing) and where one is born inside another (nested minima, treated as inner ones).
 #include "core/join_tree.h"
 
 #include <algorithm>
@@ -151,7 +155,9 @@ class JoinTreeBuilder::Work {
   void find_arcs() {
     for (std::uint32_t r = 0; r < heights_.order().size(); ++r) {
       std::uint32_t arc = 0;
-      if (vertex_.down[r] == kNone) {
+      if (!input_.crossing(heights_.order()[r]).empty()) {
+        arc = at_crossing(r);
+      } else if (vertex_.down[r] == kNone) {
         arc = at_minimum(r);
       } else if (vertex_.middles[r] <= 2) {
         arc = arc_of(vertex_.down[r]);
@@ -180,7 +186,8 @@ class JoinTreeBuilder::Work {
   // the solid lies above and a component is born.
   std::uint32_t at_minimum(std::uint32_t r) {
     const std::uint32_t v = heights_.order()[r];
-    if (dot(input_.pseudonormal[v], d_) < 0) return new_arc(r, input_.vertex_solid[v]);
+    const bool nested = !input_.nested.empty() && input_.nested[v] != 0;
+    if (dot(input_.pseudonormal[v], d_) < 0 && !nested) return new_arc(r, input_.vertex_solid[v]);
     const std::uint32_t below =
         input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return vertex_.lowest[t] < r; });
     if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
@@ -194,9 +201,29 @@ class JoinTreeBuilder::Work {
 
   std::uint32_t at_saddle(std::uint32_t r) {
     meeting_.clear();
+    gather_fan(r);
+    return join_meeting(r);
+  }
+
+  // Where the surface crosses itself the parts of the solid on both sides overlap and are one.  Joined at
+  // the lower ends of the two triangles, at most their height too early: that makes single chords too large,
+  // which other directions put right, and none too small, which nothing would.
+  std::uint32_t at_crossing(std::uint32_t r) {
+    meeting_.clear();
+    gather_fan(r);
+    for (std::uint32_t t : input_.crossing(heights_.order()[r])) {
+      if (vertex_.lowest[t] < r) meeting_.push_back(arc_of(vertex_.lowest[t]));
+    }
+    return meeting_.empty() ? at_minimum(r) : join_meeting(r);
+  }
+
+  void gather_fan(std::uint32_t r) {
     for (std::uint32_t t : input_.fan(heights_.order()[r])) {
       if (vertex_.lowest[t] != r) meeting_.push_back(arc_of(vertex_.lowest[t]));
     }
+  }
+
+  std::uint32_t join_meeting(std::uint32_t r) {
     std::sort(meeting_.begin(), meeting_.end());
     meeting_.erase(std::unique(meeting_.begin(), meeting_.end()), meeting_.end());
     if (meeting_.size() == 1) return meeting_[0];

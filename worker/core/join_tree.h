@@ -89,7 +89,8 @@ struct JoinTree {
 /// it.  Keeps a reference to the solid.
 class TreeInput {
  public:
-  explicit TreeInput(const Solid& solid);
+  /// Computed on up to `threads` threads.
+  explicit TreeInput(const Solid& solid, unsigned threads = 1);
   ~TreeInput();
   TreeInput(TreeInput&&) noexcept;
 

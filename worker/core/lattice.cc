@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/scan_conversion.h"
 
 namespace affskel::core {
@@ -22,22 +23,37 @@ std::string in_words(double number) {
 
 class LatticeBuilder {
  public:
-  LatticeBuilder(const Solid& solid, const LatticeFrame& frame) : mesh_(solid.mesh) {
+  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, unsigned threads)
+      : mesh_(solid.mesh), threads_(threads) {
     lattice_.frame = frame;
   }
 
   Lattice run() {
     fill_axis_2();
-    fill_axis(0);
-    fill_axis(1);
+    parallel_for(threads_, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
     return std::move(lattice_);
   }
 
  private:
-  // The first triangle from crossing `c` upward where the line leaves the solid.
-  static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end) {
+  // Follows a line through its crossings.  Where the surface crosses itself the line may enter twice before
+  // it leaves: `entered` is the crossing at which it came in from outside.
+  struct Passage {
+    std::int32_t winding = 0;
+    std::uint32_t entered = 0;
+
+    void pass(const Crossing& crossing) {
+      const bool outside = winding <= 0;
+      winding -= crossing.exits;
+      if (outside && winding > 0) entered = crossing.triangle;
+    }
+  };
+
+  // The triangle from crossing `c` upward where a line, within the solid so far, leaves it.
+  static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end,
+                                 Passage passage) {
     for (std::uint64_t e = c; e < end; ++e) {
-      if (lines.crossings[e].exits > 0) return lines.crossings[e].triangle;
+      passage.pass(lines.crossings[e]);
+      if (passage.winding <= 0) return lines.crossings[e].triangle;
     }
     return lines.crossings[c].triangle;
   }
@@ -45,25 +61,23 @@ class LatticeBuilder {
   // Axis 2 decides what is inside and numbers the points.
   void fill_axis_2() {
     const LatticeFrame& frame = lattice_.frame;
-    const LineCrossings lines = scan_convert(mesh_, frame, 2);
+    const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_);
     std::uint64_t points = 0;
     for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
       for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
         const std::size_t line = std::size_t{i} * frame.dims[1] + j;
         const std::uint64_t last = lines.begin[line + 1];
-        std::int32_t winding = 0;
-        std::uint32_t entered = 0;
+        Passage passage;
         for (std::uint64_t c = lines.begin[line]; c + 1 < last; ++c) {
           const Crossing &low = lines.crossings[c], &high = lines.crossings[c + 1];
-          winding -= low.exits;
-          if (low.exits < 0) entered = low.triangle;
-          if (winding <= 0) continue;
+          passage.pass(low);
+          if (passage.winding <= 0) continue;
           const std::uint32_t k = clip(low.depth), end = clip(high.depth);
           if (k >= end) continue;
           lattice_.axis[2].runs.push_back({static_cast<std::uint32_t>(points),
                                            end - k,
-                                           entered,
-                                           exit_from(lines, c + 1, last),
+                                           passage.entered,
+                                           exit_from(lines, c + 1, last, passage),
                                            {i, j, k}});
           points += end - k;
           if (points > 0xFFFFFFFEU) {
@@ -125,8 +139,7 @@ class LatticeBuilder {
                 const std::vector<std::uint32_t>& run_of) {
     std::uint64_t next = lines.begin[line];
     const std::uint64_t end = lines.begin[line + 1];
-    std::int32_t winding = 0;
-    std::uint32_t entered = 0;
+    Passage passage;
     LatticeRun* open = nullptr;
     for (std::uint32_t o = from; o < to; ++o) {
       const std::uint32_t point = order[o];
@@ -134,19 +147,18 @@ class LatticeBuilder {
       std::array<std::uint32_t, 3> at = column.start;
       at[2] += point - column.first;
       for (; next < end && lines.crossings[next].depth <= at[a]; ++next) {
-        winding -= lines.crossings[next].exits;
-        if (lines.crossings[next].exits < 0) entered = lines.crossings[next].triangle;
+        passage.pass(lines.crossings[next]);
         open = nullptr;
       }
       AxisRuns& axis = lattice_.axis[a];
-      if (winding <= 0 || next == end) {
+      if (passage.winding <= 0 || next == end) {
         axis.strays.push_back({point, 1, column.low, column.high, at});
         open = nullptr;
         continue;
       }
       if (open == nullptr) {
         axis.runs.push_back(
-            {static_cast<std::uint32_t>(axis.order.size()), 0, entered, exit_from(lines, next, end), at});
+            {static_cast<std::uint32_t>(axis.order.size()), 0, passage.entered, exit_from(lines, next, end, passage), at});
         open = &axis.runs.back();
       }
       ++open->length;
@@ -155,6 +167,7 @@ class LatticeBuilder {
   }
 
   const Mesh& mesh_;
+  unsigned threads_;
   Lattice lattice_;
 };
 
@@ -190,12 +203,12 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
 
 }  // namespace
 
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame) {
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads) {
   for (std::uint32_t n : frame.dims) {
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
-  Lattice lattice = LatticeBuilder(solid, frame).run();
+  Lattice lattice = LatticeBuilder(solid, frame, threads).run();
   const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
   lattice.spacing = solid.scale() * std::cbrt(std::abs(cell));
   return lattice;
@@ -227,7 +240,7 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   }
   const Vec3 corner{origin[0], origin[1], origin[2]};
   frame.origin = box.centre + options.frame * corner;
-  Lattice lattice = make_lattice(solid, frame);
+  Lattice lattice = make_lattice(solid, frame, options.threads);
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +

@@ -70,6 +70,7 @@ struct LatticeOptions {
   std::uint64_t target_points = 0;                    ///< sets dT = (v0 / target_points)^(1/3)
   Matrix3 frame = kIdentity3;                         ///< F of det 1, see solid_frame
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
+  unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
 };
 
 /// Lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
@@ -85,6 +86,6 @@ struct LatticeOptions {
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame);
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1);
 
 }  // namespace affskel::core

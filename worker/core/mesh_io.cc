@@ -162,6 +162,10 @@ class OffReader {
   }
 
   std::optional<std::uint32_t> repeated_corner() {
+    if (corners_.size() == 3 && corners_[0] != corners_[1] && corners_[1] != corners_[2] &&
+        corners_[2] != corners_[0]) {
+      return std::nullopt;
+    }
     sorted_ = corners_;
     std::sort(sorted_.begin(), sorted_.end());
     const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());

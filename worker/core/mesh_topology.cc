@@ -1,8 +1,10 @@
 #include "core/mesh_topology.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace affskel::core {
 namespace {
@@ -31,9 +33,10 @@ struct EdgeEnd {
   }
 };
 
-// Calls visit(first, last) once per undirected edge with its half-edges, by smaller vertex.
+// Calls visit(first, last) once per undirected edge with its half-edges, by smaller vertex; from several
+// threads at once when there are more than one.
 template <class Visit>
-void for_each_edge(const Mesh& mesh, Visit visit) {
+void for_each_edge(const Mesh& mesh, unsigned threads, const Visit& visit) {
   const auto half_edges = static_cast<std::uint32_t>(3 * mesh.triangles.size());
   std::vector<std::uint32_t> begin(mesh.points.size() + 2, 0);
   for (std::uint32_t h = 0; h < half_edges; ++h) ++begin[std::min(from(mesh, h), to(mesh, h)) + 2];
@@ -43,16 +46,18 @@ void for_each_edge(const Mesh& mesh, Visit visit) {
     const std::uint32_t a = from(mesh, h), b = to(mesh, h);
     ends[begin[std::min(a, b) + 1]++] = {std::max(a, b), h};
   }
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const auto bucket_begin = ends.begin() + begin[v], bucket_end = ends.begin() + begin[v + 1];
-    std::sort(bucket_begin, bucket_end);
-    for (auto first = bucket_begin; first != bucket_end;) {
-      const auto last =
-          std::find_if(first, bucket_end, [&](const EdgeEnd& e) { return e.high != first->high; });
-      visit(&*first, &*first + (last - first));
-      first = last;
+  parallel_ranges(threads, mesh.points.size(), [&](std::size_t from_vertex, std::size_t to_vertex) {
+    for (std::size_t v = from_vertex; v < to_vertex; ++v) {
+      EdgeEnd* const bucket_end = ends.data() + begin[v + 1];
+      std::sort(ends.data() + begin[v], bucket_end);
+      for (EdgeEnd* first = ends.data() + begin[v]; first != bucket_end;) {
+        EdgeEnd* const last =
+            std::find_if(first, bucket_end, [&](const EdgeEnd& e) { return e.high != first->high; });
+        visit(first, last);
+        first = last;
+      }
     }
-  }
+  });
 }
 
 bool same_triangle(const Mesh& mesh, std::uint32_t s, std::uint32_t t) {
@@ -119,6 +124,13 @@ bool agree(const Mesh& mesh, std::uint32_t h, std::uint32_t mate) {
   return from(mesh, h) == to(mesh, mate) && to(mesh, h) == from(mesh, mate);
 }
 
+bool all_agree(const Mesh& mesh, const HalfEdges& mates) {
+  for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    if (mates[h] > h && !agree(mesh, h, mates[h])) return false;
+  }
+  return true;
+}
+
 // Reverses triangle t; its half-edges 0,1,2 (ab, bc, ca) become (ac, cb, ba): edge i moves to 2 - i.
 void turn_over(Mesh& mesh, HalfEdges& mates, std::uint32_t t) {
   std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
@@ -131,7 +143,7 @@ void turn_over(Mesh& mesh, HalfEdges& mates, std::uint32_t t) {
 HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place) {
   HalfEdges mates(3 * mesh.triangles.size(), kNone);
   EdgeDefects defects(mesh, place);
-  for_each_edge(mesh, [&](const EdgeEnd* first, const EdgeEnd* last) {
+  for_each_edge(mesh, 1, [&](const EdgeEnd* first, const EdgeEnd* last) {
     defects.see(first, last);
     if (last - first != 2) return;
     mates[first[0].half_edge] = first[1].half_edge;
@@ -141,15 +153,33 @@ HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place) {
   return mates;
 }
 
+bool find_mates_if_closed(const Mesh& mesh, unsigned threads, HalfEdges& mates) {
+  mates.assign(3 * mesh.triangles.size(), kNone);
+  std::atomic<bool> closed{true};
+  for_each_edge(mesh, threads, [&](const EdgeEnd* first, const EdgeEnd* last) {
+    const std::uint32_t a = first[0].half_edge;
+    const std::uint32_t b = last - first == 2 ? first[1].half_edge : a;
+    // Over a common edge triangles are the same when their third corners are.
+    if (b == a || from(mesh, previous_corner(a)) == from(mesh, previous_corner(b))) {
+      closed = false;
+    } else {
+      mates[a] = b;
+      mates[b] = a;
+    }
+  });
+  return closed;
+}
+
 bool every_edge_is_shared(const Mesh& mesh) {
   bool shared = true;
-  for_each_edge(mesh,
+  for_each_edge(mesh, 1,
                 [&](const EdgeEnd* first, const EdgeEnd* last) { shared = shared && last - first != 1; });
   return shared;
 }
 
 std::vector<std::uint32_t> orient_consistently(Mesh& mesh, HalfEdges& mates, const TrianglePlace& place) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (all_agree(mesh, mates)) return {};
   // Per triangle: 0 = not reached, 1 = as it is, 2 = to be turned over (relative to the first reached).
   std::vector<std::uint8_t> side(count, 0);
   std::vector<std::uint32_t> surface, turned;

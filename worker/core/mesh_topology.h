@@ -20,7 +20,11 @@ using TrianglePlace = std::function<std::string(std::uint32_t triangle)>;
 ///   the same triangle twice; the message counts them and names the first place.
 HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place);
 
-/// Whether every edge has two triangles; cheaper than find_mates and without an error.
+/// The same into `mates`, without an error: false when some edge has not two different triangles.  On up to
+/// `threads` threads.
+bool find_mates_if_closed(const Mesh& mesh, unsigned threads, HalfEdges& mates);
+
+/// Whether every edge has two triangles or more; cheaper than find_mates and without an error.
 bool every_edge_is_shared(const Mesh& mesh);
 
 /// Turns triangles over until neighbours agree (their common edge runs both ways); in each connected

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/parallel.h"
+
 namespace affskel::core {
 namespace {
 
@@ -47,16 +49,16 @@ double hit(const Vec3& o, const Vec3& r, const Vec3& a, const Vec3& b, const Vec
 
 }  // namespace
 
-RayShooter::RayShooter(const Mesh& mesh) : mesh_(mesh), triangles_(mesh.triangles.size()) {
+RayShooter::RayShooter(const Mesh& mesh, unsigned threads) : mesh_(mesh), triangles_(mesh.triangles.size()) {
   std::iota(triangles_.begin(), triangles_.end(), 0U);
   std::vector<Vec3> centroids;
   centroids.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     centroids.push_back(mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]);
   }
-  nodes_.reserve(mesh.triangles.size());
-  nodes_.emplace_back();
-  split(0, 0, static_cast<std::uint32_t>(triangles_.size()), centroids);
+  const auto count = static_cast<std::uint32_t>(triangles_.size());
+  nodes_.resize(halving_nodes(count, kLeafSize));
+  split(0, 0, count, centroids, threads);
 }
 
 RayShooter::Box RayShooter::bounds(std::uint32_t begin, std::uint32_t end) const {
@@ -71,11 +73,10 @@ RayShooter::Box RayShooter::bounds(std::uint32_t begin, std::uint32_t end) const
 }
 
 void RayShooter::split(std::uint32_t node, std::uint32_t begin, std::uint32_t end,
-                       const std::vector<Vec3>& centroids) {
-  nodes_[node].box = bounds(begin, end);
-  if (end - begin <= kLeafSize) {
-    nodes_[node].first = begin;
-    nodes_[node].count = end - begin;
+                       const std::vector<Vec3>& centroids, unsigned threads) {
+  const std::uint32_t count = end - begin;
+  if (count <= kLeafSize) {
+    nodes_[node] = {bounds(begin, end), begin, count};
     return;
   }
   Vec3 low{kInfinity, kInfinity, kInfinity}, high = -low;
@@ -85,17 +86,18 @@ void RayShooter::split(std::uint32_t node, std::uint32_t begin, std::uint32_t en
   }
   const Vec3 side = high - low;
   const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-  const std::uint32_t middle = begin + (end - begin) / 2;
+  const std::uint32_t middle = begin + count / 2;
   std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
                    [&](std::uint32_t s, std::uint32_t t) {
                      const double a = centroids[s][axis], b = centroids[t][axis];
                      return a != b ? a < b : s < t;
                    });
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = children;
-  nodes_.resize(nodes_.size() + 2);
-  split(children, begin, middle, centroids);
-  split(children + 1, middle, end, centroids);
+  const std::uint32_t second = node + 1 + halving_nodes(count / 2, kLeafSize);
+  parallel_halves(
+      threads, [&](unsigned share) { split(node + 1, begin, middle, centroids, share); },
+      [&](unsigned share) { split(second, middle, end, centroids, share); });
+  const Box &left = nodes_[node + 1].box, &right = nodes_[second].box;
+  nodes_[node] = {{lower(left.low, right.low), upper(left.high, right.high)}, second, 0};
 }
 
 std::uint32_t RayShooter::first_exit_below(std::uint32_t vertex, const Vec3& d,
@@ -117,15 +119,16 @@ std::uint32_t RayShooter::first_exit_with_slack(std::uint32_t vertex, const Vec3
   std::size_t depth = 0;
   stack[depth++] = 0;
   while (depth != 0) {
-    const Node& node = nodes_[stack[--depth]];
+    const std::uint32_t inner = stack[--depth];
+    const Node& node = nodes_[inner];
     double near = 0, far = best_s;
     clip_slab(origin.x, ray.x, node.box.low.x, node.box.high.x, slack, near, far);
     clip_slab(origin.y, ray.y, node.box.low.y, node.box.high.y, slack, near, far);
     clip_slab(origin.z, ray.z, node.box.low.z, node.box.high.z, slack, near, far);
     if (near > far) continue;
     if (node.count == 0) {
+      stack[depth++] = inner + 1;
       stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace affskel::core {
 namespace {
@@ -21,29 +22,27 @@ struct Corner {
 
 class Scanner {
  public:
-  Scanner(const Mesh& mesh, const LatticeFrame& frame, int axis)
-      : mesh_(mesh), u_((axis + 1) % 3), v_((axis + 2) % 3), w_(axis) {
+  Scanner(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads)
+      : mesh_(mesh), threads_(threads), u_((axis + 1) % 3), v_((axis + 2) % 3), w_(axis) {
     u_count_ = frame.dims[static_cast<std::size_t>(u_)];
     v_count_ = frame.dims[static_cast<std::size_t>(v_)];
     transform(frame);
   }
 
   LineCrossings run() {
+    const std::vector<std::vector<Found>> found = find_crossings();
     LineCrossings result;
     result.begin.assign(std::size_t{u_count_} * v_count_ + 1, 0);
-    for_each_crossing([&](std::size_t line, const Crossing&) { ++result.begin[line + 1]; });
+    for (const std::vector<Found>& part : found) {
+      for (const Found& f : part) ++result.begin[f.line + 1];
+    }
     for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
     result.crossings.resize(result.begin.back());
     std::vector<std::uint64_t> cursor(result.begin.begin(), result.begin.end() - 1);
-    for_each_crossing([&](std::size_t line, const Crossing& c) { result.crossings[cursor[line]++] = c; });
-    for (std::size_t line = 0; line + 1 < result.begin.size(); ++line) {
-      std::sort(result.crossings.begin() + static_cast<std::ptrdiff_t>(result.begin[line]),
-                result.crossings.begin() + static_cast<std::ptrdiff_t>(result.begin[line + 1]),
-                [](const Crossing& a, const Crossing& b) {
-                  if (a.depth != b.depth) return a.depth < b.depth;
-                  return a.exits != b.exits ? a.exits > b.exits : a.triangle < b.triangle;
-                });
+    for (const std::vector<Found>& part : found) {
+      for (const Found& f : part) result.crossings[cursor[f.line]++] = f.crossing;
     }
+    sort_lines(result);
     return result;
   }
 
@@ -55,11 +54,13 @@ class Scanner {
     if (det == 0) throw CoreError(CoreError::Code::kBadInput, "the axes of the lattice are not independent");
     const std::array<Vec3, 3> rows = {cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
     left_handed_ = det < 0;
-    coordinates_.reserve(mesh_.points.size());
-    for (const Vec3& p : mesh_.points) {
-      const Vec3 q = p - frame.origin;
-      coordinates_.push_back({dot(q, rows[0]) / det, dot(q, rows[1]) / det, dot(q, rows[2]) / det});
-    }
+    coordinates_.resize(mesh_.points.size());
+    parallel_ranges(threads_, coordinates_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const Vec3 q = mesh_.points[v] - frame.origin;
+        coordinates_[v] = {dot(q, rows[0]) / det, dot(q, rows[1]) / det, dot(q, rows[2]) / det};
+      }
+    });
   }
 
   Corner corner(std::uint32_t vertex) const {
@@ -74,9 +75,39 @@ class Scanner {
             static_cast<std::int64_t>(std::ceil(std::clamp(high, 0.0, limit)))};
   }
 
+  struct Found {
+    std::size_t line = 0;
+    Crossing crossing;
+  };
+
+  // The crossings of all triangles, in as many parts as threads.
+  std::vector<std::vector<Found>> find_crossings() const {
+    std::vector<std::vector<Found>> found(std::max(1U, threads_));
+    const std::size_t count = mesh_.triangles.size();
+    parallel_for(threads_, found.size(), [&](std::size_t part) {
+      const auto keep = [&](std::size_t line, const Crossing& c) { found[part].push_back({line, c}); };
+      scan(static_cast<std::uint32_t>(count * part / found.size()),
+           static_cast<std::uint32_t>(count * (part + 1) / found.size()), keep);
+    });
+    return found;
+  }
+
+  void sort_lines(LineCrossings& lines) const {
+    const auto less = [](const Crossing& a, const Crossing& b) {
+      if (a.depth != b.depth) return a.depth < b.depth;
+      return a.exits != b.exits ? a.exits > b.exits : a.triangle < b.triangle;
+    };
+    parallel_ranges(threads_, lines.begin.size() - 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t line = first; line < last; ++line) {
+        std::sort(lines.crossings.data() + lines.begin[line], lines.crossings.data() + lines.begin[line + 1],
+                  less);
+      }
+    });
+  }
+
   template <class Visit>
-  void for_each_crossing(Visit visit) const {
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+  void scan(std::uint32_t first, std::uint32_t last, const Visit& visit) const {
+    for (std::uint32_t t = first; t < last; ++t) {
       const Triangle& c = mesh_.triangles[t];
       const std::array<Corner, 3> p = {corner(c[0]), corner(c[1]), corner(c[2])};
       const auto rows =
@@ -86,7 +117,7 @@ class Scanner {
   }
 
   template <class Visit>
-  void scan_row(std::uint32_t t, const std::array<Corner, 3>& p, std::int64_t row, Visit visit) const {
+  void scan_row(std::uint32_t t, const std::array<Corner, 3>& p, std::int64_t row, const Visit& visit) const {
     std::array<RowHit, 2> hit;
     std::size_t hits = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -112,6 +143,7 @@ class Scanner {
   }
 
   const Mesh& mesh_;
+  unsigned threads_;
   int u_, v_, w_;
   std::uint32_t u_count_ = 0, v_count_ = 0;
   bool left_handed_ = false;
@@ -120,8 +152,8 @@ class Scanner {
 
 }  // namespace
 
-LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis) {
-  return Scanner(mesh, frame, axis).run();
+LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads) {
+  return Scanner(mesh, frame, axis, threads).run();
 }
 
 }  // namespace affskel::core

@@ -27,7 +27,7 @@ struct LineCrossings {
 /// row when exactly one end has v' <= v (ends compared exactly); its u on the row is computed from its
 /// lower end, so both triangles of the edge get the same number, and a triangle covers the integers
 /// between the u of its two crossing edges, lower bound included.  Every line therefore enters each
-/// closed surface as often as it leaves it, whatever the rounding.
-LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis);
+/// closed surface as often as it leaves it, whatever the rounding.  On up to `threads` threads.
+LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads = 1);
 
 }  // namespace affskel::core

@@ -4,12 +4,15 @@
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <string>
 
 #include "core/box_tree.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace affskel::core {
 namespace {
@@ -52,6 +55,11 @@ Turned shared_first(const Triangle& t, const Triangle& other) {
   return turned;
 }
 
+Point point_of(const Mesh& mesh, std::uint32_t v) {
+  const Vec3& p = mesh.points[v];
+  return {p.x, p.y, p.z};
+}
+
 class PairTest {
  public:
   explicit PairTest(const Mesh& mesh) : mesh_(mesh) {}
@@ -80,10 +88,7 @@ class PairTest {
   }
 
  private:
-  Point point(std::uint32_t v) const {
-    const Vec3& p = mesh_.points[v];
-    return {p.x, p.y, p.z};
-  }
+  Point point(std::uint32_t v) const { return point_of(mesh_, v); }
   Kernel::Segment_3 segment(std::uint32_t v, std::uint32_t w) const { return {point(v), point(w)}; }
   Kernel::Triangle_3 triangle(const Triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
 
@@ -103,32 +108,90 @@ std::vector<Box> boxes_of(const Mesh& mesh) {
   return boxes;
 }
 
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+// Goes through the triangles in blocks, several at a time.  Blocks are begun in ascending order and ended
+// once begun, so the pairs of all blocks begun start with the first pairs of the mesh.
+class Search {
+ public:
+  Search(const Mesh& mesh, const SelfIntersectionOptions& options)
+      : mesh_(mesh), options_(options), meet_(mesh), degenerate_(mesh.triangles.size()) {}
+
+  Pairs run() {
+    const std::size_t count = mesh_.triangles.size();
+    parallel_ranges(options_.threads, count, [this](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) degenerate_[i] = meet_.degenerate(mesh_.triangles[i]);
+    });
+    boxes_ = boxes_of(mesh_);
+    const BoxTree tree(boxes_, options_.threads);
+    std::vector<Pairs> found((count + kBlock - 1) / kBlock);
+    std::atomic<std::size_t> pairs{0};
+    parallel_for(options_.threads, found.size(), [&](std::size_t block) {
+      if (pairs >= options_.max_pairs) return;
+      find(tree, block * kBlock, std::min(count, (block + 1) * kBlock), found[block]);
+      pairs += found[block].size();
+    });
+    return first_of(found);
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 2048;
+
+  void find(const BoxTree& tree, std::size_t begin, std::size_t end, Pairs& pairs) const {
+    std::vector<std::uint32_t> candidates;
+    for (auto i = static_cast<std::uint32_t>(begin); i < end && pairs.size() < options_.max_pairs; ++i) {
+      if (degenerate_[i] != 0) {
+        if (options_.degenerate_triangles) pairs.emplace_back(i, i);
+        continue;
+      }
+      tree.find(boxes_[i], i, candidates);
+      for (const std::uint32_t j : candidates) {
+        if (pairs.size() == options_.max_pairs) break;
+        if (degenerate_[j] == 0 && meet_(mesh_.triangles[i], mesh_.triangles[j])) pairs.emplace_back(i, j);
+      }
+    }
+  }
+
+  Pairs first_of(const std::vector<Pairs>& found) const {
+    Pairs first;
+    for (const Pairs& pairs : found) {
+      const std::size_t wanted = std::min(pairs.size(), options_.max_pairs - first.size());
+      first.insert(first.end(), pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(wanted));
+    }
+    return first;
+  }
+
+  const Mesh& mesh_;
+  const SelfIntersectionOptions& options_;
+  const PairTest meet_;
+  std::vector<std::uint8_t> degenerate_;  // bytes: neighbours may be written at the same time
+  std::vector<Box> boxes_;
+};
+
+bool pierces(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Triangle& t) {
+  const Point p = point_of(mesh, from), q = point_of(mesh, to);
+  const std::array<Point, 3> c = {point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2])};
+  const CGAL::Orientation side = CGAL::orientation(c[0], c[1], c[2], p);
+  if (side == CGAL::COPLANAR || CGAL::orientation(c[0], c[1], c[2], q) != -side) return false;
+  const CGAL::Orientation turn = CGAL::orientation(p, q, c[0], c[1]);
+  return turn != CGAL::COPLANAR && CGAL::orientation(p, q, c[1], c[2]) == turn &&
+         CGAL::orientation(p, q, c[2], c[0]) == turn;
+}
+
 }  // namespace
+
+bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
+  const Triangle &s = mesh.triangles[i], &t = mesh.triangles[j];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (pierces(mesh, s[k], s[(k + 1) % 3], t) || pierces(mesh, t[k], t[(k + 1) % 3], s)) return true;
+  }
+  return false;
+}
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options) {
   check(mesh);
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  const PairTest meet(mesh);
-  std::vector<bool> degenerate(count);
-  for (std::uint32_t i = 0; i < count; ++i) degenerate[i] = meet.degenerate(mesh.triangles[i]);
-
-  const std::vector<Box> boxes = boxes_of(mesh);
-  const BoxTree tree(boxes);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  std::vector<std::uint32_t> candidates;
-  for (std::uint32_t i = 0; i < count && pairs.size() < options.max_pairs; ++i) {
-    if (degenerate[i]) {
-      if (options.degenerate_triangles) pairs.emplace_back(i, i);
-      continue;
-    }
-    tree.find(boxes[i], i, candidates);
-    for (const std::uint32_t j : candidates) {
-      if (pairs.size() == options.max_pairs) break;
-      if (!degenerate[j] && meet(mesh.triangles[i], mesh.triangles[j])) pairs.emplace_back(i, j);
-    }
-  }
-  return pairs;
+  return Search(mesh, options).run();
 }
 
 }  // namespace affskel::core

@@ -14,6 +14,7 @@ struct SelfIntersectionOptions {
   /// Also report every degenerate triangle (corners equal or on one line) as a pair with itself, as CGAL
   /// does.
   bool degenerate_triangles = false;
+  unsigned threads = 1;  ///< >= 1; the pairs do not depend on it
 };
 
 /// The first `options.max_pairs` pairs (i, j), in lexicographic order, of triangles that share a point
@@ -28,5 +29,9 @@ struct SelfIntersectionOptions {
 /// @throws CoreError kBadInput when a used coordinate is not finite or an index is out of range.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options = {});
+
+/// Whether an edge of one of the triangles passes through the inside of the other: no touching, whose
+/// smallest change would end it.  Exact.
+bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j);
 
 }  // namespace affskel::core

@@ -83,6 +83,7 @@ class Nester {
 
 ShellNesting nest_shells(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_shell,
                          std::uint32_t shells) {
+  if (shells == 1) return {{0}, {ShellNesting::kNone}};
   return Nester(mesh, triangle_shell, shells).run();
 }
 

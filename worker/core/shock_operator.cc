@@ -1,5 +1,8 @@
 #include "core/shock_operator.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/average_outward_flux.h"
 #include "core/central_differences.h"
 #include "core/error.h"
@@ -49,7 +52,7 @@ double default_threshold(ShockOperator shock_operator, double spacing) {
 }
 
 double next_threshold(double threshold) {
-  return threshold * 9 / 7;
+  return std::min(threshold * 9 / 7, std::numeric_limits<double>::max());
 }
 
 std::vector<double> divergence(ShockOperator shock_operator, const Lattice& lattice,

@@ -1,12 +1,13 @@
 #include "core/skeleton_quality.h"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "core/chance_level.h"
 #include "core/lattice_coordinates.h"
-#include "core/point_index.h"
 #include "core/sheet_topology.h"
+#include "core/similarity.h"
 #include "core/skeleton.h"
 #include "core/skeleton_advice.h"
 #include "core/solid_membership.h"
@@ -19,42 +20,27 @@ namespace {
 // Inner units: far above rounding, far below anything that is seen.
 constexpr double kOnSurface = 1e-12;
 
-// Skeleton points by lattice indices (real ones for a sheet).
-using Indices = std::vector<Vec3>;
-
-std::vector<Vec3> scaled(double factor, const std::vector<Vec3>& points) {
-  std::vector<Vec3> result;
-  result.reserve(points.size());
-  for (const Vec3& p : points) result.push_back(factor * p);
-  return result;
-}
-
 std::optional<double> farthest(std::span<const Vec3> from, std::span<const Vec3> to) {
   if (from.empty() || to.empty()) return std::nullopt;
-  const PointIndex index(to);
-  double distance = 0;
-  for (const Vec3& p : from) distance = std::max(distance, index.nearest(p));
-  return distance;
+  return DistanceCurve(from, to).hausdorff();
 }
 
-double share_inside(const Lattice& lattice, const SolidMembership& solid, const Indices& points) {
+double share_inside(const Lattice& lattice, const SolidMembership& solid, const std::vector<Vec3>& points) {
+  const double steps = 1 / lattice.spacing;
   const auto inside = std::count_if(points.begin(), points.end(), [&](const Vec3& p) {
-    return solid.contains(inner_place(lattice, p), kOnSurface);
+    return solid.contains(inner_place(lattice, steps * p), kOnSurface);
   });
   return static_cast<double>(inside) / static_cast<double>(points.size());
 }
 
-// What does not depend on how the skeleton was found; `other` and `points` in frame coordinates.
-SkeletonQuality common_part(const Solid& solid, const Lattice& lattice, const std::vector<Vec3>& points,
-                            const std::vector<Vec3>& other) {
+// What does not depend on how the skeleton was found; points in frame coordinates.
+SkeletonQuality common_part(const Solid& solid, const Lattice& lattice, const std::vector<Vec3>& points) {
   SkeletonQuality quality;
   quality.points = points.size();
   quality.solid = betti_numbers(solid);
   if (points.empty()) return quality;
   const SolidMembership membership(solid.mesh);
-  quality.inside_share = share_inside(lattice, membership, scaled(1 / lattice.spacing, points));
-  quality.hausdorff_there = farthest(points, other);
-  quality.hausdorff_back = farthest(other, points);
+  quality.inside_share = share_inside(lattice, membership, points);
   quality.chance_level = chance_level(lattice, membership, points);
   return quality;
 }
@@ -73,6 +59,17 @@ std::vector<Vec3> frame_places(const Lattice& lattice, const std::vector<Lattice
     result.push_back({lattice.spacing * i, lattice.spacing * j, lattice.spacing * k});
   }
   return result;
+}
+
+// `other` is a subset of `places`: only the points that it lacks are away from it.
+void add_distances(const Lattice& lattice, const std::vector<LatticePlace>& places,
+                   const std::vector<LatticePlace>& other, SkeletonQuality& quality) {
+  if (other.empty()) return;
+  std::vector<LatticePlace> lacking;
+  std::set_difference(places.begin(), places.end(), other.begin(), other.end(), std::back_inserter(lacking));
+  quality.hausdorff_there =
+      farthest(frame_places(lattice, lacking), frame_places(lattice, other)).value_or(0);
+  quality.hausdorff_back = 0;
 }
 
 // The vertices that triangles use.
@@ -96,8 +93,8 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
   const double other_threshold = next_threshold(options.threshold);
   const std::vector<LatticePlace> places = places_above(lattice, divergence, options.threshold);
   const std::vector<LatticePlace> other = places_above(lattice, divergence, other_threshold);
-  SkeletonQuality quality =
-      common_part(solid, lattice, frame_places(lattice, places), frame_places(lattice, other));
+  SkeletonQuality quality = common_part(solid, lattice, frame_places(lattice, places));
+  add_distances(lattice, places, other, quality);
   quality.skeleton = voxel_betti_numbers(places);
   quality.mean_thickness = mean_voxel_thickness(places);
   quality.other_threshold = other_threshold;
@@ -110,8 +107,13 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
 
 SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const Mesh& sheet,
                               const SheetQualityOptions& options) {
-  const std::vector<Vec3> other = options.other ? used_vertices(*options.other) : std::vector<Vec3>{};
-  SkeletonQuality quality = common_part(solid, lattice, used_vertices(sheet), other);
+  const std::vector<Vec3> points = used_vertices(sheet);
+  SkeletonQuality quality = common_part(solid, lattice, points);
+  if (options.other != nullptr) {
+    const std::vector<Vec3> other = used_vertices(*options.other);
+    quality.hausdorff_there = farthest(points, other);
+    quality.hausdorff_back = farthest(other, points);
+  }
   quality.skeleton = sheet_topology(sheet).betti;
   quality.mean_thickness = sheet.triangles.empty() ? 0 : 1;
   quality.other_threshold = options.other_threshold;

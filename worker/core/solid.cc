@@ -47,9 +47,12 @@ class SolidBuilder {
     if (solid_.mesh.triangles.empty()) refuse("the mesh has no triangles");
     check_points();
     drop_unused_vertices();
-    if (!every_edge_is_shared(solid_.mesh)) weld();
     const TrianglePlace where = [this](std::uint32_t t) { return place(t); };
-    HalfEdges mates = find_mates(solid_.mesh, where);
+    HalfEdges mates;
+    if (!find_mates_if_closed(solid_.mesh, options_.threads, mates)) {
+      if (!every_edge_is_shared(solid_.mesh)) weld();
+      mates = find_mates(solid_.mesh, where);
+    }
     make_orientation_agree(mates, where);
     note_split(split_pinched_vertices(solid_.mesh, mates));
     normalise();
@@ -334,10 +337,15 @@ class SolidBuilder {
 
   void look_for_self_intersections() {
     SelfIntersectionOptions options;
-    options.max_pairs = 1000;
+    // Folded noise has a few per triangle.  More could fill the memory, and would say nothing new.
+    options.max_pairs = 32 * solid_.mesh.triangles.size();
+    options.threads = options_.threads;
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;
+    for (const auto& [i, j] : pairs) {
+      if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
+    }
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
                                                                : "at least " + std::to_string(pairs.size());
     note(MeshNote::Severity::kWarning, "self-intersecting",

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh.h"
@@ -11,6 +12,7 @@ namespace affskel::core {
 struct SolidOptions {
   bool repair = true;  ///< weld equal vertices, turn faces to agree, drop what nothing uses; false: refuse
   bool check_self_intersections = true;
+  unsigned threads = 1;  ///< >= 1; the solid does not depend on it
 };
 
 /// One thing worth telling about a mesh.
@@ -46,7 +48,9 @@ struct Solid {
   std::vector<std::uint32_t> triangle_shell;  ///< per triangle
   std::vector<double> solid_volume;           ///< per connected solid, mesh units cubed, > 0
   double volume = 0;                          ///< v0: all solids, mesh units cubed
-  bool self_intersecting = false;
+  bool self_intersecting = false;  ///< triangles cross or touch that are not neighbours
+  /// Those that pass through each other, (i, j) with i < j ascending: there parts of the solid overlap.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<MeshNote> notes;
 
   /// Mesh units per inner unit, 2^exponent.

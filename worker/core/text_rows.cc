@@ -1,12 +1,30 @@
 #include "core/text_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
 #include "core/error.h"
 
 namespace affskel::core {
+namespace {
+
+enum class Kind : std::uint8_t { kWord, kBlank, kSpecial };
+
+constexpr std::array<Kind, 256> kind_table() {
+  std::array<Kind, 256> kinds{};
+  for (char c : {' ', '\t', '\v', '\f'}) kinds[static_cast<unsigned char>(c)] = Kind::kBlank;
+  for (char c : {'\0', '\r', '#'}) kinds[static_cast<unsigned char>(c)] = Kind::kSpecial;
+  return kinds;
+}
+constexpr std::array<Kind, 256> kKinds = kind_table();
+
+inline Kind kind_of(char c) {
+  return kKinds[static_cast<unsigned char>(c)];
+}
+
+}  // namespace
 
 bool TextRows::next() {
   while (!rest_.empty()) {
@@ -20,10 +38,26 @@ bool TextRows::next() {
   return false;
 }
 
+// Most lines are plain words between blanks: one look at each character.
 void TextRows::split(std::string_view text) {
   words_.clear();
-  if (text.find('\0') != std::string_view::npos) fail_at_line(line_, "a NUL byte in what should be text");
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+  text_ = text;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (;;) {
+    while (at != end && kind_of(*at) == Kind::kBlank) ++at;
+    const char* const begin = at;
+    while (at != end && kind_of(*at) == Kind::kWord) ++at;
+    if (at != end && kind_of(*at) == Kind::kSpecial) return split_carefully(text);
+    if (at == begin) return;
+    words_.emplace_back(begin, static_cast<std::size_t>(at - begin));
+  }
+}
+
+void TextRows::split_carefully(std::string_view text) {
+  words_.clear();
+  if (text.find('\0') != std::string_view::npos) fail_at_line(line_, "a NUL byte in what should be text");
   text = text.substr(0, text.find('#'));
   if (text.find('\r') != std::string_view::npos) {
     fail_at_line(line_, "a carriage return inside the line (old Macintosh line ends are not supported)");

@@ -25,6 +25,8 @@ class TextRows {
 
  private:
   void split(std::string_view text);
+  // Lines with comments or with characters that do not belong into text.
+  void split_carefully(std::string_view text);
 
   std::string_view rest_;
   std::string_view text_;

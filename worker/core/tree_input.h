@@ -12,7 +12,7 @@ namespace affskel::core {
 
 /// What TreeInput holds; for the sources of the join tree only.
 struct TreeInput::Data {
-  explicit Data(const Solid& solid);
+  Data(const Solid& solid, unsigned threads);
 
   /// Triangles round a vertex.
   std::span<const std::uint32_t> fan(std::uint32_t vertex) const {
@@ -24,11 +24,27 @@ struct TreeInput::Data {
   std::vector<Vec3> pseudonormal;        ///< per vertex: unit normals weighted by the angles they span
   std::vector<std::uint32_t> fan_begin;  ///< per vertex and one more
   std::vector<std::uint32_t> fan_triangles;
+  /// Triangles that cross one of those round a vertex; none unless the surface crosses itself.
+  std::span<const std::uint32_t> crossing(std::uint32_t vertex) const {
+    if (crossing_begin.empty()) return {};
+    return {crossing_triangles.data() + crossing_begin[vertex],
+            crossing_begin[vertex + 1] - crossing_begin[vertex]};
+  }
+
   std::vector<std::uint32_t> vertex_solid;  ///< per vertex: the solid its surface bounds
+  std::vector<std::uint32_t> crossing_begin;  ///< per vertex and one more; empty unless it crosses itself
+  std::vector<std::uint32_t> crossing_triangles;
+  /// Per vertex: whether other parts of the surface wind round its outer side, so that the solid is there
+  /// too; empty unless the surface crosses itself.
+  std::vector<std::uint8_t> nested;
   std::vector<double> solid_volume;         ///< inner units
   double volume = 0;                        ///< all solids, inner units
   double surface_area = 0;                  ///< inner units
   RayShooter rays;
+
+ private:
+  void find_crossings();
+  void find_nested(unsigned threads);
 };
 
 }  // namespace affskel::core

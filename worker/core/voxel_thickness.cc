@@ -51,8 +51,7 @@ class Thickness {
   }
 
   static bool follows(const LatticePlace& p, LatticePlace q, std::size_t axis) {
-    if (q[axis] == 0) return false;
-    --q[axis];
+    --q[axis];  // of 0: a place that no lattice reaches
     return p == q;
   }
 

@@ -110,6 +110,7 @@ TEST_P(EveryOperator, DefaultThresholdsStandForTheSameJump) {
 TEST(NextThreshold, ContinuesThePublishedLadder) {
   EXPECT_EQ(next_threshold(7), 9);
   EXPECT_EQ(next_threshold(14), 18);
+  EXPECT_TRUE(std::isfinite(next_threshold(1e308)));
 }
 
 TEST(Divergence, IsTheOperatorsOwn) {

@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <string>
 #include <system_error>
 
 #include "core/mesh_io.h"
@@ -35,6 +37,20 @@ TEST(ComputeTest, AnOutputThatCannotBeWrittenTellsWhy) {
   EXPECT_EQ(error_of(directory + "/missing/field.csv"), ENOENT);
   EXPECT_EQ(error_of(directory + "/field.csv"), 0);
   EXPECT_GT(std::filesystem::file_size(directory + "/field.csv"), 0U);
+  // Nothing stays behind of the attempts, and a file in place is replaced as a whole.
+  const std::filesystem::path field = directory + "/field.csv";
+  std::ofstream(directory + "/kept.csv") << "old";
+  std::filesystem::create_symlink("kept.csv", directory + "/link.csv");
+  std::filesystem::permissions(directory + "/kept.csv", std::filesystem::perms(0640));
+  EXPECT_EQ(error_of(directory + "/link.csv"), 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(directory + "/link.csv"));
+  EXPECT_EQ(std::filesystem::file_size(directory + "/kept.csv"), std::filesystem::file_size(field));
+  EXPECT_EQ(std::filesystem::status(directory + "/kept.csv").permissions(), std::filesystem::perms(0640));
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"box.off", "field.csv", "full.csv", "kept.csv", "link.csv"}));
   std::filesystem::remove_all(directory);
 }
 

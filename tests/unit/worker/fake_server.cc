@@ -82,6 +82,11 @@ void FakeServer::wait_for_calls(const std::string& method, int times) const {
   changed_.wait(lock, [&] { return std::count(calls_.begin(), calls_.end(), method) >= times; });
 }
 
+void FakeServer::wait_for_idle() const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [&] { return idle_; });
+}
+
 grpc::Status FakeServer::begin(const std::string& method) {
   const std::lock_guard<std::mutex> guard(mutex_);
   calls_.push_back(method);
@@ -99,7 +104,13 @@ grpc::Status FakeServer::LeaseTask(grpc::ServerContext*, const v1::LeaseTaskRequ
   const grpc::Status status = begin("LeaseTask");
   const std::lock_guard<std::mutex> guard(mutex_);
   lease_requests_.push_back(*request);
-  if (!status.ok() || leases_.empty()) return status;
+  if (!status.ok()) return status;
+  if (leases_.empty()) {
+    // Those who look ahead do not wait.
+    idle_ = idle_ || request->wait_ms() > 0;
+    changed_.notify_all();
+    return status;
+  }
   *response->mutable_lease() = leases_.front();
   leases_.pop_front();
   return status;

@@ -49,6 +49,8 @@ class FakeServer final : public v1::WorkerService::Service {
   int calls(const std::string& method) const;
   /// Waits until a method was called that often.
   void wait_for_calls(const std::string& method, int times) const;
+  /// Waits until a worker that has nothing else to do is told that there is no work.
+  void wait_for_idle() const;
 
  private:
   grpc::Status LeaseTask(grpc::ServerContext*, const v1::LeaseTaskRequest*, v1::LeaseTaskResponse*) override;
@@ -75,6 +77,7 @@ class FakeServer final : public v1::WorkerService::Service {
   std::deque<std::pair<std::string, grpc::Status>> failures_to_come_;
   std::vector<std::string> calls_;
   bool damage_next_ = false;
+  bool idle_ = false;
   std::function<v1::ReportResponse(const v1::ReportErosionHeader&)> answer_;
   std::vector<Report> reports_;
   std::vector<Completion> completions_;

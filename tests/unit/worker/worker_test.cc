@@ -89,6 +89,7 @@ class LinkTest : public testing::Test {
   FakeServer server_;
   std::stop_source stop_;
   PreparedJob prepared_{sample_mesh(), sample_params()};
+  LastReport last_;
 };
 
 TEST_F(LinkTest, TriesAgainWhileTheServerIsAway) {
@@ -154,7 +155,11 @@ TEST_F(LinkTest, ErodeReportsEveryPositionOnceAndAllItsPoints) {
   rest->set_begin(60);
   rest->set_end(256);
   server_.fail_next("ReportErosion", {grpc::StatusCode::UNAVAILABLE, "away"}, 2);
-  EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token()), ErodeEnd::kBlockDone);
+  int nearly_done = 0;
+  EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token(), last_, [&] { ++nearly_done; }),
+            ErodeEnd::kBlockDone);
+  EXPECT_LE(nearly_done, 1);
+  last_.wait();
   const std::vector<FakeServer::Report> reports = server_.reports();
   EXPECT_TRUE(reports.back().header.block_done());
   const std::vector<std::uint64_t> done = positions(reports);
@@ -163,11 +168,24 @@ TEST_F(LinkTest, ErodeReportsEveryPositionOnceAndAllItsPoints) {
   EXPECT_TRUE(merged(prepared_, reports) == finished_field(prepared_));
 }
 
+// The next block goes on while the report of the one before is on its way, but reports nothing of its own
+// until that is acknowledged: when it is not, points that both improved would be missing.
+TEST_F(LinkTest, ErodeReportsNothingAfterALostBlock) {
+  ServerLink to_server = link();
+  core::Erosion& erosion = prepared_.erosion(1, empty_field(prepared_));
+  last_.start([] { throw LeaseLost("fenced"); });
+  EXPECT_THROW(erode(erode_lease(prepared_, "t", 0, 256), prepared_, erosion, to_server, stop_.get_token(),
+                     last_, [] {}),
+               LeaseLost);
+  EXPECT_EQ(server_.calls("ReportErosion"), 0);
+}
+
 TEST_F(LinkTest, ErodeStopsWithEverythingReportedThatIsDone) {
   ServerLink to_server = link();
   core::Erosion& erosion = prepared_.erosion(1, empty_field(prepared_));
   stop_.request_stop();
-  EXPECT_EQ(erode(erode_lease(prepared_, "t", 0, 256), prepared_, erosion, to_server, stop_.get_token()),
+  EXPECT_EQ(erode(erode_lease(prepared_, "t", 0, 256), prepared_, erosion, to_server, stop_.get_token(),
+                  last_, [] {}),
             ErodeEnd::kStopped);
   EXPECT_FALSE(server_.reports().back().header.block_done());
 }
@@ -183,7 +201,8 @@ TEST_F(LinkTest, ErodeObeysACancellation) {
     response.set_cancelled(true);
     return response;
   });
-  EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token()), ErodeEnd::kCancelled);
+  EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token(), last_, [] {}),
+            ErodeEnd::kCancelled);
   EXPECT_EQ(server_.reports().size(), 1U);
 }
 
@@ -202,18 +221,13 @@ class LoopTest : public LinkTest {
     options.patience = std::chrono::seconds(5);
     int code = -1;
     std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
-    server_.wait_for_calls("LeaseTask", expected_leases_ + 1);
+    server_.wait_for_idle();
     stop_.request_stop();
     loop.join();
     return code;
   }
 
-  void offer(const v1::Lease& lease) {
-    server_.offer(lease);
-    ++expected_leases_;
-  }
-
-  int expected_leases_ = 0;
+  void offer(const v1::Lease& lease) { server_.offer(lease); }
 };
 
 TEST_F(LoopTest, PreparesErodesAndDerives) {
@@ -236,9 +250,28 @@ TEST_F(LoopTest, ForgetsTheFieldWhenALeaseIsLost) {
   server_.fail_next("ReportErosion", {grpc::StatusCode::ABORTED, "fenced"});
   offer(erode_lease(prepared_, "a", 0, 256));
   offer(erode_lease(prepared_, "b", 0, 256));
+  offer(erode_lease(prepared_, "c", 0, 256));
   EXPECT_EQ(run(), 0);
   EXPECT_EQ(server_.calls("FetchInput4"), 2);
+  EXPECT_EQ(server_.calls("ReturnLease"), 1) << "the second was begun before the loss of the first was known";
   EXPECT_TRUE(merged(prepared_, server_.reports()) == finished_field(prepared_));
+}
+
+TEST_F(LoopTest, ErodesBlockAfterBlock) {
+  std::uint64_t begin = 0;
+  for (std::uint64_t end : {100U, 101U, 200U, 230U, 256U}) {
+    offer(erode_lease(prepared_, "block" + std::to_string(end), begin, end));
+    begin = end;
+  }
+  EXPECT_EQ(run(), 0);
+  const std::vector<FakeServer::Report> reports = server_.reports();
+  EXPECT_EQ(positions(reports).size(), 256U);
+  EXPECT_EQ(std::count_if(reports.begin(), reports.end(),
+                          [](const FakeServer::Report& r) { return r.header.block_done(); }),
+            5);
+  EXPECT_TRUE(merged(prepared_, reports) == finished_field(prepared_));
+  EXPECT_EQ(server_.calls("FetchInput4"), 1);
+  EXPECT_EQ(server_.calls("ReturnLease"), 0);
 }
 
 TEST_F(LoopTest, DerivesSkeletonAndSurface) {
