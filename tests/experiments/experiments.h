@@ -1,17 +1,31 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
+
+#include "core/mesh.h"
 #include "report.h"
 
 namespace affskel::experiments {
 
 /// How large the experiments are.
-struct Setting {
+class Setting {
+ public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
 
-  double body_height = 18000;  ///< the published bodies are about as tall, in their units
+  static constexpr double kBodyHeight =
+      18000;  ///< gives skeletons of the published order of size at dT = 200
   /// dT: the published 200, coarser when quick.
   double spacing() const { return quick ? 600 : 200; }
+
+  /// A body of our own (core/body.h), made when first asked for and kept.
+  const core::Mesh& body(std::uint32_t triangles) const;
+
+ private:
+  std::shared_ptr<std::map<std::uint32_t, core::Mesh>> bodies_ =
+      std::make_shared<std::map<std::uint32_t, core::Mesh>>();
 };
 
 // The sections of Zografos (2003), chapter 6, each appended to the report with pictures, the published

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "chart.h"
-#include "core/body.h"
 #include "experiments.h"
 #include "job.h"
 
@@ -56,7 +55,7 @@ void growth_experiment(const Setting& setting, Report& report) {
   Table table{{"triangles N", "points", "time", "published time", "time / N, ms", "time / N^2, us"}, {}};
   for (const std::uint32_t n : counts) {
     std::uint32_t points = 0;
-    const double seconds = time_of(core::make_body({n, setting.body_height}), options, points);
+    const double seconds = time_of(setting.body(n), options, points);
     times.push_back({n, seconds});
     table.rows.push_back({std::to_string(n), std::to_string(points), duration(seconds), published_time(n),
                           format("%.3f", 1e3 * seconds / n), format("%.4f", 1e6 * seconds / n / n)});
@@ -73,12 +72,11 @@ void growth_experiment(const Setting& setting, Report& report) {
                  {"here", "#1b9e77", false, true, times}};
   report.drawing("growth", svg_of(chart), "Time against the number of triangles");
   report.text(format(
-      "Published: time grows geometrically with N, more than O(N^4) by the author's count, and beyond 1500 "
-      "triangles "
-      "is extrapolated. The three published times themselves fit N^%.2f. Ours fit N^%.2f: one join tree of N "
-      "triangles, O(N log N), for each of N directions, plus a sweep over the points for each direction, "
-      "most of "
-      "which is pruned. Few triangles cost less than that law says, being lost in the rest.",
+      "Published: time grows geometrically with N, more than O(N^4) by the author's count, and beyond "
+      "1500 triangles is extrapolated. The three published times themselves fit N^%.2f. Ours fit N^%.2f: "
+      "one join tree of N triangles, O(N log N), for each of N directions, plus a sweep over the points "
+      "for each direction, most of which is pruned. Few triangles cost less than that law says, being "
+      "lost in the rest.",
       theirs, ours));
   report.compare({"time against N", format("292: 35 min 41 s; 5000: > 180 h; fits N^%.1f", theirs),
                   format("%u: ", counts.front()) + duration(times.front().second) +

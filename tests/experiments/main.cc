@@ -86,8 +86,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", directory, "the directory to write to")->capture_default_str();
   app.add_option("--threads", setting.threads, "threads for the erosion")->check(CLI::Range(1U, 1024U));
   app.add_option("--only", only,
-                 "one experiment alone: torus, ellipsoid, revolution, bodies, threshold, "
-                 "noise, affine, planes or growth")
+                 "one experiment alone: torus, ellipsoid, revolution, bodies, threshold, noise, affine, "
+                 "planes or growth")
       ->check(CLI::IsMember({"torus", "ellipsoid", "revolution", "bodies", "threshold", "noise", "affine",
                              "planes", "growth"}));
   CLI11_PARSE(app, argc, argv);

@@ -145,22 +145,15 @@ void add_lines(const Subject& subject, const Measured& measured, Chart& chart) {
 
 constexpr const char* kText =
     "Published: the method cannot cope with a cube or a tetrahedron, whose triangles have six and four "
-    "normals; "
-    "proposed, but not tried, is a triangulated sphere round the object whose normals are taken instead. It "
-    "works. "
-    "Points: those of a lattice where E has a closed form, 4.5 abc for distances a, b, c (in edges, each at "
-    "most "
-    "1/3) from three faces of a cube, 27 v0 times the product of the three least barycentric coordinates "
-    "(each at "
-    "most 1/3) in a tetrahedron. A finite set can only overestimate E. The median error falls like 1/N: E is "
-    "a "
-    "minimum over directions, flat to first order there, and the nearest of N directions is about N^(-1/2) "
-    "away. "
-    "The mean falls more slowly in the tetrahedron, and the greatest error hardly: close to an edge or a "
-    "corner "
-    "the best plane is nearly parallel to a face, and the chord grows fast with the angle between that plane "
-    "and "
-    "the nearest one of an even set. A union with the mesh's own normals helps there.";
+    "normals; proposed, but not tried, is a triangulated sphere round the object whose normals are taken "
+    "instead. It works. Points: those of a lattice where E has a closed form, 4.5 abc for distances a, b, "
+    "c (in edges, each at most 1/3) from three faces of a cube, 27 v0 times the product of the three "
+    "least barycentric coordinates (each at most 1/3) in a tetrahedron. A finite set can only "
+    "overestimate E. The median error falls like 1/N: E is a minimum over directions, flat to first order "
+    "there, and the nearest of N directions is about N^(-1/2) away. The mean falls more slowly in the "
+    "tetrahedron, and the greatest error hardly: close to an edge or a corner the best plane is nearly "
+    "parallel to a face, and the chord grows fast with the angle between that plane and the nearest one "
+    "of an even set. A union with the mesh's own normals helps there.";
 
 }  // namespace
 

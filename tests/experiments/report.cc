@@ -50,6 +50,7 @@ std::string count_of(std::size_t count, const char* noun) {
 }
 
 std::string duration(double seconds) {
+  if (seconds < 0.1) return format("%.0f ms", 1000 * seconds);
   if (seconds < 10) return format("%.2f s", seconds);
   if (seconds < 120) return format("%.0f s", seconds);
   const auto whole = static_cast<long>(seconds + 0.5);

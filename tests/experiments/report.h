@@ -15,7 +15,7 @@ namespace affskel::experiments {
 /// "1 piece", "2 pieces".
 std::string count_of(std::size_t count, const char* noun);
 
-/// Seconds as people say them: "0.42 s", "35 min 41 s", "180 h".
+/// Seconds as people say them: "14 ms", "0.42 s", "35 min 41 s", "180 h".
 std::string duration(double seconds);
 
 /// A Markdown table.  Columns after the first are set flush right.

@@ -1,7 +1,8 @@
 #include "similarity_curves.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "sheet.h"
 
 namespace affskel::experiments {
 namespace {
@@ -19,48 +20,63 @@ std::vector<std::pair<double, double>> curve(const core::DistanceCurve& distance
 
 }  // namespace
 
-std::string both_ways(const core::Similarity& curves, double radius) {
-  return format("%.1f / %.1f %%", 100 * curves.b_in_a.share_within(radius),
-                100 * curves.a_in_b.share_within(radius));
+const char* name_of(Operator shock_operator) {
+  return shock_operator == Operator::kZuckerHummel ? "zucker-hummel" : "chords";
 }
 
-double lesser_share(const core::Similarity& curves, double spacing) {
-  const double radius = std::sqrt(3.0) * spacing;
-  return std::min(curves.a_in_b.share_within(radius), curves.b_in_a.share_within(radius));
+Cloud skeleton_by(Operator shock_operator, const Job& job) {
+  return shock_operator == Operator::kZuckerHummel ? zucker_hummel_skeleton(job) : chord_sheet_of(job).shocks;
 }
 
-Table similarity_table(const std::vector<Alike>& alike, const core::DistanceCurve& chance, double spacing) {
-  const double diagonal = std::sqrt(3.0) * spacing, published = std::sqrt(kPublishedSquaredRadius);
-  Table table{{"comparison", "points", format("within r^2 = %.2g, there / back", 3 * spacing * spacing),
-               "within r^2 = 1e8, there / back", "area under the curve to 1e8, there / back",
-               "greatest distance, there / back"},
-              {}};
-  for (const Alike& a : alike) {
-    table.rows.push_back({a.label, format("%zu, %zu", a.points, a.points_back), both_ways(a.curves, diagonal),
-                          both_ways(a.curves, published),
-                          format("%.4f / %.4f", a.curves.b_in_a.area_under_squared(published),
-                                 a.curves.a_in_b.area_under_squared(published)),
-                          format("%.0f / %.0f", a.curves.b_in_a.hausdorff(), a.curves.a_in_b.hausdorff())});
+double SimilarityStudy::radius() const {
+  return std::sqrt(3.0) * spacing;
+}
+
+std::string SimilarityStudy::both_ways(std::size_t n) const {
+  return format("%.1f / %.1f %%", 100 * there(n), 100 * back(n));
+}
+
+std::string SimilarityStudy::chance_levels(const SimilarityStudy& chords) const {
+  return format("chance %.0f %%, chords %.0f %%", 100 * chance.share_within(radius()),
+                100 * chords.chance.share_within(chords.radius()));
+}
+
+Table similarity_table(const SimilarityStudy& study) {
+  const double published = std::sqrt(kPublishedSquaredRadius);
+  Table table{
+      {"comparison", "points", format("within r^2 = %.2g, there / back", 3 * study.spacing * study.spacing),
+       "within r^2 = 1e8, there / back", "area under the curve to 1e8, there / back",
+       "greatest distance, there / back"},
+      {}};
+  for (std::size_t n = 0; n < study.alike.size(); ++n) {
+    const Alike& a = study.alike[n];
+    const core::DistanceCurve &there = a.curves.b_in_a, &back = a.curves.a_in_b;
+    table.rows.push_back(
+        {a.label, format("%zu, %zu", a.points, a.points_back), study.both_ways(n),
+         format("%.1f / %.1f %%", 100 * there.share_within(published), 100 * back.share_within(published)),
+         format("%.4f / %.4f", there.area_under_squared(published), back.area_under_squared(published)),
+         format("%.0f / %.0f", there.hausdorff(), back.hausdorff())});
   }
-  table.rows.push_back(
-      {"chance level: any points of the inside", "-", format("%.1f %%", 100 * chance.share_within(diagonal)),
-       format("%.1f %%", 100 * chance.share_within(published)),
-       format("%.4f", chance.area_under_squared(published)), format("%.0f", chance.hausdorff())});
+  const core::DistanceCurve& chance = study.chance;
+  table.rows.push_back({"chance level: any points of the inside", "-",
+                        format("%.1f %%", 100 * chance.share_within(study.radius())),
+                        format("%.1f %%", 100 * chance.share_within(published)),
+                        format("%.4f", chance.area_under_squared(published)),
+                        format("%.0f", chance.hausdorff())});
   return table;
 }
 
-Chart similarity_chart(const std::string& title, const std::vector<Alike>& alike,
-                       const core::DistanceCurve& chance, double spacing, double published_share) {
+Chart similarity_chart(const std::string& title, const SimilarityStudy& study, double published_share) {
   Chart chart;
   chart.title = title;
   chart.x = {"squared radius r^2, mesh units squared", kLowest, kHighest, true};
   chart.y = {"share of points within r, %", 0, 100, false};
-  for (const Alike& a : alike) {
+  for (const Alike& a : study.alike) {
     chart.lines.push_back({a.label, a.colour, false, false, curve(a.curves.b_in_a)});
     chart.lines.push_back({"  back", a.colour, true, false, curve(a.curves.a_in_b)});
   }
-  chart.lines.push_back({"chance level", "#999999", false, false, curve(chance)});
-  chart.remarks.push_back({3 * spacing * spacing, 0, "voxel diagonal", true});
+  chart.lines.push_back({"chance level", "#999999", false, false, curve(study.chance)});
+  chart.remarks.push_back({study.radius() * study.radius(), 0, "voxel diagonal", true});
   chart.remarks.push_back({kPublishedSquaredRadius, 100 * published_share,
                            format("published: %.0f %%", 100 * published_share), false});
   return chart;

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "core/body.h"
 #include "core/surface.h"
 #include "core/surface_samples.h"
 #include "experiments.h"
@@ -48,12 +47,11 @@ void write_thresholds(const Job& job, const std::vector<Result>& results, Report
                  "The skeleton of the body of 292 triangles with the thresholds 9, 7 and 6");
   report.text(
       "Published: thresholds 9, 7 and 6 for the Zucker-Hummel operator on the body of 292 triangles; 7 "
-      "pleases the "
-      "eye most, without a reason known. The reason: at a sheet parallel to two axes the operator reads 6.14 "
-      "times "
-      "the jump of the normal across it, so that 7 asks for a jump of 1.14, about 70 degrees between the two "
-      "normals, and 9 for 94 degrees. The sum has no length scale, which is why the same number serves every "
-      "spacing; but smooth parts of high curvature pass it too (see the ellipsoid).");
+      "pleases the eye most, without a reason known. The reason: at a sheet parallel to two axes the "
+      "operator reads 6.14 times the jump of the normal across it, so that 7 asks for a jump of 1.14, "
+      "about 70 degrees between the two normals, and 9 for 94 degrees. The sum has no length scale, which "
+      "is why the same number serves every spacing; but smooth parts of high curvature pass it too (see "
+      "the ellipsoid).");
   report.compare(
       {"thresholds 9, 7, 6, body of 292", "gaps at 9; 7 pleases most; 6 is thicker", here, "agrees"});
   for (std::size_t r = 1; r < results.size(); ++r) {
@@ -79,13 +77,10 @@ void write_surface(const Job& job, const Cloud& skeleton, Report& report) {
                  gallery({inside, alone}, {{Side::kFront, Side::kSide, Side::kOblique}, 2000}),
                  "The triangulated skeleton of the body of 292 triangles: front, side, oblique");
   report.text(
-      "Published: an alpha shape of the points, alpha found by trial and error. Here alpha follows from the "
-      "spacing: "
-      "3 dT^2, the square of a voxel's diagonal, so that neighbours on the lattice are always joined. Where "
-      "the "
-      "points are two voxels thick or more the shape is the boundary of a solid part, a surface round the "
-      "sheet, and "
-      "points inside that part are not used.");
+      "Published: an alpha shape of the points, alpha found by trial and error. Here alpha follows from "
+      "the spacing: 3 dT^2, the square of a voxel's diagonal, so that neighbours on the lattice are "
+      "always joined. Where the points are two voxels thick or more the shape is the boundary of a solid "
+      "part, a surface round the sheet, and points inside that part are not used.");
   report.compare({"triangulation, body of 292", "alpha shape, alpha by trial and error",
                   format("%zu triangles, alpha from the spacing", surface.triangles.size()), "agrees"});
   report.expect("triangles of the alpha shape per skeleton point",
@@ -97,8 +92,8 @@ void write_surface(const Job& job, const Cloud& skeleton, Report& report) {
 }  // namespace
 
 void threshold_experiment(const Setting& setting, Report& report) {
-  const Job job = compute(core::make_body({292, setting.body_height}),
-                          {setting.spacing(), "triangles", core::FrameKind::kAxis, setting.threads});
+  const Job job =
+      compute(setting.body(292), {setting.spacing(), "triangles", core::FrameKind::kAxis, setting.threads});
   const std::vector<double> divergence = divergence_of(job, core::ShockOperator::kZuckerHummel);
   std::vector<Result> results;
   for (const double threshold : kThresholds) {
