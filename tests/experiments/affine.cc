@@ -154,8 +154,8 @@ void affine_experiment(const Setting& setting, Report& report) {
     return zucker_hummel.both_ways(n) + ", chords " + chords.both_ways(n);
   };
   report.compare({format("turn and shear, body of %zu", mesh.triangles.size()), "98 % at r^2 = 1e8",
-                  format("at r^2 = %.2g: axis ", squared) + shares(0) + "; affine " + shares(2) + "; " +
-                      zucker_hummel.chance_levels(chords),
+                  "at r^2 = " + squared_text(squared) + ": axis " + shares(0) + "; affine " + shares(2) +
+                      "; " + zucker_hummel.chance_levels(chords),
                   "agrees, and at a radius that means something"});
   report.compare({format("stretch 2, 1, 1/2, body of %zu", mesh.triangles.size()), "-",
                   "axis " + shares(1) + "; affine " + shares(3), "-"});

@@ -97,7 +97,7 @@ void show(const Bodies& bodies, const SimilarityStudy& zucker_hummel, const Simi
     return zucker_hummel.both_ways(n) + ", chords " + chords.both_ways(n);
   };
   report.compare({format("noise of unit deviation, body of %u", bodies.triangles), "94 % at r^2 = 1e8",
-                  format("at r^2 = %.2g: ", 3 * bodies.dt() * bodies.dt()) + shares(0) + "; " +
+                  "at r^2 = " + squared_text(3 * bodies.dt() * bodies.dt()) + ": " + shares(0) + "; " +
                       zucker_hummel.chance_levels(chords),
                   "agrees, and at a radius that means something"});
   report.compare(

@@ -71,16 +71,18 @@ std::string ends_and_waist(const Result& r) {
 constexpr const char* kText =
     "Published: an hourglass for the cylinder, and one with a side collapsed for the cone. With the "
     "mesh's own directions so it is here, whatever the spacing. **But it is the direction set's skeleton, "
-    "not the cylinder's.** A cylinder's triangles have level normals and two upright ones and nothing "
+    "not the solid's.** A cylinder's triangles have level normals and two upright ones and nothing "
     "between, so that E is the lesser of a cut parallel to the wall and one parallel to a lid, and the "
     "hourglass is where the two are equal. With planes of all directions the corner between wall and lid "
     "is cut off aslant, as at the corner of a box (E = 4.5 abc there), the level surfaces are round, and "
     "no shock runs to the rim. Only on the axis are the normals not unique: there all planes that leave "
     "through the wall alone cut off the same volume, however they are tilted. With a sphere's directions "
     "the skeleton found shrinks onto the axis as the spacing falls: its greatest radius stays about 3.5 "
-    "spacings, the blur of the operator, and the shocks of `chords` lie within a spacing of it. The "
-    "cone's disc goes the same way. What stays of it is about the axis, and at coarse spacings a ring at "
-    "the rim, where the solid's edge is sharp and the level surfaces turn within a voxel.";
+    "spacings, the blur of the operator, and the shocks of `chords` lie within a spacing of it. Of the "
+    "cone's skeleton a small bowl on a stalk stays, about the deepest point; on the axis above it one "
+    "plane, the level one, cuts off the least, and there is no shock. The points at the tip and the ring "
+    "at the rim keep their size in voxels when the spacing falls: there the level surfaces bend within a "
+    "few voxels.";
 
 }  // namespace
 
@@ -119,7 +121,8 @@ void revolution_experiment(const Setting& setting, Report& report) {
   report.compare({"cylinder", "an hourglass", ends_and_waist(hourglass) + away,
                   "agrees with the mesh's directions; with all directions the skeleton is the axis"});
   report.compare({"cone", "an hourglass with one side collapsed", ends_and_waist(half_hourglass),
-                  "agrees with the mesh's directions, likewise theirs alone"});
+                  "agrees with the mesh's directions; with all directions a small bowl about the deepest "
+                  "point stays"});
   for (const Result& r : results) {
     const std::string what = r.name + ", " + r.directions + format(", dT %g", r.dt());
     report.expect(what + ": skeleton points", static_cast<double>(r.skeleton.size()), 10, 40000);

@@ -20,6 +20,11 @@ std::vector<std::pair<double, double>> curve(const core::DistanceCurve& distance
 
 }  // namespace
 
+std::string squared_text(double squared) {
+  const int power = static_cast<int>(std::floor(std::log10(squared) + 1e-9));
+  return format("%.2ge%d", squared / std::pow(10.0, power), power);
+}
+
 const char* name_of(Operator shock_operator) {
   return shock_operator == Operator::kZuckerHummel ? "zucker-hummel" : "chords";
 }
@@ -43,11 +48,11 @@ std::string SimilarityStudy::chance_levels(const SimilarityStudy& chords) const 
 
 Table similarity_table(const SimilarityStudy& study) {
   const double published = std::sqrt(kPublishedSquaredRadius);
-  Table table{
-      {"comparison", "points", format("within r^2 = %.2g, there / back", 3 * study.spacing * study.spacing),
-       "within r^2 = 1e8, there / back", "area under the curve to 1e8, there / back",
-       "greatest distance, there / back"},
-      {}};
+  Table table{{"comparison", "points",
+               "within r^2 = " + squared_text(study.radius() * study.radius()) + ", there / back",
+               "within r^2 = 1e8, there / back", "area under the curve to 1e8, there / back",
+               "greatest distance, there / back"},
+              {}};
   for (std::size_t n = 0; n < study.alike.size(); ++n) {
     const Alike& a = study.alike[n];
     const core::DistanceCurve &there = a.curves.b_in_a, &back = a.curves.a_in_b;

@@ -15,6 +15,9 @@ namespace affskel::experiments {
 /// The squared distance at which the published work reads its curves: (10^4)^2.
 inline constexpr double kPublishedSquaredRadius = 1e8;
 
+/// A squared radius with two digits, "1.2e5".
+std::string squared_text(double squared);
+
 /// Two ways to a skeleton: the published one and ours.
 enum class Operator { kZuckerHummel, kChords };
 
