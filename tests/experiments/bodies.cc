@@ -15,7 +15,7 @@ struct Published {
 };
 
 constexpr Published kPublished[] = {{292, 35 * 60 + 41, "35 min 41 s"},
-                                    {500, 105 * 60, "1 h 45 min"},
+                                    {500, 105 * 60, "> 1 h 45 min"},
                                     {1000, 0, "-"},
                                     {5000, 180 * 3600, "> 180 h (extrapolated)"}};
 
@@ -118,14 +118,15 @@ void body_experiment(const Setting& setting, Report& report) {
                  "The skeletons as sheets of equal chords, at half the spacing");
   report.text(
       "The sheets of the operator `chords`: the places where two chords of equal volume meet, which is "
-      "the skeleton's definition, without a derivative of the normals.");
+      "the skeleton's definition, without a derivative of the normals. Thin lines are ways through weaker "
+      "shocks, laid to join the strong parts to one piece.");
   for (const Result& r : results) {
     const std::string name = format("body of %u triangles", r.published.triangles);
     report.compare({name + format(", dT %g", setting.spacing()), r.published.time,
                     duration(r.job.seconds) + format("; %zu points in ", r.skeleton.size()) +
                         count_of(r.pieces.size(), "piece") +
                         format(", %.0f %% in the largest", 100 * largest_share(r)),
-                    r.published.triangles <= 500 ? verdict(r) : verdict(r) + "; no published picture"});
+                    r.published.triangles <= 500 ? verdict(r) : verdict(r) + "; no skeleton was published"});
     report.expect(name + ": share of the largest piece", largest_share(r), setting.quick ? 0.1 : 0.5, 1);
     report.expect(name + ": largest E / v0", r.job.highest_share(), 0.2, 0.55);
     report.expect(name + ": pieces of the sheet of chords", static_cast<double>(r.sheet.betti.components), 1,
