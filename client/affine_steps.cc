@@ -97,7 +97,7 @@ core::AffineMap affine_map_of(const std::vector<AffineStep>& steps) {
   core::AffineMap map;
   for (const AffineStep& step : steps) map = core::then(map, affine_step(step));
   if (core::is_singular(map)) {
-    throw ClientError(ExitCode::kUsage, "the map is singular: it would flatten every solid");
+    throw ClientError(ExitCode::kUsage, "the map is singular or out of range: it has no inverse");
   }
   return map;
 }

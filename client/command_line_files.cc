@@ -92,8 +92,8 @@ void add_transform(CLI::App& app, Options& options) {
   add_step(sub, "--matrix", (*values)[0],
            "9 numbers row by row, or 12 with the shift at the end of every row", "A11,A12,...");
   add_step(sub, "--scale", (*values)[1], "One factor or three", "S[,S,S]");
-  add_step(sub, "--rotate", (*values)[2], "Axis and degrees, counter-clockwise from the axis' tip",
-           "x|y|z:DEG");
+  add_step(sub, "--rotate", (*values)[2],
+           "Axis and degrees, as z:30; counter-clockwise seen from the axis' tip", "ROTATION");
   add_step(sub, "--translate", (*values)[3], "Shift", "X,Y,Z");
   add_step(sub, "--shear", (*values)[4], "As y+=z, y+=0.5z or yz:0.5", "SHEAR");
   sub->add_flag("--inverse", o.inverse, "The inverse of the whole");

@@ -108,8 +108,8 @@ std::string comparison_text(const Comparison& c) {
       key_line("within radius", there_and_back(percent(s.a_in_b.share_within(c.radius)),
                                                percent(s.b_in_a.share_within(c.radius)), " %"));
   if (c.chance) {
-    text += key_line("chance", there_and_back(percent(c.chance->in_b.share_within(c.radius)),
-                                              percent(c.chance->in_a.share_within(c.radius)), " %"));
+    text += key_line("chance", percent(c.chance->in_b.share_within(c.radius)) + " % of the solid near B, " +
+                                   percent(c.chance->in_a.share_within(c.radius)) + " % near A");
   }
   text += key_line("area under curve",
                    there_and_back(rounded(area(c, s.a_in_b), 4), rounded(area(c, s.b_in_a), 4), "") + to);

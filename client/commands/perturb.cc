@@ -72,7 +72,7 @@ void run_perturb(Console& console, const PerturbOptions& options) {
   const bool crosses = crosses_itself(shape.mesh());
   if (crosses) {
     console.warning(options.output +
-                    ": the surface crosses itself now; it can still be computed, but what is inside is "
+                    ": the surface crosses itself; it can still be computed, but what is inside is "
                     "ambiguous where it does");
   }
   console.document({{"file", options.output},

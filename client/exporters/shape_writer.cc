@@ -1,6 +1,7 @@
 #include "client/exporters/shape_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "client/console.h"
@@ -47,12 +48,15 @@ void write_coordinates(const ShapeFile& shape, const Write& write) {
 enum class Stored { kInt, kUint, kDouble };
 
 Stored stored_as(const PointColumn& column) {
-  if (!column.whole || column.values.empty()) return column.whole ? Stored::kInt : Stored::kDouble;
-  const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-  if (*low >= std::numeric_limits<std::int32_t>::min() && *high <= std::numeric_limits<std::int32_t>::max()) {
+  const auto all_within = [&](double low, double high) {
+    return std::all_of(column.values.begin(), column.values.end(),
+                       [&](double v) { return v >= low && v <= high && v == std::floor(v); });
+  };
+  if (!column.whole) return Stored::kDouble;
+  if (all_within(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max())) {
     return Stored::kInt;
   }
-  return *low >= 0 && *high <= std::numeric_limits<std::uint32_t>::max() ? Stored::kUint : Stored::kDouble;
+  return all_within(0, std::numeric_limits<std::uint32_t>::max()) ? Stored::kUint : Stored::kDouble;
 }
 
 std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored,

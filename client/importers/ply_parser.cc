@@ -10,6 +10,7 @@
 #include "client/importers/ply_header.h"
 #include "client/importers/shape_parsers.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/text_rows.h"
 
 namespace affskel::client {
@@ -154,8 +155,7 @@ class PlyReader {
   const std::vector<std::int64_t>& next_list(const PlyProperty& property) {
     const double length = values_.next(property.count_type);
     if (!(length >= 0) || length > static_cast<double>(values_.bytes_left())) {
-      fail_at(values_.line(), values_.place() + " announces a list of " +
-                                  std::to_string(static_cast<std::int64_t>(length)) + " values");
+      fail_at(values_.line(), values_.place() + " announces a list of " + core::to_text(length) + " values");
     }
     list_.clear();
     for (double i = 0; i < length; ++i) {

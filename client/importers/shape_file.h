@@ -13,7 +13,7 @@ namespace affskel::client {
 /// One number per point beside its coordinates: E, H, part of a normal, ...
 struct PointColumn {
   std::string name;
-  bool whole = false;  ///< holds whole numbers, each exactly a double
+  bool whole = false;  ///< meant for whole numbers, such as an index
   std::vector<double> values;
 };
 

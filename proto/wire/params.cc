@@ -102,6 +102,10 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
   if (!std::isfinite(params.threshold()) || params.threshold() < 0) {
     throw std::invalid_argument("the skeleton threshold must be a finite number > 0, or 0 for the default");
   }
+  if (result.operator_() == v1::OPERATOR_CHORDS && params.threshold() >= 1) {
+    throw std::invalid_argument(
+        "the threshold of chords is the least share of the skeleton that a piece of it has, between 0 and 1");
+  }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {
     result.set_threshold(result.operator_() == v1::OPERATOR_ZUCKER_HUMMEL ? kZuckerHummelThreshold : 0.0);

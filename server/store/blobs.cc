@@ -54,35 +54,32 @@ class ChunkReader final : public BlobReader {
 
 class FieldReader final : public BlobReader {
  public:
-  FieldReader(const std::string& file, std::int64_t erosion_id) : view_(file), erosion_id_(erosion_id) {
+  FieldReader(const std::string& file, std::int64_t erosion_id) : view_(file) {
     const std::optional<std::int64_t> points =
         view_.db.integer("SELECT points FROM erosions WHERE id = ?", erosion_id);
     if (!points) throw gone();
-    points_ = *points;
-    bytes_ = static_cast<std::uint64_t>(points_) * wire::kFieldRecordBytes;
+    field_.emplace(view_.db, erosion_id, *points);
+    bytes_ = static_cast<std::uint64_t>(*points) * wire::kFieldRecordBytes;
     // The header of a transfer carries the hash, so the field is read twice, from one view.
     wire::Sha256 hash;
-    for (std::int64_t i = 0; i < field_chunk_count(points_); ++i) {
-      hash.update(read_field_chunk(view_.db, erosion_id_, points_, i));
-    }
+    for (std::int64_t i = 0; i < field_->chunk_count(); ++i) hash.update(field_->chunk(i));
     sha256_ = hash.hex_digest();
   }
 
   std::string next() override {
-    if (index_ >= field_chunk_count(points_)) return {};
+    if (index_ >= field_->chunk_count()) return {};
     // Several chunks to a message: each is far below the limit.
     std::string bytes;
-    while (index_ < field_chunk_count(points_) &&
+    while (index_ < field_->chunk_count() &&
            bytes.size() + kChunkPoints * wire::kFieldRecordBytes <= wire::kChunkBytes) {
-      bytes += read_field_chunk(view_.db, erosion_id_, points_, index_++);
+      bytes += field_->chunk(index_++);
     }
     return bytes;
   }
 
  private:
   View view_;
-  std::int64_t erosion_id_;
-  std::int64_t points_ = 0;
+  std::optional<FieldView> field_;
   std::int64_t index_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "store/errors.h"
 #include "wire/address.h"
@@ -19,6 +20,13 @@ static_assert(std::endian::native == std::endian::little, "fields are stored as 
 // A chunk is written back in stretches of this many points, and only those that changed: late in a job
 // few points of a chunk still improve, and each page written costs its place in the log.
 constexpr std::size_t kStretchPoints = 256;
+
+// Logged records take no more than the field does, so that merging them costs no more than writing it; and
+// no more than this, for every reader keeps them in memory.
+constexpr std::int64_t kMaxLogBytes = std::int64_t{32} << 20;
+
+static_assert(sizeof(FieldRecord) == 24 && std::is_trivially_copyable_v<FieldRecord>,
+              "records are logged as they lie in memory");
 
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
@@ -82,6 +90,24 @@ void write_changed(BlobHandle& blob, const std::string& chunk, const std::vector
   }
 }
 
+struct ByChunk {
+  bool operator()(const FieldRecord& a, const FieldRecord& b) const {
+    return a.point / kChunkPoints < b.point / kChunkPoints;
+  }
+  bool operator()(const FieldRecord& a, std::int64_t index) const { return a.point / kChunkPoints < index; }
+  bool operator()(std::int64_t index, const FieldRecord& a) const { return index < a.point / kChunkPoints; }
+};
+
+void sort_by_chunk(std::vector<FieldRecord>& records) {
+  if (!std::is_sorted(records.begin(), records.end(), ByChunk{})) {
+    std::sort(records.begin(), records.end(), ByChunk{});
+  }
+}
+
+std::int64_t log_limit(std::int64_t points) {
+  return std::min(kMaxLogBytes, points * static_cast<std::int64_t>(kRecordBytes));
+}
+
 std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std::int64_t index) {
   return db.integer("SELECT id FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index);
 }
@@ -118,16 +144,13 @@ void RecordBatch::append(const v1::FieldRecords& records) {
 }
 
 void RecordBatch::sort() {
-  const auto by_chunk = [](const FieldRecord& a, const FieldRecord& b) {
-    return a.point / kChunkPoints < b.point / kChunkPoints;
-  };
-  if (!std::is_sorted(records_.begin(), records_.end(), by_chunk)) {
-    std::sort(records_.begin(), records_.end(), by_chunk);
-  }
+  sort_by_chunk(records_);
 }
 
-void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
-                   const std::vector<FieldRecord>& records) {
+namespace {
+
+void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t points,
+                       const std::vector<FieldRecord>& records) {
   std::optional<BlobHandle> blob;
   std::string chunk;
   for (auto begin = records.begin(); begin != records.end();) {
@@ -155,15 +178,63 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
   }
 }
 
+std::vector<FieldRecord> read_log(Database& db, std::int64_t erosion_id) {
+  std::vector<FieldRecord> log;
+  Statement row = db.query("SELECT data FROM field_log WHERE erosion_id = ? ORDER BY id", erosion_id);
+  while (row.step()) {
+    const std::string_view bytes = row.blob(0);
+    const std::size_t before = log.size();
+    log.resize(before + bytes.size() / sizeof(FieldRecord));
+    std::memcpy(log.data() + before, bytes.data(), bytes.size());
+  }
+  return log;
+}
+
+}  // namespace
+
+void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
+                   const std::vector<FieldRecord>& records) {
+  if (records.empty()) return;
+  const std::string_view bytes(reinterpret_cast<const char*>(records.data()),
+                               records.size() * sizeof(FieldRecord));
+  const std::int64_t logged =
+      db.integer("SELECT sum(length(data)) FROM field_log WHERE erosion_id = ?", erosion_id).value_or(0);
+  if (logged + static_cast<std::int64_t>(bytes.size()) <= log_limit(points)) {
+    db.run("INSERT INTO field_log (erosion_id, data) VALUES (?, ?)", erosion_id, Blob{bytes});
+    return;
+  }
+  if (logged == 0) return merge_into_chunks(db, erosion_id, points, records);
+  std::vector<FieldRecord> all = read_log(db, erosion_id);
+  all.insert(all.end(), records.begin(), records.end());
+  sort_by_chunk(all);
+  merge_into_chunks(db, erosion_id, points, all);
+  db.run("DELETE FROM field_log WHERE erosion_id = ?", erosion_id);
+}
+
+void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points) {
+  std::vector<FieldRecord> log = read_log(db, erosion_id);
+  if (log.empty()) return;
+  sort_by_chunk(log);
+  merge_into_chunks(db, erosion_id, points, log);
+  db.run("DELETE FROM field_log WHERE erosion_id = ?", erosion_id);
+}
+
 std::int64_t field_chunk_count(std::int64_t points) {
   return (points + kChunkPoints - 1) / kChunkPoints;
 }
 
-std::string read_field_chunk(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t index) {
+FieldView::FieldView(Database& db, std::int64_t erosion_id, std::int64_t points)
+    : db_(db), erosion_id_(erosion_id), points_(points), log_(read_log(db, erosion_id)) {
+  sort_by_chunk(log_);
+}
+
+std::string FieldView::chunk(std::int64_t index) const {
   Statement row =
-      db.query("SELECT data FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index);
-  if (!row.step()) return empty_chunk(chunk_points(points, index));
-  return std::string(row.blob(0));
+      db_.query("SELECT data FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id_, index);
+  std::string bytes = row.step() ? std::string(row.blob(0)) : empty_chunk(chunk_points(points_, index));
+  const auto [begin, end] = std::equal_range(log_.begin(), log_.end(), index, ByChunk{});
+  merge_into(bytes, index, begin, end);
+  return bytes;
 }
 
 }  // namespace affskel::server

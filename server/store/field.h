@@ -43,15 +43,33 @@ class RecordBatch {
   std::vector<FieldRecord> records_;
 };
 
-/// Merges records, sorted by chunk, into the stored field of `points` points: per point the lexicographic
-/// minimum of (E, direction), the area travelling with it.  Loads and rewrites only what it touches.
+/// Merges records, sorted by chunk, into the field of `points` points: per point the lexicographic minimum of
+/// (E, direction), the area travelling with it.  Few records are only logged; many, or a log grown long, are
+/// merged into the stored chunks, of which only what they touch is loaded and rewritten.
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                    const std::vector<FieldRecord>& records);
+
+/// Merges what is logged into the chunks: for fields that are finished.
+void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points);
 
 /// Number of chunks of a field.
 std::int64_t field_chunk_count(std::int64_t points);
 
-/// Bytes of chunk `index`, empty records where no report has been.
-std::string read_field_chunk(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t index);
+/// A field as it is in the database's transaction, the log included (at most 32 MiB of it, kept in memory).
+class FieldView {
+ public:
+  FieldView(Database& db, std::int64_t erosion_id, std::int64_t points);
+
+  std::int64_t chunk_count() const { return field_chunk_count(points_); }
+
+  /// Bytes of chunk `index`, empty records where no report has been.
+  std::string chunk(std::int64_t index) const;
+
+ private:
+  Database& db_;
+  std::int64_t erosion_id_;
+  std::int64_t points_;
+  std::vector<FieldRecord> log_;  // by chunk
+};
 
 }  // namespace affskel::server

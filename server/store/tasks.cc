@@ -6,6 +6,7 @@
 
 #include "store/blobs.h"
 #include "store/errors.h"
+#include "store/field.h"
 
 namespace affskel::server {
 namespace {
@@ -99,6 +100,7 @@ void finish_erosion(Tx& tx, JobRow& job) {
                                                       std::to_string(job.directions_done) + " of " +
                                                       std::to_string(job.directions) + " directions");
   }
+  settle_field(tx.db, job.erosion_id, job.points);
   tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
   tx.db.run("UPDATE jobs SET stage = 'derive' WHERE id = ?", job.id);
   job.finished = true;

@@ -39,7 +39,7 @@ std::array<Vec3, 3> cofactors(const std::array<Vec3, 3>& rows) {
 
 void check_regular(const AffineMap& map) {
   if (is_singular(map)) {
-    throw CoreError(CoreError::Code::kBadInput, "the map is singular: it flattens every solid");
+    throw CoreError(CoreError::Code::kBadInput, "the map is singular or out of range: it has no inverse");
   }
 }
 
@@ -120,11 +120,11 @@ AffineMap inverse(const AffineMap& map) {
   const double det = dot(rows[0], c[0]);
   AffineMap result;
   for (int i = 0; i < 3; ++i) {
-    // The cofactors, transposed.
-    result.rows[static_cast<std::size_t>(i)] = {c[0][i] / det / unit, c[1][i] / det / unit,
-                                                c[2][i] / det / unit};
+    // The cofactors, transposed; adding 0 turns a negative zero into a plain one.
+    result.rows[static_cast<std::size_t>(i)] =
+        Vec3{c[0][i] / det / unit, c[1][i] / det / unit, c[2][i] / det / unit} + Vec3{};
   }
-  result.shift = Vec3{} - result(map.shift);  // before it was set, the shift was 0; no negative zeros
+  result.shift = Vec3{} - result(map.shift);  // the shift is 0 up to here
   return result;
 }
 

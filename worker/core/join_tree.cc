@@ -23,6 +23,8 @@ namespace {
 
 constexpr std::uint32_t kNone = SectionBends::kNone;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Small trees get about this many cells in all: filling them costs less than the chords they save.
+constexpr std::uint32_t kFewCells = 1024;
 
 // Running coefficients of one component, about `height`: A(t) = area + slope s + bend s^2.
 struct Running {
@@ -247,34 +249,44 @@ class JoinTreeBuilder::Work {
     }
   }
 
-  // Cells of equal height, as many as pieces.  Entry c: the last piece in a cell before c, else the first
-  // piece; one entry more after the last cell: the last piece.
+  // Cells of equal height, as many as pieces or, in small trees, a multiple of that.  Entry c: the last piece
+  // in a cell before c, else the first piece, which therefore reaches up to where cell c begins; one entry
+  // more after the last cell: the last piece.
   void fill_cells() {
-    tree_.cells.resize(tree_.pieces.size() + tree_.arcs.size());
+    const auto pieces = static_cast<std::uint32_t>(tree_.pieces.size());
+    const std::uint32_t cells_per_piece = pieces < kFewCells ? kFewCells / pieces : 1;
+    tree_.cells.resize(std::size_t{pieces} * cells_per_piece + 2 * tree_.arcs.size());
     tree_.cell_volume.resize(tree_.cells.size());
-    for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
-      Arc& arc = tree_.arcs[a];
-      const std::uint32_t last = arc.last_piece - arc.first_piece;
-      const Piece* pieces = &tree_.pieces[arc.first_piece];
-      const double span = pieces[last].height - pieces[0].height;
-      arc.bottom = pieces[0].height;
-      arc.first_cell = arc.first_piece + static_cast<std::uint32_t>(a);
-      arc.cell_scale = span > 0 ? last / span : 0;
-      std::uint32_t* entry = &tree_.cells[arc.first_cell];
-      double* volume = &tree_.cell_volume[arc.first_cell];
-      std::uint32_t filled = 0;
-      for (std::uint32_t i = 0; i <= last; ++i) {
-        const std::uint32_t own = JoinTree::cell(arc, pieces[i].height) - arc.first_cell;
-        const std::uint32_t before = i == 0 ? 0 : i - 1;
-        for (; filled <= own; ++filled) {
-          entry[filled] = arc.first_piece + before;
-          volume[filled] = pieces[before].volume;
-        }
+    std::uint32_t next = 0;
+    for (Arc& arc : tree_.arcs) {
+      arc.first_cell = next;
+      arc.last_cell = next + (arc.last_piece - arc.first_piece) * cells_per_piece;
+      fill_cells(arc);
+      next = arc.last_cell + 2;
+    }
+  }
+
+  void fill_cells(Arc& arc) {
+    const std::uint32_t last = arc.last_piece - arc.first_piece, last_cell = arc.last_cell - arc.first_cell;
+    const Piece* pieces = &tree_.pieces[arc.first_piece];
+    const double span = pieces[last].height - pieces[0].height;
+    arc.bottom = pieces[0].height;
+    arc.cell_scale = span > 0 ? last_cell / span : 0;
+    const double side = span > 0 ? span / last_cell : 0;
+    std::uint32_t* entry = &tree_.cells[arc.first_cell];
+    double* volume = &tree_.cell_volume[arc.first_cell];
+    std::uint32_t filled = 0;
+    for (std::uint32_t i = 0; i <= last; ++i) {
+      const std::uint32_t own = JoinTree::cell(arc, pieces[i].height) - arc.first_cell;
+      const std::uint32_t before = i == 0 ? 0 : i - 1;
+      for (; filled <= own; ++filled) {
+        entry[filled] = arc.first_piece + before;
+        volume[filled] = pieces[before].volume_at(arc.bottom + filled * side);
       }
-      for (; filled <= last + 1; ++filled) {
-        entry[filled] = arc.last_piece;
-        volume[filled] = pieces[last].volume;
-      }
+    }
+    for (; filled <= last_cell + 1; ++filled) {
+      entry[filled] = arc.last_piece;
+      volume[filled] = pieces[last].volume;
     }
   }
 

@@ -38,7 +38,8 @@ struct Arc {
   std::uint32_t first_piece = 0;  ///< pieces [first_piece, last_piece], by height; at least one
   std::uint32_t last_piece = 0;
   std::uint32_t first_cell = 0;  ///< of the look-up table, see JoinTree::cell()
-  double cell_scale = 0;         ///< cells per unit of height
+  std::uint32_t last_cell = 0;
+  double cell_scale = 0;  ///< cells per unit of height
 };
 
 /// The sublevel join tree of a solid for one direction d: the components of {y in V : d.y <= t} as t
@@ -46,8 +47,9 @@ struct Arc {
 struct JoinTree {
   std::vector<Arc> arcs;
   std::vector<Piece> pieces;
-  std::vector<std::uint32_t> cells;  ///< per arc, one more than pieces: least piece of the cell's heights
-  std::vector<double> cell_volume;   ///< parallel to cells: volume at the start of that piece
+  /// Per cell, and one more per arc: the least piece of the cell's heights.
+  std::vector<std::uint32_t> cells;
+  std::vector<double> cell_volume;          ///< parallel to cells: V at the least height of the cell
   std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
   std::uint32_t roots = 0;
   double least_step = 0;  ///< the most negative change of volume between neighbouring pieces, inner units
@@ -62,12 +64,12 @@ struct JoinTree {
   /// The look-up table's cell for height h of the arc.  Grows with h.
   static std::uint32_t cell(const Arc& arc, double h) {
     const double c = (h - arc.bottom) * arc.cell_scale;
-    const std::uint32_t last = arc.last_piece - arc.first_piece;
+    const std::uint32_t last = arc.last_cell - arc.first_cell;
     return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
   }
 
-  /// A volume that V(h) is not below, but for TreeInput::volume_tolerance(): V at a vertex of the arc at or
-  /// shortly under h.  One look-up.
+  /// A volume that V(h) is not below, but for twice TreeInput::volume_tolerance(): V at or shortly under h.
+  /// One look-up.
   double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
 
   /// The piece of `arc` that holds height h: the last one that starts at or below h, else the first.

@@ -157,8 +157,8 @@ class LatticeBuilder {
         continue;
       }
       if (open == nullptr) {
-        axis.runs.push_back(
-            {static_cast<std::uint32_t>(axis.order.size()), 0, passage.entered, exit_from(lines, next, end, passage), at});
+        axis.runs.push_back({static_cast<std::uint32_t>(axis.order.size()), 0, passage.entered,
+                             exit_from(lines, next, end, passage), at});
         open = &axis.runs.back();
       }
       ++open->length;

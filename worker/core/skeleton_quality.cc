@@ -107,16 +107,22 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
 
 SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const Mesh& sheet,
                               const SheetQualityOptions& options) {
-  const std::vector<Vec3> points = used_vertices(sheet);
-  SkeletonQuality quality = common_part(solid, lattice, points);
+  const std::vector<Vec3> vertices = used_vertices(sheet);
+  SkeletonQuality quality =
+      common_part(solid, lattice, options.points != nullptr ? *options.points : vertices);
   if (options.other != nullptr) {
     const std::vector<Vec3> other = used_vertices(*options.other);
-    quality.hausdorff_there = farthest(points, other);
-    quality.hausdorff_back = farthest(other, points);
+    quality.hausdorff_there = farthest(vertices, other);
+    quality.hausdorff_back = farthest(other, vertices);
   }
   quality.skeleton = sheet_topology(sheet).betti;
   quality.mean_thickness = sheet.triangles.empty() ? 0 : 1;
   quality.other_threshold = options.other_threshold;
+  if (quality.points == 0) {
+    quality.advice =
+        "nowhere do two chords of clearly different directions have the same volume; try a smaller spacing, "
+        "more directions (triangles+sphere:2000), or a lower threshold";
+  }
   return quality;
 }
 

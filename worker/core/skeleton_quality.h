@@ -46,10 +46,11 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
 struct SheetQualityOptions {
   double other_threshold = 0;   ///< that `other` was made with
   const Mesh* other = nullptr;  ///< the sheet at the next higher threshold; none: no Hausdorff distances
+  const std::vector<Vec3>* points = nullptr;  ///< the shocks that the sheet was laid through, likewise in u
 };
 
-/// The quality of a triangulated sheet (`chords`), its vertices taken for its points: there is one per
-/// lattice cell that the sheet passes through.  Gives no advice.
+/// The quality of a triangulated sheet (`chords`).  Its points are the shocks when they are given, else its
+/// vertices, one per lattice cell that the sheet passes through; distances are between vertices.
 /// @param sheet vertices in coordinates of the lattice's frame (u, see frame_field.h), mesh units; triangles
 ///   distinct, each with three distinct corners.
 SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const Mesh& sheet,

@@ -48,7 +48,7 @@ struct Solid {
   std::vector<std::uint32_t> triangle_shell;  ///< per triangle
   std::vector<double> solid_volume;           ///< per connected solid, mesh units cubed, > 0
   double volume = 0;                          ///< v0: all solids, mesh units cubed
-  bool self_intersecting = false;  ///< triangles cross or touch that are not neighbours
+  bool self_intersecting = false;             ///< triangles cross or touch that are not neighbours
   /// Those that pass through each other, (i, j) with i < j ascending: there parts of the solid overlap.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<MeshNote> notes;

@@ -36,7 +36,7 @@ class Sweeper::Pass {
     const std::size_t a = choose_axis();
     const AxisRuns& axis = owner_.lattice_.axis[a];
     if (owner_.options_.prune) {
-      pruned_runs(a);
+      step_[a] >= 0 ? pruned_runs<true>(a) : pruned_runs<false>(a);
     } else {
       for (const LatticeRun& run : axis.runs) whole_run(a, run);
     }
@@ -67,8 +67,7 @@ class Sweeper::Pass {
   }
 
   std::uint32_t point(std::size_t a, const LatticeRun& run, std::uint32_t offset) const {
-    const std::vector<std::uint32_t>& order = owner_.lattice_.axis[a].order;
-    return order.empty() ? run.first + offset : order[run.first + offset];
+    return a == 2 ? run.first + offset : owner_.lattice_.axis[a].order[run.first + offset];
   }
 
   // The arc that holds the component of the run's lowest point, or one below it.
@@ -107,24 +106,78 @@ class Sweeper::Pass {
     }
   }
 
+  template <bool rising>
   void pruned_runs(std::size_t a) {
+    if (a == 0) return pruned_runs<0, rising>();
+    return a == 1 ? pruned_runs<1, rising>() : pruned_runs<2, rising>();
+  }
+
+  // Heights of a run's points, as height() gives them; what its points share is computed once.
+  template <std::size_t a>
+  class RunHeights {
+   public:
+    RunHeights(const Pass& pass, const LatticeRun& run) : step_(pass.step_[a]), start_(run.start[a]) {
+      const double i = run.start[0] * pass.step_[0], j = run.start[1] * pass.step_[1];
+      before_ = a == 0 ? pass.base_ : a == 1 ? pass.base_ + i : (pass.base_ + i) + j;
+      if (a == 0) next_ = j;
+      if (a != 2) last_ = run.start[2] * pass.step_[2];
+    }
+
+    double at(std::uint32_t offset) const {
+      const double h = before_ + (start_ + offset) * step_;
+      return a == 0 ? (h + next_) + last_ : a == 1 ? h + last_ : h;
+    }
+
+   private:
+    double step_, before_, next_ = 0, last_ = 0;
+    std::uint32_t start_;
+  };
+
+  // Whether a test holds is hard to foresee, and a wrong guess costs the processor more than the test: what
+  // passes is listed without a branch, here and in pruned_segment(), and worked off afterwards.
+  template <std::size_t a, bool rising>
+  void pruned_runs() {
     const std::vector<LatticeRun>& runs = owner_.lattice_.axis[a].runs;
-    AxisBounds& bounds = owner_.bounds_[a];
-    const bool rising = step_[a] >= 0;
+    const AxisBounds& bounds = owner_.bounds_[a];
     counts_.tested += runs.size();
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      const LatticeRun& run = runs[r];
-      const Arc* arc = first_arc(run, rising);
-      const double h = height(a, run, rising ? 0 : run.length - 1);
-      climb(arc, h);
-      const double bound = load(bounds.run[r]);
-      if (exceeds(*arc, h, bound)) continue;
-      store(bounds.run[r], pruned_run(a, run, rising, arc, bound, &bounds.segment[bounds.first_segment[r]]));
+    struct Passed {
+      std::size_t run;
+      const Arc* arc;
+      double bound;
+    };
+    std::array<Passed, 64> passed;
+    for (std::size_t begin = 0; begin < runs.size(); begin += passed.size()) {
+      std::size_t count = 0;
+      for (std::size_t r = begin; r < std::min(begin + passed.size(), runs.size()); ++r) {
+        const LatticeRun& run = runs[r];
+        const Arc* arc = first_arc(run, rising);
+        const double h = RunHeights<a>(*this, run).at(rising ? 0 : run.length - 1);
+        climb(arc, h);
+        const double bound = load(bounds.run[r]);
+        passed[count] = {r, arc, bound};
+        count += exceeds(*arc, h, bound) ? 0 : 1;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        improve_run<a, rising>(passed[i].run, passed[i].arc, passed[i].bound);
+      }
     }
   }
 
+  template <std::size_t a, bool rising>
+  void improve_run(std::size_t r, const Arc* arc, double bound) {
+    AxisBounds& bounds = owner_.bounds_[a];
+    const LatticeRun& run = owner_.lattice_.axis[a].runs[r];
+    const RunHeights<a> heights(*this, run);
+    // A run of one segment: what was tested for it holds for the segment, too.
+    store(bounds.run[r],
+          run.length <= kSegment
+              ? pruned_segment<a, rising>(run, heights, 0, run.length, arc)
+              : pruned_run<a, rising>(run, heights, arc, bound, &bounds.segment[bounds.first_segment[r]]));
+  }
+
   // Goes up the run segment by segment; returns the largest E left in it.
-  double pruned_run(std::size_t a, const LatticeRun& run, bool rising, const Arc* arc, double bound,
+  template <std::size_t a, bool rising>
+  double pruned_run(const LatticeRun& run, const RunHeights<a>& heights, const Arc* arc, double bound,
                     double* segment_bounds) {
     const std::uint32_t segments = (run.length + kSegment - 1) / kSegment;
     double largest = 0;
@@ -133,12 +186,12 @@ class Sweeper::Pass {
       const std::uint32_t s = rising ? n : segments - 1 - n;
       const std::uint32_t begin = s * kSegment, end = std::min(begin + kSegment, run.length);
       if (!done) {
-        const double h = height(a, run, rising ? begin : end - 1);
+        const double h = heights.at(rising ? begin : end - 1);
         climb(arc, h);
         ++counts_.tested;
         done = exceeds(*arc, h, bound);
         if (!done && !exceeds(*arc, h, load(segment_bounds[s]))) {
-          store(segment_bounds[s], pruned_segment(a, run, rising, begin, end, arc));
+          store(segment_bounds[s], pruned_segment<a, rising>(run, heights, begin, end, arc));
         }
       }
       largest = std::max(largest, load(segment_bounds[s]));
@@ -147,20 +200,31 @@ class Sweeper::Pass {
   }
 
   // Tests the points of offsets [begin, end) one by one; returns the largest E left among them.
-  double pruned_segment(std::size_t a, const LatticeRun& run, bool rising, std::uint32_t begin,
+  template <std::size_t a, bool rising>
+  double pruned_segment(const LatticeRun& run, const RunHeights<a>& heights, std::uint32_t begin,
                         std::uint32_t end, const Arc* arc) {
+    struct Passed {
+      const Arc* arc;
+      double h;
+      std::uint32_t point;
+    };
+    std::array<Passed, kSegment> passed;
+    std::size_t count = 0;
     double largest = 0;
     for (std::uint32_t n = 0; n < end - begin; ++n) {
       const std::uint32_t offset = rising ? begin + n : end - 1 - n;
       const std::uint32_t p = point(a, run, offset);
-      const double h = height(a, run, offset);
+      const double h = heights.at(offset);
       climb(arc, h);
-      double erosion = owner_.field_.erosion(p);
-      if (!exceeds(*arc, h, erosion)) {
-        evaluate(p, *arc, h);
-        erosion = owner_.field_.erosion(p);
-      }
-      largest = std::max(largest, erosion);
+      const double erosion = owner_.field_.erosion(p);
+      const bool exceeded = exceeds(*arc, h, erosion);
+      passed[count] = {arc, h, p};
+      count += exceeded ? 0 : 1;
+      largest = std::max(largest, exceeded ? erosion : 0);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      evaluate(passed[i].point, *passed[i].arc, passed[i].h);
+      largest = std::max(largest, owner_.field_.erosion(passed[i].point));
     }
     return largest;
   }

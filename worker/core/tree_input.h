@@ -31,15 +31,15 @@ struct TreeInput::Data {
             crossing_begin[vertex + 1] - crossing_begin[vertex]};
   }
 
-  std::vector<std::uint32_t> vertex_solid;  ///< per vertex: the solid its surface bounds
+  std::vector<std::uint32_t> vertex_solid;    ///< per vertex: the solid its surface bounds
   std::vector<std::uint32_t> crossing_begin;  ///< per vertex and one more; empty unless it crosses itself
   std::vector<std::uint32_t> crossing_triangles;
   /// Per vertex: whether other parts of the surface wind round its outer side, so that the solid is there
   /// too; empty unless the surface crosses itself.
   std::vector<std::uint8_t> nested;
-  std::vector<double> solid_volume;         ///< inner units
-  double volume = 0;                        ///< all solids, inner units
-  double surface_area = 0;                  ///< inner units
+  std::vector<double> solid_volume;  ///< inner units
+  double volume = 0;                 ///< all solids, inner units
+  double surface_area = 0;           ///< inner units
   RayShooter rays;
 
  private:

@@ -1,10 +1,79 @@
 #include "derive/chord_skeleton.h"
-#include "core/error.h"
+
+#include "core/chord_sheet.h"
+#include "core/shock_operator.h"
+#include "core/skeleton_quality.h"
+#include "derive/messages.h"
+
 namespace affskel::worker {
-v1::SkeletonPoints chord_skeleton(const FinishedField&, const v1::SkeletonParams&) {
-  throw core::CoreError(core::CoreError::Code::kInternal, "later");
+namespace {
+
+core::ChordSheetOptions options_for(double threshold) {
+  core::ChordSheetOptions options;
+  if (threshold != 0) options.pruning.significance = threshold;
+  return options;
 }
-v1::TriangleMesh chord_sheet(const FinishedField&, const v1::SkeletonParams&) {
-  throw core::CoreError(core::CoreError::Code::kInternal, "later");
+
+core::Mesh mesh_of(const core::ChordSheet& sheet) {
+  core::Mesh mesh;
+  for (const core::ChordSheetVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
+  mesh.triangles = sheet.triangles;
+  return mesh;
 }
+
+// @param points the shocks, when they are the skeleton's points; null: the sheet's vertices are.
+v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
+                               const core::ChordSheet& sheet, double threshold,
+                               const std::vector<core::Vec3>* points) {
+  const double next = core::next_threshold(options_for(threshold).pruning.significance);
+  core::SheetQualityOptions options;
+  options.points = points;
+  core::Mesh other;
+  if (next < 1) {
+    other = mesh_of(core::chord_sheet(field.lattice(), in_frame, options_for(next)));
+    options.other = &other;
+    options.other_threshold = next;
+  }
+  return quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
+}
+
+}  // namespace
+
+v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
+  const core::FrameField in_frame = field.in_frame();
+  const core::ChordSheet sheet =
+      core::chord_sheet(field.lattice(), in_frame, options_for(params.threshold()));
+  v1::SkeletonPoints message;
+  std::vector<core::Vec3> points;
+  for (const core::ChordShock& shock : sheet.shocks) {
+    points.push_back(shock.position);
+    message.add_point(shock.point);
+    append(field.to_mesh(shock.position), message.mutable_xyz());
+    message.add_erosion(shock.erosion);
+    append(field.normal(shock.point), message.mutable_normal());
+    message.add_direction(shock.direction_low);
+    message.add_divergence(shock.strength);
+  }
+  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold(), &points);
+  return message;
+}
+
+v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SkeletonParams& params) {
+  const core::FrameField in_frame = field.in_frame();
+  const core::ChordSheet sheet =
+      core::chord_sheet(field.lattice(), in_frame, options_for(params.threshold()));
+  v1::TriangleMesh message;
+  for (const core::ChordSheetVertex& vertex : sheet.vertices) {
+    append(field.to_mesh(vertex.position), message.mutable_xyz());
+    message.add_erosion(vertex.erosion);
+    message.add_strength(vertex.strength);
+    message.add_area(vertex.area);
+    append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
+    append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());
+  }
+  append_corners(mesh_of(sheet), message);
+  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold(), nullptr);
+  return message;
+}
+
 }  // namespace affskel::worker

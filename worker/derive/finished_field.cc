@@ -1,5 +1,7 @@
 #include "derive/finished_field.h"
 
+#include "core/matrix3.h"
+
 namespace affskel::worker {
 
 FinishedField::FinishedField(const PreparedJob& job, std::string_view stored)
@@ -24,6 +26,12 @@ core::Vec3 FinishedField::to_mesh(const core::Vec3& frame_point) const {
   const auto& axes = places_.axes();
   return places_.origin() + ((step * frame_point.x) * axes[0] +
                              ((step * frame_point.y) * axes[1] + (step * frame_point.z) * axes[2]));
+}
+
+core::Vec3 FinishedField::normal_to_mesh(const core::Vec3& frame_normal) const {
+  const core::Vec3 n = core::inverse_transposed(core::frame_matrix(lattice())) * frame_normal;
+  const double length = core::norm(n);
+  return length > 0 ? (1 / length) * n : n;
 }
 
 core::Vec3 FinishedField::in_frame(const core::LatticePlace& at) const {

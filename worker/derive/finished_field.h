@@ -28,6 +28,8 @@ class FinishedField {
   /// Mesh place of a lattice place, and of a point in the frame's coordinates.
   core::Vec3 place(const core::LatticePlace& at) const { return places_.at(at[0], at[1], at[2]); }
   core::Vec3 to_mesh(const core::Vec3& frame_point) const;
+  /// A normal of the frame as a unit normal in mesh coordinates.
+  core::Vec3 normal_to_mesh(const core::Vec3& frame_normal) const;
   /// A lattice place in the frame's coordinates.
   core::Vec3 in_frame(const core::LatticePlace& at) const;
   /// The optimal normal of a sample point in mesh coordinates; 0 where there is none.

@@ -40,7 +40,6 @@ double threshold_of(const FinishedField& field, const v1::SkeletonParams& params
   return core::default_threshold(core_operator(params.operator_()), field.lattice().spacing);
 }
 
-
 std::vector<core::LatticePlace> places_of(const FinishedField& field,
                                           const std::vector<core::SkeletonPoint>& points) {
   std::vector<std::uint32_t> ranks;

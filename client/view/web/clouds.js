@@ -24,16 +24,18 @@ const kBallFragment = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
   }`;
 
-// Equal depths would be blended twice: every point is moved by less than a hundredth of a spacing.
+// A point whose neighbours are all shown is hidden by them and not drawn.  Equal depths would be blended twice:
+// every point is moved by a part of a step.
 const kSkinVertex = `
   attribute vec3 inward;
-  uniform float size, step;
+  attribute float around;
+  uniform float size, step, level;
   varying vec3 vNormal;
   void main() {
     vNormal = normalMatrix * -inward;
     vec4 at = modelViewMatrix * vec4(position, 1.0);
-    at.z += 0.01 * step * fract(sin(dot(position, vec3(127.1, 311.7, 74.7))) * 43758.5);
-    gl_Position = projectionMatrix * at;
+    at.z += 0.2 * step * fract(sin(dot(position, vec3(127.1, 311.7, 74.7))) * 43758.5);
+    gl_Position = around >= level ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * at;
     gl_PointSize = size;
   }`;
 
@@ -84,15 +86,17 @@ export class BallCloud {
 
 export class SkinCloud {
   // inward: unit normals as bytes, 3 per point; order: indices into the positions; step: the distance of
-  // neighbours, page units.
-  constructor(positions, inward, order, step) {
+  // neighbours, page units; around: per point the least share of v0 among its neighbours, or null.
+  constructor(positions, { inward, order, step, around }) {
     this.radius = 0.85 * step; // neighbours overlap in every direction
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('inward', new BufferAttribute(inward, 3, true));
+    const least = around || new Float32Array(order.length).fill(-1);
+    this.geometry.setAttribute('around', new BufferAttribute(least, 1));
     this.geometry.setIndex(new BufferAttribute(order, 1));
     this.uniforms = {
-      size: { value: 1 }, step: { value: step }, opacity: { value: 0.6 }, tint: { value: [0.93, 0.56, 0.28] },
+      size: { value: 1 }, step: { value: step }, level: { value: 0 }, opacity: { value: 0.6 }, tint: { value: [1, 1, 1] },
     };
     // First only the depth, then the colour of what is nearest: one translucent layer, sorted by nothing.
     this.object = new Group();
@@ -105,8 +109,14 @@ export class SkinCloud {
     }
   }
 
-  showFirst(count) {
+  // The first `count` points of the order: those of at least `level`, a share of v0.
+  show(count, level) {
     this.geometry.setDrawRange(0, count);
+    this.uniforms.level.value = level;
+  }
+
+  paint(theme) {
+    this.uniforms.tint.value = theme.skin;
   }
 
   scale(pixels) {

@@ -11,7 +11,11 @@ export function viridis(t) {
   return kViridis[low].map((value, c) => value + part * (kViridis[low + 1][c] - value));
 }
 
-export const viridisGradient = `linear-gradient(to right, ${kViridis.map((c) => `rgb(${c})`).join(', ')})`;
+// For CSS.  lift: how far the colours are mixed with white, 0 .. 1.
+export function gradient(lift) {
+  const stops = kViridis.map((colour) => `rgb(${colour.map((c) => Math.round(c + lift * (255 - c)))})`);
+  return `linear-gradient(to right, ${stops.join(', ')})`;
+}
 
 // E varies over orders of magnitude, like a volume: its cube root is like a length.
 export const colourPosition = (share, highest) => (highest > 0 ? Math.cbrt(Math.max(0, share) / highest) : 0);
@@ -30,11 +34,11 @@ export function coloursOf(shares, highest) {
 
 const kDark = {
   background: 0x14181f, ink: 0xe8ecf1, glassDark: [0.42, 0.5, 0.62], glassLight: [0.86, 0.91, 0.97],
-  glass: 0.075, rim: 0.42, lift: 0.12,
+  glass: 0.075, rim: 0.42, lift: 0.12, skin: [1, 0.65, 0.36],
 };
 const kLight = {
   background: 0xffffff, ink: 0x20252c, glassDark: [0.3, 0.38, 0.5], glassLight: [0.72, 0.79, 0.88],
-  glass: 0.1, rim: 0.42, lift: 0,
+  glass: 0.1, rim: 0.42, lift: 0, skin: [0.93, 0.56, 0.28],
 };
 
 export const themeColours = (name) => (name === 'dark' ? kDark : kLight);

@@ -45,7 +45,7 @@ export class BoxFrame {
     const ends = [...boxEdges(half), ...ticks(half, this.tickDistance / unit)];
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(new Float32Array(ends), 3));
-    this.object = new LineSegments(geometry, new LineBasicMaterial({ transparent: true, opacity: 0.4 }));
+    this.object = new LineSegments(geometry, new LineBasicMaterial({ transparent: true, opacity: 0.28 }));
     this.object.renderOrder = 5;
   }
 

@@ -6,8 +6,9 @@ import { decodePage, meshPositions, pointPositions } from './decode.js';
 import { BoxFrame } from './frame.js';
 import { Glass } from './glass.js';
 import { rounded, whole } from './numbers.js';
-import { drawCross, drawLegend, drawScaleBar } from './overlay.js';
+import { drawCross, drawScaleBar, labelLegend, paintLegend } from './overlay.js';
 import { makeErosion, makeSkeleton } from './skeleton.js';
+import { leastAround } from './shell.js';
 import { Slider } from './slider.js';
 import { Stage } from './stage.js';
 
@@ -20,16 +21,28 @@ function fail(message) {
   document.body.classList.add('failed');
 }
 
+// What the buttons above and the legend below cover.
+function freeEdges() {
+  const [main, nav, foot] = ['main', 'nav', '.foot'].map((s) => document.querySelector(s).getBoundingClientRect());
+  return { top: nav.bottom - main.top, bottom: main.bottom - foot.top };
+}
+
 class Viewer {
   constructor(page) {
     this.page = page;
     const positions = pointPositions(page);
     this.skeleton = makeSkeleton(page, positions);
     this.erosion = makeErosion(page.arrays.pointShares);
-    this.skin = new SkinCloud(positions, page.arrays.pointInward, this.erosion.order, page.skinStep);
+    this.skin = new SkinCloud(positions, {
+      inward: page.arrays.pointInward, order: this.erosion.order, step: page.skinStep,
+      // A thinned lattice has no neighbours to hide behind.
+      around: page.thinning > 1 ? null : leastAround(page.arrays.pointSteps, page.arrays.pointShares),
+    });
     this.glass = new Glass(meshPositions(page), page.arrays.meshCorners);
     this.frame = new BoxFrame(page.halfBox, page.unit);
-    this.stage = new Stage(element('canvas'), page.up, page.halfBox, () => this.beforeFrame());
+    this.stage = new Stage(element('canvas'), {
+      up: page.up, halfBox: page.halfBox, inset: freeEdges, onFrame: () => this.beforeFrame(),
+    });
     this.layers = {
       mesh: this.glass.object, skeleton: this.skeleton.drawn.object, eroded: this.skin.object,
       axes: this.frame.object,
@@ -71,7 +84,7 @@ class Viewer {
         `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: all that any ` +
         `threshold of the slider can show, and of the others one in ${whole(page.thinning)}, for the eroded solid.`;
     }
-    drawLegend(element('legend'), page.highestShare);
+    labelLegend(element('legend'), page.highestShare);
   }
 
   wireSliders() {
@@ -92,7 +105,7 @@ class Viewer {
 
   resetSliders() {
     this.threshold.set(this.page.arrays.sheetCorners ? this.skeleton.low : this.page.threshold);
-    this.level.set(10 * this.page.highestShare);
+    this.level.set(Number((10 * this.page.highestShare).toPrecision(2)));
     this.applyThreshold();
     this.applyLevel();
   }
@@ -106,10 +119,10 @@ class Viewer {
   applyLevel() {
     const { page } = this;
     this.shown.eroded = this.erosion.count(this.share());
-    this.skin.showFirst(this.shown.eroded);
+    this.skin.show(this.shown.eroded, this.share());
     const volume = (100 * this.shown.eroded) / page.pointsHere;
     element('level-count').textContent =
-      `${whole(this.shown.eroded)} points` + (page.thinning > 1 ? ' of this page' : `, ${rounded(volume, 3)} % of all`);
+      `${whole(this.shown.eroded)} points` + (page.thinning > 1 ? ' of this page' : `, about ${rounded(volume, 3)} % of the volume`);
     this.stage.requestFrame();
   }
 
@@ -165,7 +178,9 @@ class Viewer {
     document.documentElement.dataset.theme = name;
     const colours = themeColours(name);
     this.stage.renderer.setClearColor(new Color(colours.background));
-    for (const layer of [this.glass, this.skeleton.drawn, this.frame]) layer.paint(colours);
+    for (const layer of [this.glass, this.skeleton.drawn, this.skin, this.frame]) layer.paint(colours);
+    paintLegend(element('legend'), colours.lift);
+    element('theme').textContent = name === 'dark' ? 'Light background' : 'Dark background';
     this.stage.requestFrame();
   }
 

@@ -1,9 +1,10 @@
 // What lies over the canvas: the cross of axes, the scale bar, the legend.
 import { Vector3 } from 'three';
-import { shareAt, viridisGradient } from './colours.js';
+import { gradient, shareAt } from './colours.js';
 import { rounded, roundLength } from './numbers.js';
 
-const kCrossRadius = 24; // of the 72 wide drawing
+const kCrossRadius = 23; // of the 72 wide drawing
+const kLetterGap = 8;
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
 export function drawCross(svg, camera) {
@@ -14,10 +15,12 @@ export function drawCross(svg, camera) {
     const label = svg.querySelector(`text.${axis}`);
     line.setAttribute('x2', kCrossRadius * at.x);
     line.setAttribute('y2', -kCrossRadius * at.y);
-    label.setAttribute('x', (kCrossRadius + 8) * at.x);
-    label.setAttribute('y', -(kCrossRadius + 8) * at.y);
+    const length = Math.hypot(at.x, at.y);
+    const reach = kCrossRadius + kLetterGap / Math.max(length, 0.2);
+    label.setAttribute('x', reach * at.x);
+    label.setAttribute('y', -reach * at.y);
     // An axis that points at the viewer has no place for its letter.
-    label.style.opacity = Math.hypot(at.x, at.y) < 0.3 ? 0 : 1;
+    label.style.opacity = length < 0.2 ? 0 : 1;
   }
 }
 
@@ -30,9 +33,12 @@ export function drawScaleBar(element, unitPixels, room) {
   if (label.textContent !== text) label.textContent = text;
 }
 
+export function paintLegend(element, lift) {
+  element.querySelector('.colours').style.background = gradient(lift);
+}
+
 // Labels in per cent of v0, at equal distances of the cube root, as the colours are.
-export function drawLegend(element, highest) {
-  element.querySelector('.colours').style.background = viridisGradient;
+export function labelLegend(element, highest) {
   const numbers = element.querySelector('.numbers');
   for (const tick of kTicks) {
     const label = numbers.ownerDocument.createElement('span');

@@ -11,7 +11,8 @@ function makeSheet({ arrays, highestShare }) {
   const values = sheet.strengths;
   return {
     drawn: sheet, values, order: null, items: 'triangles of the sheet', symbol: 'strength',
-    low: values.length ? Math.floor(100 * values[values.length - 1]) / 100 : 0,
+    // Below the weakest triangle: the page begins with the whole sheet.
+    low: values.length ? Math.max(0, (Math.ceil(100 * values[values.length - 1]) - 1) / 100) : 0,
   };
 }
 

@@ -3,7 +3,8 @@ import { Box3, OrthographicCamera, Quaternion, Scene, Vector3, WebGLRenderer } f
 import { OrbitControls } from 'orbit-controls';
 
 const kDistance = 12; // beyond everything that panning can bring near
-const kMargin = 1.12;
+const kDepth = 6; // of what is drawn, before and behind the middle
+const kMargin = 1.06;
 const kMaxPixelRatio = 2; // more costs fill rate and shows nothing
 const kOrbitStep = Math.PI / 18;
 
@@ -14,15 +15,17 @@ const kViews = {
 };
 
 export class Stage {
-  // `halfBox`: half the sides of the body's box about the origin.  `onFrame` runs before every frame.
-  constructor(canvas, up, halfBox, onFrame) {
+  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels at the top and the bottom
+  // that a whole view keeps free.  `onFrame` runs before every frame.
+  constructor(canvas, { up, halfBox, inset, onFrame }) {
     this.canvas = canvas;
+    this.inset = inset;
     this.views = kViews[up];
     this.halfBox = new Vector3(...halfBox);
     this.onFrame = onFrame;
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.scene = new Scene();
-    this.camera = new OrthographicCamera(-1, 1, 1, -1, 0.1, 2 * kDistance);
+    this.camera = new OrthographicCamera(-1, 1, 1, -1, kDistance - kDepth, kDistance + kDepth);
     this.camera.up.set(0, up === 'y' ? 1 : 0, up === 'z' ? 1 : 0);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableKeys = false; // see pressKey
@@ -47,8 +50,11 @@ export class Stage {
     this.camera.updateMatrixWorld();
     const box = new Box3(this.halfBox.clone().negate(), this.halfBox.clone());
     box.applyMatrix4(this.camera.matrixWorldInverse);
-    this.camera.zoom = Math.min(this.camera.right / box.max.x, 1 / box.max.y) / kMargin;
-    this.camera.updateProjectionMatrix();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { top, bottom } = this.inset();
+    const room = Math.max(height / 3, height - top - bottom);
+    this.camera.zoom = Math.min(this.camera.right / box.max.x, room / height / box.max.y) / kMargin;
+    this.camera.setViewOffset(width, height, 0, (bottom - top) / 2, width, height); // updates the projection
     this.requestFrame();
   }
 
@@ -59,7 +65,8 @@ export class Stage {
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.right = clientWidth / clientHeight;
     this.camera.left = -this.camera.right;
-    this.camera.updateProjectionMatrix();
+    if (this.camera.view) this.camera.setViewOffset(
+      clientWidth, clientHeight, 0, this.camera.view.offsetY, clientWidth, clientHeight);
     if (this.view) this.show(this.view); // still as chosen: keep it in the window
     else this.requestFrame();
   }

@@ -96,6 +96,18 @@ TEST(CommandLine, MakeTakesTheShapesOwnOptions) {
   EXPECT_THROW(parse({"make", "-o", "b.off"}), CLI::ParseError);
 }
 
+TEST(CommandLine, KeepsTheOrderOfAffineSteps) {
+  const TransformOptions o = parse({"transform", "a.off", "--scale", "2", "--translate", "-1,0,0",
+                                    "--scale=3", "--inverse", "-o", "b.off", "--rotate", "x:90"})
+                                 .transform;
+  std::string steps;
+  for (const AffineStep& step : o.steps) steps += step.option + "=" + step.value + " ";
+  EXPECT_EQ(steps, "--scale=2 --translate=-1,0,0 --scale=3 --rotate=x:90 ");
+  EXPECT_TRUE(o.inverse);
+  EXPECT_EQ(o.file, "a.off");
+  EXPECT_EQ(o.output, "b.off");
+}
+
 TEST(CommandLine, KnowsWhetherSkeletonOptionsWereGiven) {
   EXPECT_TRUE(parse({"skeleton", "@last", "-o", "s.ply"}).job.own_skeleton);
   EXPECT_FALSE(parse({"skeleton", "@last", "-o", "s.ply", "--operator", "zucker-hummel"}).job.own_skeleton);
@@ -176,6 +188,8 @@ TEST(Completions, WorkInBash) {
   EXPECT_EQ(completed_by_bash("affskel-client submit --frame ''"), "axis pca obb affine ");
   EXPECT_EQ(completed_by_bash("affskel-client make t"), "torus tetrahedron ");
   EXPECT_EQ(completed_by_bash("affskel-client make torus --m"), "--major --minor ");
+  EXPECT_EQ(completed_by_bash("affskel-client compare a.ply b.ply --ra"), "--radius --radii ");
+  EXPECT_EQ(completed_by_bash("affskel-client transform --s"), "--scale --shear --server ");
   EXPECT_EQ(completed_by_bash("affskel-client fetch @last s"), "skeleton surface ");
 }
 

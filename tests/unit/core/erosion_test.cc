@@ -325,6 +325,20 @@ TEST(Erosion, EveryPointGetsADirectionEvenWhereChordsSayNothing) {
   }
 }
 
+// A bar of two overlapping boxes: near the end of one of them it goes on in the other.
+TEST(Erosion, PartsThatOverlapAreErodedAsOne) {
+  const Mesh bar = joined(make_box(2, 1, 1), moved(make_box(2, 1, 1), {1.5, 0.1, 0.05}));
+  const Computed t = compute(bar, 0.1, "sphere:500");
+  int inner = 0;
+  for (std::size_t i = 0; i < t.place.size(); ++i) {
+    const Vec3& p = t.place[i];
+    if (!(p.x > 1.6 && p.x < 1.9 && std::abs(p.y - 0.55) < 0.1 && std::abs(p.z - 0.5) < 0.1)) continue;
+    ++inner;
+    EXPECT_GT(t.value[i].erosion, 0.5) << "the box alone has less than 0.4 beyond the point";
+  }
+  EXPECT_GT(inner, 5);
+}
+
 TEST(Erosion, ComputesMeshesThatCrossThemselvesTheSameInAnyOrder) {
   const Mesh crossing = joined(make_sphere(1, 320), moved(make_sphere(1, 320), {0.7, 0.1, 0.2}));
   const Computed plain = compute(crossing, 0.1, "triangles", {1, false, 0});

@@ -248,6 +248,30 @@ TEST(JoinTree, EverySolidIsARootOfItsVolume) {
   }
 }
 
+std::uint32_t roots_of(const Mesh& mesh, const Vec3& d) {
+  const Solid solid = make_solid(mesh);
+  const TreeInput input(solid);
+  JoinTreeBuilder builder(input, {false});
+  return builder.build((1 / norm(d)) * d).roots;
+}
+
+TEST(JoinTree, PartsThatPassThroughEachOtherAreOne) {
+  const Mesh ball = make_sphere(1, 320), box = make_box(1, 1, 1);
+  for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{-1, 0.2, 0.1}, Vec3{0.1, -0.3, 1}, Vec3{0, 0, -1}}) {
+    EXPECT_EQ(roots_of(joined(ball, moved(ball, {1.1, 0.1, 0.2})), d), 1U);
+    EXPECT_EQ(roots_of(joined(ball, moved(ball, {2.1, 0.1, 0.2})), d), 2U) << "apart";
+    EXPECT_EQ(roots_of(joined(box, moved(box, {1, 0.3, 0.2})), d), 2U) << "touching";
+  }
+}
+
+// The small ball's lower half lies in the large one: its lowest point is no birth.
+TEST(JoinTree, MinimaInsideOtherPartsGiveNoComponents) {
+  const Solid solid = make_solid(joined(make_sphere(1, 320), moved(make_sphere(1, 320), {0, 0, 0.9}, 0.5)));
+  const TreeInput input(solid);
+  JoinTreeBuilder builder(input, {false});
+  EXPECT_EQ(builder.build({0, 0, 1}).arcs.size(), 1U);
+}
+
 TEST(JoinTree, LocateFindsThePieceOfEveryHeight) {
   const Solid solid = make_solid(make_box(3, 2, 1, 8));
   const TreeInput input(solid);

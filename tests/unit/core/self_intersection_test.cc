@@ -36,6 +36,16 @@ Mesh moved(Mesh mesh, const Vec3& by) {
   return mesh;
 }
 
+TEST(PassThrough, TellsCrossingFromTouching) {
+  const Mesh box{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}, {1, 1, 0}, {0, 0, 1}},
+                 {{0, 1, 2}, {3, 4, 5}, {6, 4, 5}, {0, 7, 4}, {3, 6, 1}}};
+  EXPECT_TRUE(pass_through(box, 0, 1)) << "its edge 3-4 pierces";
+  EXPECT_TRUE(pass_through(box, 1, 0));
+  EXPECT_FALSE(pass_through(box, 0, 2)) << "a corner in the plane";
+  EXPECT_FALSE(pass_through(box, 0, 3)) << "a common corner";
+  EXPECT_FALSE(pass_through(box, 0, 0));
+}
+
 /// Two triangles, the first in the plane z = 0 over (0,0), (4,0), (0,4).
 Mesh with_second(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, a, b, c}, {{0, 1, 2}, {3, 4, 5}}};

@@ -195,8 +195,8 @@ TEST_F(LifecycleTest, DeletingKeepsWhatOthersNeed) {
   EXPECT_EQ(field(second.id()), expected_field(10, 20));
   store_->remove(second.id());
   Database db(database(), Database::Mode::kReadOnly);
-  for (const char* table : {"meshes", "mesh_chunks", "erosions", "field_chunks", "done_ranges", "artifacts",
-                            "artifact_chunks", "jobs", "tasks", "requests"}) {
+  for (const char* table : {"meshes", "mesh_chunks", "erosions", "field_chunks", "field_log", "done_ranges",
+                            "artifacts", "artifact_chunks", "jobs", "tasks", "requests"}) {
     EXPECT_EQ(db.integer(("SELECT count(*) FROM " + std::string(table)).c_str()), 0) << table;
   }
 }

@@ -99,6 +99,10 @@ TEST(ParamsTest, OperatorsOtherThanTheFirstKeepTheirDefaultOpen) {
   params.set_operator_(v1::OPERATOR_CENTRAL);
   EXPECT_EQ(canonical(params).threshold(), 0);
   EXPECT_NE(cache_key(canonical(params)), cache_key(canonical(v1::SkeletonParams())));
+  params.set_operator_(v1::OPERATOR_CHORDS);
+  params.set_threshold(1);
+  EXPECT_THROW(canonical(params), std::invalid_argument) << "a share";
+  params.set_threshold(0);
   params.set_operator_(static_cast<v1::Operator>(99));
   EXPECT_THROW(canonical(params), std::invalid_argument);
 }

@@ -69,6 +69,59 @@ TEST_F(ReportTest, UnsortedRecordsOfOneReport) {
   EXPECT_EQ(field(job.id()), expected_field(9000, 16));
 }
 
+// Small reports wait in a log; whoever reads the field sees them all the same, also after a restart, and
+// nothing of the log is left of a finished field.
+TEST_F(ReportTest, LoggedRecordsAreInTheField) {
+  constexpr std::uint32_t kPoints = 9000, kDirections = 32;
+  const v1::Job job = submit();
+  prepare(kPoints, kDirections);
+  const auto logged = [this] {
+    Database db(database(), Database::Mode::kReadOnly);
+    return db.integer("SELECT sum(length(data)) FROM field_log").value_or(0);
+  };
+  const auto one_by_one = [&](const v1::Lease& block, std::uint64_t begin, std::uint64_t end) {
+    std::int64_t most = 0;
+    for (std::uint64_t p = begin; p < end; ++p) {
+      const v1::FieldRecords all = made_up_records(block.job(), p, p + 1);
+      v1::FieldRecords few, rest;
+      for (int i = 0; i < all.point_size(); ++i) {
+        v1::FieldRecords& part = i % 7 == 0 ? few : rest;
+        part.add_point(all.point(i));
+        part.add_direction(all.direction(i));
+        part.add_erosion(all.erosion(i));
+        part.add_area(all.area(i));
+      }
+      report(block, {}, few);
+      most = std::max(most, logged());
+      EXPECT_LE(logged(), std::int64_t{kPoints} * 20) << "the log is longer than the field";
+      report(block, {range(p, p + 1)}, rest, p + 1 == block.positions(0).end());
+    }
+    EXPECT_GT(most, 0);
+  };
+  const v1::Lease first = lease();
+  ASSERT_EQ(first.positions(0).end(), 16U);
+  one_by_one(first, 0, 15);
+  v1::FieldRecords one;
+  one.add_point(8999);
+  one.add_direction(3);
+  one.add_erosion(0);
+  one.add_area(2.0);
+  report(first, {}, one);
+  EXPECT_GT(logged(), 0);
+  const std::string before = read_all(*store_->open_input(first.token(), v1::ARTIFACT_KIND_FIELD));
+  double erosion = 1;
+  std::memcpy(&erosion, before.data() + 8999 * 20, 8);
+  EXPECT_EQ(erosion, 0);
+  open();
+  EXPECT_EQ(read_all(*store_->open_input(first.token(), v1::ARTIFACT_KIND_FIELD)), before);
+  one_by_one(first, 15, 16);
+  one_by_one(lease(), 16, 32);
+  EXPECT_EQ(logged(), 0);
+  std::string expected = expected_field(kPoints, kDirections), whole = field(job.id());
+  EXPECT_EQ(whole.substr(0, 8999 * 20), expected.substr(0, 8999 * 20));
+  EXPECT_EQ(whole.substr(8999 * 20), before.substr(8999 * 20));
+}
+
 TEST_F(ReportTest, SameReportTwiceChangesOnlyCounters) {
   const v1::Job job = submit();
   prepare(100, 16);

@@ -1,0 +1,43 @@
+// Which points of an eroded solid can be seen: those with a neighbour that is not in it.
+
+// A hash table of lattice places, open addressing: the index of the point there, or -1.
+class Places {
+  constructor(steps) {
+    this.steps = steps;
+    const points = steps.length / 3;
+    this.mask = 2 ** Math.ceil(Math.log2(2 * points + 1)) - 1;
+    this.table = new Int32Array(this.mask + 1).fill(-1);
+    for (let p = 0; p < points; ++p) {
+      let slot = this.slot(steps[3 * p], steps[3 * p + 1], steps[3 * p + 2]);
+      while (this.table[slot] >= 0) slot = (slot + 1) & this.mask;
+      this.table[slot] = p;
+    }
+  }
+
+  slot(i, j, k) {
+    return (Math.imul(i, 73856093) ^ Math.imul(j, 19349663) ^ Math.imul(k, 83492791)) & this.mask;
+  }
+
+  at(i, j, k) {
+    for (let slot = this.slot(i, j, k); ; slot = (slot + 1) & this.mask) {
+      const p = this.table[slot];
+      if (p < 0) return -1;
+      if (this.steps[3 * p] === i && this.steps[3 * p + 1] === j && this.steps[3 * p + 2] === k) return p;
+    }
+  }
+}
+
+const kNeighbours = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]];
+
+// Per point the least share among its six neighbours; -1 at the surface of the body, where one is missing.
+export function leastAround(steps, shares) {
+  const places = new Places(steps);
+  return shares.map((_, p) => {
+    let least = Infinity;
+    for (const [di, dj, dk] of kNeighbours) {
+      const q = places.at(steps[3 * p] + di, steps[3 * p + 1] + dj, steps[3 * p + 2] + dk);
+      least = Math.min(least, q < 0 ? -1 : shares[q]);
+    }
+    return least;
+  });
+}

@@ -1,0 +1,246 @@
+"""Opens pages of affskel-client view in Chromium.  Usage: page_test.py AFFSKEL-CLIENT AFFSKEL-SHEET-PAGE"""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if not os.environ.get("CHROMIUM") or not os.environ.get("CHROMEDRIVER"):
+    print("no chromium or chromedriver: skipped")
+    sys.exit(77)
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+from selenium.webdriver.common.keys import Keys
+
+from browser import Page, chromium, colours
+from job import NAME, Job
+
+CLIENT, SHEET_PAGE = sys.argv[1:3]
+
+
+def setUpModule():
+    global job
+    job = Job(CLIENT)
+
+
+def tearDownModule():
+    job.close()
+
+
+class WithPage(unittest.TestCase):
+    window = dict(width=1200, height=800)
+
+    def setUp(self):
+        self.driver = self.enterContext(chromium(**self.window))
+        self.page = Page(self.driver, self.file())
+
+    def file(self):
+        return job.page
+
+    def tearDown(self):
+        self.assertEqual(self.page.errors(), [])
+        asked = self.page.requests()
+        self.assertIn("file://" + self.page.file, asked)
+        self.assertEqual([url for url in asked if not url.startswith(("file:///", "data:"))], [])
+
+
+class Desktop(WithPage):
+    def test_names_the_job(self):
+        self.assertEqual(self.driver.title, NAME + " – affine skeleton")
+        self.assertEqual(self.driver.find_element("tag name", "h1").text, NAME)
+        self.assertEqual(self.page.state()["pointsHere"], len(job.levels))
+
+    def test_draws_the_body(self):
+        number, background = colours(self.page.canvas_picture())
+        self.assertGreater(number, 500)
+        self.assertLess(background, 0.97)
+        print(f"{self.page.script('return affskel.frameTime(10)'):.1f} ms per frame, drawn without a GPU")
+        for layer in ["mesh", "skeleton", "axes"]:
+            self.page.click("show-" + layer)
+        self.assertEqual(colours(self.page.canvas_picture()), (1, 1.0))
+        for layer in ["mesh", "skeleton", "axes", "eroded"]:
+            self.page.click("show-" + layer)
+            self.assertGreater(colours(self.page.canvas_picture())[0], 1, layer)
+            self.page.click("show-" + layer)
+
+    def test_the_threshold_chooses_the_skeleton(self):
+        self.assertEqual(self.page.state()["threshold"], 7)
+        self.assertEqual(self.page.state()["skeletonShown"], job.skeleton_points(7))
+        for threshold in [6, 9, 7.5, 3]:
+            self.page.type_number("threshold-field", threshold)
+            state = self.page.wait(lambda s: s["threshold"] == threshold)
+            self.assertEqual(state["skeletonShown"], job.skeleton_points(threshold))
+
+    def test_the_threshold_slider_follows_the_keys(self):
+        slider = self.page.element("threshold-range")
+        before = self.page.state()
+        slider.send_keys(Keys.PAGE_UP)
+        fewer = self.page.wait(lambda s: s["threshold"] > before["threshold"])
+        self.assertLess(fewer["skeletonShown"], before["skeletonShown"])
+        self.assertEqual(fewer["skeletonShown"], job.skeleton_points(fewer["threshold"]))
+        slider.send_keys(Keys.HOME)
+        most = self.page.wait(lambda s: s["threshold"] < before["threshold"])
+        self.assertGreater(most["skeletonShown"], before["skeletonShown"])
+        self.assertIn(f"{most['skeletonShown']:,}", self.page.element("threshold-count").text)
+
+    def test_the_level_chooses_the_eroded_solid(self):
+        self.assertFalse(self.page.state()["visible"]["eroded"])
+        for per_cent in [1, 5.5, 20]:
+            self.page.type_number("level-field", per_cent)
+            state = self.page.wait(lambda s: abs(s["level"] - per_cent / 100) < 1e-12)
+            self.assertEqual(state["erodedShown"], job.eroded_points(state["level"]))
+            self.assertTrue(state["visible"]["eroded"])
+        slider = self.page.element("level-range")
+        slider.send_keys(Keys.HOME)
+        self.page.wait(lambda s: s["erodedShown"] == len(job.levels))
+        slider.send_keys(Keys.END)
+        last = self.page.wait(lambda s: s["erodedShown"] < len(job.levels))
+        self.assertGreater(last["erodedShown"], 0)
+        self.assertEqual(last["erodedShown"], job.eroded_points(last["level"]))
+
+    def test_buttons_change_the_view(self):
+        start = self.page.state()["camera"]
+        for view, axis, sign in [("front", 1, -1), ("side", 0, 1), ("top", 2, 1)]:
+            self.page.click("view-" + view)
+            position = self.page.state()["camera"]["position"]
+            self.assertAlmostEqual(position[axis] * sign, 12, 3, view)
+        self.page.type_number("threshold-field", 9)
+        self.page.click("reset")
+        state = self.page.wait(lambda s: s["threshold"] == 7)
+        self.assertEqual(state["camera"], start)
+
+    def test_the_view_fits_between_buttons_and_legend(self):
+        for view in ["view-front", "view-side", "view-top", "reset"]:
+            self.page.click(view)
+            picture = self.page.canvas_picture()
+            for edge in [picture.crop((0, 0, picture.width, 8)),
+                         picture.crop((0, picture.height - 8, picture.width, picture.height))]:
+                self.assertEqual(colours(edge)[0], 1, view)
+
+    def test_mouse_and_keys_turn_the_body(self):
+        canvas = self.page.element("canvas")
+        start = self.page.state()["camera"]
+        ActionChains(self.driver).move_to_element(canvas).click_and_hold().move_by_offset(80, 30).release().perform()
+        dragged = self.page.wait(lambda s: s["camera"]["position"] != start["position"])["camera"]
+        self.assertEqual(dragged["zoom"], start["zoom"])
+        ActionChains(self.driver).scroll_from_origin(ScrollOrigin.from_element(canvas), 0, -300).perform()
+        self.page.wait(lambda s: s["camera"]["zoom"] > start["zoom"])
+        canvas.send_keys(Keys.ARROW_LEFT)
+        self.page.wait(lambda s: s["camera"]["position"] != dragged["position"])
+        canvas.send_keys("1")
+        self.page.wait(lambda s: abs(s["camera"]["position"][1] + 12) < 1e-3)
+        canvas.send_keys("+")
+        self.page.wait(lambda s: s["camera"]["position"][1] < -11)
+
+    def test_the_background_changes(self):
+        before = self.page.state()["theme"]
+        light = self.page.canvas_picture().getpixel((2, 2))
+        self.page.click("theme")
+        self.page.wait(lambda s: s["theme"] != before)
+        self.assertNotEqual(self.page.canvas_picture().getpixel((2, 2)), light)
+
+
+class Phone(WithPage):
+    window = dict(width=390, height=844, phone=True)
+
+    CONTROLS = ["threshold-range", "threshold-field", "level-range", "level-field", "show-mesh", "show-skeleton",
+                "show-eroded", "show-axes", "show-scale", "theme"]
+    ALWAYS = ["fold", "view-front", "view-side", "view-top", "reset"]
+
+    def reach(self, name):
+        """Scrolls to it; whether a finger in its middle meets it."""
+        return self.page.script("""
+            const target = document.getElementById(arguments[0]);
+            target.scrollIntoView({ block: 'nearest' });
+            const box = target.getBoundingClientRect();
+            const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+            return box.left >= 0 && box.right <= innerWidth && box.bottom <= innerHeight &&
+              document.elementFromPoint(x, y) === target;""", name)
+
+    def assert_no_overflow(self):
+        self.assertEqual(self.page.script("return innerWidth"), 390)
+        widest = self.page.script("""return Math.max(document.documentElement.scrollWidth, ...Array.from(
+            document.querySelectorAll('body *'), (e) => e.getBoundingClientRect().right))""")
+        self.assertLessEqual(widest, 390)
+
+    def test_everything_is_within_reach(self):
+        self.assert_no_overflow()
+        for name in self.ALWAYS:
+            self.assertTrue(self.reach(name), name)
+        self.assertFalse(self.page.element("threshold-range").is_displayed())
+        self.page.click("fold")
+        self.assert_no_overflow()
+        for name in self.ALWAYS + self.CONTROLS:
+            self.assertTrue(self.reach(name), name)
+        room = self.page.script("return document.getElementById('canvas').clientHeight")
+        self.assertGreater(room, 250, "the body stays in sight while the controls are open")
+        self.assertGreater(colours(self.page.canvas_picture())[0], 300)
+
+    def touch(self, kind, *points):
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {
+            "type": kind, "touchPoints": [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]})
+
+    def test_one_finger_turns_and_two_zoom(self):
+        start = self.page.state()["camera"]
+        self.touch("touchStart", (195, 400))
+        for x in range(200, 260, 10):
+            self.touch("touchMove", (x, 410))
+        self.touch("touchEnd")
+        turned = self.page.wait(lambda s: s["camera"]["position"] != start["position"])["camera"]
+        self.assertEqual(turned["zoom"], start["zoom"])
+        self.touch("touchStart", (180, 400), (210, 400))
+        for spread in range(20, 90, 10):
+            self.touch("touchMove", (195 - spread, 400), (195 + spread, 400))
+        self.touch("touchEnd")
+        self.page.wait(lambda s: s["camera"]["zoom"] > 1.5 * start["zoom"])
+
+    def test_draws_the_body(self):
+        number, background = colours(self.page.canvas_picture())
+        self.assertGreater(number, 500)
+        self.assertLess(background, 0.97)
+
+
+class Sheet(WithPage):
+    """The page of operator chords, with made-up numbers: see sheet_page.cc."""
+
+    def file(self):
+        directory = self.enterContext(tempfile.TemporaryDirectory(prefix="affskel-sheet-"))
+        file = os.path.join(directory, "sheet.html")
+        subprocess.run([SHEET_PAGE, file], check=True)
+        return file
+
+    def test_the_threshold_is_for_the_strength(self):
+        self.assertEqual(self.page.element("threshold-symbol").text, "strength")
+        self.page.type_number("threshold-field", 0.49)
+        self.page.wait(lambda s: s["skeletonShown"] == 128)
+        # Above 0.62 are columns 3 to 8: five squares in each of eight rows.
+        self.page.type_number("threshold-field", 0.62)
+        self.page.wait(lambda s: s["skeletonShown"] == 80)
+        self.assertIn("80 triangles", self.page.element("threshold-count").text)
+        self.page.type_number("threshold-field", 2)
+        self.page.wait(lambda s: s["skeletonShown"] == 0)
+
+    def test_draws_the_sheet(self):
+        self.page.click("view-top")
+        for layer in ["mesh", "axes"]:
+            self.page.click("show-" + layer)
+        picture = self.page.canvas_picture()
+        # Left E is low, violet; right high, yellow.
+        left = picture.getpixel((int(picture.width / 2 - 100), int(picture.height / 2)))
+        right = picture.getpixel((int(picture.width / 2 + 100), int(picture.height / 2)))
+        self.assertGreater(left[2], left[1])
+        self.assertGreater(right[1], right[2])
+
+
+class WithoutWebGl(WithPage):
+    window = dict(width=800, height=600, gl=False)
+
+    def test_says_so(self):
+        message = self.page.element("failure")
+        self.assertTrue(message.is_displayed())
+        self.assertIn("WebGL", message.text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

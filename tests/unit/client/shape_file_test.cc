@@ -1,0 +1,237 @@
+#include "client/importers/shape_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "client/error.h"
+#include "client/exporters/mesh_writer.h"
+#include "client/exporters/numbers.h"
+#include "client/exporters/shape_writer.h"
+#include "client/exporters/skeleton_writer.h"
+#include "core/mesh_io.h"
+#include "core/shapes.h"
+#include "sample_data.h"
+#include "temp_dir.h"
+
+namespace affskel::client {
+namespace {
+
+class ShapeFileTest : public ::testing::Test {
+ protected:
+  ShapeFile read(const std::string& name, const std::string& bytes) {
+    spit(dir_ / name, bytes);
+    return read_shape(dir_ / name);
+  }
+
+  void expect_bad(const std::string& name, const std::string& bytes, std::uint64_t line,
+                  const std::string& cause) {
+    try {
+      read(name, bytes);
+      ADD_FAILURE() << name << " was read: " << bytes.substr(0, 100);
+    } catch (const ClientError& error) {
+      EXPECT_EQ(error.exit_code(), ExitCode::kBadInput) << error.what();
+      EXPECT_EQ(error.file(), dir_ / name);
+      EXPECT_EQ(error.line(), line) << error.what();
+      EXPECT_NE(std::string(error.what()).find(cause), std::string::npos) << error.what();
+    }
+  }
+
+  TempDir dir_;
+};
+
+TEST_F(ShapeFileTest, SkeletonsReadBackAsTheyWereWritten) {
+  const v1::SkeletonPoints skeleton = sample_skeleton();
+  for (const char* name : {"s.csv", "s.ply", "s.off", "s.xyz", "S.PLY"}) {
+    AtomicFile file(dir_ / name);
+    const FileFormat format = choose_format(dir_ / name, skeleton_formats(), "skeleton");
+    write_skeleton(format, skeleton, {"a comment"}, file);
+    file.commit();
+    const ShapeFile shape = read_shape(dir_ / name);
+    EXPECT_FALSE(shape.is_surface());
+    ASSERT_EQ(shape.mesh().points.size(), static_cast<std::size_t>(skeleton.point_size())) << name;
+    for (int i = 0; i < skeleton.point_size(); ++i) {
+      const auto p = static_cast<std::size_t>(i);
+      const core::Vec3 at = {skeleton.xyz(3 * i), skeleton.xyz(3 * i + 1), skeleton.xyz(3 * i + 2)};
+      EXPECT_EQ(shape.mesh().points[p], at) << name;
+      if (!holds_columns(format)) continue;
+      EXPECT_EQ(shape.column("E")->values[p], skeleton.erosion(i));
+      EXPECT_EQ(shape.column("ny")->values[p], skeleton.normal(3 * i + 1));
+      EXPECT_EQ(shape.column("H")->values[p], skeleton.divergence(i));
+      EXPECT_EQ(shape.column("direction")->values[p], skeleton.direction(i));
+      EXPECT_TRUE(shape.column("direction")->whole);
+    }
+    EXPECT_EQ(shape.columns.size(), holds_columns(format) ? 6u : 0u) << name;
+  }
+}
+
+TEST_F(ShapeFileTest, SurfacesReadBackAsTheyWereWritten) {
+  const core::Mesh box = core::make_box(3, 2, 1);
+  for (const FileFormat format : surface_formats()) {
+    std::string bytes;
+    write_mesh(format, box, {"comment"}, [&](std::string_view piece) { bytes += piece; });
+    const ShapeFile shape = read("box" + std::string(extension_of(format)), bytes);
+    EXPECT_TRUE(shape.is_surface());
+    if (format == FileFormat::kStl) {  // its vertices come in the order of the triangles
+      EXPECT_EQ(shape.mesh().points.size(), 8u);
+      ASSERT_EQ(shape.mesh().triangles.size(), box.triangles.size());
+      for (std::size_t t = 0; t < box.triangles.size(); ++t) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_EQ(shape.mesh().points[shape.mesh().triangles[t][c]], box.points[box.triangles[t][c]]);
+        }
+      }
+      continue;
+    }
+    EXPECT_EQ(shape.mesh().points, box.points) << extension_of(format);
+    EXPECT_EQ(shape.mesh().triangles, box.triangles) << extension_of(format);
+  }
+}
+
+TEST_F(ShapeFileTest, PlyComesInThreeEncodingsAndAnyTypes) {
+  const std::string properties =
+      "comment made by hand\nelement camera 1\nproperty float f\nelement vertex 4\nproperty float x\n"
+      "property short flag\nproperty double y\nproperty float z\nelement face 1\n"
+      "property list uchar uint vertex_index\nproperty uchar red\nend_header\n";
+  const auto check = [](const ShapeFile& shape) {
+    ASSERT_EQ(shape.mesh().points.size(), 4u);
+    EXPECT_EQ(shape.mesh().points[2], (core::Vec3{1, 1.25, 0}));
+    EXPECT_EQ(shape.mesh().triangles.size(), 2u);
+    EXPECT_EQ(shape.off.polygons_cut, 1u);
+    ASSERT_EQ(shape.columns.size(), 1u);
+    EXPECT_EQ(shape.columns[0].name, "flag");
+    EXPECT_TRUE(shape.columns[0].whole);
+    EXPECT_EQ(shape.columns[0].values, (std::vector<double>{-1, 2, 3, 4}));
+  };
+  check(read("t.ply", "ply\r\nformat ascii 1.0\n" + properties +
+                          "0.5\n0 -1 0 0\n1 2 0 0\n1 3 1.25 0\n0 4 1 0\n4 0 1 2 3 255\n"));
+  for (const bool big : {false, true}) {
+    std::string bytes;
+    const auto add = [&](auto value) {
+      std::string raw;
+      append_bytes(raw, value);
+      if (big) raw.assign(raw.rbegin(), raw.rend());
+      bytes += raw;
+    };
+    add(0.5F);
+    const double xy[4][2] = {{0, 0}, {1, 0}, {1, 1.25}, {0, 1}};
+    for (int i = 0; i < 4; ++i) {
+      add(static_cast<float>(xy[i][0]));
+      add(static_cast<std::int16_t>(i == 0 ? -1 : i + 1));
+      add(xy[i][1]);
+      add(0.0F);
+    }
+    add(std::uint8_t{4});
+    for (std::uint32_t i = 0; i < 4; ++i) add(i);
+    add(std::uint8_t{255});
+    const std::string format = big ? "binary_big_endian" : "binary_little_endian";
+    check(read("b.ply", "ply\nformat " + format + " 1.0\n" + properties + bytes));
+    expect_bad("b.ply", "ply\nformat " + format + " 1.0\n" + properties + bytes + "x", 0, "goes on");
+    bytes.pop_back();
+    expect_bad("b.ply", "ply\nformat " + format + " 1.0\n" + properties + bytes, 0, "ends inside face 0");
+  }
+}
+
+TEST_F(ShapeFileTest, PlyErrorsNameThePlace) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n";
+  expect_bad("a.ply", "", 1, "ply");
+  expect_bad("a.ply", "ply\nelement vertex 1\nend_header\n", 3, "no format");
+  expect_bad("a.ply", "ply\nformat ascii 1.0\n", 2, "end_header");
+  expect_bad("a.ply", "ply\nformat ascii 2.0\nend_header\n", 2, "format");
+  expect_bad("a.ply", "ply\nformat ascii 1.0\nelement vertex -1\nend_header\n", 3, "whole number");
+  expect_bad("a.ply", "ply\nformat ascii 1.0\nend_header\n", 3, "no vertices");
+  expect_bad("a.ply", head + "end_header\n1 2\n3 4\n", 6, "x, y and z");
+  expect_bad("a.ply", head + "property quad z\nend_header\n", 6, "unknown type");
+  const std::string good = head + "property float z\nend_header\n";
+  expect_bad("a.ply", good + "1 2 3\n", 8, "ends before vertex 1");
+  expect_bad("a.ply", good + "1 2 3\n4 5\n", 9, "too few");
+  expect_bad("a.ply", good + "1 2 3\n4 5 6 7\n", 9, "too many");
+  expect_bad("a.ply", good + "1 2 3\n4 nan 6\n", 9, "not finite");
+  expect_bad("a.ply", good + "1 2 3\n4 y 6\n", 9, "not a number");
+  expect_bad("a.ply", good + "1 2 3\n4 5 6\n7 8 9\n", 10, "goes on");
+  expect_bad("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 1\nproperty list uchar int vertex_indices\nend_header\ninf 0 1 2\n",
+             10, "a list of inf");
+  expect_bad("a.ply",
+             "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
+             "property float y\nproperty float z\nend_header\n",
+             7, "announced");
+}
+
+TEST_F(ShapeFileTest, ColumnsOfWholeNumbersThatAreNotKeepTheirValues) {
+  const ShapeFile csv = read("d.csv", "x,y,z,direction,H\n1,2,3,1.5,1\n4,5,6,nan,2\n");
+  std::string bytes;
+  write_shape(FileFormat::kPly, csv, {}, [&](std::string_view piece) { bytes += piece; });
+  const ShapeFile ply = read("d.ply", bytes);
+  EXPECT_EQ(ply.column("direction")->values[0], 1.5);
+  EXPECT_NE(ply.column("direction")->values[1], ply.column("direction")->values[1]);
+  EXPECT_EQ(ply.column("H")->values, (std::vector<double>{1, 2}));
+}
+
+TEST_F(ShapeFileTest, TablesOfNumbers) {
+  const ShapeFile csv = read("t.csv", "\xEF\xBB\xBFname,z, x,y\r\n7,3,1,2\r\n\r\ninf,6,4,5\r\n");
+  EXPECT_EQ(csv.mesh().points, (std::vector<core::Vec3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(csv.columns[0].name, "name");
+  const ShapeFile dat = read("t.dat", "1 2 3 0.5 0 0 1\n");
+  EXPECT_EQ(dat.column("E")->values, (std::vector<double>{0.5}));
+  EXPECT_EQ(dat.column("nz")->values, (std::vector<double>{1}));
+  EXPECT_EQ(read("t.xyz", "# points\n1 2 3 1 0 0\n").column("nx")->values, (std::vector<double>{1}));
+  expect_bad("t.csv", "", 1, "empty");
+  expect_bad("t.csv", "1,2,3\n4,5,6\n", 1, "x, y and z");
+  expect_bad("t.csv", "x,y,z\n1,2,3\n1,2\n", 3, "2 values");
+  expect_bad("t.csv", "x,y,z\n1,2,\n", 2, "must be a number");
+  expect_bad("t.csv", "x,y,z,E,E\n1,2,3,4,5\n", 1, "two columns");
+  expect_bad("t.csv", "x,y,z\n1,2,nan\n", 2, "not finite");
+  expect_bad("t.csv", "x,y,z,nx\n1,2,3,nan\n", 0, "point 0: nx");
+  expect_bad("t.xyz", "1 2 3\n1 2 3 4 5 6\n", 2, "6 words");
+  expect_bad("t.dat", "1 2 3\n", 1, "3 words");
+}
+
+TEST_F(ShapeFileTest, ObjAndStlText) {
+  const ShapeFile obj =
+      read("t.obj", "# c\nmtllib m\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3 -1\n");
+  EXPECT_EQ(obj.mesh().points.size(), 4u);
+  EXPECT_EQ(obj.mesh().triangles.size(), 2u);
+  expect_bad("t.obj", "v 0 0 0\nf 1 2 3\n", 2, "vertex '2'");
+  expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nf 1 2 1\n", 3, "twice");
+  expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", 3, "needs 3");
+  expect_bad("t.obj", "v 0 0 inf\n", 1, "not finite");
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  EXPECT_EQ(read("t.stl", "solid a name\n" + facet + facet + "endsolid\n").mesh().points.size(), 3u);
+  expect_bad("t.stl", "solid\n" + facet, 8, "endsolid");
+  expect_bad("t.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\nendloop\n", 5, "1 vertices");
+  expect_bad("t.stl", "rubbish", 0, "not an STL file");
+}
+
+TEST_F(ShapeFileTest, TheBeginningDecidesWhereTheExtensionDoesNot) {
+  EXPECT_EQ(read("points", "OFF\n1 0 0\n1 2 3\n").mesh().points.size(), 1u);
+  expect_bad("points.txt", "hello\n", 0, ".csv");
+  EXPECT_THROW(read_shape(dir_ / "missing.ply"), ClientError);
+}
+
+TEST_F(ShapeFileTest, WhatIsWrittenReadsBackWithItsColumns) {
+  ShapeFile shape;
+  shape.off.mesh = core::make_tetrahedron(1);
+  shape.columns = {{"E", false, {1.0 / 3, 2, 3, 4}}, {"direction", true, {0, 1, 2, 4294967295.0}}};
+  for (const bool surface : {true, false}) {
+    if (!surface) shape.off.mesh.triangles.clear();
+    for (const FileFormat format : shape_formats(shape)) {
+      std::string bytes;
+      write_shape(format, shape, {"a\ncomment"}, [&](std::string_view piece) { bytes += piece; });
+      if (format == FileFormat::kStl) continue;  // single precision
+      const ShapeFile back = read("t" + std::string(extension_of(format)), bytes);
+      EXPECT_EQ(back.mesh().points, shape.mesh().points);
+      EXPECT_EQ(back.mesh().triangles, shape.mesh().triangles);
+      ASSERT_EQ(back.columns.size(), holds_columns(format) ? 2u : 0u);
+      for (std::size_t c = 0; c < back.columns.size(); ++c) {
+        EXPECT_EQ(back.columns[c].name, shape.columns[c].name);
+        EXPECT_EQ(back.columns[c].values, shape.columns[c].values);
+        EXPECT_EQ(back.columns[c].whole, shape.columns[c].whole);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace affskel::client
