@@ -21,8 +21,8 @@ struct Ball {
   Rgb colour;
 };
 
-/// Draws one view: opaque balls and facets, depth-buffered, inside a translucent surface.  Works on a grid of 2 x 2
-/// samples per pixel.  The surface is composed without sorting: each of its layers takes a share of the
+/// Draws one view: opaque balls and facets, depth-buffered, inside a translucent surface.  Works on a grid of
+/// 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers takes a share of the
 /// light, and the layers in front of a ball and those behind it are kept apart.
 class Panel {
  public:
