@@ -25,8 +25,8 @@ struct ChordShockOptions {
   /// which ones matter is for significant_shocks() to say.
   double least_opening = 0.005;
   /// How far outside [0, 1] t may lie; it is then moved to the nearer end.  The branches bend between x and
-  /// y, and a third one may come between them: without slack one crossing in twenty is missed, and each
-  /// leaves a hole.  A larger slack takes jumps of E for shocks.
+  /// y, and a third one may come between them: without slack one crossing in fifteen is missed, and
+  /// each leaves a hole.  A larger slack takes jumps of E for shocks.
   double slack = 0.25;
 };
 
@@ -53,6 +53,10 @@ struct ChordShock {
 /// E, t, s and r are affinely invariant: g.delta pairs a covector with a vector, so that a lattice mapped
 /// along with the solid gives the same numbers.  The opening is not: an angle between covectors needs a
 /// metric.  It is invariant only when the frame's metric is mapped along, as in the `affine` frame.
+///
+/// Where E is smooth but its normals turn fast, near the middle of a box seen by very many directions, say,
+/// the opening across an edge shrinks with the spacing: such a ridge is a shock at a coarse spacing only.
+/// At a true shock it does not.
 ///
 /// @throws CoreError kBadInput when an option is not finite or out of range.
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
