@@ -1,5 +1,6 @@
 #include "client/render/panel.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -56,6 +57,13 @@ Panel::Projected Panel::project(const Vec3& point) const {
           scale_ * core::dot(view_.toward, p)};
 }
 
+void Panel::cover(Sample& sample, float depth, Rgb colour) {
+  if (sample.covered && depth <= sample.depth) return;
+  sample.covered = true;
+  sample.depth = depth;
+  sample.solid = colour;
+}
+
 void Panel::draw_ball(const Ball& ball, double radius) {
   const Projected c = project(ball.centre);
   const double r = radius * kSamples;
@@ -68,12 +76,26 @@ void Panel::draw_ball(const Ball& ball, double radius) {
       if (rest < 0) continue;
       const double height = std::sqrt(rest);
       const auto depth = static_cast<float>(c.depth + height * r);
-      Sample& sample = at(x, y);
-      if (sample.covered && depth <= sample.depth) continue;
-      sample.covered = true;
-      sample.depth = depth;
-      sample.ball = static_cast<float>(0.55 + 0.45 * lambert(dx, -dy, height)) * ball.colour;
+      const double light = 0.55 + 0.45 * lambert(dx, -dy, height);
+      cover(at(x, y), depth, static_cast<float>(light) * ball.colour);
     }
+  }
+}
+
+void Panel::draw_facets(const core::Mesh& mesh, Rgb colour) {
+  for (const core::Triangle& corners : mesh.triangles) {
+    std::array<Projected, 3> p{};
+    for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[corners[c]]);
+    const Vec3& a = mesh.points[corners[0]];
+    const Vec3 n = unit(core::cross(mesh.points[corners[1]] - a, mesh.points[corners[2]] - a));
+    const double facing = core::dot(n, view_.toward), side = facing < 0 ? -1 : 1;
+    const double light =
+        0.4 + 0.6 * lambert(side * core::dot(n, view_.right), side * core::dot(n, view_.up), side * facing);
+    const Rgb shaded = static_cast<float>(light) * colour;
+    const std::array<ScreenPoint, 3> screen = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
+    for_each_sample(screen, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
+      cover(at(x, y), static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth), shaded);
+    });
   }
 }
 
@@ -108,7 +130,7 @@ Image Panel::resolve() const {
       Rgb sum;
       for (int s = 0; s < kSamples * kSamples; ++s) {
         const Sample& sample = at(x * kSamples + s % kSamples, y * kSamples + s / kSamples);
-        const Rgb behind = sample.covered ? sample.ball : sample.back.over(kWhite);
+        const Rgb behind = sample.covered ? sample.solid : sample.back.over(kWhite);
         sum = sum + sample.front.over(behind);
       }
       image.at(x, y) = kShare * sum;

@@ -21,8 +21,8 @@ struct Ball {
   Rgb colour;
 };
 
-/// Draws one view: opaque balls, depth-buffered, inside a translucent surface.  Works on a grid of 2 x 2
-/// samples per pixel.  The surface is composed without sorting: each of its layers takes a share of the
+/// Draws one view: opaque balls and facets, depth-buffered, inside a translucent surface.  Works on a grid of
+/// 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers takes a share of the
 /// light, and the layers in front of a ball and those behind it are kept apart.
 class Panel {
  public:
@@ -31,8 +31,10 @@ class Panel {
   /// @param scale pixels per mesh unit; @param centre is shown in the middle of the picture.
   Panel(int width, int height, const View& view, const core::Vec3& centre, double scale);
 
-  /// All balls first, then the surface.
+  /// All balls and facets first, then the surface.
   void draw_ball(const Ball& ball, double radius);
+  /// The mesh's triangles, opaque and flat, seen from either side.
+  void draw_facets(const core::Mesh& mesh, Rgb colour);
   /// @param normals one per triangle and corner, unit or zero.
   void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals);
 
@@ -48,8 +50,8 @@ class Panel {
     Rgb over(Rgb behind) const;
   };
   struct Sample {
-    float depth;  // of the nearest ball, along the view; larger is nearer
-    Rgb ball;
+    float depth;  // of the nearest ball or facet, along the view; larger is nearer
+    Rgb solid;    // its colour
     bool covered = false;
     Layers front, back;
   };
@@ -58,6 +60,8 @@ class Panel {
     double x, y, depth;
   };
   Projected project(const core::Vec3& point) const;
+  // Keeps what is nearer.
+  static void cover(Sample& sample, float depth, Rgb colour);
   const Sample& at(int x, int y) const {
     return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
   }

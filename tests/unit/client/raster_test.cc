@@ -114,6 +114,24 @@ TEST(Panel, TheSurfaceVeilsOnlyWhatIsBehindIt) {
   EXPECT_GT(middle(5).r, 0.5f);
 }
 
+TEST(Panel, FacetsAreOpaqueFromEitherSideAndHideWhatIsBehind) {
+  // A square in the plane y = 0, seen from -y, in either orientation.
+  for (const bool turned : {false, true}) {
+    const core::Triangle one = turned ? core::Triangle{0, 2, 1} : core::Triangle{0, 1, 2};
+    const core::Triangle two = turned ? core::Triangle{0, 3, 2} : core::Triangle{0, 2, 3};
+    const core::Mesh square{{{-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}}, {one, two}};
+    const auto middle = [&](double ball_y) {
+      Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+      panel.draw_ball({{0, ball_y, 0}, kRed}, 3);
+      panel.draw_facets(square, kBlue);
+      return panel.resolve().at(10, 10);
+    };
+    EXPECT_EQ(middle(5).r, 0) << "a ball behind is hidden";
+    EXPECT_GT(middle(5).b, 0.7f) << "a facet that faces the viewer is bright";
+    EXPECT_EQ(middle(-5).b, 0) << "a ball in front hides the facet";
+  }
+}
+
 TEST(Panel, SurfaceLayersDoNotDependOnTheirOrder) {
   core::Mesh two{{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}, {-9, 3, -9}, {9, 6, -9}, {0, 1, 9}},
                  {{0, 1, 2}, {3, 4, 5}}};

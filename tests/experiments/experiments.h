@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+
+#include "core/mesh.h"
+#include "report.h"
+
+namespace affskel::experiments {
+
+/// How large the experiments are.
+class Setting {
+ public:
+  bool quick = false;  ///< small sizes, for a test that everything works
+  unsigned threads = 1;
+
+  static constexpr double kBodyHeight =
+      18000;  ///< gives skeletons of the published order of size at dT = 200
+  /// dT: the published 200, coarser when quick.
+  double spacing() const { return quick ? 600 : 200; }
+
+  /// A body of our own (core/body.h), made when first asked for and kept.
+  const core::Mesh& body(std::uint32_t triangles) const;
+
+ private:
+  std::shared_ptr<std::map<std::uint32_t, core::Mesh>> bodies_ =
+      std::make_shared<std::map<std::uint32_t, core::Mesh>>();
+};
+
+// The sections of Zografos (2003), chapter 6, each appended to the report with pictures, the published
+// figures and checks.
+
+/// 6.1: the torus and its dented kin.
+void torus_experiment(const Setting& setting, Report& report);
+/// 6.1: ellipsoid and sphere.
+void ellipsoid_experiment(const Setting& setting, Report& report);
+/// 6.1: cylinder and cone.
+void revolution_experiment(const Setting& setting, Report& report);
+/// 6.2: bodies of growing detail.
+void body_experiment(const Setting& setting, Report& report);
+/// 6.2.1 and 6.2.2: the skeleton as a surface, and the threshold.
+void threshold_experiment(const Setting& setting, Report& report);
+/// 6.3: noise.
+void noise_experiment(const Setting& setting, Report& report);
+/// 6.4: affine maps.
+void affine_experiment(const Setting& setting, Report& report);
+/// 6.5.1: directions.
+void plane_experiment(const Setting& setting, Report& report);
+/// 6.5.2: time against the number of triangles.
+void growth_experiment(const Setting& setting, Report& report);
+
+}  // namespace affskel::experiments

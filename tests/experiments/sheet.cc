@@ -1,0 +1,28 @@
+#include "sheet.h"
+
+#include "core/chord_sheet.h"
+#include "core/frame_field.h"
+#include "core/sheet_topology.h"
+
+namespace affskel::experiments {
+
+Sheet chord_sheet_of(const Job& job) {
+  const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
+  const core::ChordSheet found = core::chord_sheet(job.lattice, field);
+  const core::SamplePlaces places(job.solid, job.lattice);
+  const core::Matrix3 frame = core::frame_matrix(job.lattice);
+  Sheet sheet;
+  for (const core::ChordShock& shock : found.shocks) {
+    sheet.shocks.rank.push_back(shock.point);
+    sheet.shocks.place.push_back(places.origin() + frame * shock.position);
+    sheet.shocks.erosion.push_back(shock.erosion);
+  }
+  for (const core::ChordSheetVertex& vertex : found.vertices) {
+    sheet.mesh.points.push_back(places.origin() + frame * vertex.position);
+  }
+  sheet.mesh.triangles = found.triangles;
+  sheet.betti = core::sheet_topology(sheet.mesh).betti;
+  return sheet;
+}
+
+}  // namespace affskel::experiments

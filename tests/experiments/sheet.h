@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/betti_numbers.h"
+#include "core/mesh.h"
+#include "job.h"
+
+namespace affskel::experiments {
+
+/// The skeleton by the operator `chords`, in mesh units.
+struct Sheet {
+  Cloud shocks;  ///< its points: where two equal chords meet, on lattice edges
+  core::Mesh mesh;
+  core::BettiNumbers betti;  ///< of the mesh
+};
+
+/// With the operator's default options.
+Sheet chord_sheet_of(const Job& job);
+
+}  // namespace affskel::experiments
