@@ -27,8 +27,7 @@ Message parsed(const Derived& derived) {
 
 class DeriveTest : public ::testing::Test {
  protected:
-  explicit DeriveTest(const std::string& mesh = sample_mesh(), v1::ErosionParams params = sample_params())
-      : prepared_(mesh, params), field_(finished_field(prepared_)) {}
+  DeriveTest() : prepared_(sample_mesh(), sample_params()), field_(finished_field(prepared_)) {}
 
   Derived run(const v1::Lease& lease) { return derive(lease, prepared_, field_); }
 
@@ -123,42 +122,46 @@ TEST_F(DeriveTest, EmptySkeletonsSayWhy) {
   EXPECT_FALSE(points.quality().advice().empty());
 }
 
-std::string sheared_torus() {
-  return core::write_off(core::map_mesh(core::shear(2, 1, 0.5), core::make_torus(6000, 2000, 256)));
-}
-
-v1::ErosionParams affine_params() {
-  v1::ErosionParams params = sample_params();
-  params.set_frame(v1::FRAME_AFFINE);
-  return params;
-}
-
-class ShearedTest : public DeriveTest {
- protected:
-  ShearedTest() : DeriveTest(sheared_torus(), affine_params()) {}
-
-  // Above the image of the torus's plane.
-  static double height(double y, double z) { return z - 0.5 * y; }
+struct InFrame {
+  v1::Frame frame;
+  v1::Operator which;
+  double threshold;
 };
 
-TEST_F(ShearedTest, ResultsComeBackFromTheFrame) {
-  for (const v1::Operator which : {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_CHORDS}) {
-    // In this frame the torus is tall and the normals jump by less.
-    const double threshold = which == v1::OPERATOR_CHORDS ? 0 : 3;
-    const v1::SkeletonPoints points = skeleton(which, threshold);
-    ASSERT_GT(points.point_size(), 20);
-    for (int i = 0; i < points.point_size(); ++i)
-      EXPECT_LT(std::abs(height(points.xyz(3 * i + 1), points.xyz(3 * i + 2))), 700);
-    EXPECT_EQ(points.quality().inside_share(), 1);
-    v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
-    lease.mutable_surface()->mutable_skeleton()->set_operator_(which);
-    lease.mutable_surface()->mutable_skeleton()->set_threshold(threshold);
-    const v1::TriangleMesh surface = parsed<v1::TriangleMesh>(run(lease));
-    ASSERT_GT(surface.corners_size(), 60);
-    for (int v = 0; v < surface.xyz_size(); v += 3)
-      EXPECT_LT(std::abs(height(surface.xyz(v + 1), surface.xyz(v + 2))), 700);
-  }
+class FrameTest : public ::testing::TestWithParam<InFrame> {};
+
+// A torus sheared so that its plane becomes z = y / 2.
+TEST_P(FrameTest, ResultsComeBackFromTheFrame) {
+  v1::ErosionParams params = sample_params();
+  params.set_frame(GetParam().frame);
+  const core::Mesh mesh = core::map_mesh(core::shear(2, 1, 0.5), core::make_torus(6000, 2000, 256));
+  const PreparedJob prepared(core::write_off(mesh), params);
+  const std::string field = finished_field(prepared);
+  const auto off_plane = [](const google::protobuf::RepeatedField<double>& xyz) {
+    double sum = 0;
+    for (int i = 0; i < xyz.size(); i += 3) sum += std::abs(xyz[i + 2] - 0.5 * xyz[i + 1]);
+    return 3 * sum / xyz.size();
+  };
+
+  v1::Lease lease = lease_of(v1::TASK_KIND_SKELETON);
+  lease.mutable_skeleton()->set_operator_(GetParam().which);
+  lease.mutable_skeleton()->set_threshold(GetParam().threshold);
+  const v1::SkeletonPoints points = parsed<v1::SkeletonPoints>(derive(lease, prepared, field));
+  ASSERT_GT(points.point_size(), 20);
+  EXPECT_LT(off_plane(points.xyz()), 600) << "the torus is 4000 thick";
+  EXPECT_EQ(points.quality().inside_share(), 1);
+
+  *lease.mutable_surface()->mutable_skeleton() = lease.skeleton();
+  lease.set_kind(v1::TASK_KIND_SURFACE);
+  const v1::TriangleMesh surface = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
+  ASSERT_GT(surface.corners_size(), 60);
+  EXPECT_LT(off_plane(surface.xyz()), 600);
 }
+
+INSTANTIATE_TEST_SUITE_P(Derive, FrameTest,
+                         ::testing::Values(InFrame{v1::FRAME_AFFINE, v1::OPERATOR_ZUCKER_HUMMEL, 3},
+                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_ZUCKER_HUMMEL, 5},
+                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_CHORDS, 0}));
 
 }  // namespace
 }  // namespace affskel::worker
