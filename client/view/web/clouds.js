@@ -86,14 +86,13 @@ export class BallCloud {
 
 export class SkinCloud {
   // inward: unit normals as bytes, 3 per point; order: indices into the positions; step: the distance of
-  // neighbours, page units; around: per point the least share of v0 among its neighbours, or null.
+  // neighbours, page units; around: per point the least share of v0 among its neighbours.
   constructor(positions, { inward, order, step, around }) {
     this.radius = 0.85 * step; // neighbours overlap in every direction
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('inward', new BufferAttribute(inward, 3, true));
-    const least = around || new Float32Array(order.length).fill(-1);
-    this.geometry.setAttribute('around', new BufferAttribute(least, 1));
+    this.geometry.setAttribute('around', new BufferAttribute(around, 1));
     this.geometry.setIndex(new BufferAttribute(order, 1));
     this.uniforms = {
       size: { value: 1 }, step: { value: step }, level: { value: 0 }, opacity: { value: 0.6 }, tint: { value: [1, 1, 1] },

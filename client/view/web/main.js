@@ -8,7 +8,7 @@ import { Glass } from './glass.js';
 import { rounded, whole } from './numbers.js';
 import { drawCross, drawScaleBar, labelLegend, paintLegend } from './overlay.js';
 import { makeErosion, makeSkeleton } from './skeleton.js';
-import { leastAround } from './shell.js';
+import { leastAround, sublattice } from './shell.js';
 import { Slider } from './slider.js';
 import { Stage } from './stage.js';
 
@@ -32,11 +32,10 @@ class Viewer {
     this.page = page;
     const positions = pointPositions(page);
     this.skeleton = makeSkeleton(page, positions);
-    this.erosion = makeErosion(page.arrays.pointShares);
+    this.erosion = makeErosion(page);
     this.skin = new SkinCloud(positions, {
       inward: page.arrays.pointInward, order: this.erosion.order, step: page.skinStep,
-      // A thinned lattice has no neighbours to hide behind.
-      around: page.thinning > 1 ? null : leastAround(page.arrays.pointSteps, page.arrays.pointShares),
+      around: leastAround(page.arrays.pointSteps, page.arrays.pointShares, sublattice(page.thinning).neighbours),
     });
     this.glass = new Glass(meshPositions(page), page.arrays.meshCorners);
     this.frame = new BoxFrame(page.halfBox, page.unit);
@@ -81,8 +80,8 @@ class Viewer {
     if (page.thinning > 1) {
       element('thinned').hidden = false;
       element('thinned').textContent =
-        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: all that any ` +
-        `threshold of the slider can show, and of the others one in ${whole(page.thinning)}, for the eroded solid.`;
+        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: every one that the ` +
+        `threshold slider can show, and for the eroded solid one in ${whole(page.thinning)}.`;
     }
     labelLegend(element('legend'), page.highestShare);
   }
@@ -120,9 +119,9 @@ class Viewer {
     const { page } = this;
     this.shown.eroded = this.erosion.count(this.share());
     this.skin.show(this.shown.eroded, this.share());
-    const volume = (100 * this.shown.eroded) / page.pointsHere;
+    const volume = (100 * this.shown.eroded) / this.erosion.total;
     element('level-count').textContent =
-      `${whole(this.shown.eroded)} points` + (page.thinning > 1 ? ' of this page' : `, about ${rounded(volume, 3)} % of the volume`);
+      `${whole(this.shown.eroded)} points${page.thinning > 1 ? ' drawn' : ''}, about ${rounded(volume, 3)} % of the volume`;
     this.stage.requestFrame();
   }
 

@@ -4,6 +4,7 @@ import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
 import { descending, prefixLength } from './decode.js';
 import { Sheet } from './sheet.js';
+import { sublattice } from './shell.js';
 
 function makeSheet({ arrays, highestShare }) {
   const colours = coloursOf(arrays.sheetShares, highestShare);
@@ -42,8 +43,11 @@ export function makeSkeleton(page, positions) {
   };
 }
 
-// The points by descending E, with `show(share)` for E >= share of v0.
-export function makeErosion(shares) {
-  const order = descending(shares);
-  return { order, count: (share) => prefixLength(shares, order, (value) => value >= share) };
+// The points of the eroded solid by descending E: of a thinned page those that are evenly spread.
+// `count(share)`: how many have E >= share of v0.
+export function makeErosion({ arrays, thinning }) {
+  const { pointShares: shares, pointSteps: steps } = arrays;
+  const { holds } = sublattice(thinning);
+  const order = descending(shares).filter((p) => holds(steps[3 * p], steps[3 * p + 1], steps[3 * p + 2]));
+  return { order, total: order.length, count: (share) => prefixLength(shares, order, (value) => value >= share) };
 }
