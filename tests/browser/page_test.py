@@ -1,4 +1,4 @@
-"""Opens pages of affskel-client view in Chromium.  Usage: page_test.py AFFSKEL-CLIENT AFFSKEL-SHEET-PAGE"""
+"""Opens pages of affskel-client view in Chromium.  Usage: page_test.py AFFSKEL-CLIENT AFFSKEL-MADE-UP-PAGE"""
 import os
 import subprocess
 import sys
@@ -16,7 +16,7 @@ from selenium.webdriver.common.keys import Keys
 from browser import Page, chromium, colours
 from job import NAME, Job
 
-CLIENT, SHEET_PAGE = sys.argv[1:3]
+CLIENT, MADE_UP_PAGE = sys.argv[1:3]
 
 
 def setUpModule():
@@ -37,6 +37,12 @@ class WithPage(unittest.TestCase):
 
     def file(self):
         return job.page
+
+    def made_up(self, *kind):
+        directory = self.enterContext(tempfile.TemporaryDirectory(prefix="affskel-browser-page-"))
+        file = os.path.join(directory, "page.html")
+        subprocess.run([MADE_UP_PAGE, *kind, file], check=True)
+        return file
 
     def tearDown(self):
         self.assertEqual(self.page.errors(), [])
@@ -202,13 +208,10 @@ class Phone(WithPage):
 
 
 class Sheet(WithPage):
-    """The page of operator chords, with made-up numbers: see sheet_page.cc."""
+    """The page of operator chords, with made-up numbers: see made_up_page.cc."""
 
     def file(self):
-        directory = self.enterContext(tempfile.TemporaryDirectory(prefix="affskel-sheet-"))
-        file = os.path.join(directory, "sheet.html")
-        subprocess.run([SHEET_PAGE, file], check=True)
-        return file
+        return self.made_up("sheet")
 
     def test_the_threshold_is_for_the_strength(self):
         self.assertEqual(self.page.element("threshold-symbol").text, "strength")
@@ -231,6 +234,24 @@ class Sheet(WithPage):
         right = picture.getpixel((int(picture.width / 2 + 100), int(picture.height / 2)))
         self.assertGreater(left[2], left[1])
         self.assertGreater(right[1], right[2])
+
+
+class Thinned(WithPage):
+    """Pages of which the whole eroded solid is left, evenly thinned."""
+
+    def file(self):
+        return self.made_up("thinned", "2")
+
+    def test_page_and_client_thin_alike(self):
+        for thinning in [2, 4, 8, 16, 32]:
+            self.page = Page(self.driver, self.made_up("thinned", str(thinning)))
+            self.assertTrue(self.page.element("thinned").is_displayed())
+            self.page.element("level-range").send_keys(Keys.HOME)
+            state = self.page.wait(lambda s: s["visible"]["eroded"])
+            self.assertEqual(state["thinning"], thinning)
+            self.assertEqual(state["erodedShown"], state["pointsHere"])
+            self.assertIn("about 100 %", self.page.element("level-count").text)
+            self.assertGreater(colours(self.page.canvas_picture())[0], 5)
 
 
 class WithoutWebGl(WithPage):
