@@ -5,7 +5,7 @@ import sys
 import tempfile
 import unittest
 
-if not os.environ.get("CHROMIUM") or not os.environ.get("CHROMEDRIVER"):
+if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
     print("no chromium or chromedriver: skipped")
     sys.exit(77)
 
@@ -127,7 +127,8 @@ class Desktop(WithPage):
     def test_mouse_and_keys_turn_the_body(self):
         canvas = self.page.element("canvas")
         start = self.page.state()["camera"]
-        ActionChains(self.driver).move_to_element(canvas).click_and_hold().move_by_offset(80, 30).release().perform()
+        drag = ActionChains(self.driver).move_to_element(canvas).click_and_hold()
+        drag.move_by_offset(80, 30).release().perform()
         dragged = self.page.wait(lambda s: s["camera"]["position"] != start["position"])["camera"]
         self.assertEqual(dragged["zoom"], start["zoom"])
         ActionChains(self.driver).scroll_from_origin(ScrollOrigin.from_element(canvas), 0, -300).perform()
@@ -150,8 +151,8 @@ class Desktop(WithPage):
 class Phone(WithPage):
     window = dict(width=390, height=844, phone=True)
 
-    CONTROLS = ["threshold-range", "threshold-field", "level-range", "level-field", "show-mesh", "show-skeleton",
-                "show-eroded", "show-axes", "show-scale", "theme"]
+    CONTROLS = ["threshold-range", "threshold-field", "level-range", "level-field", "show-mesh",
+                "show-skeleton", "show-eroded", "show-axes", "show-scale", "theme"]
     ALWAYS = ["fold", "view-front", "view-side", "view-top", "reset"]
 
     def reach(self, name):

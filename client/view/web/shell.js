@@ -39,7 +39,8 @@ function directions(nonzero) {
 export function sublattice(thinning) {
   const stride = 2 ** Math.floor(Math.log2(thinning) / 3);
   const kind = thinning / stride ** 3; // 1 simple, 2 face-centred, 4 body-centred
-  const even = (a, b, c) => (kind === 2 ? (a + b + c) % 2 === 0 : kind === 1 || (a % 2 === b % 2 && b % 2 === c % 2));
+  const even = (a, b, c) =>
+    kind === 2 ? (a + b + c) % 2 === 0 : kind === 1 || (a % 2 === b % 2 && b % 2 === c % 2);
   return {
     holds: (i, j, k) =>
       i % stride === 0 && j % stride === 0 && k % stride === 0 && even(i / stride, j / stride, k / stride),
