@@ -100,8 +100,8 @@ class Viewer {
     if (page.thinning > 1) {
       element('thinned').hidden = false;
       element('thinned').textContent =
-        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: every one that ` +
-        `the threshold slider can show, and for the eroded solid one in ${whole(page.thinning)}.`;
+        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: every one ` +
+        `that the threshold slider can show, and for the eroded solid one in ${whole(page.thinning)}.`;
     }
     labelLegend(element('legend'), page.highestShare);
   }
