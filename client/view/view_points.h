@@ -27,12 +27,13 @@ struct ViewGrid {
   std::array<std::uint32_t, 3> lattice_steps{};  ///< of the lattice, per step of the grid
 };
 
-/// |H| of all points in the order of the lattice, rounded up to float.
+/// |H|, rounded up to float.
 float view_divergence(double divergence);
 
 /// E / v0, rounded down to float.
 float view_share(double erosion, double volume);
 
+/// The grid in which a lattice's steps are stored.
 ViewGrid view_grid(const LatticePoints& lattice);
 
 /// Which points a page holds.

@@ -68,7 +68,8 @@ class Page:
 
     def wait(self, condition):
         """Until condition(state) holds; the state as it was then."""
-        return WebDriverWait(self.driver, PATIENCE, 0.02).until(lambda _: condition(self.state()) and self.state())
+        waiting = WebDriverWait(self.driver, PATIENCE, 0.02)
+        return waiting.until(lambda _: condition(self.state()) and self.state())
 
     def type_number(self, field, value):
         box = self.element(field)

@@ -12,11 +12,12 @@ NAME = "Body <b>7</b> \"x\" </script> ü"
 class Job:
     def __init__(self, client):
         self.client = client
-        self.directory = tempfile.TemporaryDirectory(prefix="affskel-browser-job-", ignore_cleanup_errors=True)
+        self.directory = tempfile.TemporaryDirectory(prefix="affskel-browser-", ignore_cleanup_errors=True)
         self.environment = dict(os.environ, AFFSKEL_HOME=self.path("home"), AFFSKEL_SERVER="",
                                 XDG_CONFIG_HOME=self.path("config"))
         self.run("make", "body", "--triangles", "500", "-o", self.path("body.off"))
-        self.id = self.run("submit", self.path("body.off"), "--points", "12000", "--name", NAME, "--wait").strip()
+        mesh = self.path("body.off")
+        self.id = self.run("submit", mesh, "--points", "12000", "--name", NAME, "--wait").strip()
         self.volume = json.loads(self.run("--json", "status", self.id))["prepared"]["volume"]
         self.run("fetch", self.id, "field", "-o", self.path("field.csv"))
         self.levels = [float(row["E"]) for row in self.rows("field.csv")]

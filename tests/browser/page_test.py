@@ -1,11 +1,11 @@
-"""Opens pages of affskel-client view in Chromium.  Usage: page_test.py AFFSKEL-CLIENT AFFSKEL-SHEET-PAGE"""
+"""Opens pages of affskel-client view in Chromium.  Usage: page_test.py AFFSKEL-CLIENT AFFSKEL-MADE-UP-PAGE"""
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
 
-if not os.environ.get("CHROMIUM") or not os.environ.get("CHROMEDRIVER"):
+if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
     print("no chromium or chromedriver: skipped")
     sys.exit(77)
 
@@ -16,7 +16,7 @@ from selenium.webdriver.common.keys import Keys
 from browser import Page, chromium, colours
 from job import NAME, Job
 
-CLIENT, SHEET_PAGE = sys.argv[1:3]
+CLIENT, MADE_UP_PAGE = sys.argv[1:3]
 
 
 def setUpModule():
@@ -37,6 +37,12 @@ class WithPage(unittest.TestCase):
 
     def file(self):
         return job.page
+
+    def made_up(self, *kind):
+        directory = self.enterContext(tempfile.TemporaryDirectory(prefix="affskel-browser-page-"))
+        file = os.path.join(directory, "page.html")
+        subprocess.run([MADE_UP_PAGE, *kind, file], check=True)
+        return file
 
     def tearDown(self):
         self.assertEqual(self.page.errors(), [])
@@ -121,7 +127,8 @@ class Desktop(WithPage):
     def test_mouse_and_keys_turn_the_body(self):
         canvas = self.page.element("canvas")
         start = self.page.state()["camera"]
-        ActionChains(self.driver).move_to_element(canvas).click_and_hold().move_by_offset(80, 30).release().perform()
+        drag = ActionChains(self.driver).move_to_element(canvas).click_and_hold()
+        drag.move_by_offset(80, 30).release().perform()
         dragged = self.page.wait(lambda s: s["camera"]["position"] != start["position"])["camera"]
         self.assertEqual(dragged["zoom"], start["zoom"])
         ActionChains(self.driver).scroll_from_origin(ScrollOrigin.from_element(canvas), 0, -300).perform()
@@ -144,8 +151,8 @@ class Desktop(WithPage):
 class Phone(WithPage):
     window = dict(width=390, height=844, phone=True)
 
-    CONTROLS = ["threshold-range", "threshold-field", "level-range", "level-field", "show-mesh", "show-skeleton",
-                "show-eroded", "show-axes", "show-scale", "theme"]
+    CONTROLS = ["threshold-range", "threshold-field", "level-range", "level-field", "show-mesh",
+                "show-skeleton", "show-eroded", "show-axes", "show-scale", "theme"]
     ALWAYS = ["fold", "view-front", "view-side", "view-top", "reset"]
 
     def reach(self, name):
@@ -202,13 +209,10 @@ class Phone(WithPage):
 
 
 class Sheet(WithPage):
-    """The page of operator chords, with made-up numbers: see sheet_page.cc."""
+    """The page of operator chords, with made-up numbers: see made_up_page.cc."""
 
     def file(self):
-        directory = self.enterContext(tempfile.TemporaryDirectory(prefix="affskel-sheet-"))
-        file = os.path.join(directory, "sheet.html")
-        subprocess.run([SHEET_PAGE, file], check=True)
-        return file
+        return self.made_up("sheet")
 
     def test_the_threshold_is_for_the_strength(self):
         self.assertEqual(self.page.element("threshold-symbol").text, "strength")
@@ -231,6 +235,24 @@ class Sheet(WithPage):
         right = picture.getpixel((int(picture.width / 2 + 100), int(picture.height / 2)))
         self.assertGreater(left[2], left[1])
         self.assertGreater(right[1], right[2])
+
+
+class Thinned(WithPage):
+    """Pages of which the whole eroded solid is left, evenly thinned."""
+
+    def file(self):
+        return self.made_up("thinned", "2")
+
+    def test_page_and_client_thin_alike(self):
+        for thinning in [2, 4, 8, 16, 32]:
+            self.page = Page(self.driver, self.made_up("thinned", str(thinning)))
+            self.assertTrue(self.page.element("thinned").is_displayed())
+            self.page.element("level-range").send_keys(Keys.HOME)
+            state = self.page.wait(lambda s: s["visible"]["eroded"])
+            self.assertEqual(state["thinning"], thinning)
+            self.assertEqual(state["erodedShown"], state["pointsHere"])
+            self.assertIn("about 100 %", self.page.element("level-count").text)
+            self.assertGreater(colours(self.page.canvas_picture())[0], 5)
 
 
 class WithoutWebGl(WithPage):

@@ -1,6 +1,14 @@
-// Sample points as balls (the skeleton) and as a smooth skin (the eroded solid).  A slider only moves the end of
-// a range in a fixed order, so that it costs nothing.
-import { BufferAttribute, BufferGeometry, Group, LessDepth, LessEqualDepth, Points, ShaderMaterial } from 'three';
+// Sample points as balls (the skeleton) and as a smooth skin (the eroded solid).  A slider only moves the end
+// of a range in a fixed order, so that it costs nothing.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Group,
+  LessDepth,
+  LessEqualDepth,
+  Points,
+  ShaderMaterial,
+} from 'three';
 
 const kBallVertex = `
   attribute vec4 colour;
@@ -24,8 +32,8 @@ const kBallFragment = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
   }`;
 
-// A point whose neighbours are all shown is hidden by them and not drawn.  Equal depths would be blended twice:
-// every point is moved by a part of a step.
+// A point whose neighbours are all shown is hidden by them and not drawn.  Equal depths would be blended
+// twice: every point is moved by a part of a step.
 const kSkinVertex = `
   attribute vec3 inward;
   attribute float around;
@@ -65,9 +73,15 @@ export class BallCloud {
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('colour', new BufferAttribute(colours, 4, true));
     this.uniforms = { size: { value: 1 }, lift: { value: 0 } };
-    this.object = cloud(this.geometry, new ShaderMaterial({
-      vertexShader: kBallVertex, fragmentShader: kBallFragment, uniforms: this.uniforms,
-    }), 0);
+    this.object = cloud(
+      this.geometry,
+      new ShaderMaterial({
+        vertexShader: kBallVertex,
+        fragmentShader: kBallFragment,
+        uniforms: this.uniforms,
+      }),
+      0,
+    );
   }
 
   showFirst(count) {
@@ -86,26 +100,39 @@ export class BallCloud {
 
 export class SkinCloud {
   // inward: unit normals as bytes, 3 per point; order: indices into the positions; step: the distance of
-  // neighbours, page units; around: per point the least share of v0 among its neighbours, or null.
+  // neighbours, page units; around: per point the least share of v0 among its neighbours.
   constructor(positions, { inward, order, step, around }) {
     this.radius = 0.85 * step; // neighbours overlap in every direction
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('inward', new BufferAttribute(inward, 3, true));
-    const least = around || new Float32Array(order.length).fill(-1);
-    this.geometry.setAttribute('around', new BufferAttribute(least, 1));
+    this.geometry.setAttribute('around', new BufferAttribute(around, 1));
     this.geometry.setIndex(new BufferAttribute(order, 1));
     this.uniforms = {
-      size: { value: 1 }, step: { value: step }, level: { value: 0 }, opacity: { value: 0.6 }, tint: { value: [1, 1, 1] },
+      size: { value: 1 },
+      step: { value: step },
+      level: { value: 0 },
+      opacity: { value: 0.6 },
+      tint: { value: [1, 1, 1] },
     };
     // First only the depth, then the colour of what is nearest: one translucent layer, sorted by nothing.
     this.object = new Group();
     for (const colour of [false, true]) {
-      this.object.add(cloud(this.geometry, new ShaderMaterial({
-        vertexShader: kSkinVertex, fragmentShader: kSkinFragment, uniforms: this.uniforms,
-        transparent: true, colorWrite: colour, depthWrite: !colour,
-        depthFunc: colour ? LessEqualDepth : LessDepth,
-      }), colour ? 2 : 1));
+      this.object.add(
+        cloud(
+          this.geometry,
+          new ShaderMaterial({
+            vertexShader: kSkinVertex,
+            fragmentShader: kSkinFragment,
+            uniforms: this.uniforms,
+            transparent: true,
+            colorWrite: colour,
+            depthWrite: !colour,
+            depthFunc: colour ? LessEqualDepth : LessDepth,
+          }),
+          colour ? 2 : 1,
+        ),
+      );
     }
   }
 

@@ -1,7 +1,15 @@
 // Samples of van der Walt and Smith's viridis at equal distances, as in the renderer of pictures.
 const kViridis = [
-  [68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
-  [31, 158, 137], [53, 183, 121], [110, 206, 88], [181, 222, 43], [253, 231, 37],
+  [68, 1, 84],
+  [72, 40, 120],
+  [62, 74, 137],
+  [49, 104, 142],
+  [38, 130, 142],
+  [31, 158, 137],
+  [53, 183, 121],
+  [110, 206, 88],
+  [181, 222, 43],
+  [253, 231, 37],
 ];
 
 export function viridis(t) {
@@ -33,12 +41,24 @@ export function coloursOf(shares, highest) {
 }
 
 const kDark = {
-  background: 0x14181f, ink: 0xe8ecf1, glassDark: [0.42, 0.5, 0.62], glassLight: [0.86, 0.91, 0.97],
-  glass: 0.075, rim: 0.42, lift: 0.12, skin: [1, 0.65, 0.36],
+  background: 0x14181f,
+  ink: 0xe8ecf1,
+  glassDark: [0.42, 0.5, 0.62],
+  glassLight: [0.86, 0.91, 0.97],
+  glass: 0.075,
+  rim: 0.42,
+  lift: 0.12,
+  skin: [1, 0.65, 0.36],
 };
 const kLight = {
-  background: 0xffffff, ink: 0x20252c, glassDark: [0.3, 0.38, 0.5], glassLight: [0.72, 0.79, 0.88],
-  glass: 0.1, rim: 0.42, lift: 0, skin: [0.93, 0.56, 0.28],
+  background: 0xffffff,
+  ink: 0x20252c,
+  glassDark: [0.3, 0.38, 0.5],
+  glassLight: [0.72, 0.79, 0.88],
+  glass: 0.1,
+  rim: 0.42,
+  lift: 0,
+  skin: [0.93, 0.56, 0.28],
 };
 
 export const themeColours = (name) => (name === 'dark' ? kDark : kLight);

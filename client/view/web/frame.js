@@ -9,7 +9,12 @@ function boxEdges(half) {
   const ends = [];
   for (let axis = 0; axis < 3; ++axis) {
     const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
-    for (const [su, sv] of [[-1, -1], [-1, 1], [1, -1], [1, 1]]) {
+    for (const [su, sv] of [
+      [-1, -1],
+      [-1, 1],
+      [1, -1],
+      [1, 1],
+    ]) {
       for (const s of [-1, 1]) {
         const end = [0, 0, 0];
         end[axis] = s * half[axis];

@@ -1,6 +1,13 @@
 // The body as glass: clear where it faces the viewer, denser towards the outline.
 import {
-  BackSide, BufferAttribute, BufferGeometry, Color, FrontSide, Group, Mesh, ShaderMaterial,
+  BackSide,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  FrontSide,
+  Group,
+  Mesh,
+  ShaderMaterial,
 } from 'three';
 
 const kCreaseCosine = 0.643; // of 50 degrees: sharper edges stay edges
@@ -48,7 +55,8 @@ function cornersAround(corners, vertices) {
   return { start, corner };
 }
 
-// One normal per corner: the area-weighted mean over the triangles round the vertex that meet without a crease.
+// One normal per corner: the area-weighted mean over the triangles round the vertex that meet without a
+// crease.
 function cornerNormals(points, corners) {
   const areas = areaVectors(points, corners);
   const around = cornersAround(corners, points.length / 3);
@@ -78,15 +86,25 @@ export class Glass {
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
     geometry.setAttribute('normal', new BufferAttribute(cornerNormals(points, corners), 3));
     this.uniforms = {
-      dark: { value: new Color() }, light: { value: new Color() },
-      clear: { value: 0 }, rim: { value: 0 }, fade: { value: 1 },
+      dark: { value: new Color() },
+      light: { value: new Color() },
+      clear: { value: 0 },
+      rim: { value: 0 },
+      fade: { value: 1 },
     };
     this.object = new Group();
     // The far wall first; nothing is sorted, and nothing needs to be.
-    for (const [side, order] of [[BackSide, 3], [FrontSide, 4]]) {
+    for (const [side, order] of [
+      [BackSide, 3],
+      [FrontSide, 4],
+    ]) {
       const material = new ShaderMaterial({
-        vertexShader: kVertexShader, fragmentShader: kFragmentShader, uniforms: this.uniforms,
-        side, transparent: true, depthWrite: false,
+        vertexShader: kVertexShader,
+        fragmentShader: kFragmentShader,
+        uniforms: this.uniforms,
+        side,
+        transparent: true,
+        depthWrite: false,
       });
       const mesh = new Mesh(geometry, material);
       mesh.renderOrder = order;

@@ -8,7 +8,7 @@ import { Glass } from './glass.js';
 import { rounded, whole } from './numbers.js';
 import { drawCross, drawScaleBar, labelLegend, paintLegend } from './overlay.js';
 import { makeErosion, makeSkeleton } from './skeleton.js';
-import { leastAround } from './shell.js';
+import { leastAround, sublattice } from './shell.js';
 import { Slider } from './slider.js';
 import { Stage } from './stage.js';
 
@@ -23,7 +23,9 @@ function fail(message) {
 
 // What the buttons above and the legend below cover.
 function freeEdges() {
-  const [main, nav, foot] = ['main', 'nav', '.foot'].map((s) => document.querySelector(s).getBoundingClientRect());
+  const [main, nav, foot] = ['main', 'nav', '.foot'].map((s) =>
+    document.querySelector(s).getBoundingClientRect(),
+  );
   return { top: nav.bottom - main.top, bottom: main.bottom - foot.top };
 }
 
@@ -32,19 +34,29 @@ class Viewer {
     this.page = page;
     const positions = pointPositions(page);
     this.skeleton = makeSkeleton(page, positions);
-    this.erosion = makeErosion(page.arrays.pointShares);
+    this.erosion = makeErosion(page);
     this.skin = new SkinCloud(positions, {
-      inward: page.arrays.pointInward, order: this.erosion.order, step: page.skinStep,
-      // A thinned lattice has no neighbours to hide behind.
-      around: page.thinning > 1 ? null : leastAround(page.arrays.pointSteps, page.arrays.pointShares),
+      inward: page.arrays.pointInward,
+      order: this.erosion.order,
+      step: page.skinStep,
+      around: leastAround(
+        page.arrays.pointSteps,
+        page.arrays.pointShares,
+        sublattice(page.thinning).neighbours,
+      ),
     });
     this.glass = new Glass(meshPositions(page), page.arrays.meshCorners);
     this.frame = new BoxFrame(page.halfBox, page.unit);
     this.stage = new Stage(element('canvas'), {
-      up: page.up, halfBox: page.halfBox, inset: freeEdges, onFrame: () => this.beforeFrame(),
+      up: page.up,
+      halfBox: page.halfBox,
+      inset: freeEdges,
+      onFrame: () => this.beforeFrame(),
     });
     this.layers = {
-      mesh: this.glass.object, skeleton: this.skeleton.drawn.object, eroded: this.skin.object,
+      mesh: this.glass.object,
+      skeleton: this.skeleton.drawn.object,
+      eroded: this.skin.object,
       axes: this.frame.object,
     };
     this.stage.scene.add(...Object.values(this.layers));
@@ -68,21 +80,28 @@ class Viewer {
   tellFacts() {
     const { page } = this;
     const facts = {
-      triangles: whole(page.triangles), 'sample points': whole(page.points), spacing: rounded(page.spacing, 5),
-      directions: whole(page.directions), operator: page.operator, frame: page.frame,
-      v0: rounded(page.volume), box: page.box.map((side) => rounded(side, 4)).join(' × '), job: page.job.slice(0, 12),
+      triangles: whole(page.triangles),
+      'sample points': whole(page.points),
+      spacing: rounded(page.spacing, 5),
+      directions: whole(page.directions),
+      operator: page.operator,
+      frame: page.frame,
+      v0: rounded(page.volume),
+      box: page.box.map((side) => rounded(side, 4)).join(' × '),
+      job: page.job.slice(0, 12),
     };
     for (const [name, value] of Object.entries(facts)) {
       element('facts-list').append(
         Object.assign(document.createElement('dt'), { textContent: name }),
-        Object.assign(document.createElement('dd'), { textContent: value }));
+        Object.assign(document.createElement('dd'), { textContent: value }),
+      );
     }
     element('ticks').textContent = `Ticks on the box every ${rounded(this.frame.tickDistance, 6)} units.`;
     if (page.thinning > 1) {
       element('thinned').hidden = false;
       element('thinned').textContent =
-        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: all that any ` +
-        `threshold of the slider can show, and of the others one in ${whole(page.thinning)}, for the eroded solid.`;
+        `This page holds ${whole(page.pointsHere)} of the ${whole(page.points)} sample points: every one ` +
+        `that the threshold slider can show, and for the eroded solid one in ${whole(page.thinning)}.`;
     }
     labelLegend(element('legend'), page.highestShare);
   }
@@ -91,10 +110,14 @@ class Viewer {
     const { page, skeleton } = this;
     element('threshold-symbol').textContent = skeleton.symbol;
     this.threshold = new Slider(element('threshold'), {
-      low: skeleton.low, high: skeleton.high, changed: () => this.applyThreshold(),
+      low: skeleton.low,
+      high: skeleton.high,
+      changed: () => this.applyThreshold(),
     });
     this.level = new Slider(element('level'), {
-      low: 0, high: 100 * page.highestShare, curve: 3,
+      low: 0,
+      high: 100 * page.highestShare,
+      curve: 3,
       changed: () => {
         this.toggle('eroded', true);
         this.applyLevel();
@@ -120,9 +143,9 @@ class Viewer {
     const { page } = this;
     this.shown.eroded = this.erosion.count(this.share());
     this.skin.show(this.shown.eroded, this.share());
-    const volume = (100 * this.shown.eroded) / page.pointsHere;
-    element('level-count').textContent =
-      `${whole(this.shown.eroded)} points` + (page.thinning > 1 ? ' of this page' : `, about ${rounded(volume, 3)} % of the volume`);
+    const points = `${whole(this.shown.eroded)} points${page.thinning > 1 ? ' drawn' : ''}`;
+    const volume = rounded((100 * this.shown.eroded) / this.erosion.total, 3);
+    element('level-count').textContent = `${points}, about ${volume} % of the volume`;
     this.stage.requestFrame();
   }
 
@@ -218,11 +241,15 @@ class Viewer {
 function start() {
   const probe = document.createElement('canvas');
   if (!probe.getContext('webgl')) {
-    fail('This page draws with WebGL, which this browser does not offer. Enable hardware acceleration or WebGL ' +
-      'in its settings, or open the page in another browser.');
+    fail(
+      'This page draws with WebGL, which this browser does not offer. Enable hardware acceleration or ' +
+        'WebGL in its settings, or open the page in another browser.',
+    );
     return;
   }
-  element('canvas').addEventListener('webglcontextlost', () => fail('The graphics driver gave up. Reload the page.'));
+  element('canvas').addEventListener('webglcontextlost', () =>
+    fail('The graphics driver gave up. Reload the page.'),
+  );
   const viewer = new Viewer(decodePage(document));
   window.affskel = { state: () => viewer.state(), frameTime: (frames) => viewer.frameTime(frames) };
 }

@@ -6,7 +6,9 @@ export const whole = (value) => Math.round(value).toLocaleString('en-US');
 export function rounded(value, digits = 4) {
   const size = Math.abs(value);
   if (value === 0 || (size >= 1e-4 && size < 1e7)) {
-    return size >= 1e3 ? whole(Number(value.toPrecision(digits + 1))) : String(Number(value.toPrecision(digits)));
+    return size >= 1e3
+      ? whole(Number(value.toPrecision(digits + 1)))
+      : String(Number(value.toPrecision(digits)));
   }
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
   const power = String(Math.abs(Number(exponent)), 10).replace(/\d/g, (d) => kSuperscripts[d]);

@@ -9,7 +9,11 @@ const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
 export function drawCross(svg, camera) {
   camera.updateMatrixWorld();
-  for (const [axis, direction] of [['x', [1, 0, 0]], ['y', [0, 1, 0]], ['z', [0, 0, 1]]]) {
+  for (const [axis, direction] of [
+    ['x', [1, 0, 0]],
+    ['y', [0, 1, 0]],
+    ['z', [0, 0, 1]],
+  ]) {
     const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
     const line = svg.querySelector(`line.${axis}`);
     const label = svg.querySelector(`text.${axis}`);

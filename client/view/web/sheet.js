@@ -43,10 +43,16 @@ export class Sheet {
     this.geometry.setAttribute('colour', new BufferAttribute(colours, 4, true));
     this.geometry.setIndex(new BufferAttribute(index, 1));
     this.uniforms = { lift: { value: 0 } };
-    this.object = new Mesh(this.geometry, new ShaderMaterial({
-      vertexShader: kVertexShader, fragmentShader: kFragmentShader, uniforms: this.uniforms,
-      side: DoubleSide, extensions: { derivatives: true },
-    }));
+    this.object = new Mesh(
+      this.geometry,
+      new ShaderMaterial({
+        vertexShader: kVertexShader,
+        fragmentShader: kFragmentShader,
+        uniforms: this.uniforms,
+        side: DoubleSide,
+        extensions: { derivatives: true },
+      }),
+    );
     this.object.frustumCulled = false;
   }
 

@@ -27,14 +27,33 @@ class Places {
   }
 }
 
-const kNeighbours = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]];
+// All (a, b, c) with components -1, 0, 1 of which `nonzero` are not 0.
+function directions(nonzero) {
+  const signs = [-1, 0, 1];
+  const all = signs.flatMap((a) => signs.flatMap((b) => signs.map((c) => [a, b, c])));
+  return all.filter((d) => d.filter((c) => c !== 0).length === nonzero);
+}
 
-// Per point the least share among its six neighbours; -1 at the surface of the body, where one is missing.
-export function leastAround(steps, shares) {
+// The points that a page of one point in `thinning` holds for the eroded solid (see ViewSelection in
+// client/view/view_points.h), and the steps to the nearest others of these.
+export function sublattice(thinning) {
+  const stride = 2 ** Math.floor(Math.log2(thinning) / 3);
+  const kind = thinning / stride ** 3; // 1 simple, 2 face-centred, 4 body-centred
+  const even = (a, b, c) =>
+    kind === 2 ? (a + b + c) % 2 === 0 : kind === 1 || (a % 2 === b % 2 && b % 2 === c % 2);
+  return {
+    holds: (i, j, k) =>
+      i % stride === 0 && j % stride === 0 && k % stride === 0 && even(i / stride, j / stride, k / stride),
+    neighbours: directions({ 1: 1, 2: 2, 4: 3 }[kind]).map((d) => d.map((c) => c * stride)),
+  };
+}
+
+// Per point the least share among its neighbours; -1 at the surface of the body, where one is missing.
+export function leastAround(steps, shares, neighbours) {
   const places = new Places(steps);
   return shares.map((_, p) => {
     let least = Infinity;
-    for (const [di, dj, dk] of kNeighbours) {
+    for (const [di, dj, dk] of neighbours) {
       const q = places.at(steps[3 * p] + di, steps[3 * p + 1] + dj, steps[3 * p + 2] + dk);
       least = Math.min(least, q < 0 ? -1 : shares[q]);
     }

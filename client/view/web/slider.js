@@ -29,7 +29,7 @@ export class Slider {
 
   put(value) {
     this.value = value;
-    this.field.value = String(Number(value.toPrecision(9)));
+    this.field.value = String(Number(value.toPrecision(5)));
     this.range.setAttribute('aria-valuetext', this.field.value);
   }
 

@@ -15,8 +15,8 @@ const kViews = {
 };
 
 export class Stage {
-  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels at the top and the bottom
-  // that a whole view keeps free.  `onFrame` runs before every frame.
+  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels at the top and the
+  // bottom that a whole view keeps free.  `onFrame` runs before every frame.
   constructor(canvas, { up, halfBox, inset, onFrame }) {
     this.canvas = canvas;
     this.inset = inset;
@@ -65,9 +65,17 @@ export class Stage {
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.right = clientWidth / clientHeight;
     this.camera.left = -this.camera.right;
-    if (this.camera.view) this.camera.setViewOffset(
-      clientWidth, clientHeight, 0, this.camera.view.offsetY, clientWidth, clientHeight);
-    if (this.view) this.show(this.view); // still as chosen: keep it in the window
+    if (this.camera.view)
+      this.camera.setViewOffset(
+        clientWidth,
+        clientHeight,
+        0,
+        this.camera.view.offsetY,
+        clientWidth,
+        clientHeight,
+      );
+    if (this.view)
+      this.show(this.view); // still as chosen: keep it in the window
     else this.requestFrame();
   }
 
@@ -114,7 +122,10 @@ export class Stage {
   }
 
   zoom(factor) {
-    this.camera.zoom = Math.min(this.controls.maxZoom, Math.max(this.controls.minZoom, this.camera.zoom * factor));
+    this.camera.zoom = Math.min(
+      this.controls.maxZoom,
+      Math.max(this.controls.minZoom, this.camera.zoom * factor),
+    );
     this.camera.updateProjectionMatrix();
     this.requestFrame();
   }

@@ -165,7 +165,7 @@ TEST(Page, NamesThatAreNoUtf8AreShownAsFarAsTheyAre) {
 TEST(Page, AsksForNothing) {
   const std::string page = view_page(sample_input());
   // The policy forbids it; no element tries.
-  EXPECT_NE(page.find("Content-Security-Policy\" content=\"default-src 'none'"), std::string::npos);
+  EXPECT_NE(page.find("Content-Security-Policy\"\n  content=\"default-src 'none'"), std::string::npos);
   std::string markup = page;
   const std::size_t script = markup.rfind("<script>");
   const std::size_t end = markup.rfind("</script>");
