@@ -60,27 +60,28 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-double pass_volumes(const HeightOrder& heights, const SectionBends& vertices, const Topology& topology,
-                    std::vector<Running>& running, JoinTree& tree) {
-  const std::vector<double>& height = heights.height();
+double pass_volumes(const SectionBends& bends, const Topology& topology, std::vector<Running>& running,
+                    JoinTree& tree) {
   double least_step = 0;
-  auto jump = vertices.jumps.begin();
-  for (std::uint32_t r = 0; r < height.size(); ++r) {
+  auto jump = bends.jumps.begin();
+  for (std::uint32_t r = 0; r < bends.vertices.size(); ++r) {
+    const SectionBends::Vertex& vertex = bends.vertices[r];
+    const double height = vertex.height;
     const std::uint32_t a = topology.vertex_arc[r];
     Running& state = running[a];
     const double before = state.volume.value();
     if (topology.start_rank[a] == r) {
-      state = {height[r], {}, {}, {}, {}};
+      state = {height, {}, {}, {}, {}};
       for (std::uint32_t i = topology.children_begin[a]; i < topology.children_begin[a + 1]; ++i) {
-        advance(running[topology.children[i]], height[r]);
+        advance(running[topology.children[i]], height);
         add(state, running[topology.children[i]]);
       }
     } else {
-      advance(state, height[r]);
+      advance(state, height);
     }
-    state.bend.add(vertices.bend[r]);
-    state.bend.add(vertices.plain_bend[r]);
-    for (; jump != vertices.jumps.end() && jump->rank == r; ++jump) {
+    if (vertex.exact) state.bend.add(bends.bend[r]);
+    state.bend.add(vertex.plain_bend);
+    for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
       state.volume.add(jump->volume);
       state.area.add(jump->area);
       state.slope.add(jump->slope);
@@ -88,8 +89,8 @@ double pass_volumes(const HeightOrder& heights, const SectionBends& vertices, co
     const double volume = state.volume.value();
     if (topology.start_rank[a] != r) least_step = std::min(least_step, volume - before);
     Arc& arc = tree.arcs[a];
-    if (topology.start_rank[a] != r && tree.pieces[arc.last_piece].height != height[r]) ++arc.last_piece;
-    tree.pieces[arc.last_piece] = {height[r], volume, state.area.value(), 0.5 * state.slope.value(),
+    if (topology.start_rank[a] != r && tree.pieces[arc.last_piece].height != height) ++arc.last_piece;
+    tree.pieces[arc.last_piece] = {height, volume, state.area.value(), 0.5 * state.slope.value(),
                                    state.bend.value() / 3};
   }
   return least_step;
@@ -115,14 +116,14 @@ class JoinTreeBuilder::Work {
     d_ = d;
     heights_.sort(d);
     reset();
-    find_section_bends(input_, heights_, d, vertex_);
+    find_section_bends(input_, heights_, d, bends_);
     find_arcs();
     lay_out_pieces();
     running_.resize(tree_.arcs.size());
-    tree_.least_step = pass_volumes(heights_, vertex_, topology_, running_, tree_);
+    tree_.least_step = pass_volumes(bends_, topology_, running_, tree_);
     fill_cells();
-    for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
-      tree_.triangle_arc[t] = topology_.vertex_arc[vertex_.lowest[t]];
+    for (std::size_t t = 0; t < bends_.lowest.size(); ++t) {
+      tree_.triangle_arc[t] = topology_.vertex_arc[bends_.lowest[t]];
     }
     if (options_.check_invariants) check();
     return tree_;
@@ -153,10 +154,11 @@ class JoinTreeBuilder::Work {
   void find_arcs() {
     for (std::uint32_t r = 0; r < heights_.order().size(); ++r) {
       std::uint32_t arc = 0;
-      if (vertex_.down[r] == kNone) {
+      const SectionBends::Vertex& vertex = bends_.vertices[r];
+      if (vertex.down == kNone) {
         arc = at_minimum(r);
-      } else if (vertex_.middles[r] <= 2) {
-        arc = arc_of(vertex_.down[r]);
+      } else if (vertex.middles <= 2) {
+        arc = arc_of(vertex.down);
       } else {
         arc = at_saddle(r);
       }
@@ -184,8 +186,8 @@ class JoinTreeBuilder::Work {
     const std::uint32_t v = heights_.order()[r];
     if (dot(input_.pseudonormal[v], d_) < 0) return new_arc(r, input_.vertex_solid[v]);
     const std::uint32_t below =
-        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return vertex_.lowest[t] < r; });
-    if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
+        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return bends_.lowest[t] < r; });
+    if (below != RayShooter::kNone) return arc_of(bends_.lowest[below]);
     if (options_.check_invariants) {
       throw CoreError(CoreError::Code::kInternal, "direction " + in_words(d_) +
                                                       ": no surface below the inner minimum at vertex " +
@@ -197,7 +199,7 @@ class JoinTreeBuilder::Work {
   std::uint32_t at_saddle(std::uint32_t r) {
     meeting_.clear();
     for (std::uint32_t t : input_.fan(heights_.order()[r])) {
-      if (vertex_.lowest[t] != r) meeting_.push_back(arc_of(vertex_.lowest[t]));
+      if (bends_.lowest[t] != r) meeting_.push_back(arc_of(bends_.lowest[t]));
     }
     std::sort(meeting_.begin(), meeting_.end());
     meeting_.erase(std::unique(meeting_.begin(), meeting_.end()), meeting_.end());
@@ -297,7 +299,7 @@ class JoinTreeBuilder::Work {
   JoinTreeOptions options_;
   Vec3 d_;
   HeightOrder heights_;
-  SectionBends vertex_;
+  SectionBends bends_;
   Topology topology_;
   std::vector<Running> running_;
   std::vector<std::uint32_t> meeting_;

@@ -30,53 +30,60 @@ inline Ranked sort3(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return {lo, a ^ b ^ c ^ lo ^ hi, hi};
 }
 
+inline DoubleSum& exact_bend(SectionBends& out, std::uint32_t rank) {
+  if (!out.vertices[rank].exact) out.bend[rank] = {};
+  out.vertices[rank].exact = true;
+  return out.bend[rank];
+}
+
 inline void add_level_triangle(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
   out.jumps.push_back({r.hi, p * (c - (a + b + c) / 3), p, {}});
 }
 
 inline void add_level_low_edge(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
   const DoubleSum bend = quotient(p, c - b, c - b);
-  out.bend[r.mid].add(-bend.hi, -bend.lo);
-  out.bend[r.hi].add(bend);
+  exact_bend(out, r.mid).add(-bend.hi, -bend.lo);
+  exact_bend(out, r.hi).add(bend);
   out.jumps.push_back({r.mid, p * (b - a) / 3, 0, times(bend, 2 * (c - b))});
 }
 
 inline void add_level_high_edge(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
   const DoubleSum bend = quotient(p, b - a, b - a);
-  out.bend[r.lo].add(bend);
-  out.bend[r.mid].add(-bend.hi, -bend.lo);
+  exact_bend(out, r.lo).add(bend);
+  exact_bend(out, r.mid).add(-bend.hi, -bend.lo);
   out.jumps.push_back({r.mid, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
 }
 
 __attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c,
                                                        double p, SectionBends& out) {
   const DoubleSum start = quotient(p, b - a, c - a), end = quotient(p, c - b, c - a);
-  out.bend[r.lo].add(start);
-  out.bend[r.mid].add(-start.hi, -start.lo);
-  out.bend[r.mid].add(-end.hi, -end.lo);
-  out.bend[r.hi].add(end);
+  exact_bend(out, r.lo).add(start);
+  exact_bend(out, r.mid).add(-start.hi, -start.lo);
+  exact_bend(out, r.mid).add(-end.hi, -end.lo);
+  exact_bend(out, r.hi).add(end);
 }
 
 void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
                     SectionBends& out) {
   const std::vector<Triangle>& triangles = input.solid.mesh.triangles;
   const std::uint32_t* rank = heights.rank().data();
-  const double* height = heights.height().data();
+  SectionBends::Vertex* vertex = out.vertices.data();
   const double plain = kPlainBend * input.volume;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Ranked r = sort3(rank[triangles[t][0]], rank[triangles[t][1]], rank[triangles[t][2]]);
+    SectionBends::Vertex &lo = vertex[r.lo], &mid = vertex[r.mid], &hi = vertex[r.hi];
     out.lowest[t] = r.lo;
-    out.down[r.mid] = r.lo;
-    out.down[r.hi] = r.lo;
-    out.middles[r.mid] = static_cast<std::uint8_t>(std::min(out.middles[r.mid] + 1, 254));
-    const double a = height[r.lo], b = height[r.mid], c = height[r.hi];
+    mid.down = r.lo;
+    hi.down = r.lo;
+    mid.middles = static_cast<std::uint8_t>(std::min(mid.middles + 1, 3));
+    const double a = lo.height, b = mid.height, c = hi.height;
     const double p = -dot(d, input.area_vector[t]);
     const double ba = b - a, cb = c - b, ca = c - a;
     const double start = p / (ba * ca), end = p / (cb * ca);
     if (std::abs(start) <= plain && std::abs(end) <= plain && ba > kLevel && cb > kLevel) {
-      out.plain_bend[r.lo] += start;
-      out.plain_bend[r.mid] -= start + end;
-      out.plain_bend[r.hi] += end;
+      lo.plain_bend += start;
+      mid.plain_bend -= start + end;
+      hi.plain_bend += end;
     } else if (ca <= kLevel || (ba <= kLevel && cb <= kLevel)) {
       add_level_triangle(r, a, b, c, p, out);
     } else if (ba <= kLevel) {
@@ -93,11 +100,12 @@ void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, co
 
 void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
                         SectionBends& out) {
-  const std::size_t vertices = heights.order().size();
-  out.bend.assign(vertices, {});
-  out.plain_bend.assign(vertices, 0);
-  out.down.assign(vertices, SectionBends::kNone);
-  out.middles.assign(vertices, 0);
+  const std::vector<double>& height = heights.height();
+  out.bend.resize(height.size());
+  out.vertices.resize(height.size());
+  for (std::size_t r = 0; r < height.size(); ++r) {
+    out.vertices[r] = {height[r], 0, SectionBends::kNone, 0, false};
+  }
   out.lowest.resize(input.solid.mesh.triangles.size());
   out.jumps.clear();
   pass_triangles(input, heights, d, out);
