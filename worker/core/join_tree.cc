@@ -79,7 +79,7 @@ double pass_volumes(const SectionBends& bends, const Topology& topology, std::ve
     } else {
       advance(state, height);
     }
-    if (vertex.exact) state.bend.add(bends.bend[r]);
+    state.bend.add(bends.bend[r]);
     state.bend.add(vertex.plain_bend);
     for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
       state.volume.add(jump->volume);

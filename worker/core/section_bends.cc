@@ -30,37 +30,31 @@ inline Ranked sort3(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return {lo, a ^ b ^ c ^ lo ^ hi, hi};
 }
 
-inline DoubleSum& exact_bend(SectionBends& out, std::uint32_t rank) {
-  if (!out.vertices[rank].exact) out.bend[rank] = {};
-  out.vertices[rank].exact = true;
-  return out.bend[rank];
-}
-
 inline void add_level_triangle(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
   out.jumps.push_back({r.hi, p * (c - (a + b + c) / 3), p, {}});
 }
 
 inline void add_level_low_edge(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
   const DoubleSum bend = quotient(p, c - b, c - b);
-  exact_bend(out, r.mid).add(-bend.hi, -bend.lo);
-  exact_bend(out, r.hi).add(bend);
+  out.bend[r.mid].add(-bend.hi, -bend.lo);
+  out.bend[r.hi].add(bend);
   out.jumps.push_back({r.mid, p * (b - a) / 3, 0, times(bend, 2 * (c - b))});
 }
 
 inline void add_level_high_edge(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
   const DoubleSum bend = quotient(p, b - a, b - a);
-  exact_bend(out, r.lo).add(bend);
-  exact_bend(out, r.mid).add(-bend.hi, -bend.lo);
+  out.bend[r.lo].add(bend);
+  out.bend[r.mid].add(-bend.hi, -bend.lo);
   out.jumps.push_back({r.mid, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
 }
 
 __attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c,
                                                        double p, SectionBends& out) {
   const DoubleSum start = quotient(p, b - a, c - a), end = quotient(p, c - b, c - a);
-  exact_bend(out, r.lo).add(start);
-  exact_bend(out, r.mid).add(-start.hi, -start.lo);
-  exact_bend(out, r.mid).add(-end.hi, -end.lo);
-  exact_bend(out, r.hi).add(end);
+  out.bend[r.lo].add(start);
+  out.bend[r.mid].add(-start.hi, -start.lo);
+  out.bend[r.mid].add(-end.hi, -end.lo);
+  out.bend[r.hi].add(end);
 }
 
 void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
@@ -75,7 +69,7 @@ void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, co
     out.lowest[t] = r.lo;
     mid.down = r.lo;
     hi.down = r.lo;
-    mid.middles = static_cast<std::uint8_t>(std::min(mid.middles + 1, 3));
+    ++mid.middles;
     const double a = lo.height, b = mid.height, c = hi.height;
     const double p = -dot(d, input.area_vector[t]);
     const double ba = b - a, cb = c - b, ca = c - a;
@@ -101,10 +95,10 @@ void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, co
 void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
                         SectionBends& out) {
   const std::vector<double>& height = heights.height();
-  out.bend.resize(height.size());
+  out.bend.assign(height.size(), {});
   out.vertices.resize(height.size());
   for (std::size_t r = 0; r < height.size(); ++r) {
-    out.vertices[r] = {height[r], 0, SectionBends::kNone, 0, false};
+    out.vertices[r] = {height[r], 0, SectionBends::kNone, 0};
   }
   out.lowest.resize(input.solid.mesh.triangles.size());
   out.jumps.clear();

@@ -26,13 +26,11 @@ struct SectionBends {
     double height = 0;
     double plain_bend = 0;       ///< change of A'' / 2, the moderate part
     std::uint32_t down = kNone;  ///< rank of some lower neighbour, kNone at a minimum
-    std::uint8_t middles =
-        0;               ///< triangles it is the middle corner of, 3 for more: 2 per lower link component
-    bool exact = false;  ///< whether there is more in `bend`
+    std::uint32_t middles = 0;   ///< triangles it is the middle corner of: 2 per lower link component
   };
 
   std::vector<Vertex> vertices;       ///< by rank
-  std::vector<DoubleSum> bend;        ///< by rank, where `exact`: huge parts would swallow moderate ones
+  std::vector<DoubleSum> bend;        ///< by rank: the rest; huge parts would swallow moderate ones
   std::vector<std::uint32_t> lowest;  ///< per triangle: rank of its lowest corner
   std::vector<Jump> jumps;            ///< by rank
 };
