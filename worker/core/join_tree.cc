@@ -116,14 +116,14 @@ class JoinTreeBuilder::Work {
     d_ = d;
     heights_.sort(d);
     reset();
-    find_section_bends(input_, heights_, d, bends_);
+    find_section_bends(input_, heights_, d, vertex_);
     find_arcs();
     lay_out_pieces();
     running_.resize(tree_.arcs.size());
-    tree_.least_step = pass_volumes(bends_, topology_, running_, tree_);
+    tree_.least_step = pass_volumes(vertex_, topology_, running_, tree_);
     fill_cells();
-    for (std::size_t t = 0; t < bends_.lowest.size(); ++t) {
-      tree_.triangle_arc[t] = topology_.vertex_arc[bends_.lowest[t]];
+    for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
+      tree_.triangle_arc[t] = topology_.vertex_arc[vertex_.lowest[t]];
     }
     if (options_.check_invariants) check();
     return tree_;
@@ -154,11 +154,10 @@ class JoinTreeBuilder::Work {
   void find_arcs() {
     for (std::uint32_t r = 0; r < heights_.order().size(); ++r) {
       std::uint32_t arc = 0;
-      const SectionBends::Vertex& vertex = bends_.vertices[r];
-      if (vertex.down == kNone) {
+      if (vertex_.vertices[r].down == kNone) {
         arc = at_minimum(r);
-      } else if (vertex.middles <= 2) {
-        arc = arc_of(vertex.down);
+      } else if (vertex_.vertices[r].middles <= 2) {
+        arc = arc_of(vertex_.vertices[r].down);
       } else {
         arc = at_saddle(r);
       }
@@ -186,8 +185,8 @@ class JoinTreeBuilder::Work {
     const std::uint32_t v = heights_.order()[r];
     if (dot(input_.pseudonormal[v], d_) < 0) return new_arc(r, input_.vertex_solid[v]);
     const std::uint32_t below =
-        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return bends_.lowest[t] < r; });
-    if (below != RayShooter::kNone) return arc_of(bends_.lowest[below]);
+        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return vertex_.lowest[t] < r; });
+    if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
     if (options_.check_invariants) {
       throw CoreError(CoreError::Code::kInternal, "direction " + in_words(d_) +
                                                       ": no surface below the inner minimum at vertex " +
@@ -199,7 +198,7 @@ class JoinTreeBuilder::Work {
   std::uint32_t at_saddle(std::uint32_t r) {
     meeting_.clear();
     for (std::uint32_t t : input_.fan(heights_.order()[r])) {
-      if (bends_.lowest[t] != r) meeting_.push_back(arc_of(bends_.lowest[t]));
+      if (vertex_.lowest[t] != r) meeting_.push_back(arc_of(vertex_.lowest[t]));
     }
     std::sort(meeting_.begin(), meeting_.end());
     meeting_.erase(std::unique(meeting_.begin(), meeting_.end()), meeting_.end());
@@ -299,7 +298,7 @@ class JoinTreeBuilder::Work {
   JoinTreeOptions options_;
   Vec3 d_;
   HeightOrder heights_;
-  SectionBends bends_;
+  SectionBends vertex_;
   Topology topology_;
   std::vector<Running> running_;
   std::vector<std::uint32_t> meeting_;
