@@ -27,10 +27,12 @@ HeightOrder::HeightOrder(const std::vector<Vec3>& points)
   x_.reserve(points.size());
   y_.reserve(points.size());
   z_.reserve(points.size());
+  tilt_.reserve(points.size());
   for (const Vec3& p : points) {
     x_.push_back(p.x);
     y_.push_back(p.y);
     z_.push_back(p.z);
+    tilt_.push_back((kTilt.x * p.x + kTilt.y * p.y) + kTilt.z * p.z);
   }
 }
 
@@ -65,9 +67,7 @@ void HeightOrder::compute_keys(const Vec3& d) {
 
 bool HeightOrder::below(std::uint32_t a, std::uint32_t b) const {
   if (rounded_[a] != rounded_[b]) return rounded_[a] < rounded_[b];
-  const double s = (kTilt.x * x_[a] + kTilt.y * y_[a]) + kTilt.z * z_[a];
-  const double t = (kTilt.x * x_[b] + kTilt.y * y_[b]) + kTilt.z * z_[b];
-  return s != t ? s < t : a < b;
+  return tilt_[a] != tilt_[b] ? tilt_[a] < tilt_[b] : a < b;
 }
 
 void HeightOrder::sort_entries() {

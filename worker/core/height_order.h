@@ -39,6 +39,7 @@ class HeightOrder {
   bool below(std::uint32_t a, std::uint32_t b) const;
 
   std::vector<double> x_, y_, z_;
+  std::vector<double> tilt_;             // by vertex: height along the tilt
   std::vector<double> rounded_;          // by vertex
   std::vector<Entry> entries_, buffer_;  // key: height scaled to 32 bits
   std::vector<std::uint32_t> order_, rank_;

@@ -64,27 +64,28 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-double pass_volumes(const HeightOrder& heights, const SectionBends& vertices, const Topology& topology,
-                    std::vector<Running>& running, JoinTree& tree) {
-  const std::vector<double>& height = heights.height();
+double pass_volumes(const SectionBends& bends, const Topology& topology, std::vector<Running>& running,
+                    JoinTree& tree) {
   double least_step = 0;
-  auto jump = vertices.jumps.begin();
-  for (std::uint32_t r = 0; r < height.size(); ++r) {
+  auto jump = bends.jumps.begin();
+  for (std::uint32_t r = 0; r < bends.vertices.size(); ++r) {
+    const SectionBends::Vertex& vertex = bends.vertices[r];
+    const double height = vertex.height;
     const std::uint32_t a = topology.vertex_arc[r];
     Running& state = running[a];
     const double before = state.volume.value();
     if (topology.start_rank[a] == r) {
-      state = {height[r], {}, {}, {}, {}};
+      state = {height, {}, {}, {}, {}};
       for (std::uint32_t i = topology.children_begin[a]; i < topology.children_begin[a + 1]; ++i) {
-        advance(running[topology.children[i]], height[r]);
+        advance(running[topology.children[i]], height);
         add(state, running[topology.children[i]]);
       }
     } else {
-      advance(state, height[r]);
+      advance(state, height);
     }
-    state.bend.add(vertices.bend[r]);
-    state.bend.add(vertices.plain_bend[r]);
-    for (; jump != vertices.jumps.end() && jump->rank == r; ++jump) {
+    state.bend.add(bends.bend[r]);
+    state.bend.add(vertex.plain_bend);
+    for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
       state.volume.add(jump->volume);
       state.area.add(jump->area);
       state.slope.add(jump->slope);
@@ -92,8 +93,8 @@ double pass_volumes(const HeightOrder& heights, const SectionBends& vertices, co
     const double volume = state.volume.value();
     if (topology.start_rank[a] != r) least_step = std::min(least_step, volume - before);
     Arc& arc = tree.arcs[a];
-    if (topology.start_rank[a] != r && tree.pieces[arc.last_piece].height != height[r]) ++arc.last_piece;
-    tree.pieces[arc.last_piece] = {height[r], volume, state.area.value(), 0.5 * state.slope.value(),
+    if (topology.start_rank[a] != r && tree.pieces[arc.last_piece].height != height) ++arc.last_piece;
+    tree.pieces[arc.last_piece] = {height, volume, state.area.value(), 0.5 * state.slope.value(),
                                    state.bend.value() / 3};
   }
   return least_step;
@@ -123,7 +124,7 @@ class JoinTreeBuilder::Work {
     find_arcs();
     lay_out_pieces();
     running_.resize(tree_.arcs.size());
-    tree_.least_step = pass_volumes(heights_, vertex_, topology_, running_, tree_);
+    tree_.least_step = pass_volumes(vertex_, topology_, running_, tree_);
     fill_cells();
     for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
       tree_.triangle_arc[t] = topology_.vertex_arc[vertex_.lowest[t]];
@@ -159,10 +160,10 @@ class JoinTreeBuilder::Work {
       std::uint32_t arc = 0;
       if (!input_.crossing(heights_.order()[r]).empty()) {
         arc = at_crossing(r);
-      } else if (vertex_.down[r] == kNone) {
+      } else if (vertex_.vertices[r].down == kNone) {
         arc = at_minimum(r);
-      } else if (vertex_.middles[r] <= 2) {
-        arc = arc_of(vertex_.down[r]);
+      } else if (vertex_.vertices[r].middles <= 2) {
+        arc = arc_of(vertex_.vertices[r].down);
       } else {
         arc = at_saddle(r);
       }

@@ -61,22 +61,23 @@ void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, co
                     SectionBends& out) {
   const std::vector<Triangle>& triangles = input.solid.mesh.triangles;
   const std::uint32_t* rank = heights.rank().data();
-  const double* height = heights.height().data();
+  SectionBends::Vertex* vertex = out.vertices.data();
   const double plain = kPlainBend * input.volume;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Ranked r = sort3(rank[triangles[t][0]], rank[triangles[t][1]], rank[triangles[t][2]]);
+    SectionBends::Vertex &lo = vertex[r.lo], &mid = vertex[r.mid], &hi = vertex[r.hi];
     out.lowest[t] = r.lo;
-    out.down[r.mid] = r.lo;
-    out.down[r.hi] = r.lo;
-    out.middles[r.mid] = static_cast<std::uint8_t>(std::min(out.middles[r.mid] + 1, 254));
-    const double a = height[r.lo], b = height[r.mid], c = height[r.hi];
+    mid.down = r.lo;
+    hi.down = r.lo;
+    ++mid.middles;
+    const double a = lo.height, b = mid.height, c = hi.height;
     const double p = -dot(d, input.area_vector[t]);
     const double ba = b - a, cb = c - b, ca = c - a;
     const double start = p / (ba * ca), end = p / (cb * ca);
     if (std::abs(start) <= plain && std::abs(end) <= plain && ba > kLevel && cb > kLevel) {
-      out.plain_bend[r.lo] += start;
-      out.plain_bend[r.mid] -= start + end;
-      out.plain_bend[r.hi] += end;
+      lo.plain_bend += start;
+      mid.plain_bend -= start + end;
+      hi.plain_bend += end;
     } else if (ca <= kLevel || (ba <= kLevel && cb <= kLevel)) {
       add_level_triangle(r, a, b, c, p, out);
     } else if (ba <= kLevel) {
@@ -93,11 +94,12 @@ void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, co
 
 void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
                         SectionBends& out) {
-  const std::size_t vertices = heights.order().size();
-  out.bend.assign(vertices, {});
-  out.plain_bend.assign(vertices, 0);
-  out.down.assign(vertices, SectionBends::kNone);
-  out.middles.assign(vertices, 0);
+  const std::vector<double>& height = heights.height();
+  out.bend.assign(height.size(), {});
+  out.vertices.resize(height.size());
+  for (std::size_t r = 0; r < height.size(); ++r) {
+    out.vertices[r] = {height[r], 0, SectionBends::kNone, 0};
+  }
   out.lowest.resize(input.solid.mesh.triangles.size());
   out.jumps.clear();
   pass_triangles(input, heights, d, out);

@@ -17,16 +17,22 @@ struct Jump {
   DoubleSum slope;
 };
 
-/// What one pass over the triangles leaves per vertex, by rank, for the sweep over the vertices.
+/// What one pass over the triangles leaves for the sweep over the vertices.
 struct SectionBends {
-  std::vector<double> plain_bend;     ///< change of A'' / 2, the moderate part
-  std::vector<DoubleSum> bend;        ///< and the rest: huge parts would swallow moderate ones added to them
-  std::vector<std::uint32_t> down;    ///< rank of some lower neighbour, kNone at a minimum
-  std::vector<std::uint8_t> middles;  ///< triangles it is the middle corner of: 2 per lower link component
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+  /// In one piece, for triangles meet their vertices in any order: each is one access to memory.
+  struct Vertex {
+    double height = 0;
+    double plain_bend = 0;       ///< change of A'' / 2, the moderate part
+    std::uint32_t down = kNone;  ///< rank of some lower neighbour, kNone at a minimum
+    std::uint32_t middles = 0;   ///< triangles it is the middle corner of: 2 per lower link component
+  };
+
+  std::vector<Vertex> vertices;       ///< by rank
+  std::vector<DoubleSum> bend;        ///< by rank: the rest; huge parts would swallow moderate ones
   std::vector<std::uint32_t> lowest;  ///< per triangle: rank of its lowest corner
   std::vector<Jump> jumps;            ///< by rank
-
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 };
 
 /// Fills `out`, whose memory is reused, for unit vector d and the order of heights along it.  O(N), and

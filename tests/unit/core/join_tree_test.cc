@@ -173,6 +173,33 @@ TEST(JoinTree, AreaIsTheDerivativeOfVolume) {
   }
 }
 
+// What pruning relies on: the look-up is a lower bound everywhere, and a close one (small trees have several
+// cells to a piece, large ones one).
+TEST(JoinTree, LooksUpALowerBoundOfTheVolume) {
+  for (std::uint32_t triangles : {128U, 5000U}) {
+    const Solid solid = make_solid(make_torus(3, 1, triangles));
+    const TreeInput input(solid);
+    JoinTreeBuilder builder(input);
+    const double tolerance = 2 * input.volume_tolerance();
+    for (const Vec3& d : make_directions(solid, "random:20:2")) {
+      const JoinTree& tree = builder.build(d);
+      for (const Arc& arc : tree.arcs) {
+        const double bottom = tree.pieces[arc.first_piece].height, top = tree.pieces[arc.last_piece].height;
+        // In a cell V grows by at most its height times the largest section, here less than the bounding
+        // box's.
+        const double growth =
+            arc.last_piece > arc.first_piece ? (top - bottom) / (arc.last_piece - arc.first_piece) * 1.1 : 0;
+        for (int i = 0; i <= 200; ++i) {
+          const double h = bottom + (top - bottom) * (i / 200.0);
+          const double volume = tree.locate(arc, h).volume_at(h), bound = tree.volume_below(arc, h);
+          ASSERT_LE(bound, volume + tolerance);
+          ASSERT_GE(bound, volume - growth - tolerance);
+        }
+      }
+    }
+  }
+}
+
 TEST(JoinTree, CountsMinimaOfAComb) {
   const Solid solid = make_solid(comb(5));
   const TreeInput input(solid);
