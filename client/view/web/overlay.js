@@ -5,27 +5,34 @@ import { rounded, roundLength } from './numbers.js';
 
 const kCrossRadius = 23; // of the 72 wide drawing
 const kLetterGap = 8;
+const kLetterWidth = 10;
+const kShortest = 0.2;
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
 export function drawCross(svg, camera) {
   camera.updateMatrixWorld();
-  for (const [axis, direction] of [
-    ['x', [1, 0, 0]],
-    ['y', [0, 1, 0]],
-    ['z', [0, 0, 1]],
-  ]) {
+  const axes = Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }).map(([name, direction]) => {
     const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
-    const line = svg.querySelector(`line.${axis}`);
-    const label = svg.querySelector(`text.${axis}`);
-    line.setAttribute('x2', kCrossRadius * at.x);
-    line.setAttribute('y2', -kCrossRadius * at.y);
     const length = Math.hypot(at.x, at.y);
-    const reach = kCrossRadius + kLetterGap / Math.max(length, 0.2);
-    label.setAttribute('x', reach * at.x);
-    label.setAttribute('y', -reach * at.y);
-    // An axis that points at the viewer has no place for its letter.
-    label.style.opacity = length < 0.2 ? 0 : 1;
-  }
+    const reach = kCrossRadius + kLetterGap / Math.max(length, kShortest);
+    return {
+      name,
+      length,
+      end: [kCrossRadius * at.x, -kCrossRadius * at.y],
+      letter: [reach * at.x, -reach * at.y],
+    };
+  });
+  axes.sort((a, b) => b.length - a.length);
+  axes.forEach(({ name, length, end, letter }, place) => {
+    const line = svg.querySelector(`line.${name}`);
+    const label = svg.querySelector(`text.${name}`);
+    ['x2', 'y2'].forEach((attribute, c) => line.setAttribute(attribute, end[c]));
+    ['x', 'y'].forEach((attribute, c) => label.setAttribute(attribute, letter[c]));
+    // An axis that points at the viewer has no place for its letter, nor one that lies along a longer one.
+    const near = (other) =>
+      Math.hypot(letter[0] - other.letter[0], letter[1] - other.letter[1]) < kLetterWidth;
+    label.style.opacity = length < kShortest || axes.slice(0, place).some(near) ? 0 : 1;
+  });
 }
 
 // unitPixels: screen pixels per mesh unit.
