@@ -15,10 +15,10 @@ as_root() {
   fi
 }
 
-# install_packages: what deploy/packages.txt lists and is not there yet.
+# install_packages LIST...: what these files of this folder list and is not there yet.
 install_packages() {
   local wanted missing=() package
-  wanted=$(sed -e 's/#.*//' "$project_dir/deploy/packages.txt")
+  wanted=$(cd "$project_dir/deploy" && sed -e 's/#.*//' "$@")
   for package in $wanted; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
   done

@@ -11,7 +11,7 @@
 #include "client/input_file.h"
 #include "client/job_json.h"
 #include "client/view/page.h"
-#include "wire/params.h"
+#include "core/shock_operator.h"
 
 namespace affskel::client {
 namespace {
@@ -58,10 +58,14 @@ v1::Job finished_job(Context& context, const std::string& name) {
                                              " of " + std::to_string(job.directions_total()) + " directions");
 }
 
-// The threshold that the operator has by itself.
-double default_threshold(v1::Operator which, double spacing) {
-  const bool difference = which == v1::OPERATOR_INTERMEDIATE || which == v1::OPERATOR_CENTRAL;
-  return difference ? 1 / spacing : wire::kZuckerHummelThreshold;
+// The threshold that the operator has by itself; a page of chords begins with the whole sheet.
+double default_threshold(const std::string& operator_name, double spacing) {
+  using core::ShockOperator;
+  for (const ShockOperator which :
+       {ShockOperator::kIntermediate, ShockOperator::kCentral, ShockOperator::kSobel, ShockOperator::kFlux}) {
+    if (operator_name == core::name_of(which)) return core::default_threshold(which, spacing);
+  }
+  return core::default_threshold(ShockOperator::kZuckerHummel, spacing);
 }
 
 std::vector<float> fetch_divergences(Context& context, const std::string& job,
@@ -117,7 +121,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
   input.sheet_is_skeleton = params.operator_() == v1::OPERATOR_CHORDS;
   const double spacing = job.prepared().spacing();
   input.threshold =
-      params.threshold() > 0 ? params.threshold() : default_threshold(params.operator_(), spacing);
+      params.threshold() > 0 ? params.threshold() : default_threshold(input.operator_name, spacing);
   const LatticePoints lattice(
       fetch_message<v1::Lattice>(context, job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
   std::vector<float> divergences;
