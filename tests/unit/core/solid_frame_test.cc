@@ -138,8 +138,7 @@ TEST(SolidFrame, AffineGoesAlongWithEveryMapOfDeterminantOne) {
   }
 }
 
-TEST(SolidFrame, AffineMakesSecondMomentsEqual) {
-  const Solid solid = make_solid(crooked());
+void expect_normal_form(const Solid& solid) {
   const Matrix3 back = inverse_transposed(solid_frame(solid, FrameKind::kAffine));
   Mesh whitened = solid.mesh;
   for (Vec3& p : whitened.points) p = transposed_times(back, p);
@@ -157,6 +156,13 @@ TEST(SolidFrame, AffineMakesSecondMomentsEqual) {
   for (const Vec3& axis : kIdentity3) {
     EXPECT_GT(third_moment(whitened, moments.volume, moments.centroid, axis), 0);
   }
+}
+
+TEST(SolidFrame, AffineMakesSecondMomentsEqual) {
+  expect_normal_form(make_solid(crooked()));
+  // If one of the two has axes in right-handed order, the other has not.
+  const Matrix3 mirror = {Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  expect_normal_form(make_solid(reversed(mapped(crooked(), mirror))));
 }
 
 // The mean of |w|^2 w w^T does not see the edges of a box, but the kurtosis does.  To within order and sign,
