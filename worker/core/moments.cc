@@ -1,8 +1,10 @@
 // Notation.  A tetrahedron has the corners 0, p, q, r (the point that all share is moved to 0), the volume
-// V = p.(q x r) / 6, s = p + q + r and G = p p^T + q q^T + r r^T.  The mean of a product of linear forms over
+// V = p.(q x r) / 6 and s = p + q + r.  The mean of a product of linear forms over
 // a simplex is a sum over the permutations of the factors: 3! / (n + 3)! times the sum over all permutations
 // of n of the product over its cycles of the sum over the corners of the cycle's factors' product.
 #include "core/moments.h"
+
+#include <algorithm>
 
 #include "core/double_sum.h"
 
@@ -47,29 +49,41 @@ Vec3 middle(const Mesh& mesh) {
   return mesh.points.empty() ? sum : (1 / static_cast<double>(mesh.points.size())) * sum;
 }
 
-// The sum over all 24 permutations of the four factors w, w, w, w^T of |w|^2 w w^T, times `factor`.
-void add_fourth(Symmetric& sum, double factor, const Corners& c) {
-  const std::array<Vec3, 3> corners = {c.p, c.q, c.r};
-  const Vec3 s = c.p + c.q + c.r;
-  const double ss = dot(s, s);
-  double trace = 0;
-  Vec3 gs, cubes;  // G s and the sum of |v|^2 v
-  for (const Vec3& v : corners) {
-    const double vv = dot(v, v);
-    trace += vv;
-    gs = gs + dot(v, s) * v;
-    cubes = cubes + vv * v;
-  }
-  add_scaled(sum, factor * (ss + trace), s, s);
-  add_scaled(sum, 2 * factor, gs, s);
-  add_scaled(sum, 2 * factor, s, gs);
-  add_scaled(sum, 2 * factor, cubes, s);
-  add_scaled(sum, 2 * factor, s, cubes);
-  for (const Vec3& v : corners) {
-    // (|s|^2 + tr G + 4 v.s + 6 |v|^2) v v^T, and 2 G G as 2 v (v.w) w^T.
-    add_scaled(sum, factor * (ss + trace + 4 * dot(v, s) + 6 * dot(v, v)), v, v);
-    for (const Vec3& w : corners) add_scaled(sum, 2 * factor * dot(v, w), v, w);
-  }
+// The 15 different products of four coordinates.
+constexpr std::array<std::array<int, 4>, 15> kProducts = {{{0, 0, 0, 0},
+                                                           {0, 0, 0, 1},
+                                                           {0, 0, 0, 2},
+                                                           {0, 0, 1, 1},
+                                                           {0, 0, 1, 2},
+                                                           {0, 0, 2, 2},
+                                                           {0, 1, 1, 1},
+                                                           {0, 1, 1, 2},
+                                                           {0, 1, 2, 2},
+                                                           {0, 2, 2, 2},
+                                                           {1, 1, 1, 1},
+                                                           {1, 1, 1, 2},
+                                                           {1, 1, 2, 2},
+                                                           {1, 2, 2, 2},
+                                                           {2, 2, 2, 2}}};
+
+// The sum over all 24 permutations of the four factors w_i, w_j, w_k, w_l: by the lengths of their cycles
+// 1+1+1+1, 2+1+1 (six ways), 2+2 (three), 3+1 (four, each in two senses) and 4 (six senses).
+double permutation_sum(const Corners& t, const std::array<int, 4>& product) {
+  const auto [i, j, k, l] = product;
+  const Vec3 &p = t.p, &q = t.q, &r = t.r, s = p + q + r;
+  const auto pair = [&](int a, int b) { return p[a] * p[b] + q[a] * q[b] + r[a] * r[b]; };
+  const auto triple = [&](int a, int b, int c) {
+    return p[a] * p[b] * p[c] + q[a] * q[b] * q[c] + r[a] * r[b] * r[c];
+  };
+  const double ij = pair(i, j), ik = pair(i, k), il = pair(i, l), jk = pair(j, k), jl = pair(j, l),
+               kl = pair(k, l);
+  const double ones = s[i] * s[j] * s[k] * s[l];
+  const double twos = ij * s[k] * s[l] + ik * s[j] * s[l] + il * s[j] * s[k] + jk * s[i] * s[l] +
+                      jl * s[i] * s[k] + kl * s[i] * s[j];
+  const double threes =
+      triple(i, j, k) * s[l] + triple(i, j, l) * s[k] + triple(i, k, l) * s[j] + triple(j, k, l) * s[i];
+  const double four = p[i] * p[j] * p[k] * p[l] + q[i] * q[j] * q[k] * q[l] + r[i] * r[j] * r[k] * r[l];
+  return ones + twos + (ij * kl + ik * jl + il * jk) + 2 * threes + 6 * four;
 }
 
 }  // namespace
@@ -110,12 +124,28 @@ double third_moment(const Mesh& mesh, double volume, const Vec3& centre, const V
   return sum.value() / (120 * volume);
 }
 
-Matrix3 fourth_moment(const Mesh& mesh, double volume, const Vec3& centre, const Matrix3& map) {
-  Symmetric sum;
+FourthMoments fourth_moments(const Mesh& mesh, double volume, const Vec3& centre, const Matrix3& map) {
+  std::array<DoubleSum, kProducts.size()> sum{};
   for_each_tetrahedron(mesh, centre, [&](const Corners& c) {
-    add_fourth(sum, c.six_volumes(), {map * c.p, map * c.q, map * c.r});
+    const double six = c.six_volumes();
+    const Corners mapped{map * c.p, map * c.q, map * c.r};
+    for (std::size_t n = 0; n < sum.size(); ++n) sum[n].add(six * permutation_sum(mapped, kProducts[n]));
   });
-  return matrix(sum, 6 * 840 * volume);
+  const auto value = [&](std::array<int, 4> product) {
+    std::sort(product.begin(), product.end());
+    const auto at = std::find(kProducts.begin(), kProducts.end(), product) - kProducts.begin();
+    return sum[static_cast<std::size_t>(at)].value() / (6 * 840 * volume);
+  };
+  FourthMoments result{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      Matrix3& m = result[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      for (int k = 0; k < 3; ++k) {
+        m[static_cast<std::size_t>(k)] = {value({i, j, k, 0}), value({i, j, k, 1}), value({i, j, k, 2})};
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace affskel::core

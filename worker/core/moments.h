@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/matrix3.h"
 #include "core/mesh.h"
 
@@ -23,8 +25,10 @@ Moments solid_moments(const Mesh& mesh);
 /// E[(axis . (x - centre))^3]; `volume` as found by solid_moments.
 double third_moment(const Mesh& mesh, double volume, const Vec3& centre, const Vec3& axis);
 
-/// E[|w|^2 w w^T], w = map (x - centre): the contraction of the fourth moments whose eigenvectors turn with
-/// w (Cardoso 1989).
-Matrix3 fourth_moment(const Mesh& mesh, double volume, const Vec3& centre, const Matrix3& map);
+/// m[i][j][k][l] = E[w_i w_j w_k w_l]: the same for every order of the indices.
+using FourthMoments = std::array<std::array<Matrix3, 3>, 3>;
+
+/// Those of w = map (x - centre); `volume` as found by solid_moments.
+FourthMoments fourth_moments(const Mesh& mesh, double volume, const Vec3& centre, const Matrix3& map);
 
 }  // namespace affskel::core

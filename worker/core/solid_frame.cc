@@ -6,8 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "core/axis_choice.h"
 #include "core/cube_root.h"
 #include "core/error.h"
+#include "core/independent_axes.h"
 #include "core/least_box.h"
 #include "core/moments.h"
 #include "core/symmetric_eigen.h"
@@ -15,34 +17,16 @@
 namespace affskel::core {
 namespace {
 
-// Of the largest: what counts as equal, or as 0.
-constexpr double kTie = 1e-6;
-
-Vec3 unit(const Vec3& v) {
-  return (1 / norm(v)) * v;
-}
-
-// Orthonormal axes with what they are ordered by, descending.
+// Orthonormal axes with what they are ordered by.
 struct OrderedAxes {
   std::array<double, 3> size{};
   Matrix3 axes{};
 };
 
-// The axes of the plane across `normal`: the nearest coordinate axis first.
-std::array<Vec3, 2> plane_axes(const Vec3& normal) {
-  const std::array<double, 3> away = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-  const double least = *std::min_element(away.begin(), away.end());
-  std::size_t nearest = 0;
-  while (away[nearest] > least + kTie) ++nearest;
-  const Vec3& axis = kIdentity3[nearest];
-  const Vec3 first = unit(axis - dot(axis, normal) * normal);
-  return {first, unit(cross(normal, first))};
-}
-
 // A plane of equal eigenvalues determines no axes in it.
 Matrix3 with_ties_resolved(const OrderedAxes& ordered) {
   const std::array<double, 3>& s = ordered.size;
-  const bool first = s[0] - s[1] <= kTie * s[0], last = s[1] - s[2] <= kTie * s[0];
+  const bool first = s[0] - s[1] <= kAxisTie * s[0], last = s[1] - s[2] <= kAxisTie * s[0];
   if (first && last) return kIdentity3;
   if (!first && !last) return ordered.axes;
   const Vec3& alone = ordered.axes[first ? 2 : 0];
@@ -55,14 +39,27 @@ Matrix3 with_ties_resolved(const OrderedAxes& ordered) {
 bool points_back(const Vec3& axis) {
   const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
   for (int k = 0; k < 3; ++k) {
-    if (std::abs(axis[k]) >= (1 - kTie) * largest) return axis[k] < 0;
+    if (std::abs(axis[k]) >= (1 - kAxisTie) * largest) return axis[k] < 0;
   }
   return false;
 }
 
 bool is_before(const Vec3& a, const Vec3& b) {
   const double x = std::abs(a.x) - std::abs(b.x), y = std::abs(a.y) - std::abs(b.y);
-  return std::abs(x) > kTie ? x > 0 : y > kTie;
+  return std::abs(x) > kAxisTie ? x > 0 : y > kAxisTie;
+}
+
+// Of equal ones the one nearer to x comes first, then the one nearer to y.
+OrderedAxes descending(OrderedAxes a) {
+  const double tie = kAxisTie * *std::max_element(a.size.begin(), a.size.end());
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{0}}) {
+    const double larger = a.size[k + 1] - a.size[k];
+    if (larger > tie || (larger >= -tie && is_before(a.axes[k + 1], a.axes[k]))) {
+      std::swap(a.size[k], a.size[k + 1]);
+      std::swap(a.axes[k], a.axes[k + 1]);
+    }
+  }
+  return a;
 }
 
 class Frame {
@@ -71,10 +68,10 @@ class Frame {
 
   Matrix3 principal() const {
     const SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
-    return oriented(with_ties_resolved({eigen.values, eigen.vectors}), kIdentity3);
+    return oriented(with_ties_resolved({eigen.values, eigen.vectors}));
   }
 
-  Matrix3 least_box() const { return oriented(longest_first(least_box_axes(mesh_)), kIdentity3); }
+  Matrix3 least_box() const { return oriented(descending(with_sides(least_box_axes(mesh_))).axes); }
 
   Matrix3 affine() const {
     const SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
@@ -88,9 +85,9 @@ class Frame {
       root = sum(root, {length * e.x * e, length * e.y * e, length * e.z * e});
       whitening = sum(whitening, {e.x / length * e, e.y / length * e, e.z / length * e});
     }
-    const SymmetricEigen fourth =
-        symmetric_eigen(fourth_moment(mesh_, moments_.volume, moments_.centroid, whitening));
-    const Matrix3 axes = oriented(with_ties_resolved({fourth.values, fourth.vectors}), whitening);
+    const IndependentAxes found =
+        independent_axes(fourth_moments(mesh_, moments_.volume, moments_.centroid, whitening));
+    const Matrix3 axes = unmirrored(descending({found.kurtosis, found.axes}), whitening);
     const Matrix3 frame = root * axes;
     return (1 / cube_root(determinant(frame))) * frame;
   }
@@ -98,19 +95,8 @@ class Frame {
  private:
   static Matrix3 sum(const Matrix3& a, const Matrix3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
-  // Of equal sides the one nearer to x comes first, then the one nearer to y.
-  Matrix3 longest_first(const Matrix3& axes) const {
-    OrderedAxes box{{}, axes};
-    for (std::size_t k = 0; k < 3; ++k) box.size[k] = side(axes[k]);
-    const double tie = kTie * *std::max_element(box.size.begin(), box.size.end());
-    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{0}}) {
-      const double longer = box.size[k + 1] - box.size[k];
-      if (longer > tie || (longer >= -tie && is_before(box.axes[k + 1], box.axes[k]))) {
-        std::swap(box.size[k], box.size[k + 1]);
-        std::swap(box.axes[k], box.axes[k + 1]);
-      }
-    }
-    return box.axes;
+  OrderedAxes with_sides(const Matrix3& axes) const {
+    return {{side(axes[0]), side(axes[1]), side(axes[2])}, axes};
   }
 
   double side(const Vec3& axis) const {
@@ -122,18 +108,39 @@ class Frame {
     return high - low;
   }
 
-  // Signs by the third moments of w = whitening (x - centroid), whitening symmetric; the third axis makes
-  // them right-handed.
-  Matrix3 oriented(Matrix3 axes, const Matrix3& whitening) const {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Vec3 along = whitening * axes[k];
-      const double third = third_moment(mesh_, moments_.volume, moments_.centroid, along);
-      const double variance = dot(along, moments_.covariance * along);
-      const bool vanishes = std::abs(third) <= kTie * variance * std::sqrt(variance);
-      if (vanishes ? points_back(axes[k]) : third < 0) axes[k] = -axes[k];
-    }
+  // Turns the axis to where the third moment of w = whitening (x - centroid), whitening symmetric, is > 0.
+  // Returns false when it vanishes.
+  bool orient(Vec3& axis, const Matrix3& whitening) const {
+    const Vec3 along = whitening * axis;
+    const double third = third_moment(mesh_, moments_.volume, moments_.centroid, along);
+    const double variance = dot(along, moments_.covariance * along);
+    const bool vanishes = std::abs(third) <= kAxisTie * variance * std::sqrt(variance);
+    if (vanishes ? points_back(axis) : third < 0) axis = -axis;
+    return !vanishes;
+  }
+
+  // The signs of the first two by third moments; the third axis makes them right-handed.
+  Matrix3 oriented(Matrix3 axes) const {
+    for (std::size_t k = 0; k < 2; ++k) orient(axes[k], kIdentity3);
     axes[2] = unit(cross(axes[0], axes[1]));
     return axes;
+  }
+
+  // All signs by third moments.  What is left-handed then is put right by the last axis whose third moment
+  // vanishes; if none does, by the order of the two axes that it decides the least.
+  Matrix3 unmirrored(OrderedAxes a, const Matrix3& whitening) const {
+    std::size_t loose = 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!orient(a.axes[k], whitening)) loose = k;
+    }
+    if (determinant(a.axes) > 0) return a.axes;
+    const std::size_t closest = a.size[0] - a.size[1] < a.size[1] - a.size[2] ? 0 : 1;
+    if (loose < 3) {
+      a.axes[loose] = -a.axes[loose];
+    } else {
+      std::swap(a.axes[closest], a.axes[closest + 1]);
+    }
+    return a.axes;
   }
 
   const Mesh& mesh_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/shapes.h"
@@ -33,6 +35,26 @@ Matrix3 transposed(const Matrix3& m) {
   return {Vec3{m[0].x, m[1].x, m[2].x}, Vec3{m[0].y, m[1].y, m[2].y}, Vec3{m[0].z, m[1].z, m[2].z}};
 }
 
+// E[|w|^2 w w^T].
+Matrix3 contracted(const FourthMoments& m) {
+  Matrix3 sum{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t l = 0; l < 3; ++l)
+      sum[i] = sum[i] + Vec3{m[i][0][l][int(l)], m[i][1][l][int(l)], m[i][2][l][int(l)]};
+  }
+  return sum;
+}
+
+// E[(u.w)^4].
+double along(const FourthMoments& m, const Vec3& u) {
+  const std::array<double, 3> c = {u.x, u.y, u.z};
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) sum += c[i] * c[j] * dot(u, m[i][j] * u);
+  }
+  return sum;
+}
+
 // The corner tetrahedron x, y, z >= 0, x + y + z <= 1.
 Mesh corner() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -59,8 +81,21 @@ TEST(SolidMoments, OfATetrahedron) {
   EXPECT_NEAR(third_moment(corner(), m.volume, {}, {1, -2, 3}), 6 * (cubes + squares + product) / 720, 1e-15);
   // E[(x^2 + y^2 + z^2) x^2] and E[(x^2 + y^2 + z^2) x y].
   const double diagonal = 6.0 * (24 + 4 + 4) / 5040, off = 6.0 * (6 + 6 + 2) / 5040;
-  expect_near(fourth_moment(corner(), m.volume, {}, kIdentity3),
+  expect_near(contracted(fourth_moments(corner(), m.volume, {}, kIdentity3)),
               {Vec3{diagonal, off, off}, Vec3{off, diagonal, off}, Vec3{off, off, diagonal}}, 1e-16);
+}
+
+TEST(SolidMoments, OfFourthOrderOfATetrahedron) {
+  const FourthMoments m = fourth_moments(corner(), 1.0 / 6, {}, kIdentity3);
+  constexpr std::array<double, 5> kFactorial = {1, 1, 2, 6, 24};
+  for (std::size_t n = 0; n < 81; ++n) {
+    const std::array<std::size_t, 4> index = {n / 27, n / 9 % 3, n / 3 % 3, n % 3};
+    double product = 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      product *= kFactorial[static_cast<std::size_t>(std::count(index.begin(), index.end(), c))];
+    }
+    EXPECT_NEAR(m[index[0]][index[1]][index[2]][static_cast<int>(index[3])], 6 * product / 5040, 1e-17) << n;
+  }
 }
 
 // E[x^2] = a^2 / 5, E[|x|^2 x^2] = (3 a^4 + a^2 b^2 + a^2 c^2) / 35; the mesh is inscribed.
@@ -71,7 +106,7 @@ TEST(SolidMoments, OfAnEllipsoid) {
   EXPECT_NEAR(m.volume / (8 * kPi), 1, 1e-3);
   expect_near(m.centroid, {}, 1e-14);
   expect_near(m.covariance, {Vec3{9.0 / 5, 0, 0}, Vec3{0, 4.0 / 5, 0}, Vec3{0, 0, 1.0 / 5}}, 2e-3);
-  const Matrix3 fourth = fourth_moment(mesh, m.volume, {}, kIdentity3);
+  const Matrix3 fourth = contracted(fourth_moments(mesh, m.volume, {}, kIdentity3));
   expect_near(fourth, {Vec3{288.0 / 35, 0, 0}, Vec3{0, 88.0 / 35, 0}, Vec3{0, 0, 16.0 / 35}}, 2e-2);
 }
 
@@ -85,8 +120,13 @@ TEST(SolidMoments, GoAlongWithAnAffineMap) {
     const Vec3 axis{0.3, -1.2, 0.7};
     EXPECT_NEAR(third_moment(image, after.volume, after.centroid, axis),
                 third_moment(mesh, before.volume, before.centroid, transposed(kMap) * axis), 1e-12);
-    expect_near(fourth_moment(image, after.volume, after.centroid, kIdentity3),
-                fourth_moment(mesh, before.volume, before.centroid, kMap), 1e-10);
+    const FourthMoments fourth = fourth_moments(image, after.volume, after.centroid, kIdentity3);
+    const FourthMoments of_map = fourth_moments(mesh, before.volume, before.centroid, kMap);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) expect_near(fourth[i][j], of_map[i][j], 1e-10);
+    }
+    const FourthMoments plain = fourth_moments(mesh, before.volume, before.centroid, kIdentity3);
+    EXPECT_NEAR(along(fourth, axis), along(plain, transposed(kMap) * axis), 1e-10);
   }
 }
 
@@ -99,7 +139,7 @@ TEST(SolidMoments, AreAdditive) {
   EXPECT_NEAR(m.volume, a + b, 1e-12);
   expect_near(m.centroid, (b / (a + b)) * Vec3{0.5, -0.25, 1}, 1e-13);
   const auto fourth = [&](const Mesh& mesh, double volume) {
-    return volume * fourth_moment(mesh, volume, m.centroid, kMap);
+    return volume * contracted(fourth_moments(mesh, volume, m.centroid, kMap));
   };
   const Matrix3 of_outer = fourth(outer, a), of_hole = fourth(hole, -b), of_whole = fourth(whole, m.volume);
   for (std::size_t i = 0; i < 3; ++i) expect_near(of_whole[i], of_outer[i] - of_hole[i], 1e-9);
