@@ -54,10 +54,24 @@ v1::WorkerIdentity own_identity(unsigned threads) {
   return identity;
 }
 
-// Jobs prepared before there were frames have none, and no other than the mesh's.
+// Jobs prepared before there were frames have none: they are in the mesh's own.
 bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& own) {
-  return stored.frame_size() == 0 ||
-         std::equal(stored.frame().begin(), stored.frame().end(), own.frame().begin(), own.frame().end());
+  constexpr std::array<double, 9> kMesh = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const auto frame_is = [&](const auto& frame) {
+    return std::equal(frame.begin(), frame.end(), own.frame().begin(), own.frame().end());
+  };
+  return stored.frame_size() == 0 ? frame_is(kMesh) : frame_is(stored.frame());
+}
+
+// Points and directions are named by their numbers: both sides must mean the same ones.
+void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
+  const v1::PreparedSummary& stored = lease.job().prepared();
+  const v1::PreparedSummary own = job.summary();
+  if (own.points() != stored.points() || own.spacing() != stored.spacing() ||
+      own.directions() != lease.job().directions_total() || !same_frame(stored, own)) {
+    throw core::CoreError(core::CoreError::Code::kInternal,
+                          "this worker's core lays another lattice than the one that prepared the job");
+  }
 }
 
 // Renews a lease in the background while a task computes that has nothing to report in between.
@@ -249,12 +263,7 @@ class LeaseLoop {
     {
       const LeaseKeeper keeper(link_, lease);
       PreparedJob& job = obtain(lease);
-      if (job.lattice().points != lease.job().prepared().points() ||
-          job.directions().size() != lease.job().directions_total() ||
-          !same_frame(lease.job().prepared(), job.summary())) {
-        throw core::CoreError(core::CoreError::Code::kInternal,
-                              "this worker's core lays another lattice than the one that prepared the job");
-      }
+      require_same_job(lease, job);
       const std::string stored =
           job.has_erosion() ? std::string() : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
       erosion = &job.erosion(options_.threads, stored);
@@ -275,6 +284,7 @@ class LeaseLoop {
   void derive(const v1::Lease& lease) {
     const LeaseKeeper keeper(link_, lease);
     const PreparedJob& job = obtain(lease);
+    require_same_job(lease, job);
     const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
     const Derived derived = affskel::worker::derive(lease, job, stored);
     v1::CompleteTaskHeader header;

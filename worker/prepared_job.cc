@@ -1,8 +1,11 @@
 #include "prepared_job.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <set>
 
 #include "core/error.h"
 #include "core/mesh_io.h"
@@ -14,6 +17,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "field records are little-endian on disk and on the wire");
+
+// Up to this many different directions are worth a warning: a cube's six normals give four times the E.
+constexpr std::size_t kFewDirections = 40;
 
 core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, unsigned threads,
                        std::uint64_t& polygons_cut) {
@@ -68,6 +74,17 @@ void add(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
   list->Add(v.z);
 }
 
+// Directions that differ by more than rounding.
+std::size_t distinct(const core::DirectionSet& directions) {
+  constexpr double kGrid = 1 << 20;
+  std::set<std::array<std::int64_t, 3>> seen;
+  for (const core::Vec3& d : directions) {
+    seen.insert({std::llround(kGrid * d.x), std::llround(kGrid * d.y), std::llround(kGrid * d.z)});
+    if (seen.size() > kFewDirections) break;
+  }
+  return seen.size();
+}
+
 }  // namespace
 
 PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads)
@@ -105,6 +122,14 @@ v1::PreparedSummary PreparedJob::summary() const {
     note->set_severity(found.severity == core::MeshNote::Severity::kRepaired ? "repaired" : "warning");
     note->set_code(found.code);
     note->set_message(found.message);
+  }
+  if (const std::size_t count = distinct(directions_); count <= kFewDirections) {
+    v1::MeshNote* note = summary.add_notes();
+    note->set_severity("warning");
+    note->set_code("few-directions");
+    note->set_message("the directions are only " + std::to_string(count) +
+                      " different ones: E may come out several times too large, and the skeleton shows these "
+                      "directions rather than the solid; add some, for example triangles+sphere:2000");
   }
   return summary;
 }

@@ -107,6 +107,10 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
                     const Prepared& parts) {
   const JobRow job = get_job(tx.db, task.job_id);
   const v1::PreparedSummary& summary = header.prepared();
+  const v1::Frame asked = job_message(tx.db, job.id).params().frame();
+  if (asked != v1::FRAME_UNSPECIFIED && asked != v1::FRAME_AXIS && summary.frame_size() != 9) {
+    refuse("prepared without the frame that was asked for; the worker is older than frames");
+  }
   const std::string bytes = summary.SerializeAsString();
   tx.db.run(
       "UPDATE erosions SET core_version = ?, prepared = ?, points = ?, directions = ?, stride = ? WHERE id = "

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/cube_root.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/scan_conversion.h"
@@ -173,7 +174,7 @@ class LatticeBuilder {
 
 double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
   if (options.spacing == 0 && options.target_points > 0) {
-    return std::cbrt(solid.volume / static_cast<double>(options.target_points));
+    return cube_root(solid.volume / static_cast<double>(options.target_points));
   }
   if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
     throw CoreError(CoreError::Code::kBadInput, "the spacing must be a finite number > 0");
@@ -210,7 +211,7 @@ Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned thr
   }
   Lattice lattice = LatticeBuilder(solid, frame, threads).run();
   const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
-  lattice.spacing = solid.scale() * std::cbrt(std::abs(cell));
+  lattice.spacing = solid.scale() * cube_root(std::abs(cell));
   return lattice;
 }
 

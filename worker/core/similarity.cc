@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/cube_root.h"
 #include "core/error.h"
 #include "core/lattice.h"
 #include "core/point_index.h"
@@ -64,7 +65,7 @@ std::vector<Vec3> inner_points(const Solid& solid, const InnerPointsOptions& opt
                                          Vec3{-38. / 63, 26. / 63, 43. / 63}};
   const double scale = solid.scale();
   const double inner_volume = solid.volume / scale / scale / scale;
-  const double step = std::cbrt(inner_volume / static_cast<double>(options.count));
+  const double step = cube_root(inner_volume / static_cast<double>(options.count));
   const Vec3 half = (0.5 / scale) * (solid.bbox_max - solid.bbox_min);
   const Lattice lattice = make_lattice(solid, covering_frame(half, kAxes, step));
   const SamplePlaces places(solid, lattice);

@@ -1,6 +1,9 @@
 #include "derive/eroded_solid.h"
 
+#include <algorithm>
+
 #include "core/eroded_solid.h"
+#include "core/number_text.h"
 #include "derive/messages.h"
 #include "wire/params.h"
 
@@ -14,6 +17,16 @@ double level_of(const FinishedField& field, const v1::ErodedParams& params) {
                                                         : full.fraction() * field.job().solid().volume;
 }
 
+// Why an eroded solid is empty.
+std::string advice_for(const FinishedField& field, double level) {
+  double largest = 0;
+  for (const core::FieldValue& value : field.values()) {
+    if (value.direction != core::FieldValue::kNoDirection) largest = std::max(largest, value.erosion);
+  }
+  return "no sample point reaches the level " + core::to_text(level) + "; the largest E is " +
+         core::to_text(largest) + ", " + core::to_text(largest / field.job().solid().volume) + " of v0";
+}
+
 }  // namespace
 
 v1::SkeletonPoints eroded_points(const FinishedField& field, const v1::ErodedParams& params) {
@@ -21,6 +34,7 @@ v1::SkeletonPoints eroded_points(const FinishedField& field, const v1::ErodedPar
   const std::vector<core::LatticePlace> places = core::lattice_places(field.lattice(), points);
   v1::SkeletonPoints message;
   for (std::size_t i = 0; i < points.size(); ++i) append_point(field, points[i], places[i], message);
+  if (points.empty()) message.mutable_quality()->set_advice(advice_for(field, level_of(field, params)));
   return message;
 }
 
@@ -33,6 +47,7 @@ v1::TriangleMesh eroded_surface(const FinishedField& field, const v1::ErodedPara
   for (const core::Vec3& p : surface.mesh.points) append(p, message.mutable_xyz());
   append_corners(surface.mesh, message);
   message.set_volume(surface.volume);
+  if (surface.mesh.triangles.empty()) message.mutable_quality()->set_advice(advice_for(field, options.level));
   return message;
 }
 

@@ -8,6 +8,7 @@
 #include "core/skeleton_quality.h"
 #include "core/surface.h"
 #include "derive/messages.h"
+#include "result_bytes.h"
 
 namespace affskel::worker {
 namespace {
@@ -63,6 +64,7 @@ v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::Skele
   }
   *message.mutable_quality() = quality_message(core::skeleton_quality(
       field.job().solid(), field.lattice(), field.optimal(), divergence, {which, threshold}));
+  message.mutable_quality()->set_threshold(threshold);
   return message;
 }
 
@@ -84,6 +86,11 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
 
 std::string operator_divergence(const FinishedField& field, v1::Operator which) {
   static_assert(std::endian::native == std::endian::little);
+  if (field.lattice().points > kMaxResultBytes / sizeof(double)) {
+    throw core::CoreError(core::CoreError::Code::kLimit,
+                          "the divergence of " + std::to_string(field.lattice().points) +
+                              " points is larger than what can be sent; take a wider spacing");
+  }
   const std::vector<double> values = divergence_of(field, core_operator(which));
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
 }

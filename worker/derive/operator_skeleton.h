@@ -13,7 +13,7 @@ v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::Skele
 /// @throws core::CoreError for a wrong parameter.
 v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceParams& params);
 
-/// H at every sample point: little-endian doubles.
+/// H at every sample point: little-endian doubles.  @throws core::CoreError kLimit when these are too many.
 std::string operator_divergence(const FinishedField& field, v1::Operator which);
 
 }  // namespace affskel::worker

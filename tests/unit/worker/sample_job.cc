@@ -43,11 +43,16 @@ v1::Lease other_lease(const std::string& token, v1::TaskKind kind) {
   return lease;
 }
 
-v1::Lease erode_lease(const PreparedJob& prepared, const std::string& token, std::uint64_t begin,
-                      std::uint64_t end) {
-  v1::Lease lease = other_lease(token, v1::TASK_KIND_ERODE);
+v1::Lease derive_lease(const PreparedJob& prepared, const std::string& token, v1::TaskKind kind) {
+  v1::Lease lease = other_lease(token, kind);
   *lease.mutable_job()->mutable_prepared() = prepared.summary();
   lease.mutable_job()->set_directions_total(prepared.directions().size());
+  return lease;
+}
+
+v1::Lease erode_lease(const PreparedJob& prepared, const std::string& token, std::uint64_t begin,
+                      std::uint64_t end) {
+  v1::Lease lease = derive_lease(prepared, token, v1::TASK_KIND_ERODE);
   lease.mutable_job()->set_order_stride(wire::direction_stride(prepared.directions().size()));
   v1::PositionRange* range = lease.add_positions();
   range->set_begin(begin);

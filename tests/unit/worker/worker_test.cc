@@ -277,8 +277,8 @@ TEST_F(LoopTest, ErodesBlockAfterBlock) {
 TEST_F(LoopTest, DerivesSkeletonAndSurface) {
   const std::string field = finished_field(prepared_);
   server_.set_input(v1::ARTIFACT_KIND_FIELD, field);
-  offer(other_lease("a", v1::TASK_KIND_SKELETON));
-  offer(other_lease("b", v1::TASK_KIND_SURFACE));
+  offer(derive_lease(prepared_, "a", v1::TASK_KIND_SKELETON));
+  offer(derive_lease(prepared_, "b", v1::TASK_KIND_SURFACE));
   EXPECT_EQ(run(), 0);
   const auto completions = server_.completions();
   ASSERT_EQ(completions.size(), 2U);
@@ -293,6 +293,24 @@ TEST_F(LoopTest, DerivesSkeletonAndSurface) {
   v1::TriangleMesh surface;
   ASSERT_TRUE(surface.ParseFromString(completions[1].data));
   EXPECT_GT(surface.corners_size(), 0);
+}
+
+// Points and directions are named by number: the wrong lattice would give a skeleton in the wrong places.
+TEST_F(LoopTest, RefusesToDeriveFromAnotherLattice) {
+  server_.set_input(v1::ARTIFACT_KIND_FIELD, finished_field(prepared_));
+  v1::Lease lease = derive_lease(prepared_, "a", v1::TASK_KIND_SKELETON);
+  lease.mutable_job()->mutable_prepared()->set_spacing(std::nextafter(prepared_.lattice().spacing, 0.0));
+  offer(lease);
+  lease = derive_lease(prepared_, "b", v1::TASK_KIND_SKELETON);
+  lease.mutable_job()->mutable_prepared()->set_frame(1, 1e-3);
+  offer(lease);
+  lease = derive_lease(prepared_, "c", v1::TASK_KIND_SKELETON);
+  lease.mutable_job()->mutable_prepared()->clear_frame();  // of a job before there were frames
+  offer(lease);
+  EXPECT_EQ(run(), 0);
+  ASSERT_EQ(server_.failures().size(), 2U);
+  EXPECT_EQ(server_.failures()[0].error().code(), "INTERNAL");
+  EXPECT_EQ(server_.completions().size(), 1U);
 }
 
 TEST_F(LoopTest, FailsATaskForGoodOnABadMeshAndParameter) {
