@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "lease_keeper.h"
 #include "wire/direction_order.h"
 
 namespace affskel::worker {
@@ -139,7 +140,10 @@ v1::FieldRecords take_records(PreparedJob& job, core::ErosionField& field) {
 
 ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion, ServerLink& link,
                std::stop_token stop, LastReport& last, const std::function<void()>& nearly_done) {
+  // Reports renew the lease, but one of them, or the one that `last` holds, may take longer than that.
+  const LeaseKeeper keeper(link, lease);
   Progress progress(lease);
+  if (stop.stop_requested()) progress.stop();
   std::exception_ptr error;
   std::jthread computing([&] {
     try {
@@ -174,8 +178,10 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
     header.set_token(lease.token());
     progress.take_done(header);
     if (header.block_done()) {
-      last.start(
-          [&job, &erosion, &link, header] { link.report(header, take_records(job, erosion.field())); });
+      last.start(lease.token(), [&job, &erosion, &link, lease, header] {
+        const LeaseKeeper still(link, lease);
+        link.report(header, take_records(job, erosion.field()));
+      });
       return ErodeEnd::kBlockDone;
     }
     last.wait();

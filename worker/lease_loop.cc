@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <condition_variable>
-#include <mutex>
+#include <exception>
 #include <new>
 #include <optional>
 #include <random>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -19,6 +17,7 @@
 #include "derive/derive.h"
 #include "erode_task.h"
 #include "last_report.h"
+#include "lease_keeper.h"
 #include "prepared_job.h"
 #include "result_bytes.h"
 #include "server_link.h"
@@ -74,29 +73,6 @@ void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
   }
 }
 
-// Renews a lease in the background while a task computes that has nothing to report in between.
-class LeaseKeeper {
- public:
-  LeaseKeeper(ServerLink& link, const v1::Lease& lease)
-      : thread_(
-            [&link, token = lease.token(),
-             interval = std::chrono::milliseconds(lease.report_interval_ms())](const std::stop_token& stop) {
-              std::mutex mutex;
-              std::condition_variable_any wake;
-              std::unique_lock<std::mutex> lock(mutex);
-              while (!wake.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
-                try {
-                  if (link.renew(token).cancelled()) return;
-                } catch (const std::exception&) {
-                  return;  // handing in the result will tell why
-                }
-              }
-            }) {}
-
- private:
-  std::jthread thread_;
-};
-
 v1::JobError describe(const core::CoreError& error) {
   v1::JobError message;
   switch (error.code()) {
@@ -114,10 +90,38 @@ v1::JobError describe(const core::CoreError& error) {
   return message;
 }
 
+// What a failed task tells the server.
+struct Failure {
+  v1::JobError error;
+  bool retryable = false;
+};
+
+Failure describe(const std::exception_ptr& problem, const std::string& host) {
+  Failure failure;
+  try {
+    std::rethrow_exception(problem);
+  } catch (const core::CoreError& error) {
+    failure.error = describe(error);
+  } catch (const std::bad_alloc&) {
+    failure.error.set_code("LIMIT");
+    failure.error.set_message("not enough memory on worker " + host);
+  } catch (const std::exception& error) {
+    failure.error.set_code("INTERNAL");
+    failure.error.set_message(error.what());
+    failure.retryable = true;
+  }
+  return failure;
+}
+
 class LeaseLoop {
  public:
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
-      : options_(options), stop_(stop), link_({options.server, options.patience}, stop) {
+      : options_(options),
+        stop_(stop),
+        link_({options.server, options.patience}, stop),
+        last_report_([this](const std::string& token, const std::exception_ptr& problem) {
+          tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
+        }) {
     *request_.mutable_worker() = own_identity(options.threads);
   }
 
@@ -194,31 +198,23 @@ class LeaseLoop {
       forget();
       // It may have been the block before that lost its lease; this one would then lie idle.
       link_.give_back(lease.token());
-    } catch (const core::CoreError& error) {
-      fail(lease, describe(error), false);
-    } catch (const std::bad_alloc&) {
-      v1::JobError error;
-      error.set_code("LIMIT");
-      error.set_message("not enough memory on worker " + request_.worker().host());
-      fail(lease, error, false);
     } catch (const ServerGone&) {
       throw;
-    } catch (const std::exception& problem) {
-      v1::JobError error;
-      error.set_code("INTERNAL");
-      error.set_message(problem.what());
-      fail(lease, error, true);
+    } catch (...) {
+      const std::exception_ptr problem = std::current_exception();
+      forget();
+      tell_failure(lease.job().id(), lease.token(), problem);
     }
   }
 
-  void fail(const v1::Lease& lease, const v1::JobError& error, bool retryable) {
-    spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", lease.job().id(), lease.token(),
-                  error.code(), error.message());
-    forget();
+  void tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
+    const Failure failure = describe(problem, request_.worker().host());
+    spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", job, token,
+                  failure.error.code(), failure.error.message());
     v1::FailTaskRequest request;
-    request.set_token(lease.token());
-    *request.mutable_error() = error;
-    request.set_retryable(retryable);
+    request.set_token(token);
+    *request.mutable_error() = failure.error;
+    request.set_retryable(failure.retryable);
     try {
       link_.fail(request);
     } catch (const LeaseLost&) {
@@ -227,7 +223,10 @@ class LeaseLoop {
   }
 
   void dispatch(const v1::Lease& lease) {
-    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) last_report_.wait();
+    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) {
+      const LeaseKeeper keeper(link_, lease);
+      last_report_.wait();
+    }
     switch (lease.kind()) {
       case v1::TASK_KIND_PREPARE:
         return prepare(lease);

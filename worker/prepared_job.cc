@@ -55,8 +55,8 @@ core::DirectionSet take_directions(const core::Solid& solid, const std::string& 
   return core::make_directions(solid, spec.empty() ? "triangles" : spec, options);
 }
 
-core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling,
-                          const core::Matrix3& frame, unsigned threads) {
+core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling, const core::Matrix3& frame,
+                          unsigned threads) {
   core::LatticeOptions options;
   options.frame = frame;
   options.threads = threads;

@@ -89,7 +89,7 @@ class LinkTest : public testing::Test {
   FakeServer server_;
   std::stop_source stop_;
   PreparedJob prepared_{sample_mesh(), sample_params()};
-  LastReport last_;
+  LastReport last_{[](const std::string&, const std::exception_ptr&) { ADD_FAILURE() << "a report failed"; }};
 };
 
 TEST_F(LinkTest, TriesAgainWhileTheServerIsAway) {
@@ -173,7 +173,7 @@ TEST_F(LinkTest, ErodeReportsEveryPositionOnceAndAllItsPoints) {
 TEST_F(LinkTest, ErodeReportsNothingAfterALostBlock) {
   ServerLink to_server = link();
   core::Erosion& erosion = prepared_.erosion(1, empty_field(prepared_));
-  last_.start([] { throw LeaseLost("fenced"); });
+  last_.start("before", [] { throw LeaseLost("fenced"); });
   EXPECT_THROW(erode(erode_lease(prepared_, "t", 0, 256), prepared_, erosion, to_server, stop_.get_token(),
                      last_, [] {}),
                LeaseLost);
@@ -272,6 +272,22 @@ TEST_F(LoopTest, ErodesBlockAfterBlock) {
   EXPECT_TRUE(merged(prepared_, reports) == finished_field(prepared_));
   EXPECT_EQ(server_.calls("FetchInput4"), 1);
   EXPECT_EQ(server_.calls("ReturnLease"), 0);
+}
+
+// The report that fails is the first block's, on its way while the second is computed.
+TEST_F(LoopTest, AFailedLastReportFailsItsOwnTask) {
+  server_.fail_next("ReportErosion", {grpc::StatusCode::INTERNAL, "the numbers do not add up"});
+  v1::Lease first = erode_lease(prepared_, "a", 0, 128), second = erode_lease(prepared_, "b", 128, 256);
+  for (v1::Lease* lease : {&first, &second}) {
+    lease->set_report_interval_ms(60000);  // no reports but the last
+    offer(*lease);
+  }
+  EXPECT_EQ(run(), 0);
+  ASSERT_EQ(server_.failures().size(), 1U);
+  EXPECT_EQ(server_.failures()[0].token(), "a");
+  EXPECT_TRUE(server_.failures()[0].retryable());
+  EXPECT_NE(server_.failures()[0].error().message().find("do not add up"), std::string::npos);
+  EXPECT_EQ(server_.calls("ReturnLease"), 1) << "what the second computed may depend on the first";
 }
 
 TEST_F(LoopTest, DerivesSkeletonAndSurface) {
