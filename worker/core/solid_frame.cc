@@ -74,7 +74,10 @@ class Frame {
   Matrix3 least_box() const { return oriented(descending(with_sides(least_box_axes(mesh_))).axes); }
 
   Matrix3 affine() const {
-    const SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
+    SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
+    // Parts that are turned inside out count negatively, and badly folded noise has many of them.  The
+    // vertices' covariance is as covariant, and never negative.
+    if (!(eigen.values[2] > 0)) eigen = symmetric_eigen(vertex_covariance());
     if (!(eigen.values[2] > 0)) {
       throw CoreError(CoreError::Code::kBadInput, "the solid is too flat for an affine frame");
     }
@@ -93,6 +96,18 @@ class Frame {
   }
 
  private:
+  Matrix3 vertex_covariance() const {
+    const double share = 1 / static_cast<double>(mesh_.points.size());
+    Vec3 mean;
+    for (const Vec3& p : mesh_.points) mean = mean + share * p;
+    Matrix3 covariance{};
+    for (const Vec3& p : mesh_.points) {
+      const Vec3 q = p - mean;
+      covariance = sum(covariance, {share * q.x * q, share * q.y * q, share * q.z * q});
+    }
+    return covariance;
+  }
+
   static Matrix3 sum(const Matrix3& a, const Matrix3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
   OrderedAxes with_sides(const Matrix3& axes) const {
