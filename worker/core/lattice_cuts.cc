@@ -36,7 +36,7 @@ struct ShearedFrame {
   }
 
   /// The place at coordinate `along` of line number `line` (as in LineCrossings).
-  Place place(std::size_t line, std::int64_t along) const {
+  Place place(std::uint64_t line, std::int64_t along) const {
     const std::size_t u = (main + 1) % 3, v = (main + 2) % 3;
     Place at{};
     at[main] = along;
@@ -51,14 +51,14 @@ struct ShearedFrame {
 
 /// The crossings of one edge, whose lower end has coordinate `low` along its line and winding number
 /// `winding`, which moves on to that of the upper end.
-LatticeCut cut_of(std::span<const Crossing> crossings, double low, std::int32_t& winding) {
+LatticeCut cut_of(std::span<const CrossingOnLine> crossings, double low, std::int32_t& winding) {
   LatticeCut cut;
   bool left = winding <= 0;
   if (left) cut.leaves = 0;
   for (std::size_t c = 0; c < crossings.size(); ++c) {
     const std::int32_t before = winding;
-    winding -= crossings[c].exits;
-    const double share = crossings[c].depth - low;
+    winding -= crossings[c].crossing.exits;
+    const double share = crossings[c].crossing.depth - low;
     if (winding <= 0 && !left) {
       cut.leaves = share;
       left = true;
@@ -81,25 +81,26 @@ LatticeCuts::LatticeCuts(const Solid& solid, const Lattice& lattice) {
 
 void LatticeCuts::add_step(const Solid& solid, const Lattice& lattice, unsigned step) {
   const ShearedFrame sheared(lattice.frame, step);
-  const LineCrossings lines = scan_convert(solid.mesh, sheared.frame, static_cast<int>(sheared.main));
+  const std::vector<CrossingOnLine> found =
+      scan_convert_lines_met(solid.mesh, sheared.frame, static_cast<int>(sheared.main));
   const auto in_reach = [&](const Place& at) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (at[a] < (has_axis(step, a) ? -1 : 0) || at[a] > size_[a] - 3) return false;
     }
     return true;
   };
-  for (std::size_t line = 0; line + 1 < lines.begin.size(); ++line) {
-    std::int32_t winding = 0;
-    for (std::uint64_t c = lines.begin[line], next = c; c < lines.begin[line + 1]; c = next) {
-      // A crossing at a place belongs to the edge that ends there, as in the lattice's runs.
-      const double low = std::ceil(lines.crossings[c].depth) - 1;
-      while (next < lines.begin[line + 1] && lines.crossings[next].depth <= low + 1) ++next;
-      LatticeCut cut = cut_of({&lines.crossings[c], static_cast<std::size_t>(next - c)}, low, winding);
-      const Place at = sheared.place(line, static_cast<std::int64_t>(low));
-      if (!in_reach(at)) continue;
-      cut.edge = edge(at[0], at[1], at[2], step);
-      cuts_.push_back(cut);
-    }
+  std::int32_t winding = 0;
+  for (std::size_t c = 0, next = 0; c < found.size(); c = next) {
+    const std::uint64_t line = found[c].line;
+    if (c == 0 || found[c - 1].line != line) winding = 0;
+    // A crossing at a place belongs to the edge that ends there, as in the lattice's runs.
+    const double low = std::ceil(found[c].crossing.depth) - 1;
+    while (next < found.size() && found[next].line == line && found[next].crossing.depth <= low + 1) ++next;
+    LatticeCut cut = cut_of({&found[c], next - c}, low, winding);
+    const Place at = sheared.place(line, static_cast<std::int64_t>(low));
+    if (!in_reach(at)) continue;
+    cut.edge = edge(at[0], at[1], at[2], step);
+    cuts_.push_back(cut);
   }
 }
 

@@ -26,7 +26,11 @@ struct LatticeCut {
 /// lattice), so along the axes these are the crossings that made the lattice's runs.  Along the other steps a
 /// line may disagree, within rounding of the surface, with the lattice about what is inside: an edge can
 /// then have an end inside, one outside, and no cut.
-/// Time and memory in the order of the lattice's lines and of the crossings.
+///
+/// Memory in the order of the mesh's vertices and of the crossings, whatever the shape of the lattice: a
+/// sheared frame of a long lattice has the square of its length in lines, so only those that the surface
+/// meets are kept.  Time in that order, but for sorting the crossings, and in that of the lengths of the
+/// mesh's triangles in steps.
 class LatticeCuts {
  public:
   LatticeCuts(const Solid& solid, const Lattice& lattice);

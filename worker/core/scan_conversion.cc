@@ -30,20 +30,31 @@ class Scanner {
   }
 
   LineCrossings run() {
-    const std::vector<std::vector<Found>> found = find_crossings();
+    const std::vector<std::vector<CrossingOnLine>> found = find_crossings();
     LineCrossings result;
     result.begin.assign(std::size_t{u_count_} * v_count_ + 1, 0);
-    for (const std::vector<Found>& part : found) {
-      for (const Found& f : part) ++result.begin[f.line + 1];
+    for (const std::vector<CrossingOnLine>& part : found) {
+      for (const CrossingOnLine& f : part) ++result.begin[f.line + 1];
     }
     for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
     result.crossings.resize(result.begin.back());
     std::vector<std::uint64_t> cursor(result.begin.begin(), result.begin.end() - 1);
-    for (const std::vector<Found>& part : found) {
-      for (const Found& f : part) result.crossings[cursor[f.line]++] = f.crossing;
+    for (const std::vector<CrossingOnLine>& part : found) {
+      for (const CrossingOnLine& f : part) result.crossings[cursor[f.line]++] = f.crossing;
     }
     sort_lines(result);
     return result;
+  }
+
+  std::vector<CrossingOnLine> run_lines_met() {
+    std::vector<CrossingOnLine> found;
+    scan(0, static_cast<std::uint32_t>(mesh_.triangles.size()), [&](std::uint64_t line, const Crossing& c) {
+      found.push_back({line, c});
+    });
+    std::sort(found.begin(), found.end(), [](const CrossingOnLine& a, const CrossingOnLine& b) {
+      return a.line != b.line ? a.line < b.line : comes_before(a.crossing, b.crossing);
+    });
+    return found;
   }
 
  private:
@@ -75,32 +86,28 @@ class Scanner {
             static_cast<std::int64_t>(std::ceil(std::clamp(high, 0.0, limit)))};
   }
 
-  struct Found {
-    std::size_t line = 0;
-    Crossing crossing;
-  };
-
   // The crossings of all triangles, in as many parts as threads.
-  std::vector<std::vector<Found>> find_crossings() const {
-    std::vector<std::vector<Found>> found(std::max(1U, threads_));
+  std::vector<std::vector<CrossingOnLine>> find_crossings() const {
+    std::vector<std::vector<CrossingOnLine>> found(std::max(1U, threads_));
     const std::size_t count = mesh_.triangles.size();
     parallel_for(threads_, found.size(), [&](std::size_t part) {
-      const auto keep = [&](std::size_t line, const Crossing& c) { found[part].push_back({line, c}); };
+      const auto keep = [&](std::uint64_t line, const Crossing& c) { found[part].push_back({line, c}); };
       scan(static_cast<std::uint32_t>(count * part / found.size()),
            static_cast<std::uint32_t>(count * (part + 1) / found.size()), keep);
     });
     return found;
   }
 
+  static bool comes_before(const Crossing& a, const Crossing& b) {
+    if (a.depth != b.depth) return a.depth < b.depth;
+    return a.exits != b.exits ? a.exits > b.exits : a.triangle < b.triangle;
+  }
+
   void sort_lines(LineCrossings& lines) const {
-    const auto less = [](const Crossing& a, const Crossing& b) {
-      if (a.depth != b.depth) return a.depth < b.depth;
-      return a.exits != b.exits ? a.exits > b.exits : a.triangle < b.triangle;
-    };
     parallel_ranges(threads_, lines.begin.size() - 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t line = first; line < last; ++line) {
         std::sort(lines.crossings.data() + lines.begin[line], lines.crossings.data() + lines.begin[line + 1],
-                  less);
+                  comes_before);
       }
     });
   }
@@ -137,7 +144,7 @@ class Scanner {
     for (std::int64_t column = columns[0]; column < columns[1]; ++column) {
       const double s = (static_cast<double>(column) - hit[0].u) / (hit[1].u - hit[0].u);
       const double depth = hit[0].w + s * (hit[1].w - hit[0].w);
-      visit(static_cast<std::size_t>(column) * v_count_ + static_cast<std::size_t>(row),
+      visit(static_cast<std::uint64_t>(column) * v_count_ + static_cast<std::uint64_t>(row),
             Crossing{depth, t, exits});
     }
   }
@@ -154,6 +161,10 @@ class Scanner {
 
 LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads) {
   return Scanner(mesh, frame, axis, threads).run();
+}
+
+std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeFrame& frame, int axis) {
+  return Scanner(mesh, frame, axis, 1).run_lines_met();
 }
 
 }  // namespace affskel::core

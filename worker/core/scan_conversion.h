@@ -30,4 +30,14 @@ struct LineCrossings {
 /// closed surface as often as it leaves it, whatever the rounding.  On up to `threads` threads.
 LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads = 1);
 
+/// A crossing and the line it lies on, numbered as in LineCrossings.
+struct CrossingOnLine {
+  std::uint64_t line = 0;
+  Crossing crossing;
+};
+
+/// The same crossings line by line, without a word for the lines that the surface does not meet: for frames
+/// with far more lines than those.  Memory in the order of the vertices and the crossings.
+std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeFrame& frame, int axis);
+
 }  // namespace affskel::core
