@@ -12,7 +12,6 @@
 namespace affskel::client {
 namespace {
 
-
 // Without options of their own, skeleton, surface and view use the job's.
 void note_own_skeleton(CLI::App* sub, Options& options, Command which) {
   sub->callback([sub, &options, which] {
@@ -51,8 +50,8 @@ void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
       ->capture_default_str()
       ->type_name("OP");
   sub->add_option("--threshold", skeleton.threshold,
-                  "Keep points with |H| above this, of chords what is more significant (default: the "
-                  "operator's)")
+                  "Keep points with |H| above this, of chords what is more significant, 1e-9 being "
+                  "everything (default: the operator's)")
       ->check(positive_number())
       ->type_name("T");
 }

@@ -8,7 +8,7 @@ namespace affskel::experiments {
 
 Sheet chord_sheet_of(const Job& job) {
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
-  const core::ChordSheet found = core::chord_sheet(job.lattice, field);
+  const core::ChordSheet found = core::chord_sheet(job.solid, job.lattice, field);
   const core::SamplePlaces places(job.solid, job.lattice);
   const core::Matrix3 frame = core::frame_matrix(job.lattice);
   Sheet sheet;

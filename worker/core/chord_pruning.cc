@@ -8,37 +8,13 @@
 #include <utility>
 
 #include "core/chord_cells.h"
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 
 namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
-// Disjoint sets of shocks; the least member stands for its set.
-class Groups {
- public:
-  explicit Groups(std::size_t size) : parent_(size) {
-    for (std::size_t i = 0; i < size; ++i) parent_[i] = static_cast<std::uint32_t>(i);
-  }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  // Whether they were apart.
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent_[std::max(a, b)] = std::min(a, b);
-    return true;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 double weight(const ChordShock& shock) {
   const Vec3 normal = shock.gradient_low - shock.gradient_high;
@@ -130,17 +106,21 @@ class Ways {
 
 class Pruning {
  public:
-  Pruning(const Lattice& lattice, const std::vector<ChordShock>& shocks, const ChordPruningOptions& options)
+  Pruning(const Lattice& lattice, const SolidParts& parts, const std::vector<ChordShock>& shocks,
+          const ChordPruningOptions& options)
       : shocks_(shocks),
         options_(options),
-        cells_(chord_cells(lattice, shocks)),
+        cells_(chord_cells(lattice, parts, shocks)),
         pieces_(shocks.size()),
         owner_(shocks.size(), kNone) {
-    const double volume = lattice.points * (lattice.spacing * lattice.spacing * lattice.spacing);
-    least_erosion_ = options.least_erosion * volume;
+    const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
+    for (std::uint32_t p = 0; p < parts.count(); ++p) {
+      least_erosion_.push_back(options.least_erosion * (parts.points(p) * cell));
+    }
   }
 
   SignificantShocks run() {
+    count();
     join_touching();
     keep_significant();
     join_kept();
@@ -152,8 +132,20 @@ class Pruning {
   }
 
  private:
-  bool strong(std::uint32_t s) const {
-    return shocks_[s].opening >= options_.strong_opening && shocks_[s].erosion >= least_erosion_;
+  std::uint32_t part(std::uint32_t s) const { return cells_.part[cells_.ring[s][0]]; }
+
+  bool wide(std::uint32_t s) const { return shocks_[s].opening >= options_.strong_opening; }
+
+  bool strong(std::uint32_t s) const { return wide(s) && shocks_[s].erosion >= least_erosion_[part(s)]; }
+
+  void count() {
+    ShockCensus& census = result_.census;
+    census.candidates = shocks_.size();
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      census.wide += wide(s) ? 1 : 0;
+      census.strong += strong(s) ? 1 : 0;
+      census.widest_opening = std::max(census.widest_opening, shocks_[s].opening);
+    }
   }
 
   void join_touching() {
@@ -162,7 +154,7 @@ class Pruning {
       for (std::uint32_t s : cells_.shocks_of(cell)) {
         if (!strong(s)) continue;
         if (first == kNone) first = s;
-        pieces_.join(first, s);
+        pieces_.unite(first, s);
       }
     }
   }
@@ -187,22 +179,24 @@ class Pruning {
     std::vector<Ways::Way> used;
     for (const Ways::Way& way : ways.list()) {
       if (way.cost > options_.near_cost) break;
-      if (pieces_.join(ways.piece(way.a), ways.piece(way.b))) used.push_back(way);
+      if (pieces_.unite(ways.piece(way.a), ways.piece(way.b))) used.push_back(way);
     }
-    std::vector<double> mass(shocks_.size(), 0);
-    double whole = 0;
+    std::vector<double> mass(shocks_.size(), 0), whole(least_erosion_.size(), 0);
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!strong(s)) continue;
       mass[pieces_.find(s)] += weight(shocks_[s]);
-      whole += weight(shocks_[s]);
+      whole[part(s)] += weight(shocks_[s]);
     }
     const auto significant = [&](std::uint32_t s) {
-      return mass[pieces_.find(s)] >= options_.significance * whole;
+      return mass[pieces_.find(s)] >= options_.significance * whole[part(s)];
     };
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-      if (!strong(s) || !significant(s)) continue;
+      if (!strong(s)) continue;
+      const double share = mass[s] / whole[part(s)];  // 0 unless s stands for its piece
+      result_.census.heaviest_piece = std::max(result_.census.heaviest_piece, share);
+      if (!significant(s)) continue;
       owner_[s] = pieces_.find(s);
-      if (owner_[s] == s) result_.pieces.push_back(mass[s] / whole);
+      if (owner_[s] == s) result_.pieces.push_back(share);
     }
     std::sort(result_.pieces.begin(), result_.pieces.end(), std::greater<>());
     for (const Ways::Way& way : used) {
@@ -219,7 +213,7 @@ class Pruning {
   void join_kept() {
     const Ways ways(shocks_, cells_, pieces_by_cell([&](std::uint32_t s) { return owner_[s]; }));
     for (const Ways::Way& way : ways.list()) {
-      if (!pieces_.join(ways.piece(way.a), ways.piece(way.b))) continue;
+      if (!pieces_.unite(ways.piece(way.a), ways.piece(way.b))) continue;
       ++result_.bridges;
       keep_way(ways, way);
     }
@@ -243,9 +237,9 @@ class Pruning {
   const std::vector<ChordShock>& shocks_;
   const ChordPruningOptions& options_;
   const ChordCells cells_;
-  Groups pieces_;
-  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNone if dropped
-  double least_erosion_ = 0;
+  DisjointSets pieces_;                // of shocks; the least member stands for its piece
+  std::vector<std::uint32_t> owner_;   // per shock: a shock of the piece it is kept with, kNone if dropped
+  std::vector<double> least_erosion_;  // per part
   SignificantShocks result_;
 };
 
@@ -255,13 +249,14 @@ void check(double value, double low, double high, const char* message) {
 
 }  // namespace
 
-SignificantShocks significant_shocks(const Lattice& lattice, const std::vector<ChordShock>& candidates,
+SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,
+                                     const std::vector<ChordShock>& candidates,
                                      const ChordPruningOptions& options) {
   check(options.significance, 0, 1, "the significance must lie between 0 and 1");
   check(options.strong_opening, 0, 1, "the opening of strong shocks must lie between 0 and 1");
   check(options.least_erosion, 0, 1, "the least erosion must be a share of the volume between 0 and 1");
   check(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
-  return Pruning(lattice, candidates, options).run();
+  return Pruning(lattice, parts, candidates, options).run();
 }
 
 }  // namespace affskel::core

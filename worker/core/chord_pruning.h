@@ -5,6 +5,7 @@
 
 #include "core/chord_shocks.h"
 #include "core/lattice.h"
+#include "core/solid_parts.h"
 
 namespace affskel::core {
 
@@ -17,8 +18,9 @@ namespace affskel::core {
 // finite direction set cuts into the level surfaces of E.
 
 struct ChordPruningOptions {
-  /// Pieces of the sheet with less than this share of its whole weight are dropped, 0 <= significance <= 1;
-  /// 0 keeps all strong shocks, 1 the only piece if there is but one.  Measured at a body's height / 180 as
+  /// Pieces of the sheet with less than this share of the whole weight in their part of the solid are
+  /// dropped, 0 <= significance <= 1; 0 (and any tiny number, 1e-9 say, where 0 stands for the default) keeps
+  /// all strong shocks, 1 the only piece if there is but one.  Measured at a body's height / 180 as
   /// spacing, on 13 bodies of 292 to 107024 triangles: trunk, legs and arms weigh 0.1 and more each, heads
   /// and feet that stand alone 0.02 to 0.05, specks 0.01 and less.  The default leaves one component with
   /// legs, arms and head on all of them in the `axis` frame; in the `affine` frame, which makes a standing
@@ -26,20 +28,30 @@ struct ChordPruningOptions {
   double significance = 0.005;
   /// Least opening of a strong shock; 1/4 is an angle of 60 degrees between the two normals.
   double strong_opening = 0.25;
-  /// Least E of a strong shock, as a share of the volume of all sample points' cells.  Where a thousandth of
-  /// the solid is cut off, the tips of fingers and toes, one shock in three is lost under vertex noise that
-  /// nine of ten others survive.
+  /// Least E of a strong shock, as a share of the volume of the sample points' cells in its part of the
+  /// solid. Where a thousandth of the solid is cut off, the tips of fingers and toes, one shock in three is
+  /// lost under vertex noise that nine of ten others survive.
   double least_erosion = 0.001;
   /// Pieces that weaker shocks join at no greater cost than this are weighed as one: noise cuts limbs into
   /// small pieces near each other, and specks lie alone.
   double near_cost = 40;
 };
 
+/// What there was to choose from: why nothing may be left.
+struct ShockCensus {
+  std::uint64_t candidates = 0;
+  std::uint64_t wide = 0;     ///< of these, with the opening of a strong shock
+  std::uint64_t strong = 0;   ///< of these, with the E of one
+  double widest_opening = 0;  ///< of the candidates
+  double heaviest_piece = 0;  ///< its share of the weight in its part of the solid, kept or not
+};
+
 /// What is left of the candidates.
 struct SignificantShocks {
   std::vector<ChordShock> shocks;  ///< in the order of the candidates
-  std::vector<double> pieces;      ///< the kept pieces' shares of the whole weight, largest first
+  std::vector<double> pieces;      ///< the kept pieces' shares of the weight in their part, largest first
   std::uint32_t bridges = 0;       ///< ways laid between these pieces
+  ShockCensus census;
 };
 
 /// Removes specks by significance, with hysteresis:
@@ -49,10 +61,14 @@ struct SignificantShocks {
 ///    paths from all pieces at once, then a least spanning tree: Mehlhorn 1988);
 /// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept ones.
 /// Everything here is a function of r, E, o and N alone, and so affinely invariant when these are (see
-/// chord_shocks.h).  Shares are relative: in a job of several solids small ones may be dropped as a whole.
+/// chord_shocks.h).  The parts of a solid have nothing to do with each other: each keeps what it would keep
+/// alone, however small it is beside the others.
+/// @param parts of the solid in this lattice.
 /// @param candidates of this lattice, strong and weak, in the order chord_shocks() gives them.
-/// @throws CoreError kBadInput when an option is not finite or out of range.
-SignificantShocks significant_shocks(const Lattice& lattice, const std::vector<ChordShock>& candidates,
+/// @throws CoreError kBadInput when an option is not finite or out of range; kLimit for 2^30 candidates and
+///   more.
+SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,
+                                     const std::vector<ChordShock>& candidates,
                                      const ChordPruningOptions& options = {});
 
 }  // namespace affskel::core

@@ -5,10 +5,15 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/chord_cells.h"
 #include "core/error.h"
+#include "core/lattice_coordinates.h"
+#include "core/matrix3.h"
 #include "core/slab_index.h"
+#include "core/solid_membership.h"
+#include "core/solid_parts.h"
 
 namespace affskel::core {
 namespace {
@@ -26,32 +31,36 @@ Vec3 unit(const Vec3& v) {
   return length > 0 ? (1 / length) * v : Vec3{};
 }
 
-// |grad_x E| = |F^-T g| for a gradient g in the frame: the area of the section.
-class SectionArea {
+// Which places of the frame lie inside the parts of a solid.
+class PartInterior {
  public:
-  explicit SectionArea(const Lattice& lattice) {
-    const std::array<Vec3, 3> f = frame_matrix(lattice);
-    const double scale = 1 / dot(f[0], cross(f[1], f[2]));
-    for (std::size_t k = 0; k < 3; ++k) columns_[k] = scale * cross(f[(k + 1) % 3], f[(k + 2) % 3]);
+  PartInterior(const SolidParts& parts, const Lattice& lattice) : lattice_(lattice), meshes_(parts.meshes()) {
+    membership_.reserve(meshes_.size());
+    for (const Mesh& mesh : meshes_) membership_.emplace_back(mesh);
   }
 
-  double operator()(const Vec3& g) const {
-    return norm(g.x * columns_[0] + (g.y * columns_[1] + g.z * columns_[2]));
+  bool contains(std::uint32_t part, const Vec3& u) const {
+    return membership_[part].contains(inner_place(lattice_, (1 / lattice_.spacing) * u));
   }
 
  private:
-  std::array<Vec3, 3> columns_;
+  const Lattice& lattice_;
+  std::vector<Mesh> meshes_;
+  std::vector<SolidMembership> membership_;
 };
 
 class Contouring {
  public:
-  Contouring(const Lattice& lattice, const std::vector<ChordShock>& shocks, double regularisation)
+  Contouring(const Lattice& lattice, const SolidParts& parts, const std::vector<ChordShock>& shocks,
+             double regularisation)
       : spacing_(lattice.spacing),
+        parts_(parts),
         shocks_(shocks),
         regularisation_(regularisation),
-        area_(lattice),
-        cells_(chord_cells(lattice, shocks)),
-        slabs_(lattice) {}
+        to_mesh_(inverse_transposed(frame_matrix(lattice))),
+        cells_(chord_cells(lattice, parts, shocks)),
+        slabs_(lattice),
+        interior_(parts, lattice) {}
 
   void run(ChordSheet& sheet) {
     sheet.vertices.reserve(cells_.size());
@@ -69,6 +78,9 @@ class Contouring {
     Vec3 normal, gradient_a, gradient_b;
   };
 
+  // |grad_x E| = |F^-T g| for a gradient g in the frame: the area of the section.
+  double area(const Vec3& g) const { return norm(to_mesh_ * g); }
+
   Side side(const ChordShock& shock, const Vec3& reference) const {
     const Vec3 normal = unit(shock.gradient_low - shock.gradient_high);
     if (dot(normal, reference) < 0) return {-normal, shock.gradient_high, shock.gradient_low};
@@ -81,7 +93,7 @@ class Contouring {
     const Vec3 reference = first.gradient_low - first.gradient_high;
     const double share = 1 / static_cast<double>(members.size());
     ChordSheetVertex v;
-    v.position = place(cell, reference);
+    v.position = kept_inside(cell, place(cell, reference));
     for (std::uint32_t s : members) {
       const ChordShock& shock = shocks_[s];
       const Side seen = side(shock, reference);
@@ -89,7 +101,7 @@ class Contouring {
       const Vec3 slope = 0.5 * (shock.gradient_low + shock.gradient_high);
       v.erosion += share * (shock.erosion + dot(slope, v.position - shock.position));
       v.strength += share * shock.strength;
-      v.area += share * 0.5 * (area_(shock.gradient_low) + area_(shock.gradient_high));
+      v.area += share * 0.5 * (area(shock.gradient_low) + area(shock.gradient_high));
       v.normal_a = v.normal_a + unit(seen.gradient_a);
       v.normal_b = v.normal_b + unit(seen.gradient_b);
     }
@@ -116,7 +128,7 @@ class Contouring {
     const Vec3 corner =
         spacing_ * Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
     const double h = spacing_;
-    if (inside(at)) {
+    if (inside(at, cells_.part[cell])) {
       const Vec3 n = unit(normal), away = corner + Vec3{h / 2, h / 2, h / 2} - mean;
       mean = mean + 0.5 * (away - dot(away, n) * n);
     }
@@ -130,14 +142,26 @@ class Contouring {
             std::clamp(p.z, corner.z, corner.z + h)};
   }
 
-  bool inside(const CellPlace& at) const {
+  // A cell's corners, in a part.
+  bool inside(const CellPlace& at, std::uint32_t part) const {
     for (int corner = 0; corner < 8; ++corner) {
-      if (slabs_.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2)) ==
-          SlabIndex::kOutside) {
-        return false;
-      }
+      const std::uint32_t point =
+          slabs_.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2));
+      if (point == SlabIndex::kOutside || parts_.of_point(point) != part) return false;
     }
     return true;
+  }
+
+  Vec3 kept_inside(std::uint32_t cell, const Vec3& wanted) const {
+    if (interior_.contains(cells_.part[cell], wanted)) return wanted;
+    const std::span<const std::uint32_t> members = cells_.shocks_of(cell);
+    Vec3 mean, nearest = shocks_[members[0]].position;
+    for (std::uint32_t s : members) {
+      const Vec3& shock = shocks_[s].position;
+      mean = mean + (1 / static_cast<double>(members.size())) * shock;
+      if (norm(shock - wanted) < norm(nearest - wanted)) nearest = shock;
+    }
+    return interior_.contains(cells_.part[cell], mean) ? mean : nearest;
   }
 
   static void add_quad(const std::array<std::uint32_t, 4>& ring, ChordSheet& sheet) {
@@ -154,25 +178,30 @@ class Contouring {
   }
 
   double spacing_;
+  const SolidParts& parts_;
   const std::vector<ChordShock>& shocks_;
   double regularisation_;
-  SectionArea area_;
+  Matrix3 to_mesh_;  // F^-T
   ChordCells cells_;
   SlabIndex slabs_;
+  PartInterior interior_;
 };
 
 }  // namespace
 
-ChordSheet chord_sheet(const Lattice& lattice, const FrameField& field, const ChordSheetOptions& options) {
+ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
+                       const ChordSheetOptions& options) {
   if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
     throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
   }
+  const SolidParts parts(solid, lattice);
   SignificantShocks kept =
-      significant_shocks(lattice, chord_shocks(lattice, field, options.shocks), options.pruning);
+      significant_shocks(lattice, parts, chord_shocks(lattice, field, options.shocks), options.pruning);
   ChordSheet sheet;
   sheet.shocks = std::move(kept.shocks);
   sheet.pieces = std::move(kept.pieces);
-  Contouring(lattice, sheet.shocks, options.regularisation).run(sheet);
+  sheet.census = kept.census;
+  Contouring(lattice, parts, sheet.shocks, options.regularisation).run(sheet);
   return sheet;
 }
 

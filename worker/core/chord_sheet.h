@@ -7,6 +7,7 @@
 #include "core/frame_field.h"
 #include "core/lattice.h"
 #include "core/mesh.h"
+#include "core/solid.h"
 
 namespace affskel::core {
 
@@ -18,7 +19,7 @@ struct ChordSheetOptions {
 };
 
 struct ChordSheetVertex {
-  Vec3 position;            ///< frame coordinates, in the vertex's lattice cell
+  Vec3 position;            ///< frame coordinates, in the vertex's lattice cell and in the solid
   double erosion = 0;       ///< E, volume
   double strength = 0;      ///< mean relative strength r of the cell's shocks
   double area = 0;          ///< mean area of the sections of the two chords, mesh units squared
@@ -30,7 +31,8 @@ struct ChordSheetVertex {
 struct ChordSheet {
   std::vector<ChordShock> shocks;          ///< the skeleton's points, by (point, axis)
   std::vector<double> pieces;              ///< see SignificantShocks
-  std::vector<ChordSheetVertex> vertices;  ///< in lattice order of their cells
+  ShockCensus census;                      ///< likewise
+  std::vector<ChordSheetVertex> vertices;  ///< in lattice order of their cells (see ChordCells)
   std::vector<Triangle> triangles;         ///< two per shock, in the order of the shocks
 };
 
@@ -43,14 +45,18 @@ struct ChordSheet {
 /// A vertex is placed by least squares on the tangent planes of its cell's shocks (normal g_x - g_y), drawn
 /// towards their mean, and kept in the cell.  On the rim the mean alone would lie on the outermost shocks
 /// and a strip one shock wide would have no area; there the vertex is drawn half the way to the middle of
-/// its cell, in the sheet's plane, unless a corner of the cell lies outside the solid.
+/// its cell, in the sheet's plane, unless a corner of the cell lies outside the solid.  What then lies
+/// outside the solid, because this is concave there or thin, is drawn back to the mean of the cell's shocks,
+/// or, when that is outside, too, to the nearest of them: shocks always lie inside.
 ///
 /// The sheet branches where three chords are equal (edges with three and more triangles) and may be
-/// one-sided: triangles have no common orientation.  Shocks lie inside the solid always; vertices are means
-/// of them and may not, where the solid is concave.  Bytes depend on the field alone.
+/// one-sided: triangles have no common orientation.  Shocks and vertices lie inside the solid, triangles need
+/// not.  The parts of a solid (see SolidParts) have a sheet each, the one that they would have alone, however
+/// near they are.  Bytes depend on solid and field alone.
+/// @param lattice of this solid.
 /// @param field of this lattice.
-/// @throws CoreError kBadInput when an option is not finite or out of range.
-ChordSheet chord_sheet(const Lattice& lattice, const FrameField& field,
+/// @throws CoreError kBadInput when an option is not finite or out of range; kLimit for 2^30 shocks and more.
+ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const ChordSheetOptions& options = {});
 
 }  // namespace affskel::core

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "core/field.h"
+#include "core/frame_field.h"
+#include "core/matrix3.h"
 
 namespace affskel::core {
 namespace {
@@ -61,6 +63,54 @@ std::string on_threshold(std::vector<double> size, double threshold) {
          std::to_string(kept) + " of the " + std::to_string(size.size()) + " points.";
 }
 
+std::string on_few_points(const Lattice& lattice) {
+  if (lattice.points >= kFewPoints) return "";
+  return " The lattice has only " + std::to_string(lattice.points) +
+         " sample points: submit with a smaller spacing than " + in_words(lattice.spacing) +
+         ", or --points 100000.";
+}
+
+// The angle between two normals, from their opening (see ChordShockOptions), in whole degrees.
+std::string degrees(double opening) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f", 2 * std::asin(std::sqrt(std::clamp(opening, 0.0, 1.0))) / kDegree);
+  return text;
+}
+
+// Whether lengths in the lattice's frame are not those of the mesh.
+bool is_stretched(const Lattice& lattice) {
+  constexpr double kSame = 1e-6;
+  const Matrix3 f = frame_matrix(lattice);
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b) {
+      if (std::abs(dot(f[a], f[b]) - (a == b ? 1 : 0)) > kSame) return true;
+    }
+  }
+  return false;
+}
+
+std::string on_opening(const Lattice& lattice, const ShockCensus& census,
+                       const ChordPruningOptions& pruning) {
+  std::string advice = "the normals of equal chords differ by " + degrees(census.widest_opening) +
+                       " degrees at most, and a skeleton needs " + degrees(pruning.strong_opening) + ".";
+  if (is_stretched(lattice)) {
+    advice +=
+        " The lattice's frame is stretched, which makes a flat solid as thick as it is wide: submit with "
+        "--frame axis or --frame pca.";
+  }
+  return advice +
+         " The solid may have no other skeleton than its centre, as a ball has; else submit with more "
+         "directions (--directions triangles+sphere:2000) or a smaller spacing.";
+}
+
+std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
+  const std::string lower = in_words(0.99 * census.heaviest_piece);
+  return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
+         in_words(pruning.significance) + "; the heaviest weighs " + in_words(census.heaviest_piece) +
+         " of its sheet. --threshold " + lower + " would keep it, --threshold 1e-9 all.";
+}
+
 }  // namespace
 
 std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
@@ -75,12 +125,25 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
               " directions are the optimum of some point, too few to show shocks well: submit with "
               "--directions triangles+sphere:1000.";
   }
-  if (lattice.points < kFewPoints) {
-    advice += " The lattice has only " + std::to_string(lattice.points) +
-              " sample points: submit with a smaller spacing than " + in_words(lattice.spacing) +
-              ", or --points 100000.";
+  return advice + on_few_points(lattice);
+}
+
+std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
+                               const ChordPruningOptions& pruning) {
+  if (census.strong > 0) return on_significance(census, pruning);
+  std::string advice;
+  if (census.wide > 0) {
+    advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
+             " where equal chords clearly differ is E " + in_words(pruning.least_erosion) +
+             " of the volume. Submit with a smaller spacing.";
+  } else if (census.candidates > 0) {
+    advice = on_opening(lattice, census, pruning);
+  } else {
+    advice =
+        "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "
+        "directions (--directions triangles+sphere:2000).";
   }
-  return advice;
+  return advice + on_few_points(lattice);
 }
 
 }  // namespace affskel::core

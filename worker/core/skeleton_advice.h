@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/chord_pruning.h"
 #include "core/directions.h"
 #include "core/lattice.h"
 #include "core/shock_operator.h"
@@ -16,5 +17,14 @@ namespace affskel::core {
 std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
                                   const std::vector<double>& divergence, ShockOperator shock_operator,
                                   double threshold);
+
+/// The same for the operator `chords`: no two chords alike at all; none of clearly different directions, with
+/// the widest angle there is, and other axes when those of the lattice are stretched (a flat solid becomes as
+/// thick as it is wide in the `affine` frame, and its chords no longer oppose each other); only where E is
+/// small; or only in pieces below the significance, with one that keeps the heaviest.
+/// @param census of a sheet without shocks.
+/// @param pruning the options that it was made with.
+std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
+                               const ChordPruningOptions& pruning);
 
 }  // namespace affskel::core

@@ -118,11 +118,7 @@ SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const 
   quality.skeleton = sheet_topology(sheet).betti;
   quality.mean_thickness = sheet.triangles.empty() ? 0 : 1;
   quality.other_threshold = options.other_threshold;
-  if (quality.points == 0) {
-    quality.advice =
-        "nowhere do two chords of clearly different directions have the same volume; try a smaller spacing, "
-        "more directions (triangles+sphere:2000), or a lower threshold";
-  }
+  if (quality.points == 0) quality.advice = options.advice_if_empty;
   return quality;
 }
 

@@ -46,6 +46,7 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
 struct SheetQualityOptions {
   double other_threshold = 0;   ///< that `other` was made with
   const Mesh* other = nullptr;  ///< the sheet at the next higher threshold; none: no Hausdorff distances
+  std::string advice_if_empty;  ///< see empty_sheet_advice
   const std::vector<Vec3>* points = nullptr;  ///< the shocks that the sheet was laid through, likewise in u
 };
 

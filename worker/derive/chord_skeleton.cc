@@ -2,6 +2,7 @@
 
 #include "core/chord_sheet.h"
 #include "core/shock_operator.h"
+#include "core/skeleton_advice.h"
 #include "core/skeleton_quality.h"
 #include "derive/messages.h"
 
@@ -12,6 +13,10 @@ core::ChordSheetOptions options_for(double threshold) {
   core::ChordSheetOptions options;
   if (threshold != 0) options.pruning.significance = threshold;
   return options;
+}
+
+core::ChordSheet sheet_of(const FinishedField& field, const core::FrameField& in_frame, double threshold) {
+  return core::chord_sheet(field.job().solid(), field.lattice(), in_frame, options_for(threshold));
 }
 
 core::Mesh mesh_of(const core::ChordSheet& sheet) {
@@ -25,12 +30,14 @@ core::Mesh mesh_of(const core::ChordSheet& sheet) {
 v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
                                const core::ChordSheet& sheet, double threshold,
                                const std::vector<core::Vec3>* points) {
-  const double next = core::next_threshold(options_for(threshold).pruning.significance);
+  const core::ChordPruningOptions pruning = options_for(threshold).pruning;
+  const double next = core::next_threshold(pruning.significance);
   core::SheetQualityOptions options;
+  options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, pruning);
   options.points = points;
   core::Mesh other;
   if (next < 1) {
-    other = mesh_of(core::chord_sheet(field.lattice(), in_frame, options_for(next)));
+    other = mesh_of(sheet_of(field, in_frame, next));
     options.other = &other;
     options.other_threshold = next;
   }
@@ -41,8 +48,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
 
 v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
   const core::FrameField in_frame = field.in_frame();
-  const core::ChordSheet sheet =
-      core::chord_sheet(field.lattice(), in_frame, options_for(params.threshold()));
+  const core::ChordSheet sheet = sheet_of(field, in_frame, params.threshold());
   v1::SkeletonPoints message;
   std::vector<core::Vec3> points;
   for (const core::ChordShock& shock : sheet.shocks) {
@@ -60,8 +66,7 @@ v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::Skeleton
 
 v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SkeletonParams& params) {
   const core::FrameField in_frame = field.in_frame();
-  const core::ChordSheet sheet =
-      core::chord_sheet(field.lattice(), in_frame, options_for(params.threshold()));
+  const core::ChordSheet sheet = sheet_of(field, in_frame, params.threshold());
   v1::TriangleMesh message;
   for (const core::ChordSheetVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());

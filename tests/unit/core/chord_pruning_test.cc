@@ -38,7 +38,7 @@ class Plane {
   SignificantShocks prune(const ChordPruningOptions& options = {}) {
     std::sort(shocks_.begin(), shocks_.end(),
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
-    return significant_shocks(box_.lattice, shocks_, options);
+    return significant_shocks(box_.lattice, SolidParts(box_.solid, box_.lattice), shocks_, options);
   }
 
  private:

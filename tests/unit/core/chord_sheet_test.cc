@@ -79,7 +79,7 @@ TEST(ChordCells, AnEdgeHasFourCellsOnceRound) {
   shock.place = {0, 2, 1};
   shock.axis = 1;
   const std::vector<ChordShock> shocks{shock};
-  const ChordCells cells = chord_cells(box.lattice, shocks);
+  const ChordCells cells = chord_cells(box.lattice, SolidParts(box.solid, box.lattice), shocks);
   ASSERT_EQ(cells.size(), 4U);
   EXPECT_EQ(cells.place[0], (CellPlace{-1, 2, 0}));
   EXPECT_EQ(cells.place[3], (CellPlace{0, 2, 1}));
@@ -95,7 +95,7 @@ TEST(ChordSheet, OppositeSlopesGiveASquare) {
   const BoxLattice box(9, 9, 9);
   const FrameField field =
       field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1}), linear_branch(8.6, {0, 0, -1})});
-  const ChordSheet sheet = chord_sheet(box.lattice, field);
+  const ChordSheet sheet = chord_sheet(box.solid, box.lattice, field);
   EXPECT_EQ(sheet.shocks.size(), 81U);
   EXPECT_EQ(sheet.vertices.size(), 100U);
   EXPECT_EQ(sheet.triangles.size(), 162U);
@@ -119,7 +119,7 @@ TEST(ChordSheet, ASlantingPlaneIsFlatAndWhole) {
   const BoxLattice box(12, 13, 14);
   const Vec3 a{1.3, 0.4, 2.1}, b{-0.9, -1.1, -0.3};
   const FrameField field = field_of_branches(box.lattice, {linear_branch(3, a), linear_branch(39, b)});
-  const ChordSheet sheet = chord_sheet(box.lattice, field);
+  const ChordSheet sheet = chord_sheet(box.solid, box.lattice, field);
   const Topology t = topology(sheet);
   EXPECT_EQ(t.euler, 1);
   EXPECT_EQ(t.components, 1U);
@@ -139,7 +139,7 @@ TEST(ChordSheet, ThreeBranchesMeetInALine) {
   const BoxLattice box(9, 9, 9);
   const auto branch = [](double x, double y) { return linear_branch(20 - (x * 4.3 + y * 4.4), {x, y, 0}); };
   const FrameField field = field_of_branches(box.lattice, {branch(2, 0), branch(-1, 1.7), branch(-1, -1.7)});
-  const ChordSheet sheet = chord_sheet(box.lattice, field);
+  const ChordSheet sheet = chord_sheet(box.solid, box.lattice, field);
   const Topology t = topology(sheet);
   EXPECT_EQ(t.euler, 1);
   EXPECT_EQ(t.components, 1U);
@@ -164,7 +164,7 @@ TEST(ChordSheet, AreaIsInMeshUnitsWhateverTheFrame) {
   // Sections of area 3 across z: grad_u E = F^T (0, 0, +-3) = (0, 0, +-1.5).
   const FrameField field =
       field_of_branches(lattice, {linear_branch(1, {0, 0, 1.5}), linear_branch(11.8, {0, 0, -1.5})});
-  const ChordSheet sheet = chord_sheet(lattice, field);
+  const ChordSheet sheet = chord_sheet(solid, lattice, field);
   EXPECT_EQ(sheet.shocks.size(), 64U);
   for (const ChordSheetVertex& v : sheet.vertices) EXPECT_NEAR(v.area, 3, 1e-12);
 }
@@ -172,7 +172,7 @@ TEST(ChordSheet, AreaIsInMeshUnitsWhateverTheFrame) {
 TEST(ChordSheet, ATorusGivesOneFlatAnnulus) {
   for (const double h : {0.2, 0.1}) {
     const ErodedSolid torus(make_torus(3, 1, 256), axes(h), "triangles");
-    const ChordSheet sheet = chord_sheet(torus.lattice, torus.field);
+    const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
     const Topology t = topology(sheet);
     EXPECT_EQ(t.components, 1U);
     EXPECT_EQ(t.euler, 0);
@@ -192,8 +192,9 @@ TEST(ChordSheet, BallAndEllipsoidShrinkToTheirCentres) {
   const double s = std::cbrt(3.0);  // volume-preserving: 3:1:1 seen in its frame is a ball of radius s
   const ErodedSolid ball(make_sphere(1, 1280), axes(0.11), "sphere:5000");
   const ErodedSolid ellipsoid(make_ellipsoid(3, 1, 1, 1280), axes(0.15, 3 / s, 1 / s, 1 / s), "sphere:5000");
-  const std::vector<ChordShock> of_ball = chord_sheet(ball.lattice, ball.field).shocks;
-  const std::vector<ChordShock> of_ellipsoid = chord_sheet(ellipsoid.lattice, ellipsoid.field).shocks;
+  const std::vector<ChordShock> of_ball = chord_sheet(ball.solid, ball.lattice, ball.field).shocks;
+  const std::vector<ChordShock> of_ellipsoid =
+      chord_sheet(ellipsoid.solid, ellipsoid.lattice, ellipsoid.field).shocks;
   EXPECT_FALSE(of_ball.empty());
   EXPECT_FALSE(of_ellipsoid.empty());
   for (const ChordShock& shock : of_ball) EXPECT_LT(norm(ball.place(shock.position)), 2 * 0.11);
@@ -205,7 +206,7 @@ TEST(ChordSheet, BallAndEllipsoidShrinkToTheirCentres) {
 
 TEST(ChordSheet, ABoxGivesTheMiddleOfItsLargestFaces) {
   const ErodedSolid box(make_box(3, 2, 1), axes(0.1), "triangles+sphere:2000");
-  const ChordSheet sheet = chord_sheet(box.lattice, box.field);
+  const ChordSheet sheet = chord_sheet(box.solid, box.lattice, box.field);
   std::set<std::pair<std::uint32_t, std::uint32_t>> columns;
   for (const ChordShock& shock : sheet.shocks) {
     EXPECT_NEAR(box.place(shock.position).z, 0.5, 1e-9);
@@ -221,13 +222,13 @@ TEST(ChordSheet, ABoxGivesTheMiddleOfItsLargestFaces) {
 TEST(ChordSheet, NoShocksGiveAnEmptySheet) {
   const BoxLattice box(3, 3, 3);
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
-  const ChordSheet sheet = chord_sheet(box.lattice, field);
+  const ChordSheet sheet = chord_sheet(box.solid, box.lattice, field);
   EXPECT_TRUE(sheet.shocks.empty());
   EXPECT_TRUE(sheet.vertices.empty());
   EXPECT_TRUE(sheet.triangles.empty());
   ChordSheetOptions options;
   options.regularisation = 0;
-  EXPECT_THROW(chord_sheet(box.lattice, field, options), CoreError);
+  EXPECT_THROW(chord_sheet(box.solid, box.lattice, field, options), CoreError);
 }
 
 }  // namespace
