@@ -4,21 +4,12 @@
 
 #include "client/command_parts.h"
 #include "client/help_format.h"
-#include "client/skeleton_text.h"
 #include "core/directions.h"
 #include "core/error.h"
 #include "wire/version.h"
 
 namespace affskel::client {
 namespace {
-
-// Without options of their own, skeleton, surface and view use the job's.
-void note_own_skeleton(CLI::App* sub, Options& options, Command which) {
-  sub->callback([sub, &options, which] {
-    options.command = which;
-    options.job.own_skeleton = sub->count("--operator") == 0 && sub->count("--threshold") == 0;
-  });
-}
 
 CLI::Validator direction_set() {
   return CLI::Validator(
@@ -31,29 +22,6 @@ CLI::Validator direction_set() {
         }
       },
       "");
-}
-
-void add_job(CLI::App* sub, Options& options) {
-  sub->add_option("JOB", options.job.job, "Id, unique prefix of at least 6 characters, or @last")
-      ->required()
-      ->check(utf8_text())
-      ->type_name("");
-}
-
-void add_output(CLI::App* sub, Options& options, const std::string& what) {
-  sub->add_option("-o,--output", options.job.output, what)->required()->type_name("FILE");
-}
-
-void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
-  sub->add_option("--operator", skeleton.operator_name, "How shocks are found")
-      ->check(CLI::IsMember(operator_names()))
-      ->capture_default_str()
-      ->type_name("OP");
-  sub->add_option("--threshold", skeleton.threshold,
-                  "Keep points with |H| above this, of chords what is more significant, 1e-9 being "
-                  "everything (default: the operator's)")
-      ->check(positive_number())
-      ->type_name("T");
 }
 
 void add_submit(CLI::App& app, Options& options) {
@@ -135,98 +103,6 @@ void add_job_commands(CLI::App& app, Options& options) {
   add_job(command(app, options, "delete", Command::kDelete, "Remove a job and everything that belongs to it",
                   "  affskel-client delete 3f2a9c"),
           options);
-}
-
-void add_result_commands(CLI::App& app, Options& options) {
-  CLI::App* fetch = command(app, options, "fetch", Command::kFetch, "Write one artefact of a job",
-                            "  affskel-client fetch @last field -o body.vtkhdf\n"
-                            "  affskel-client fetch @last skeleton -o body.csv\n"
-                            "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
-                            "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
-                            "Formats by extension: field .csv .dat .vtkhdf; divergence .csv .dat;\n"
-                            "skeleton and eroded points .csv .ply .off .xyz; surface and eroded surface\n"
-                            ".off .ply .obj .stl; mesh: the submitted bytes. Of an eroded solid this is the\n"
-                            "one at a tenth of the volume; see erode");
-  add_job(fetch, options);
-  fetch->add_option("ARTEFACT", options.job.artifact, "What to fetch")
-      ->required()
-      ->check(CLI::IsMember({"field", "divergence", "skeleton", "surface", "eroded", "mesh"}))
-      ->type_name("");
-  fetch
-      ->add_option("--operator", options.job.skeleton.operator_name, "Of the divergence (default: the job's)")
-      ->check(CLI::IsMember(operator_names()))
-      ->type_name("OP");
-  fetch->callback([fetch, &options] {
-    options.command = Command::kFetch;
-    options.job.own_skeleton = fetch->count("--operator") == 0;
-    if (!options.job.own_skeleton && options.job.artifact != "divergence") {
-      throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
-    }
-  });
-  add_output(fetch, options, "File to write; the format follows the extension");
-
-  CLI::App* skeleton = command(app, options, "skeleton", Command::kSkeleton,
-                               "Skeleton with other parameters, from the stored field",
-                               "  affskel-client skeleton @last --threshold 5 -o fine.ply");
-  add_job(skeleton, options);
-  add_skeleton_options(skeleton, options.job.skeleton);
-  note_own_skeleton(skeleton, options, Command::kSkeleton);
-  add_output(skeleton, options, "File to write: .csv .ply .off .xyz");
-
-  CLI::App* surface = command(app, options, "surface", Command::kSurface,
-                              "Triangulated skeleton: the alpha shape of its points, or the sheet of chords",
-                              "  affskel-client surface @last -o skeleton.stl\n"
-                              "  affskel-client surface @last --threshold 5 --alpha 160000 -o skeleton.obj");
-  add_job(surface, options);
-  add_skeleton_options(surface, options.job.skeleton);
-  surface->add_option("--alpha", options.job.alpha, "Squared radius in mesh units squared (default: 3 DT^2)")
-      ->check(positive_number())
-      ->type_name("A");
-  note_own_skeleton(surface, options, Command::kSurface);
-  add_output(surface, options, "File to write: .off .ply .obj .stl");
-
-  CLI::App* erode = command(app, options, "erode", Command::kErode,
-                            "Eroded solid: where E is at least a level, from the stored field",
-                            "  affskel-client erode @last --fraction 0.05 -o eroded.stl\n"
-                            "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply");
-  add_job(erode, options);
-  CLI::Option* fraction = erode->add_option("--fraction", options.job.fraction, "Level as a share of v0")
-                              ->check(CLI::Range(0.0, 1.0) & positive_number())
-                              ->type_name("F");
-  erode->add_option("--volume", options.job.volume, "Level in mesh units cubed")
-      ->check(positive_number())
-      ->type_name("V")
-      ->excludes(fraction);
-  erode->add_option("--as", options.job.form, "points or surface (default: what the extension can hold)")
-      ->check(CLI::IsMember({"points", "surface"}))
-      ->type_name("FORM");
-  erode->callback([erode, &options] {
-    options.command = Command::kErode;
-    if (erode->count("--fraction") + erode->count("--volume") == 0) {
-      throw CLI::RequiredError("--fraction or --volume");
-    }
-  });
-  add_output(erode, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl");
-
-  CLI::App* render =
-      command(app, options, "render", Command::kRender, "Picture of the body with its skeleton",
-              "  affskel-client render @last -o body.png --width 2400");
-  add_job(render, options);
-  render->add_option("--width", options.job.width, "Pixels")
-      ->check(whole_in(200, 8000))
-      ->capture_default_str()
-      ->type_name("W");
-  add_output(render, options, "PNG file to write");
-
-  CLI::App* view = command(app, options, "view", Command::kView,
-                           "Page for any browser: the body and its skeleton to turn, with sliders for the\n"
-                           "shock threshold and the erosion level; one file that needs no network",
-                           "  affskel-client view @last -o body.html\n"
-                           "  affskel-client view 3f2a9c --threshold 5 -o body.html");
-  add_job(view, options);
-  add_skeleton_options(view, options.job.skeleton);
-  note_own_skeleton(view, options, Command::kView);
-  add_output(view, options, "HTML file to write");
 }
 
 CLI::App* shape(CLI::App* make, Options& options, const std::string& name, Shape which,

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "client/skeleton_text.h"
 #include "client/utf8.h"
 
 namespace affskel::client {
@@ -54,6 +55,29 @@ CLI::App* command(CLI::App& parent, Options& options, const std::string& name, C
               "\nOptions for all commands (--server, --json, --quiet): affskel-client --help");
   sub->callback([&options, which] { options.command = which; });
   return sub;
+}
+
+void add_job(CLI::App* sub, Options& options) {
+  sub->add_option("JOB", options.job.job, "Id, unique prefix of at least 6 characters, or @last")
+      ->required()
+      ->check(utf8_text())
+      ->type_name("");
+}
+
+void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
+  const bool of_job = skeleton.operator_name.empty();
+  CLI::Option* name =
+      sub->add_option("--operator", skeleton.operator_name,
+                      std::string("How shocks are found") + (of_job ? " (default: the job's operator)" : ""))
+          ->check(CLI::IsMember(operator_names()))
+          ->type_name("OP");
+  if (!of_job) name->capture_default_str();
+  sub->add_option(
+         "--threshold", skeleton.threshold,
+         std::string("Keep points with |H| above this, of chords what is more significant (default: ") +
+             (of_job ? "the operator's; without --operator the job's)" : "the operator's)"))
+      ->check(positive_number())
+      ->type_name("T");
 }
 
 }  // namespace affskel::client

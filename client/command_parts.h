@@ -21,6 +21,14 @@ CLI::Validator utf8_text();
 CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
                   const std::string& description, const std::string& examples);
 
+/// The job that a command is about.
+void add_job(CLI::App* sub, Options& options);
+
+/// --operator and --threshold.  Without a name of an operator in `skeleton` the default is the job's.
+void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton);
+
+/// fetch, skeleton, surface, erode, render and view: commands that write what came of a job.
+void add_result_commands(CLI::App& app, Options& options);
 /// compare, transform and perturb: commands on files, without a server.
 void add_shape_file_commands(CLI::App& app, Options& options);
 

@@ -1,6 +1,5 @@
 // A comparison as a table, as CSV, as JSON and as a plot.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,11 +12,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string percent(double share) {
-  char buffer[32];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, 100 * share, std::chars_format::fixed, 2).ptr;
-  return {buffer, end};
+// In per cent, without the sign.
+std::string column_share(double share) {
+  return with_decimals(100 * share, 2);
 }
 
 double shown_radius(const Comparison& c, double radius) {
@@ -59,7 +56,7 @@ std::string table_text(const Comparison& c) {
     text += padded(rounded(shown_radius(c, radius), 7), kRadius);
     for (const Column& column : columns) {
       text +=
-          padded(percent(column.curve->share_within(radius)), kGap + std::string_view(column.title).size());
+          padded(column_share(column.curve->share_within(radius)), kGap + std::string_view(column.title).size());
     }
     text += "\n";
   }
@@ -105,11 +102,11 @@ std::string comparison_text(const Comparison& c) {
   std::string text =
       table_text(c) + "\n" + key_line("A", side_text(c.a)) + key_line("B", side_text(c.b)) +
       key_line(c.squared ? "radius squared" : "radius", rounded(shown_radius(c, c.radius), 7)) +
-      key_line("within radius", there_and_back(percent(s.a_in_b.share_within(c.radius)),
-                                               percent(s.b_in_a.share_within(c.radius)), " %"));
+      key_line("within radius", there_and_back(column_share(s.a_in_b.share_within(c.radius)),
+                                               column_share(s.b_in_a.share_within(c.radius)), " %"));
   if (c.chance) {
-    text += key_line("chance", percent(c.chance->in_b.share_within(c.radius)) + " % of the solid near B, " +
-                                   percent(c.chance->in_a.share_within(c.radius)) + " % near A");
+    text += key_line("chance", column_share(c.chance->in_b.share_within(c.radius)) + " % of the solid near B, " +
+                                   column_share(c.chance->in_a.share_within(c.radius)) + " % near A");
   }
   text += key_line("area under curve",
                    there_and_back(rounded(area(c, s.a_in_b), 4), rounded(area(c, s.b_in_a), 4), "") + to);

@@ -41,8 +41,9 @@ struct GlobalOptions {
 };
 
 struct SkeletonOptions {
-  std::string operator_name = "zucker-hummel";
+  std::string operator_name;
   double threshold = 0;  ///< 0 = the operator's default
+  bool given() const { return !operator_name.empty() || threshold > 0; }
 };
 
 struct SubmitOptions {
@@ -53,7 +54,7 @@ struct SubmitOptions {
   std::uint64_t points = 100000;
   std::string directions = "triangles";
   std::string frame = "axis";
-  SkeletonOptions skeleton;
+  SkeletonOptions skeleton{"zucker-hummel"};
   std::string name;  ///< empty = the file's stem
   unsigned priority = 5;
   std::string request_id;
@@ -71,8 +72,7 @@ struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
   std::string output;        ///< fetch, skeleton, surface, erode, render, view
-  SkeletonOptions skeleton;  ///< skeleton, surface, view, fetch divergence
-  bool own_skeleton = true;  ///< neither --operator nor --threshold was given: the job's own
+  SkeletonOptions skeleton;  ///< skeleton, surface, view, fetch divergence; no operator: the job's
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
   double fraction = 0;       ///< erode; level as a share of v0, 0 = not given
   double volume = 0;         ///< erode; level, mesh units cubed, 0 = not given

@@ -67,4 +67,19 @@ v1::SkeletonParams skeleton_params(const SkeletonOptions& options) {
   return params;
 }
 
+v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job& job) {
+  v1::SkeletonParams params = options.operator_name.empty() ? job.skeleton() : skeleton_params(options);
+  if (options.threshold > 0) params.set_threshold(options.threshold);
+  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  return params;
+}
+
+std::string unfinished_text(const v1::Job& job) {
+  if (job.state() == v1::JOB_STATE_FAILED) return "failed: " + failure_text(job.error());
+  const std::string done =
+      std::to_string(job.directions_done()) + " of " + std::to_string(job.directions_total()) + " directions";
+  if (job.state() == v1::JOB_STATE_CANCELLED) return "was cancelled at " + done;
+  return "is " + state_word(job.state()) + ": " + done + " are done";
+}
+
 }  // namespace affskel::client

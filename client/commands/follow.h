@@ -20,4 +20,12 @@ void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::Sk
 /// The message for the operator's name. @throws ClientError kUsage for an unknown one.
 v1::SkeletonParams skeleton_params(const SkeletonOptions& options);
 
+/// What the options mean for a job with skeleton parameters of its own: without any these, a threshold alone
+/// is for the job's operator, and an operator alone has its default threshold.  The operator is set.
+v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job& job);
+
+/// "failed: CODE: message", "was cancelled at 5 of 12 directions" or "is running: 5 of 12 directions are
+/// done", for a job that does not have what was asked for.
+std::string unfinished_text(const v1::Job& job);
+
 }  // namespace affskel::client

@@ -11,17 +11,27 @@
 #include "wire/params.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace affskel::client {
 namespace {
 
+// A sheet of chords comes with its quality, an alpha shape does not.
+std::string advice_for_empty_surface(const Written& written) {
+  if (!written.quality) {
+    return "no three skeleton points are near enough; try a larger --alpha or a smaller --threshold";
+  }
+  const std::string& advice = written.quality->advice();
+  return advice.empty() ? "no piece of the sheet is significant enough; try a smaller --threshold" : advice;
+}
+
 void finish(Context& context, const Written& written) {
-  if (written.kind == "skeleton")
-    warn_if_empty(context.console(), written.items, written.quality, written.job);
+  if (written.kind == "skeleton") {
+    warn_if_empty(context.console(), written.items, written.quality.value_or(v1::SkeletonQuality()),
+                  written.job);
+  }
   if (written.kind == "surface" && written.items == 0) {
-    context.console().warning(
-        "the surface is empty: no three skeleton points are near enough; try a larger --alpha or a smaller "
-        "--threshold");
+    context.console().warning("the surface is empty: " + advice_for_empty_surface(written));
   }
   if (written.kind == "eroded" && written.items == 0) {
     context.console().warning("the eroded solid is empty: no sample point has such an E; try a lower level");
@@ -32,10 +42,37 @@ void finish(Context& context, const Written& written) {
 
 // Formats that hold only points mean points; the others can hold a surface.
 std::string eroded_form(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
   for (const FileFormat format : surface_formats()) {
-    if (file.extension() == extension_of(format)) return "surface";
+    if (extension == extension_of(format)) return "surface";
   }
   return "points";
+}
+
+// The job that the command is about, and its skeleton's parameters when they are not the job's own.
+struct Chosen {
+  std::string job;
+  std::optional<v1::SkeletonParams> params;
+  const v1::SkeletonParams* get() const { return params ? &*params : nullptr; }
+};
+
+Chosen choose(Context& context, const JobOptions& options) {
+  if (!options.skeleton.given()) return {options.job, {}};
+  if (!options.skeleton.operator_name.empty()) return {options.job, skeleton_params(options.skeleton)};
+  const v1::Job job = context.session().get_job(options.job);
+  return {job.id(), skeleton_params(options.skeleton, job)};
+}
+
+// The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
+std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
+  std::array<core::Vec3, 3> cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (int a = 0; a < 3; ++a) {
+    core::Vec3& axis = cell[static_cast<std::size_t>(a)];
+    if (prepared.frame_size() == 9)
+      axis = {prepared.frame(3 * a), prepared.frame(3 * a + 1), prepared.frame(3 * a + 2)};
+    axis = prepared.spacing() * axis;
+  }
+  return cell;
 }
 
 std::string title_of(const v1::Job& job, const core::Mesh& mesh, int skeleton_points) {
@@ -56,25 +93,24 @@ void run_fetch(Context& context, const JobOptions& options) {
     return finish(context, transfer_surface(context, options.job, nullptr, options.output));
   }
   if (options.artifact == "divergence") {
-    const v1::SkeletonParams params = skeleton_params(options.skeleton);
-    return finish(context, transfer_divergence(context, options.job, options.own_skeleton ? nullptr : &params,
-                                               options.output));
+    const Chosen chosen = choose(context, options);
+    return finish(context, transfer_divergence(context, chosen.job, chosen.get(), options.output));
   }
   if (options.artifact == "eroded") return run_erode(context, options);
   finish(context, transfer_mesh(context, options.job, options.output));
 }
 
 void run_skeleton(Context& context, const JobOptions& options) {
-  const v1::SkeletonParams params = skeleton_params(options.skeleton);
-  const bool own = options.own_skeleton;
-  finish(context, transfer_skeleton(context, options.job, own ? nullptr : &params, options.output));
+  const Chosen chosen = choose(context, options);
+  finish(context, transfer_skeleton(context, chosen.job, chosen.get(), options.output));
 }
 
 void run_surface(Context& context, const JobOptions& options) {
   v1::SurfaceParams params;
-  if (!options.own_skeleton) *params.mutable_skeleton() = skeleton_params(options.skeleton);
+  const Chosen chosen = choose(context, options);
+  if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
-  finish(context, transfer_surface(context, options.job, &params, options.output));
+  finish(context, transfer_surface(context, chosen.job, &params, options.output));
 }
 
 void run_erode(Context& context, const JobOptions& options) {
@@ -98,7 +134,7 @@ void run_render(Context& context, const JobOptions& options) {
   request.set_job(header.job().id());
   request.set_kind(v1::ARTIFACT_KIND_MESH);
   input.mesh = parse_mesh(context.session().fetch_bytes(request), "mesh of job " + header.job().id()).mesh;
-  input.spacing = header.job().prepared().spacing();
+  input.cell = lattice_cell(header.job().prepared());
   input.volume = header.job().prepared().volume();
   input.title = title_of(header.job(), input.mesh, input.skeleton.point_size());
   warn_if_empty(context.console(), static_cast<std::uint64_t>(input.skeleton.point_size()),

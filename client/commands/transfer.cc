@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "client/commands/follow.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/divergence_writer.h"
 #include "client/exporters/field_writer.h"
@@ -48,22 +49,6 @@ class WaitingNote {
   bool done_ = false;  // guarded by mutex_
   std::thread thread_;
 };
-
-v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
-  v1::FetchArtifactRequest request;
-  request.set_job(job);
-  request.set_kind(kind);
-  return request;
-}
-
-template <typename Message>
-Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
-  Message message;
-  if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
-    throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);
-  }
-  return message;
-}
 
 // A field on its way into a file; a transfer that breaks off leaves nothing behind.
 class FieldSink : public ArtifactSink {
@@ -134,6 +119,13 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
 
 }  // namespace
 
+v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
+  v1::FetchArtifactRequest request;
+  request.set_job(job);
+  request.set_kind(kind);
+  return request;
+}
+
 std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
                             v1::ArtifactHeader& header, const std::string& what) {
   context.session();  // an embedded server is announced before anything is waited for
@@ -148,9 +140,7 @@ Written transfer_field(Context& context, const std::string& job, const fs::path&
   if (now.state() != v1::JOB_STATE_DONE &&
       now.directions_done() < std::max<std::uint64_t>(1, now.directions_total())) {
     throw ClientError(ExitCode::kNotFound,
-                      "job " + now.id() +
-                          " has no finished field yet: " + std::to_string(now.directions_done()) + " of " +
-                          std::to_string(now.directions_total()) + " directions are done");
+                      "there is no finished field: job " + now.id() + " " + unfinished_text(now));
   }
   const LatticePoints points(
       fetch_message<v1::Lattice>(context, now.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
@@ -178,8 +168,9 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
       comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality),
       out);
   out.commit();
-  return {file,         "skeleton",      "points", static_cast<std::uint64_t>(points.point_size()),
-          header.job(), points.quality()};
+  Written written{file, "skeleton", "points", static_cast<std::uint64_t>(points.point_size()), header.job()};
+  if (quality != nullptr) written.quality = *quality;
+  return written;
 }
 
 Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
@@ -199,7 +190,9 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
                    sheet ? &fetched.quality : nullptr),
       [&](std::string_view bytes) { out.write(bytes); }, fetched.properties);
   out.commit();
-  return {file, "surface", "triangles", fetched.mesh.triangles.size(), header.job(), fetched.quality};
+  Written written{file, "surface", "triangles", fetched.mesh.triangles.size(), header.job()};
+  if (sheet) written.quality = fetched.quality;
+  return written;
 }
 
 Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
@@ -261,7 +254,7 @@ nlohmann::ordered_json written_json(const Written& written) {
                                      {"file", written.file.string()},
                                      {written.unit, written.items}};
   if (written.volume > 0) document["volume"] = written.volume;
-  if (written.quality.points() > 0) document["quality"] = to_json(written.quality);
+  if (written.quality) document["quality"] = to_json(*written.quality);
   return document;
 }
 

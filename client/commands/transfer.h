@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "client/commands/context.h"
+#include "client/error.h"
 #include "client/exporters/format.h"
 
 namespace affskel::client {
@@ -10,12 +13,12 @@ namespace affskel::client {
 /// What a transfer wrote.
 struct Written {
   std::filesystem::path file;
-  std::string kind;                  ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
-  std::string unit;                  ///< what is counted: "points", "triangles" or "bytes"
-  std::uint64_t items = 0;           ///< how many
-  v1::Job job;                       ///< as the server sent it along
-  v1::SkeletonQuality quality = {};  ///< of a skeleton, or a sheet of chords
-  double volume = 0;                 ///< enclosed by an eroded solid's surface
+  std::string kind;         ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
+  std::string unit;         ///< what is counted: "points", "triangles" or "bytes"
+  std::uint64_t items = 0;  ///< how many
+  v1::Job job;              ///< as the server sent it along
+  std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet of chords
+  double volume = 0;                                ///< enclosed by an eroded solid's surface
 };
 
 /// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
@@ -32,6 +35,19 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
 Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
                                 const std::filesystem::path& file);
 Written transfer_mesh(Context& context, const std::string& job, const std::filesystem::path& file);
+
+v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind);
+
+/// An artefact that is there as soon as the job is prepared. @param what names it in an error.
+/// @throws ClientError kInternal when it is no such message.
+template <typename Message>
+Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
+  Message message;
+  if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
+    throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);
+  }
+  return message;
+}
 
 /// Runs a fetch that may have to wait for a worker; says so after a moment.
 std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,

@@ -11,6 +11,7 @@
 #include "client/input_file.h"
 #include "client/job_json.h"
 #include "client/view/page.h"
+#include "core/chord_pruning.h"
 #include "core/shock_operator.h"
 
 namespace affskel::client {
@@ -18,13 +19,6 @@ namespace {
 
 // Beyond this a phone takes long to open the page; about 19 bytes each.
 constexpr std::uint64_t kMostPoints = 400000;
-
-v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
-  v1::FetchArtifactRequest request;
-  request.set_job(job);
-  request.set_kind(kind);
-  return request;
-}
 
 // A field on its way into a page; a transfer that breaks off begins again from nothing.
 class PointSink : public ArtifactSink {
@@ -44,28 +38,34 @@ class PointSink : public ArtifactSink {
   FieldDecoder decoder_;
 };
 
-v1::SkeletonParams params_for(const JobOptions& options, const v1::Job& job) {
-  v1::SkeletonParams params = options.own_skeleton ? job.skeleton() : skeleton_params(options.skeleton);
-  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
-  return params;
-}
-
 v1::Job finished_job(Context& context, const std::string& name) {
   v1::Job job = context.session().get_job(name);
   if (job.state() == v1::JOB_STATE_DONE) return job;
-  throw ClientError(ExitCode::kNotFound, "job " + job.id() +
-                                             " is not done yet: " + std::to_string(job.directions_done()) +
-                                             " of " + std::to_string(job.directions_total()) + " directions");
+  throw ClientError(ExitCode::kNotFound,
+                    "there is nothing to show: job " + job.id() + " " + unfinished_text(job));
 }
 
-// The threshold that the operator has by itself; a page of chords begins with the whole sheet.
-double default_threshold(const std::string& operator_name, double spacing) {
-  using core::ShockOperator;
-  for (const ShockOperator which :
-       {ShockOperator::kIntermediate, ShockOperator::kCentral, ShockOperator::kSobel, ShockOperator::kFlux}) {
-    if (operator_name == core::name_of(which)) return core::default_threshold(which, spacing);
+// For an operator of H; `chords` has none.
+core::ShockOperator core_operator(v1::Operator which) {
+  switch (which) {
+    case v1::OPERATOR_INTERMEDIATE:
+      return core::ShockOperator::kIntermediate;
+    case v1::OPERATOR_CENTRAL:
+      return core::ShockOperator::kCentral;
+    case v1::OPERATOR_SOBEL:
+      return core::ShockOperator::kSobel;
+    case v1::OPERATOR_FLUX:
+      return core::ShockOperator::kFlux;
+    default:
+      return core::ShockOperator::kZuckerHummel;
   }
-  return core::default_threshold(ShockOperator::kZuckerHummel, spacing);
+}
+
+// Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
+double first_threshold(const v1::SkeletonParams& params, double spacing) {
+  if (params.threshold() > 0) return params.threshold();
+  if (params.operator_() == v1::OPERATOR_CHORDS) return core::ChordPruningOptions().significance;
+  return core::default_threshold(core_operator(params.operator_()), spacing);
 }
 
 std::vector<float> fetch_divergences(Context& context, const std::string& job,
@@ -105,23 +105,12 @@ v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1:
   return sheet;
 }
 
-template <typename Message>
-Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
-  Message message;
-  if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
-    throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);
-  }
-  return message;
-}
-
 ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
   ViewInput input;
   input.job = job;
   input.operator_name = enum_word(*v1::Operator_descriptor()->FindValueByNumber(params.operator_()));
   input.sheet_is_skeleton = params.operator_() == v1::OPERATOR_CHORDS;
-  const double spacing = job.prepared().spacing();
-  input.threshold =
-      params.threshold() > 0 ? params.threshold() : default_threshold(input.operator_name, spacing);
+  input.threshold = first_threshold(params, job.prepared().spacing());
   const LatticePoints lattice(
       fetch_message<v1::Lattice>(context, job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
   std::vector<float> divergences;
@@ -149,7 +138,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
 void run_view(Context& context, const JobOptions& options) {
   choose_format(options.output, page_formats(), "page");
   const v1::Job job = finished_job(context, options.job);
-  const ViewInput input = fetch_input(context, job, params_for(options, job));
+  const ViewInput input = fetch_input(context, job, skeleton_params(options.skeleton, job));
   const std::string page = view_page(input);
   AtomicFile file(options.output);
   file.write(page);

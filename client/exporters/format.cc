@@ -40,26 +40,29 @@ std::span<const FileFormat> page_formats() {
 }
 
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 11> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off",
-                                                       ".xyz", ".obj", ".stl",    ".png", ".svg", ".html"};
+  constexpr std::array<std::string_view, 11> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off", ".xyz",
+                                                       ".obj", ".stl", ".png",    ".svg", ".html"};
   return kNames[static_cast<std::size_t>(format)];
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
                          const std::string& what) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(file);
   std::string names;
   for (const FileFormat format : possible) {
     if (extension == extension_of(format)) return format;
     names += (names.empty() ? "" : ", ") + std::string(extension_of(format));
   }
-  throw ClientError(
-      ExitCode::kUsage,
-      (extension.empty() ? "no extension" : "cannot write " + what + " as '" + extension + "'") + "; a " +
-          what + " can be written as " + names,
-      file);
+  const std::string refused = extension.empty() ? "cannot tell from no extension how to write the " + what
+                                                : "cannot write the " + what + " as '" + extension + "'";
+  throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, file);
 }
 
 }  // namespace affskel::client

@@ -20,6 +20,9 @@ std::span<const FileFormat> page_formats();        // html
 /// With the dot, e.g. ".csv".
 std::string_view extension_of(FileFormat format);
 
+/// The file's extension with the dot, in lower case; empty without one.
+std::string lower_extension(const std::filesystem::path& file);
+
 /// The format that the file's extension (in any case) stands for, if it is one of `possible`.
 /// @throws ClientError kUsage naming the possible extensions.
 FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,

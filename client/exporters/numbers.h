@@ -34,6 +34,13 @@ inline std::string rounded(double value, int digits) {
           std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr};
 }
 
+/// With so many decimals, for columns.
+inline std::string with_decimals(double value, int decimals) {
+  char buffer[400];  // the largest double has 309 digits before the point
+  return {buffer,
+          std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
+}
+
 // Raw copies of numbers are little-endian only because the machine is.
 static_assert(std::endian::native == std::endian::little, "binary formats here are little-endian");
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "client/error.h"
+#include "client/exporters/format.h"
 #include "client/importers/shape_parsers.h"
 #include "client/input_file.h"
 #include "core/error.h"
@@ -33,9 +32,7 @@ constexpr std::array<std::pair<std::string_view, Parser>, 7> kParsers = {{{".csv
                                                                           {".stl", parse_stl}}};
 
 Parser parser_for(const std::string& path, std::string_view bytes) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   for (const auto& [name, parser] : kParsers) {
     if (extension == name) return parser;
   }

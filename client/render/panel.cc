@@ -82,6 +82,43 @@ void Panel::draw_ball(const Ball& ball, double radius) {
   }
 }
 
+void Panel::draw_ellipsoid(const Ball& ball, const std::array<Vec3, 3>& half_axes) {
+  std::array<Vec3, 3> axis{};  // in samples: right, up, towards the viewer
+  for (std::size_t a = 0; a < 3; ++a) {
+    axis[a] = {scale_ * core::dot(view_.right, half_axes[a]), scale_ * core::dot(view_.up, half_axes[a]),
+               scale_ * core::dot(view_.toward, half_axes[a])};
+  }
+  const double volume = core::dot(axis[0], core::cross(axis[1], axis[2]));
+  if (volume == 0) return;
+  // Rows of the inverse: u = (row . d) takes a place d about the centre into the unit ball.
+  const std::array<Vec3, 3> row = {(1 / volume) * core::cross(axis[1], axis[2]),
+                                   (1 / volume) * core::cross(axis[2], axis[0]),
+                                   (1 / volume) * core::cross(axis[0], axis[1])};
+  const Vec3 along{row[0].z, row[1].z, row[2].z};
+  const double steep = core::dot(along, along);
+  const double wide = core::norm(Vec3{axis[0].x, axis[1].x, axis[2].x});
+  const double high = core::norm(Vec3{axis[0].y, axis[1].y, axis[2].y});
+  const Projected c = project(ball.centre);
+  const int x_end = std::min(columns_ - 1, static_cast<int>(std::ceil(c.x + wide)));
+  const int y_end = std::min(rows_ - 1, static_cast<int>(std::ceil(c.y + high)));
+  for (int y = std::max(0, static_cast<int>(std::floor(c.y - high))); y <= y_end; ++y) {
+    for (int x = std::max(0, static_cast<int>(std::floor(c.x - wide))); x <= x_end; ++x) {
+      // Where |u|^2 = 1 nearest to the viewer, u = at + depth along.
+      const double right = x + 0.5 - c.x, up = c.y - (y + 0.5);
+      const Vec3 at_zero{row[0].x * right + row[0].y * up, row[1].x * right + row[1].y * up,
+                         row[2].x * right + row[2].y * up};
+      const double half = core::dot(at_zero, along);
+      const double rest = half * half - steep * (core::dot(at_zero, at_zero) - 1);
+      if (rest < 0) continue;
+      const double depth = (std::sqrt(rest) - half) / steep;
+      const Vec3 u = at_zero + depth * along;
+      const Vec3 normal = unit((u.x * row[0] + u.y * row[1]) + u.z * row[2]);
+      const double light = 0.55 + 0.45 * lambert(normal.x, normal.y, normal.z);
+      cover(at(x, y), static_cast<float>(c.depth + depth), static_cast<float>(light) * ball.colour);
+    }
+  }
+}
+
 void Panel::draw_facets(const core::Mesh& mesh, Rgb colour) {
   for (const core::Triangle& corners : mesh.triangles) {
     std::array<Projected, 3> p{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct View {
   core::Vec3 toward;  ///< unit, from the scene to the viewer
 };
 
-/// A ball to draw.
+/// A ball or an ellipsoid to draw.
 struct Ball {
   core::Vec3 centre;
   Rgb colour;
@@ -31,8 +32,11 @@ class Panel {
   /// @param scale pixels per mesh unit; @param centre is shown in the middle of the picture.
   Panel(int width, int height, const View& view, const core::Vec3& centre, double scale);
 
-  /// All balls and facets first, then the surface.
+  /// All balls, ellipsoids and facets first, then the surface.
   void draw_ball(const Ball& ball, double radius);
+  /// An ellipsoid about the ball's centre: the image of the unit ball when the unit vectors become
+  /// `half_axes`, mesh units.  Nothing when these lie in a plane.
+  void draw_ellipsoid(const Ball& ball, const std::array<core::Vec3, 3>& half_axes);
   /// The mesh's triangles, opaque and flat, seen from either side.
   void draw_facets(const core::Mesh& mesh, Rgb colour);
   /// @param normals one per triangle and corner, unit or zero.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "client/error.h"
 #include "client/exporters/numbers.h"
+#include "client/mesh_box.h"
 #include "client/render/panel.h"
 #include "client/render/text.h"
 
@@ -17,6 +17,7 @@ using core::Vec3;
 
 constexpr Rgb kInk{0.13f, 0.15f, 0.18f};
 constexpr Rgb kFaint{0.45f, 0.48f, 0.52f};
+constexpr double kPartOfCell = 0.42;  // half the size of a point's ball: balls nearly touch
 constexpr int kMinWidth = 200, kMaxWidth = 8000;
 
 struct NamedView {
@@ -30,22 +31,6 @@ constexpr std::array<NamedView, 3> kViews = {{
     {"side", {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}},
     {"top", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
 }};
-
-struct Box {
-  Vec3 low, high;
-  Vec3 size() const { return high - low; }
-  Vec3 centre() const { return 0.5 * (low + high); }
-};
-
-Box bounds(const core::Mesh& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (const Vec3& p : mesh.points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
 
 // Everything in pixels.
 struct Layout {
@@ -106,11 +91,19 @@ Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, con
                  const Box& box, std::size_t which) {
   Panel panel(layout.panel_width[which], layout.panel_height, kViews[which].view, box.centre(), layout.scale);
   const ErosionScale scale = scale_of(input.skeleton);
+  // A ball in a cubic cell, and its affine image in any other: neighbours are as near to each other along
+  // every axis of the lattice.  All volumes are those of the cubes.
   const double smallest = std::max(1.0, layout.text / 9);
-  const double radius = std::clamp(0.42 * input.spacing * layout.scale, smallest, layout.text / 2);
+  const double whole =
+      std::cbrt(std::fabs(core::dot(input.cell[0], core::cross(input.cell[1], input.cell[2]))));
+  const double share = std::min(kPartOfCell, layout.text / 2 / (whole * layout.scale));
+  std::array<Vec3, 3> half_axes = input.cell;
+  for (Vec3& axis : half_axes) axis = share * axis;
   for (int p = 0; p < input.skeleton.point_size(); ++p) {
     const Vec3 at{input.skeleton.xyz(3 * p), input.skeleton.xyz(3 * p + 1), input.skeleton.xyz(3 * p + 2)};
-    panel.draw_ball({at, viridis(scale.colour_position(input.skeleton.erosion(p)))}, radius);
+    const Ball ball{at, viridis(scale.colour_position(input.skeleton.erosion(p)))};
+    panel.draw_ball(ball, smallest);
+    panel.draw_ellipsoid(ball, half_axes);
   }
   panel.draw_surface(input.mesh, normals);
   return panel.resolve();
@@ -179,7 +172,7 @@ Image render_scene(const RenderInput& input, const RenderOptions& options) {
   }
   if (input.mesh.triangles.empty())
     throw ClientError(ExitCode::kBadInput, "the mesh has no triangles to draw");
-  const Box box = bounds(input.mesh);
+  const Box box = mesh_box(input.mesh);
   const Layout layout = lay_out(box, options.width);
   const std::vector<Vec3> normals = corner_normals(input.mesh);
   Image image(options.width, layout.height());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "affskel/v1/types.pb.h"
@@ -14,11 +15,11 @@ struct RenderOptions {
 
 /// What is on the picture.
 struct RenderInput {
-  core::Mesh mesh;              ///< the body, drawn translucent
-  v1::SkeletonPoints skeleton;  ///< drawn as balls coloured by E, may be empty
-  double spacing = 0;           ///< of the lattice, mesh units; gives the size of the balls
-  double volume = 0;            ///< v0, mesh units cubed; E is labelled as a share of it
-  std::string title;            ///< one line above the panels
+  core::Mesh mesh;                 ///< the body, drawn translucent
+  v1::SkeletonPoints skeleton;     ///< drawn as balls, stretched like the cells, coloured by E; may be empty
+  std::array<core::Vec3, 3> cell;  ///< steps of the lattice, mesh units; give the balls' size and shape
+  double volume = 0;               ///< v0, mesh units cubed; E is labelled as a share of it
+  std::string title;               ///< one line above the panels
 };
 
 /// Three orthographic views at one scale, from the front (looking along +y), from the side (looking along -x)

@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "client/error.h"
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
+#include "client/mesh_box.h"
 #include "client/view/base64.h"
 #include "client/view/resources.h"
+#include "client/view/sheet_pieces.h"
 #include "wire/version.h"
 
 namespace affskel::client {
@@ -28,19 +29,6 @@ std::array<double, 3> components(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-struct Box {
-  Vec3 low, high;
-};
-
-Box bounds(const core::Mesh& mesh) {
-  Box box{mesh.points.at(0), mesh.points.at(0)};
-  for (const Vec3& p : mesh.points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
-
 // From mesh to page units.
 struct Scale {
   Vec3 centre;
@@ -51,8 +39,8 @@ struct Scale {
 };
 
 Scale scale_of(const Box& box) {
-  const Vec3 size = box.high - box.low;
-  return {0.5 * (box.low + box.high), 0.5 * std::max({size.x, size.y, size.z})};
+  const Vec3 size = box.size();
+  return {box.centre(), 0.5 * std::max({size.x, size.y, size.z})};
 }
 
 // The arrays of a page, one after the other, each at a multiple of 4 bytes.
@@ -76,7 +64,7 @@ class Arrays {
 
 // Vertices to 1/65535 of the box, which no screen shows.
 ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
-  const std::array<double, 3> low = components(box.low), size = components(box.high - box.low);
+  const std::array<double, 3> low = components(box.low), size = components(box.size());
   std::vector<std::uint16_t> steps;
   steps.reserve(3 * mesh.points.size());
   for (const Vec3& point : mesh.points) {
@@ -131,25 +119,27 @@ ordered_json add_points(Arrays& arrays, const ViewInput& input, const Scale& sca
 
 void add_sheet(Arrays& arrays, const ViewInput& input, const Scale& scale) {
   const v1::TriangleMesh& sheet = input.sheet;
-  std::vector<float> positions, shares, strengths;
+  std::vector<float> positions, shares;
   for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
     const Vec3 at{sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)};
     for (const double c : scale.place(at)) positions.push_back(static_cast<float>(c));
     shares.push_back(view_share(sheet.erosion(v), input.job.prepared().volume()));
-    strengths.push_back(view_divergence(sheet.strength(v)));
   }
   arrays.add("sheetPositions", "f32", positions);
   arrays.add("sheetShares", "f32", shares);
-  arrays.add("sheetStrengths", "f32", strengths);
   arrays.add("sheetCorners", "u32",
              std::vector<std::uint32_t>(sheet.corners().begin(), sheet.corners().end()));
+  const SheetPieces pieces = sheet_pieces(sheet);
+  arrays.add("sheetPieces", "u32", pieces.piece);
+  arrays.add("sheetPieceShares", "f32", std::vector<float>(pieces.shares.begin(), pieces.shares.end()));
 }
 
-// The edge of a cube as large as a lattice cell.
-double cell_edge(const ViewGrid& grid) {
-  std::array<Vec3, 3> axes = grid.axes;
-  for (std::size_t a = 0; a < 3; ++a) axes[a] = (1.0 / grid.lattice_steps[a]) * axes[a];
-  return std::cbrt(std::fabs(core::dot(axes[0], core::cross(axes[1], axes[2]))));
+// The steps of the lattice, page units; those of the grid may be several at once.
+ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
+  ordered_json cell = ordered_json::array();
+  for (std::size_t a = 0; a < 3; ++a)
+    cell.push_back(scale.length((1.0 / grid.lattice_steps[a]) * grid.axes[a]));
+  return cell;
 }
 
 float highest_share(const ViewInput& input) {
@@ -166,8 +156,7 @@ std::string frame_name(const v1::Job& job) {
 
 ordered_json facts_of(const ViewInput& input, const Box& box, const Scale& scale) {
   const v1::PreparedSummary& prepared = input.job.prepared();
-  const Vec3 size = box.high - box.low;
-  const double step = cell_edge(input.grid) / scale.unit;
+  const Vec3 size = box.size();
   return {{"name", input.job.name()},
           {"job", input.job.id()},
           {"operator", input.operator_name},
@@ -186,8 +175,7 @@ ordered_json facts_of(const ViewInput& input, const Box& box, const Scale& scale
           {"up", std::string(1, up_axis(size))},
           {"unit", scale.unit},
           {"halfBox", scale.length(0.5 * size)},
-          {"pointStep", step},
-          {"skinStep", step * std::cbrt(double(input.selection.thinning))}};
+          {"cell", cell_of(input.grid, scale)}};
 }
 
 // JSON that no HTML parser takes for the end of its element, whatever names it holds.
@@ -240,7 +228,7 @@ char up_axis(const Vec3& box_size) {
 std::string view_page(const ViewInput& input) {
   if (input.mesh.triangles.empty())
     throw ClientError(ExitCode::kBadInput, "the mesh has no triangles to draw");
-  const Box box = bounds(input.mesh);
+  const Box box = mesh_box(input.mesh);
   const Scale scale = scale_of(box);
   Arrays arrays;
   ordered_json facts = facts_of(input, box, scale);

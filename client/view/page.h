@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
-#include "client/exporters/atomic_file.h"
 #include "client/view/view_points.h"
 #include "core/mesh.h"
 
@@ -15,7 +14,7 @@ struct ViewInput {
   v1::Job job;                     ///< its name, id, and what was prepared
   core::Mesh mesh;                 ///< the body, drawn as glass
   std::string operator_name;       ///< e.g. "zucker-hummel"
-  double threshold = 0;            ///< where the slider stands at first, the operator's unit
+  double threshold = 0;            ///< the slider stands there at first; the operator's unit
   ViewGrid grid;                   ///< of the points
   ViewSelection selection;         ///< how they were chosen
   std::vector<ViewPoint> points;   ///< by descending |H|

@@ -1,12 +1,12 @@
 // affskel_experiments: the published experimental chapter, run again.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <thread>
 
+#include "core/stopwatch.h"
 #include "core/version.h"
 #include "experiments.h"
 #include "report.h"
@@ -24,16 +24,6 @@ constexpr Experiment kExperiments[] = {
     {"torus", torus_experiment},   {"ellipsoid", ellipsoid_experiment}, {"revolution", revolution_experiment},
     {"bodies", body_experiment},   {"threshold", threshold_experiment}, {"noise", noise_experiment},
     {"affine", affine_experiment}, {"planes", plane_experiment},        {"growth", growth_experiment},
-};
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 std::string heading(const Setting& setting, double seconds) {
@@ -57,11 +47,11 @@ std::string heading(const Setting& setting, double seconds) {
 }
 
 int run(const Setting& setting, const std::string& directory, const std::string& only) {
-  const Stopwatch all;
+  const affskel::core::Stopwatch all;
   Report report(directory);
   for (const Experiment& experiment : kExperiments) {
     if (!only.empty() && only != experiment.name) continue;
-    const Stopwatch own;
+    const affskel::core::Stopwatch own;
     experiment.run(setting, report);
     std::fprintf(stderr, "%-10s %6.2f s\n", experiment.name, own.seconds());
   }

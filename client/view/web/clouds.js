@@ -1,5 +1,5 @@
-// Sample points as balls (the skeleton) and as a smooth skin (the eroded solid).  A slider only moves the end
-// of a range in a fixed order, so that it costs nothing.
+// Sample points as balls (the skeleton) and as a smooth skin (the eroded solid), stretched like the cells of
+// the lattice.  A slider only moves the end of a range in a fixed order, so that it costs nothing.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -9,6 +9,7 @@ import {
   Points,
   ShaderMaterial,
 } from 'three';
+import { CellShape, kOnEllipsoid } from './cell.js';
 
 const kBallVertex = `
   attribute vec4 colour;
@@ -21,13 +22,12 @@ const kBallVertex = `
   }`;
 
 const kBallFragment = `
-  uniform float size, lift;
+  uniform float lift;
   varying vec3 vColour;
+  ${kOnEllipsoid}
   void main() {
-    vec2 at = 2.0 * gl_PointCoord - 1.0;
-    float rest = 1.0 - dot(at, at);
-    if (rest < 0.0) discard;
-    float lit = max(0.0, dot(vec3(at.x, -at.y, sqrt(rest)), vec3(-0.42, 0.55, 0.72)));
+    if (outside()) discard;
+    float lit = max(0.0, dot(normalOfEllipsoid(), vec3(-0.42, 0.55, 0.72)));
     float shade = mix(1.0, 0.55 + 0.45 * lit, smoothstep(2.0, 6.0, size));
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
   }`;
@@ -51,9 +51,9 @@ const kSkinFragment = `
   uniform vec3 tint;
   uniform float opacity;
   varying vec3 vNormal;
+  ${kOnEllipsoid}
   void main() {
-    vec2 at = 2.0 * gl_PointCoord - 1.0;
-    if (dot(at, at) > 1.0) discard;
+    if (outside()) discard;
     float lit = dot(normalize(vNormal), vec3(-0.42, 0.55, 0.72));
     gl_FragColor = vec4(tint * (0.62 + 0.38 * lit), opacity);
   }`;
@@ -66,13 +66,13 @@ function cloud(geometry, material, order) {
 }
 
 export class BallCloud {
-  // radius: page units.
-  constructor(positions, colours, radius) {
-    this.radius = radius;
+  // cell: the steps of the lattice, page units.
+  constructor(positions, colours, cell) {
+    this.shape = new CellShape(cell, 0.55);
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('colour', new BufferAttribute(colours, 4, true));
-    this.uniforms = { size: { value: 1 }, lift: { value: 0 } };
+    this.uniforms = { ...this.shape.uniforms, lift: { value: 0 } };
     this.object = cloud(
       this.geometry,
       new ShaderMaterial({
@@ -89,8 +89,8 @@ export class BallCloud {
   }
 
   // pixels: of the drawing buffer, per page unit.
-  scale(pixels) {
-    this.uniforms.size.value = Math.max(2, 2 * this.radius * pixels);
+  look(camera, pixels) {
+    this.shape.look(camera, pixels);
   }
 
   paint(theme) {
@@ -99,18 +99,18 @@ export class BallCloud {
 }
 
 export class SkinCloud {
-  // inward: unit normals as bytes, 3 per point; order: indices into the positions; step: the distance of
-  // neighbours, page units; around: per point the least share of v0 among its neighbours.
-  constructor(positions, { inward, order, step, around }) {
-    this.radius = 0.85 * step; // neighbours overlap in every direction
+  // inward: unit normals as bytes, 3 per point; order: indices into the positions; cell: what a point stands
+  // for, three edges in page units; around: per point the least share of v0 among its neighbours.
+  constructor(positions, { inward, order, cell, around }) {
+    this.shape = new CellShape(cell, 0.85); // neighbours overlap in every direction
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('inward', new BufferAttribute(inward, 3, true));
     this.geometry.setAttribute('around', new BufferAttribute(around, 1));
     this.geometry.setIndex(new BufferAttribute(order, 1));
     this.uniforms = {
-      size: { value: 1 },
-      step: { value: step },
+      ...this.shape.uniforms,
+      step: { value: this.shape.edge },
       level: { value: 0 },
       opacity: { value: 0.6 },
       tint: { value: [1, 1, 1] },
@@ -146,7 +146,7 @@ export class SkinCloud {
     this.uniforms.tint.value = theme.skin;
   }
 
-  scale(pixels) {
-    this.uniforms.size.value = Math.max(2, 2 * this.radius * pixels);
+  look(camera, pixels) {
+    this.shape.look(camera, pixels);
   }
 }

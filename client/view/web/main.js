@@ -1,5 +1,6 @@
 // The page: reads its data, builds the scene, wires the controls.
 import { Color } from 'three';
+import { widened } from './cell.js';
 import { themeColours } from './colours.js';
 import { SkinCloud } from './clouds.js';
 import { decodePage, meshPositions, pointPositions } from './decode.js';
@@ -38,7 +39,7 @@ class Viewer {
     this.skin = new SkinCloud(positions, {
       inward: page.arrays.pointInward,
       order: this.erosion.order,
-      step: page.skinStep,
+      cell: widened(page.cell, page.thinning),
       around: leastAround(
         page.arrays.pointSteps,
         page.arrays.pointShares,
@@ -71,8 +72,9 @@ class Viewer {
   beforeFrame() {
     const pixels = this.stage.pixelsPerUnit();
     const buffer = pixels * this.stage.renderer.getPixelRatio();
-    this.skeleton.drawn.scale(buffer);
-    this.skin.scale(buffer);
+    this.stage.camera.updateMatrixWorld();
+    this.skeleton.drawn.look(this.stage.camera, buffer);
+    this.skin.look(this.stage.camera, buffer);
     drawCross(element('cross'), this.stage.camera);
     drawScaleBar(element('scale'), pixels / this.page.unit, this.stage.canvas.clientWidth);
   }
@@ -108,10 +110,13 @@ class Viewer {
 
   wireSliders() {
     const { page, skeleton } = this;
+    element('threshold-name').textContent = skeleton.name;
     element('threshold-symbol').textContent = skeleton.symbol;
+    element('threshold-field').setAttribute('aria-label', skeleton.name);
     this.threshold = new Slider(element('threshold'), {
       low: skeleton.low,
       high: skeleton.high,
+      curve: skeleton.curve,
       changed: () => this.applyThreshold(),
     });
     this.level = new Slider(element('level'), {
@@ -127,7 +132,7 @@ class Viewer {
   }
 
   resetSliders() {
-    this.threshold.set(this.page.arrays.sheetCorners ? this.skeleton.low : this.page.threshold);
+    this.threshold.set(this.skeleton.first);
     this.level.set(Number((10 * this.page.highestShare).toPrecision(2)));
     this.applyThreshold();
     this.applyLevel();
@@ -135,7 +140,7 @@ class Viewer {
 
   applyThreshold() {
     this.shown.skeleton = this.skeleton.show(this.threshold.value);
-    element('threshold-count').textContent = `${whole(this.shown.skeleton)} ${this.skeleton.items}`;
+    element('threshold-count').textContent = this.skeleton.describe(this.shown.skeleton, this.threshold.value);
     this.stage.requestFrame();
   }
 

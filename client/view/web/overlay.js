@@ -10,7 +10,6 @@ const kShortest = 0.2;
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
 export function drawCross(svg, camera) {
-  camera.updateMatrixWorld();
   const axes = Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }).map(([name, direction]) => {
     const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
     const length = Math.hypot(at.x, at.y);

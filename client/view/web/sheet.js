@@ -22,22 +22,13 @@ const kFragmentShader = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * (0.55 + 0.45 * lit), 1.0);
   }`;
 
-// Per triangle the least strength of its corners: it is shown while all three are.
-function faceStrengths(strengths, corners) {
-  const least = new Float32Array(corners.length / 3);
-  for (let t = 0; t < least.length; ++t) {
-    least[t] = Math.min(...[0, 1, 2].map((c) => strengths[corners[3 * t + c]]));
-  }
-  return least;
-}
-
 export class Sheet {
-  constructor(positions, colours, strengths, corners) {
-    const faces = faceStrengths(strengths, corners);
-    const order = descending(faces);
-    this.strengths = Float32Array.from(order, (t) => faces[t]); // descending
+  // pieces: per triangle its piece, the heaviest is 0.
+  constructor(positions, colours, pieces, corners) {
+    // Whole pieces come and go at the end of what is drawn.
+    this.order = descending(Int32Array.from(pieces, (piece) => -piece));
     const index = new Uint32Array(corners.length);
-    order.forEach((t, place) => index.set(corners.subarray(3 * t, 3 * t + 3), 3 * place));
+    this.order.forEach((t, place) => index.set(corners.subarray(3 * t, 3 * t + 3), 3 * place));
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('colour', new BufferAttribute(colours, 4, true));
@@ -60,7 +51,7 @@ export class Sheet {
     this.geometry.setDrawRange(0, 3 * triangles);
   }
 
-  scale() {}
+  look() {}
 
   paint(theme) {
     this.uniforms.lift.value = theme.lift;

@@ -1,50 +1,62 @@
-// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet with the
-// strength of the shock.  Both come, or are put, in the order of what the threshold slider compares.
+// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet in pieces
+// with their shares of its weight.  Both come, or are put, in the order of what the threshold slider compares.
 import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
 import { descending, prefixLength } from './decode.js';
+import { whole } from './numbers.js';
 import { Sheet } from './sheet.js';
 import { sublattice } from './shell.js';
 
-function makeSheet({ arrays, highestShare }) {
+// As the operator's significance is defined: pieces with a smaller share are dropped.
+function makeSheet({ arrays, highestShare, threshold }) {
+  const { sheetPieceShares: shares, sheetPieces: pieces } = arrays;
   const colours = coloursOf(arrays.sheetShares, highestShare);
-  const sheet = new Sheet(arrays.sheetPositions, colours, arrays.sheetStrengths, arrays.sheetCorners);
-  const values = sheet.strengths;
+  const sheet = new Sheet(arrays.sheetPositions, colours, pieces, arrays.sheetCorners);
+  const values = Float32Array.from(sheet.order, (t) => shares[pieces[t]]);
+  const all = shares.length === 1 ? 'the only piece' : `${whole(shares.length)} pieces`;
   return {
     drawn: sheet,
     values,
-    order: null,
-    items: 'triangles of the sheet',
-    symbol: 'strength',
-    // Below the weakest triangle: the page begins with the whole sheet.
-    low: values.length ? Math.max(0, (Math.ceil(100 * values[values.length - 1]) - 1) / 100) : 0,
+    name: 'Pieces of the sheet',
+    symbol: 'share ≥',
+    curve: 3, // most are small
+    low: 0,
+    first: Math.min(threshold, shares.length ? shares[shares.length - 1] : 0), // the whole sheet
+    keeps: (value, least) => value >= least,
+    describe(triangles, least) {
+      const kept = prefixLength(shares, null, (share) => share >= least);
+      return `${whole(triangles)} triangles, ${whole(kept)} of ${all}`;
+    },
   };
 }
 
-function makeBalls({ arrays, highestShare, pointStep, lowestThreshold, threshold }, positions) {
+function makeBalls({ arrays, highestShare, cell, lowestThreshold, threshold }, positions) {
   const colours = coloursOf(arrays.pointShares, highestShare);
   const values = arrays.pointDivergences; // descending, see page.cc
   return {
-    drawn: new BallCloud(positions, colours, 0.55 * pointStep),
+    drawn: new BallCloud(positions, colours, cell),
     values,
-    order: null,
-    items: 'skeleton points',
-    symbol: '|H|',
+    name: 'Shock threshold',
+    symbol: '|H| >',
+    curve: 1,
     low: Math.max(lowestThreshold, threshold / 10),
+    first: threshold,
+    keeps: (value, least) => value > least,
+    describe: (points) => `${whole(points)} skeleton points`,
   };
 }
 
 // positions: of the sample points, page units.
 export function makeSkeleton(page, positions) {
   const made = page.arrays.sheetCorners ? makeSheet(page) : makeBalls(page, positions);
-  const { drawn, values, low } = made;
+  const { drawn, values, low, keeps } = made;
   return {
     ...made,
     high: values.length ? Math.max(values[0], low) : low,
     total: values.length,
-    // Strictly above, as the threshold is defined.  Returns how many are shown.
+    // Returns how many points or triangles are shown.
     show(threshold) {
-      const count = prefixLength(values, null, (value) => value > threshold);
+      const count = prefixLength(values, null, (value) => keeps(value, threshold));
       drawn.showFirst(count);
       return count;
     },

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "affskel/v1/types.pb.h"
+
+namespace affskel::client {
+
+/// The connected pieces of a sheet of `chords`, heaviest first.
+struct SheetPieces {
+  std::vector<std::uint32_t> piece;  ///< per triangle, its piece
+  std::vector<double> shares;        ///< per piece, its share of the sheet's weight, 0 .. 1
+};
+
+/// Triangles with a common vertex belong to one piece.  A triangle weighs its area times the mean strength of
+/// its corners.  The operator's significance is such a share too, of lattice edges instead of triangles,
+/// which also weigh the angle between the two normals; after that it joins pieces.
+/// @param sheet with its strengths; its corners exist.
+SheetPieces sheet_pieces(const v1::TriangleMesh& sheet);
+
+}  // namespace affskel::client
