@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <new>
 #include <utility>
 
 #include "client/error.h"
@@ -77,6 +78,8 @@ ShapeFile read_shape(const std::string& path) {
     return file;
   } catch (const core::CoreError& error) {
     throw error_from_core(error, path);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
   }
 }
 
