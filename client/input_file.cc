@@ -4,7 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <new>
 
 #include "client/error.h"
 
@@ -33,7 +35,32 @@ ClientError too_large(const std::string& path, std::uint64_t max_bytes) {
   throw ClientError(ExitCode::kBadInput, "cannot read: " + std::system_category().message(errno), path);
 }
 
+// What the file announces is taken in one piece; what comes unannounced in pieces that double, up to one byte
+// more than is allowed.
+std::string read_all(int fd, const std::string& path, std::uint64_t announced, std::uint64_t max_bytes) {
+  constexpr std::uint64_t kLeastStep = 1 << 16;
+  std::string bytes;
+  std::uint64_t size = 0;
+  for (std::uint64_t room = std::max(announced + 1, kLeastStep);;) {
+    room = std::min(room, max_bytes + 1);
+    bytes.resize(room);
+    const ssize_t got = read(fd, bytes.data() + size, room - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) unreadable(path);
+    if (got == 0) break;
+    size += static_cast<std::uint64_t>(got);
+    if (size > max_bytes) throw too_large(path, max_bytes);
+    if (size == room) room = size + std::max(size, kLeastStep);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace
+
+ClientError out_of_memory(const std::string& path) {
+  return {ExitCode::kLimit, "not enough memory to read it", path};
+}
 
 std::string read_file(const std::string& path, std::uint64_t max_bytes) {
   const OpenFile file(path);
@@ -42,21 +69,12 @@ std::string read_file(const std::string& path, std::uint64_t max_bytes) {
   if (fstat(file.fd(), &info) != 0) unreadable(path);
   if (S_ISREG(info.st_mode) && static_cast<std::uint64_t>(info.st_size) > max_bytes)
     throw too_large(path, max_bytes);
-  std::string bytes;
-  std::size_t size = 0;
-  std::size_t step = std::max<std::size_t>(static_cast<std::size_t>(info.st_size) + 1, 1 << 16);
-  while (true) {
-    bytes.resize(size + step);
-    const ssize_t got = read(file.fd(), bytes.data() + size, step);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) unreadable(path);
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
-    if (size > max_bytes) throw too_large(path, max_bytes);
-    step = std::max<std::size_t>(size, 1 << 16);
+  const std::uint64_t announced = S_ISREG(info.st_mode) ? static_cast<std::uint64_t>(info.st_size) : 0;
+  try {
+    return read_all(file.fd(), path, announced, max_bytes);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
   }
-  bytes.resize(size);
-  return bytes;
 }
 
 core::OffMesh parse_mesh(const std::string& bytes, const std::string& path) {
@@ -64,6 +82,8 @@ core::OffMesh parse_mesh(const std::string& bytes, const std::string& path) {
     return core::read_off(bytes);
   } catch (const core::CoreError& error) {
     throw error_from_core(error, path);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/console.h"
+#include "client/error.h"
 #include "core/mesh_io.h"
 #include "core/solid.h"
 
@@ -19,8 +20,12 @@ struct InputFile {
 /// Largest file that is read at all.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
 
-/// The bytes of a regular file or of a pipe.
-/// @throws ClientError kBadInput when it cannot be read, kLimit when it has more than `max_bytes`.
+/// Error for a file whose content does not fit into the memory.
+ClientError out_of_memory(const std::string& path);
+
+/// The bytes of a regular file, of a pipe or of a device.
+/// @throws ClientError kBadInput when it cannot be read, kLimit when it has more than `max_bytes`
+/// or than the memory holds.
 std::string read_file(const std::string& path, std::uint64_t max_bytes = kMaxFileBytes);
 
 /// Reads and parses. @throws ClientError as read_file, and kBadInput with the line for malformed text.

@@ -16,7 +16,7 @@ namespace {
 // A signal handler may only read what is never freed or changed under it: strings are published through an
 // atomic pointer, and replaced ones are kept to the end (a few dozen bytes per file written).
 std::atomic<const char*> message_text{nullptr};
-std::atomic<const char*> temporary_path{nullptr};
+std::array<std::atomic<const char*>, 8> temporary_paths{};
 
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
@@ -29,7 +29,9 @@ const char* publish(const std::string& text) {
 }
 
 void on_signal(int signal_number) {
-  if (const char* path = temporary_path.load()) unlink(path);
+  for (const std::atomic<const char*>& slot : temporary_paths) {
+    if (const char* path = slot.load()) unlink(path);
+  }
   if (const char* text = message_text.load()) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
   }
@@ -47,6 +49,7 @@ void install_interrupt_handlers() {
     action.sa_handler = on_signal;
     sigaction(signal_number, &action, nullptr);
   }
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 void set_interrupt_message(const std::string& text) {
@@ -54,11 +57,18 @@ void set_interrupt_message(const std::string& text) {
 }
 
 void guard_temporary_file(const std::string& path) {
-  temporary_path.store(publish(path));
+  const char* const published = publish(path);
+  for (std::atomic<const char*>& slot : temporary_paths) {
+    const char* free = nullptr;
+    if (slot.compare_exchange_strong(free, published)) return;
+  }
 }
 
-void release_temporary_file() {
-  temporary_path.store(nullptr);
+void release_temporary_file(const std::string& path) {
+  for (std::atomic<const char*>& slot : temporary_paths) {
+    const char* const guarded = slot.load();
+    if (guarded != nullptr && path == guarded) slot.store(nullptr);
+  }
 }
 
 }  // namespace affskel::client

@@ -50,7 +50,7 @@ void run_make(Console& console, const MakeOptions& options) {
   }
   if (to_stdout) return console.result(core::write_off(mesh));
   AtomicFile file(options.output);
-  write_mesh(format, mesh, {}, [&](std::string_view bytes) { file.write(bytes); });
+  write_mesh(format, mesh, {}, file);
   file.commit();
   console.note("wrote " + options.output + " (" + std::to_string(mesh.triangles.size()) + " triangles)");
   console.document(

@@ -65,7 +65,7 @@ void run_perturb(Console& console, const PerturbOptions& options) {
   const std::string noise = "Gaussian noise of standard deviation " + shortest(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);
   AtomicFile file(options.output);
-  write_shape(format, shape, {noise}, [&](std::string_view bytes) { file.write(bytes); });
+  write_shape(format, shape, {noise}, file);
   file.commit();
   console.note("wrote " + options.output + " (" + counts_text(shape) + ", sigma " + rounded(sigma, 6) +
                ", seed " + std::to_string(options.seed) + ")");

@@ -87,7 +87,7 @@ void run_transform(Console& console, const TransformOptions& options) {
 
   const std::vector<double> numbers = numbers_of(map);
   AtomicFile file(options.output);
-  write_shape(format, shape, {comment_for(numbers)}, [&](std::string_view bytes) { file.write(bytes); });
+  write_shape(format, shape, {comment_for(numbers)}, file);
   file.commit();
   const double det = core::determinant(map);
   console.note("wrote " + options.output + " (" + counts_text(shape) + ", volumes times " +

@@ -49,6 +49,7 @@ void sync_directory(const fs::path& directory) {
 AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   struct stat info {};
   const bool exists = stat(target.c_str(), &info) == 0;
+  if (!exists && errno != ENOENT) fail("cannot write");
   if (exists && S_ISDIR(info.st_mode)) throw ClientError(ExitCode::kUsage, "is a directory", target);
   if (exists && !S_ISREG(info.st_mode)) {
     regular_ = false;
@@ -62,7 +63,8 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   if (error) target_ = target;
   if (!exists) target_ = follow_dangling(target);
   const fs::path directory = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-  std::string name = (directory / ("." + target_.filename().string() + ".XXXXXX")).string();
+  // Not after the target: its name may be as long as names can be.
+  std::string name = (directory / ".affskel.XXXXXX").string();
   fd_ = mkostemp(name.data(), O_CLOEXEC);
   if (fd_ < 0) fail("cannot write");
   path_ = name;
@@ -74,7 +76,7 @@ AtomicFile::~AtomicFile() {
   if (fd_ >= 0) close(fd_);
   if (!regular_ || committed_) return;
   unlink(path_.c_str());
-  release_temporary_file();
+  release_temporary_file(path_.string());
 }
 
 void AtomicFile::fail(const char* action) const {
@@ -97,13 +99,17 @@ void AtomicFile::flush() {
   buffer_.clear();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::sync() {
   flush();
+  if (regular_ && fsync(fd_) != 0) fail("cannot write");
+}
+
+void AtomicFile::commit() {
+  sync();
   if (regular_) {
-    if (fsync(fd_) != 0) fail("cannot write");
     if (rename(path_.c_str(), target_.c_str()) != 0) fail("cannot rename the finished file");
     committed_ = true;
-    release_temporary_file();
+    release_temporary_file(path_.string());
     sync_directory(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
   }
   const int fd = fd_;

@@ -26,6 +26,9 @@ class AtomicFile {
   /// Whether the target is replaced by a rename and can thus be written in any order.
   bool is_regular() const { return regular_; }
 
+  /// Puts everything written so far on the disk, so that `commit` has little left that can fail.
+  void sync();
+
   /// Makes the file appear.  Call once, last.
   void commit();
 

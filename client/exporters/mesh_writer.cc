@@ -7,6 +7,7 @@
 #include "client/console.h"
 #include "client/error.h"
 #include "client/exporters/numbers.h"
+#include "client/exporters/single_precision.h"
 #include "core/mesh_io.h"
 
 namespace affskel::client {
@@ -61,6 +62,7 @@ void write_obj(const core::Mesh& mesh, const std::vector<std::string>& comments,
 }
 
 void write_stl(const core::Mesh& mesh, const Write& write) {
+  check_fits_stl(mesh);
   // A binary header must not begin with "solid", which marks the text variant.
   std::string text = "triangle mesh, units as submitted";
   text.resize(80, ' ');
@@ -138,6 +140,17 @@ void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std
       return write_stl(mesh, write);
     default:
       throw ClientError(ExitCode::kInternal, "no mesh writer for " + std::string(extension_of(format)));
+  }
+}
+
+void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std::string>& comments,
+                AtomicFile& file, const std::vector<VertexProperty>& properties) {
+  try {
+    write_mesh(
+        format, mesh, comments, [&](std::string_view bytes) { file.write(bytes); }, properties);
+  } catch (const ClientError& error) {
+    if (!error.file().empty()) throw;
+    throw ClientError(error.exit_code(), error.what(), file.target());
   }
 }
 

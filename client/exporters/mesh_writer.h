@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
+#include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
 #include "core/mesh.h"
 
@@ -30,11 +31,18 @@ FetchedSurface parse_surface(const std::string& bytes);
 
 /// Writes a mesh in one of surface_formats(): .off and .obj as text that reads back exactly, .ply binary with
 /// double coordinates and the properties, .stl binary (single precision, which is all that STL has).
+/// Slivers that single precision makes flat are written as they are; the surface stays closed.
 /// @param comments lines for formats that have comments (PLY, OBJ), without line breaks.
 /// @param write takes the bytes, piece by piece.
-/// @throws ClientError kLimit when the mesh has more elements than the format can count.
+/// @throws ClientError kLimit when the mesh has more elements than the format can count, and for .stl when a
+/// coordinate does not fit into single precision or when triangles of more than 1e-6 of the area or 1 % of
+/// the number would become flat in it: the mesh is too small, or too far from the origin for its size.
 void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std::string>& comments,
                 const std::function<void(std::string_view)>& write,
                 const std::vector<VertexProperty>& properties = {});
+
+/// The same into a file, which the errors then name.
+void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std::string>& comments,
+                AtomicFile& file, const std::vector<VertexProperty>& properties = {});
 
 }  // namespace affskel::client

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "client/console.h"
 #include "client/error.h"
@@ -16,7 +17,7 @@ using Write = std::function<void(std::string_view)>;
 
 void write_csv(const ShapeFile& shape, const Write& write) {
   std::string row = "x,y,z";
-  for (const PointColumn& column : shape.columns) row += "," + column.name;
+  for (const std::string& name : written_names(shape)) row += "," + name;
   write(row + "\n");
   for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
     row.clear();
@@ -45,6 +46,15 @@ void write_coordinates(const ShapeFile& shape, const Write& write) {
   }
 }
 
+// Words without what separates or ends them in a header line of CSV or PLY.
+std::string safe_name(std::string name) {
+  for (char& c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code <= ' ' || code == 127 || c == ',' || c == '#' || c == '"' || c == '\'') c = '_';
+  }
+  return name.empty() ? "_" : name;
+}
+
 enum class Stored { kInt, kUint, kDouble };
 
 Stored stored_as(const PointColumn& column) {
@@ -62,13 +72,13 @@ Stored stored_as(const PointColumn& column) {
 std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored,
                        const std::vector<std::string>& comments) {
   constexpr const char* kTypes[] = {"int", "uint", "double"};
+  const std::vector<std::string> names = written_names(shape);
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   for (const std::string& comment : comments) text += "comment " + printable(comment) + "\n";
   text += "element vertex " + std::to_string(shape.mesh().points.size()) +
           "\nproperty double x\nproperty double y\nproperty double z\n";
   for (std::size_t i = 0; i < stored.size(); ++i) {
-    text += std::string("property ") + kTypes[static_cast<std::size_t>(stored[i])] + " " +
-            shape.columns[i].name + "\n";
+    text += std::string("property ") + kTypes[static_cast<std::size_t>(stored[i])] + " " + names[i] + "\n";
   }
   if (shape.is_surface()) {
     text += "element face " + std::to_string(shape.mesh().triangles.size()) +
@@ -119,6 +129,22 @@ bool holds_columns(FileFormat format) {
   return format == FileFormat::kCsv || format == FileFormat::kPly;
 }
 
+std::vector<std::string> written_names(const ShapeFile& shape) {
+  // Names that stay go first, so that none of them gives way to a changed one.
+  std::set<std::string> taken = {"x", "y", "z"};
+  std::vector<std::string> names(shape.columns.size());
+  for (const bool keeps : {true, false}) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string safe = safe_name(shape.columns[i].name);
+      const bool stays = safe == shape.columns[i].name && taken.count(safe) == 0;
+      if (!names[i].empty() || (keeps && !stays)) continue;
+      names[i] = safe;
+      for (int n = 2; !taken.insert(names[i]).second; ++n) names[i] = safe + "_" + std::to_string(n);
+    }
+  }
+  return names;
+}
+
 void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                  const Write& write) {
   if (shape.mesh().points.size() > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
@@ -136,6 +162,16 @@ void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<st
       return write_coordinates(shape, write);
     default:
       throw ClientError(ExitCode::kInternal, "no point writer for " + std::string(extension_of(format)));
+  }
+}
+
+void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                 AtomicFile& file) {
+  try {
+    write_shape(format, shape, comments, [&](std::string_view bytes) { file.write(bytes); });
+  } catch (const ClientError& error) {
+    if (!error.file().empty()) throw;
+    throw ClientError(error.exit_code(), error.what(), file.target());
   }
 }
 

@@ -40,6 +40,7 @@ class HeaderReader {
         return std::move(header_);
       }
       if (words_[0] == "format") {
+        if (has_format) fail("a second row names a format");
         read_format();
         has_format = true;
       } else if (words_[0] == "element") {
@@ -108,7 +109,13 @@ class HeaderReader {
       fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
     }
     property.name = std::string(words_.back());
-    header_.elements.back().properties.push_back(std::move(property));
+    std::vector<PlyProperty>& known = header_.elements.back().properties;
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const PlyProperty& p) { return p.name == property.name; })) {
+      fail("two properties of element " + core::quoted_piece(header_.elements.back().name) + " are called " +
+           core::quoted_piece(property.name));
+    }
+    known.push_back(std::move(property));
   }
 
   std::string_view rest_;

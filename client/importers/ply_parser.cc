@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "client/importers/ply_header.h"
 #include "client/importers/shape_parsers.h"
@@ -18,11 +19,15 @@ namespace {
 
 constexpr std::array<std::size_t, 8> kSize = {1, 1, 2, 2, 4, 4, 4, 8};  // by PlyType
 
+// Of the whole types, in their order.
+constexpr std::array<std::pair<double, double>, 6> kRange = {
+    {{-128, 127}, {0, 255}, {-32768, 32767}, {0, 65535}, {-0x1p31, 0x1p31 - 1}, {0, 0x1p32 - 1}}};
+
 // The values of the body, one after the other.
 class Values {
  public:
   explicit Values(const PlyHeader& header)
-      : encoding_(header.encoding), bytes_(header.body), rows_(header.body), header_lines_(header.lines) {}
+      : encoding_(header.encoding), bytes_(header.body), rows_(header.body, header.lines) {}
 
   // Values are taken between begin and end of their entry; place names it in messages.
   void begin(const std::string& element, std::uint64_t index) {
@@ -54,7 +59,7 @@ class Values {
     if (more) fail_at(line(), "the file goes on after the last entry that the header announces");
   }
 
-  std::uint64_t line() const { return encoding_ == PlyEncoding::kText ? header_lines_ + rows_.line() : 0; }
+  std::uint64_t line() const { return encoding_ == PlyEncoding::kText ? rows_.line() : 0; }
   // Every entry takes at least a byte.
   std::size_t bytes_left() const {
     return encoding_ == PlyEncoding::kText ? rows_.bytes_left() + rows_.text().size() + 1 : bytes_.size();
@@ -102,8 +107,14 @@ class Values {
     } catch (const core::CoreError&) {
       fail_at(line(), core::quoted_piece(word) + " is not a number, in " + place());
     }
-    if (is_whole(type) && value != std::floor(value)) {
+    if (!is_whole(type)) return value;
+    if (value != std::floor(value)) {
       fail_at(line(), core::quoted_piece(word) + " is not a whole number, in " + place());
+    }
+    const auto [least, most] = kRange[static_cast<std::size_t>(type)];
+    if (!(value >= least && value <= most)) {
+      fail_at(line(), core::quoted_piece(word) + " is outside the range of its type (" +
+                          core::to_text(least) + " to " + core::to_text(most) + "), in " + place());
     }
     return value;
   }
@@ -111,7 +122,6 @@ class Values {
   PlyEncoding encoding_;
   std::string_view bytes_;
   core::TextRows rows_;
-  std::uint64_t header_lines_;
   const std::string* element_ = nullptr;
   std::uint64_t index_ = 0;
   std::size_t word_ = 0;
@@ -126,6 +136,7 @@ class PlyReader {
     for (const PlyElement& element : header_.elements) {
       check_count(element);
       if (element.name == "vertex") {
+        if (has_vertices) fail_at(header_.lines, "two elements are called vertex");
         read_vertices(element);
         has_vertices = true;
       } else if (element.name == "face") {
@@ -152,17 +163,29 @@ class PlyReader {
     }
   }
 
-  const std::vector<std::int64_t>& next_list(const PlyProperty& property) {
+  const std::vector<double>& next_list(const PlyProperty& property) {
     const double length = values_.next(property.count_type);
     if (!(length >= 0) || length > static_cast<double>(values_.bytes_left())) {
       fail_at(values_.line(), values_.place() + " announces a list of " + core::to_text(length) + " values");
     }
     list_.clear();
     for (double i = 0; i < length; ++i) {
-      const double value = values_.next(property.type);
-      list_.push_back(std::abs(value) <= 0x1p52 ? static_cast<std::int64_t>(value) : -1);
+      list_.push_back(values_.next(property.type));
     }
     return list_;
+  }
+
+  // The list as indices; some programs write them as numbers of type float.
+  const std::vector<std::int64_t>& next_corners(const PlyProperty& property) {
+    corners_.clear();
+    for (const double value : next_list(property)) {
+      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
+        fail_at(values_.line(),
+                values_.place() + " uses vertex " + core::to_text(value) + ", which is not a whole number");
+      }
+      corners_.push_back(static_cast<std::int64_t>(value));
+    }
+    return corners_;
   }
 
   void pass_over(const PlyElement& element) {
@@ -180,7 +203,6 @@ class PlyReader {
   }
 
   void read_vertices(const PlyElement& element) {
-    if (!file_.off.mesh.points.empty()) fail_at(header_.lines, "two elements are called vertex");
     // Per property where its value goes: 0, 1, 2 a coordinate, 3 + i column i.
     std::vector<std::size_t> target;
     for (const PlyProperty& p : element.properties) {
@@ -230,7 +252,7 @@ class PlyReader {
       values_.begin(element.name, i);
       for (const PlyProperty& p : element.properties) {
         if (is_corners(p)) {
-          add_face(next_list(p));
+          add_face(next_corners(p));
         } else if (p.list) {
           next_list(p);
         } else {
@@ -253,7 +275,8 @@ class PlyReader {
 
   PlyHeader header_;
   Values values_;
-  std::vector<std::int64_t> list_;
+  std::vector<double> list_;
+  std::vector<std::int64_t> corners_;
   ShapeFile file_;
 };
 

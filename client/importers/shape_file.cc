@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <new>
 #include <utility>
 
 #include "client/error.h"
@@ -74,6 +76,8 @@ ShapeFile read_shape(const std::string& path) {
     return file;
   } catch (const core::CoreError& error) {
     throw error_from_core(error, path);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
   }
 }
 

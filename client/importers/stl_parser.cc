@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "client/importers/shape_parsers.h"
 #include "core/perturb.h"
@@ -56,34 +57,65 @@ ShapeFile parse_binary(std::string_view bytes) {
   return joined(corners);
 }
 
-ShapeFile parse_text(std::string_view bytes) {
-  std::vector<core::Vec3> corners;
-  core::TextRows rows(bytes);
-  std::size_t facet_begin = 0;
-  bool ended = false;
-  while (rows.next()) {
-    const auto& words = rows.words();
-    ended = words[0] == "endsolid";
-    if (words[0] == "vertex") {
-      if (words.size() != 4) fail_at(rows.line(), "a vertex needs three coordinates");
-      const auto coordinate = [&](std::size_t i) {
-        return core::parse_finite(words[i], rows.line(), "coordinate");
-      };
-      corners.push_back({coordinate(1), coordinate(2), coordinate(3)});
-    } else if (words[0] == "endloop") {
-      if (corners.size() - facet_begin != 3) {
-        fail_at(rows.line(),
-                "a facet of " + std::to_string(corners.size() - facet_begin) + " vertices, needs 3");
+// The rows of a text file in the only order that they may have:
+// solid (facet (outer loop, three times vertex, endloop) endfacet)* endsolid, once or more.
+class TextReader {
+ public:
+  explicit TextReader(std::string_view bytes) : rows_(bytes) {}
+
+  ShapeFile run() {
+    while (rows_.next()) {
+      const std::string_view word = rows_.words()[0];
+      if (outside_) {
+        expect(word == "solid", "solid");
+        outside_ = false;
+      } else if (word == "endsolid") {
+        outside_ = true;
+      } else {
+        expect(word == "facet", "facet or endsolid");
+        read_facet();
       }
-      facet_begin = corners.size();
-    } else if (words[0] != "solid" && words[0] != "facet" && words[0] != "outer" && words[0] != "endfacet" &&
-               !ended) {
-      fail_at(rows.line(), "not a row of an STL file: " + core::quoted_piece(rows.text()));
     }
+    if (!outside_) fail_at(rows_.line(), "the file ends before endsolid");
+    return joined(corners_);
   }
-  if (!ended) fail_at(rows.line(), "the file ends before endsolid");
-  return joined(corners);
-}
+
+ private:
+  void expect(bool met, const char* what) const {
+    if (!met)
+      fail_at(rows_.line(), std::string("expected ") + what + ", not " + core::quoted_piece(rows_.text()));
+  }
+
+  const std::vector<std::string_view>& next(const char* what) {
+    if (!rows_.next()) fail_at(rows_.line(), std::string("the file ends before ") + what);
+    return rows_.words();
+  }
+
+  void read_facet() {
+    const auto& words = next("outer loop");
+    expect(words[0] == "outer" && words.size() == 2 && words[1] == "loop", "outer loop");
+    for (int corner = 0; corner < 3; ++corner) read_vertex(corner);
+    expect(next("endloop")[0] == "endloop", "endloop after three vertices");
+    expect(next("endfacet")[0] == "endfacet", "endfacet");
+  }
+
+  void read_vertex(int known) {
+    const auto& words = next("a vertex");
+    if (words[0] == "endloop") {
+      fail_at(rows_.line(), "a facet of " + std::to_string(known) + " vertices, needs 3");
+    }
+    expect(words[0] == "vertex", "vertex");
+    if (words.size() != 4) fail_at(rows_.line(), "a vertex needs three coordinates");
+    const auto coordinate = [&](std::size_t i) {
+      return core::parse_finite(words[i], rows_.line(), "coordinate");
+    };
+    corners_.push_back({coordinate(1), coordinate(2), coordinate(3)});
+  }
+
+  core::TextRows rows_;
+  std::vector<core::Vec3> corners_;
+  bool outside_ = true;
+};
 
 }  // namespace
 
@@ -93,7 +125,7 @@ ShapeFile parse_stl(std::string_view bytes) {
       bytes.size() == kHeader + kFacet * std::size_t{number_at<std::uint32_t>(bytes, 80)}) {
     return parse_binary(bytes);
   }
-  if (bytes.starts_with("solid")) return parse_text(bytes);
+  if (bytes.starts_with("solid")) return TextReader(bytes).run();
   fail_at(
       0, "not an STL file: neither text that begins with 'solid' nor as long as its count of triangles says");
 }

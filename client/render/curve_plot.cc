@@ -144,6 +144,8 @@ std::string svg_of(const SharePlot& plot) {
 }
 
 std::vector<double> round_ticks(double limit, int most) {
+  // Nearer to the ends of the range of a double the steps would be 0 or infinite.
+  if (!(limit >= 1e-305 && limit <= 1e305)) return {0};
   const double power = std::pow(10, std::floor(std::log10(limit / most)));
   double step = 10 * power;
   for (const double factor : {1, 2, 5}) {
@@ -153,7 +155,7 @@ std::vector<double> round_ticks(double limit, int most) {
     }
   }
   std::vector<double> ticks;
-  for (int i = 0; i * step <= limit * (1 + 1e-9); ++i) ticks.push_back(i * step);
+  for (int i = 0; i <= most && i * step <= limit * (1 + 1e-9); ++i) ticks.push_back(i * step);
   return ticks;
 }
 

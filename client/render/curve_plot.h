@@ -30,7 +30,7 @@ struct SharePlot {
 std::string svg_of(const SharePlot& plot);
 
 /// Ticks at 0, step, 2 step, ... up to `limit` > 0, with step 1, 2 or 5 times a power of ten and at most
-/// `most` of them beside 0.
+/// `most` of them beside 0; 0 alone unless 1e-305 <= limit <= 1e305.
 std::vector<double> round_ticks(double limit, int most);
 
 }  // namespace affskel::client

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/affine_map.h"
+#include "core/inner_points.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"

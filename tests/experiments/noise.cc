@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/inner_points.h"
 #include "core/perturb.h"
 #include "experiments.h"
 #include "gallery.h"

@@ -1,28 +1,34 @@
 #include "core/similarity.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/cube_root.h"
 #include "core/error.h"
-#include "core/lattice.h"
 #include "core/point_index.h"
 
 namespace affskel::core {
 namespace {
 
-// Axis-parallel box of half-sides h, centred at 0, covered by a lattice with these unit axes.
-LatticeFrame covering_frame(const Vec3& h, const std::array<Vec3, 3>& axes, double step) {
-  LatticeFrame frame;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& axis = axes[k];
-    const double half = std::abs(axis.x) * h.x + std::abs(axis.y) * h.y + std::abs(axis.z) * h.z;
-    frame.dims[k] = static_cast<std::uint32_t>(std::ceil(2 * half / step)) + 1;
-    frame.axes[k] = step * axis;
-    frame.origin = frame.origin - (0.5 * (frame.dims[k] - 1)) * frame.axes[k];
+// The power of two that brings the largest coordinate near 2^500: squared differences then cannot overflow,
+// and only differences below 2^-1000 of it have squares that underflow.
+int lift_of(std::span<const Vec3> a, std::span<const Vec3> b) {
+  constexpr int kTop = 500;
+  double largest = 0;
+  for (const std::span<const Vec3> set : {a, b}) {
+    for (const Vec3& p : set) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  return frame;
+  return largest > 0 ? kTop - std::ilogb(largest) : 0;
+}
+
+Vec3 lifted(const Vec3& p, int exponent) {
+  return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+}
+
+std::vector<Vec3> lifted(std::span<const Vec3> points, int exponent) {
+  std::vector<Vec3> up;
+  up.reserve(points.size());
+  for (const Vec3& p : points) up.push_back(lifted(p, exponent));
+  return up;
 }
 
 }  // namespace
@@ -31,9 +37,10 @@ DistanceCurve::DistanceCurve(std::span<const Vec3> from, std::span<const Vec3> t
   if (from.empty() || to.empty()) {
     throw CoreError(CoreError::Code::kBadInput, "a set without points is near nothing");
   }
-  const PointIndex index(to);
+  const int exponent = lift_of(from, to);
+  const PointIndex index(lifted(to, exponent));
   distances_.reserve(from.size());
-  for (const Vec3& p : from) distances_.push_back(index.nearest(p));
+  for (const Vec3& p : from) distances_.push_back(std::ldexp(index.nearest(lifted(p, exponent)), -exponent));
   std::sort(distances_.begin(), distances_.end());
 }
 
@@ -56,27 +63,6 @@ double DistanceCurve::area_under_squared(double radius) const {
 
 Similarity similarity(std::span<const Vec3> a, std::span<const Vec3> b) {
   return {DistanceCurve(a, b), DistanceCurve(b, a)};
-}
-
-std::vector<Vec3> inner_points(const Solid& solid, const InnerPointsOptions& options) {
-  // A rotation by the quaternion 7 + i + 3j + 2k: rational, and in step with no axis-parallel plane for long.
-  constexpr std::array<Vec3, 3> kAxes = {Vec3{37. / 63, -22. / 63, 46. / 63},
-                                         Vec3{34. / 63, 53. / 63, -2. / 63},
-                                         Vec3{-38. / 63, 26. / 63, 43. / 63}};
-  const double scale = solid.scale();
-  const double inner_volume = solid.volume / scale / scale / scale;
-  const double step = cube_root(inner_volume / static_cast<double>(options.count));
-  const Vec3 half = (0.5 / scale) * (solid.bbox_max - solid.bbox_min);
-  const Lattice lattice = make_lattice(solid, covering_frame(half, kAxes, step));
-  const SamplePlaces places(solid, lattice);
-  std::vector<Vec3> points;
-  points.reserve(lattice.points);
-  for (const LatticeRun& run : lattice.axis[2].runs) {
-    for (std::uint32_t i = 0; i < run.length; ++i) {
-      points.push_back(places.at(run.start[0], run.start[1], run.start[2] + i));
-    }
-  }
-  return points;
 }
 
 }  // namespace affskel::core

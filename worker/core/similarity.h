@@ -1,15 +1,14 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/solid.h"
 #include "core/vec3.h"
 
 namespace affskel::core {
 
-/// How far the points of one set lie from another set: the curve r -> share of the points within r, exactly.
+/// How far the points of one set lie from another set: the curve r -> share of the points within r, exactly,
+/// at any size: squares are taken of coordinates brought to one scale by a power of two.
 class DistanceCurve {
  public:
   /// @param from, to not empty; a distance is that from a point of `from` to the nearest point of `to`.
@@ -42,16 +41,5 @@ struct Similarity {
 
 /// @throws CoreError kBadInput when a set is empty.
 Similarity similarity(std::span<const Vec3> a, std::span<const Vec3> b);
-
-struct InnerPointsOptions {
-  std::uint64_t count = 50000;  ///< about this many
-};
-
-/// Points spread evenly over the inside of a solid, mesh units: those of a cubic lattice turned against the
-/// axes (by a fixed rotation), so that they are not in step with a skeleton that lies on a lattice.
-/// Their DistanceCurve from a skeleton is the chance level: what a set of points that knows nothing of the
-/// skeleton would score.
-/// @throws CoreError kBadInput when the solid is too thin for any of the lattice's points to fall inside.
-std::vector<Vec3> inner_points(const Solid& solid, const InnerPointsOptions& options = {});
 
 }  // namespace affskel::core

@@ -11,13 +11,15 @@ namespace affskel::core {
 /// bytes must outlive the rows.
 class TextRows {
  public:
-  explicit TextRows(std::string_view bytes) : rest_(bytes) {}
+  /// @param lines_before lines of the file in front of `bytes`, counted by `line` too.
+  explicit TextRows(std::string_view bytes, std::uint64_t lines_before = 0)
+      : rest_(bytes), line_(lines_before) {}
 
   /// Moves on to the next row that holds words; false at the end of the file.
   /// @throws CoreError kBadInput with the line for a NUL byte or a carriage return inside the line.
   bool next();
 
-  std::uint64_t line() const { return line_; }  ///< counted from 1
+  std::uint64_t line() const { return line_; }  ///< of the file, counted from 1
   std::size_t bytes_left() const { return rest_.size(); }
   const std::vector<std::string_view>& words() const { return words_; }
   std::string_view text() const { return text_; }  ///< the row, not cut
@@ -30,7 +32,7 @@ class TextRows {
 
   std::string_view rest_;
   std::string_view text_;
-  std::uint64_t line_ = 0;
+  std::uint64_t line_;
   std::vector<std::string_view> words_;
 };
 

@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
-#include "core/shapes.h"
 
 namespace affskel::core {
 namespace {
@@ -43,26 +41,26 @@ TEST(SimilarityTest, NothingIsLikeAnEmptySet) {
   EXPECT_THROW(similarity({}, a), CoreError);
 }
 
-TEST(SimilarityTest, InnerPointsFillTheSolidEvenly) {
-  Mesh box = make_box(3, 2, 1);
-  for (Vec3& p : box.points) p = 1000 * p + Vec3{5, 5, 5};
-  const std::vector<Vec3> points = inner_points(make_solid(box), {20000});
-  EXPECT_NEAR(static_cast<double>(points.size()), 20000, 300);
-  std::size_t eighth = 0;
-  for (const Vec3& p : points) {
-    EXPECT_TRUE(p.x > 5 && p.x < 3005 && p.y > 5 && p.y < 2005 && p.z > 5 && p.z < 1005);
-    eighth += p.x < 1505 && p.y < 1005 && p.z < 505 ? 1 : 0;
+TEST(SimilarityTest, HoldsAtAnySize) {
+  // Squares of these coordinates leave the range of a double, at either end; powers of two keep every bit.
+  std::vector<Vec3> a = {{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0, 0}};
+  std::vector<Vec3> b = {{0, 0, 0}, {10, 1, 0}, {20, 0, 2}};
+  const Similarity plain = similarity(a, b);
+  for (const int exponent : {-1060, -560, 560, 1010}) {
+    std::vector<Vec3> far_a, far_b;
+    const auto moved = [&](const Vec3& p) {
+      return Vec3{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+    };
+    for (const Vec3& p : a) far_a.push_back(moved(p));
+    for (const Vec3& p : b) far_b.push_back(moved(p));
+    const Similarity s = similarity(far_a, far_b);
+    EXPECT_EQ(s.a_in_b.hausdorff(), std::ldexp(plain.a_in_b.hausdorff(), exponent)) << exponent;
+    EXPECT_EQ(s.b_in_a.hausdorff(), std::ldexp(2, exponent)) << exponent;
+    EXPECT_EQ(s.a_in_b.share_within(std::ldexp(1.999, exponent)), 0.5) << exponent;
   }
-  EXPECT_NEAR(static_cast<double>(eighth), static_cast<double>(points.size()) / 8, 100);
-}
-
-TEST(SimilarityTest, ChanceLevelOfAPointIsTheVolumeRoundIt) {
-  // Inner points of a cube within r of its centre: the ball's share of the volume.
-  const std::vector<Vec3> centre = {{1, 1, 1}};
-  const DistanceCurve chance(inner_points(make_solid(make_box(2, 2, 2)), {30000}), centre);
-  for (const double r : {0.3, 0.6, 0.9}) {
-    EXPECT_NEAR(chance.share_within(r), 4 * std::numbers::pi / 3 * r * r * r / 8, 0.005);
-  }
+  // A distance far below the size of the set is not 0.
+  const std::vector<Vec3> near = {{1e-170, 0, 0}, {10, 0, 0}};
+  EXPECT_EQ(DistanceCurve(near, a).hausdorff(), 1e-170);
 }
 
 }  // namespace
