@@ -31,6 +31,9 @@ static_assert(sizeof(FieldRecord) == 24 && std::is_trivially_copyable_v<FieldRec
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
 
+// Room is made for what a report announces, which need not be true; 96 MiB.
+constexpr std::uint64_t kMostReserved = std::uint64_t{1} << 22;
+
 [[noreturn]] void refuse(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
@@ -116,7 +119,7 @@ std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std
 
 RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, std::uint64_t expected)
     : points_(points), directions_(directions) {
-  records_.reserve(std::min(expected, static_cast<std::uint64_t>(points)));
+  records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), kMostReserved}));
 }
 
 void RecordBatch::append(const v1::FieldRecords& records) {
