@@ -68,7 +68,7 @@ grpc::Status WorkerServiceImpl::ReportErosion(grpc::ServerContext* context,
   const v1::ReportErosionHeader& header = first.header();
   return with_lease(registry_, header.token(), [&] {
     const Store::LeaseBounds bounds = store_.bounds(header.token());
-    RecordBatch batch(bounds.points, bounds.directions);
+    RecordBatch batch(bounds.points, bounds.directions, header.records());
     receive_records(*reader, batch);
     // A stream that broke can look like one that ended; what it carried may be only half of a report.
     if (context->IsCancelled() || (header.has_records() && header.records() != batch.records().size())) {

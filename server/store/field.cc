@@ -31,6 +31,9 @@ static_assert(sizeof(FieldRecord) == 24 && std::is_trivially_copyable_v<FieldRec
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
 
+// Room is made for what a report announces, which need not be true; 96 MiB.
+constexpr std::uint64_t kMostReserved = std::uint64_t{1} << 22;
+
 [[noreturn]] void refuse(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
@@ -114,8 +117,10 @@ std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std
 
 }  // namespace
 
-RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions)
-    : points_(points), directions_(directions) {}
+RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, std::uint64_t expected)
+    : points_(points), directions_(directions) {
+  records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), kMostReserved}));
+}
 
 void RecordBatch::append(const v1::FieldRecords& records) {
   const int count = records.point_size();
@@ -178,8 +183,14 @@ void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t point
   }
 }
 
-std::vector<FieldRecord> read_log(Database& db, std::int64_t erosion_id) {
+std::int64_t logged_bytes(Database& db, std::int64_t erosion_id) {
+  return db.integer("SELECT sum(length(data)) FROM field_log WHERE erosion_id = ?", erosion_id).value_or(0);
+}
+
+// What is logged, with room for so many records more.
+std::vector<FieldRecord> read_log(Database& db, std::int64_t erosion_id, std::size_t room = 0) {
   std::vector<FieldRecord> log;
+  log.reserve(static_cast<std::size_t>(logged_bytes(db, erosion_id)) / sizeof(FieldRecord) + room);
   Statement row = db.query("SELECT data FROM field_log WHERE erosion_id = ? ORDER BY id", erosion_id);
   while (row.step()) {
     const std::string_view bytes = row.blob(0);
@@ -197,14 +208,13 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
   if (records.empty()) return;
   const std::string_view bytes(reinterpret_cast<const char*>(records.data()),
                                records.size() * sizeof(FieldRecord));
-  const std::int64_t logged =
-      db.integer("SELECT sum(length(data)) FROM field_log WHERE erosion_id = ?", erosion_id).value_or(0);
+  const std::int64_t logged = logged_bytes(db, erosion_id);
   if (logged + static_cast<std::int64_t>(bytes.size()) <= log_limit(points)) {
     db.run("INSERT INTO field_log (erosion_id, data) VALUES (?, ?)", erosion_id, Blob{bytes});
     return;
   }
   if (logged == 0) return merge_into_chunks(db, erosion_id, points, records);
-  std::vector<FieldRecord> all = read_log(db, erosion_id);
+  std::vector<FieldRecord> all = read_log(db, erosion_id, records.size());
   all.insert(all.end(), records.begin(), records.end());
   sort_by_chunk(all);
   merge_into_chunks(db, erosion_id, points, all);

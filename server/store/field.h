@@ -26,7 +26,8 @@ struct FieldRecord {
 class RecordBatch {
  public:
   /// @param points, directions bounds of the job: R and K.
-  RecordBatch(std::int64_t points, std::int64_t directions);
+  /// @param expected number of records to make room for, as far as that is likely; there may be others.
+  RecordBatch(std::int64_t points, std::int64_t directions, std::uint64_t expected = 0);
 
   /// @throws StoreError kInvalid when arrays differ in length, a point or direction is out of bounds, E or
   ///   the area is negative or not finite, or there are more records than a report can need.

@@ -8,6 +8,14 @@ namespace {
 // Long enough for another process (a backup, a shell) to finish what it does with the file.
 constexpr int kBusyTimeoutMs = 10000;
 
+// Reports log megabytes of records, and every page of them costs several calls of the system; every small
+// commit, on the other hand, logs the few pages that it touches whole.  A database keeps the size it was
+// made with.
+constexpr int kPageBytes = 16384;
+
+// Reports rewrite field pages over and over: a long log copies each page to the database less often.
+constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
+
 [[noreturn]] void raise(sqlite3* db, const std::string& context) {
   const int code = db == nullptr ? SQLITE_NOMEM : sqlite3_extended_errcode(db);
   const char* text = db == nullptr ? "out of memory" : sqlite3_errmsg(db);
@@ -108,11 +116,12 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
     sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
     execute("PRAGMA foreign_keys = ON");
     if (mode == Mode::kReadWrite) {
-      // FULL: a commit is on the disk when it is acknowledged.  Reports rewrite field pages over and over,
-      // so a longer log (64 MB) copies each page to the database less often.
-      execute(
-          "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 16384;"
-          "PRAGMA journal_size_limit = 67108864; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF;");
+      // FULL: a commit is on the disk when it is acknowledged.
+      execute("PRAGMA page_size = " + std::to_string(kPageBytes) +
+              "; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
+              std::to_string(kJournalBytes) + "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF");
+      const std::int64_t page_bytes = integer("PRAGMA page_size").value_or(kPageBytes);
+      execute("PRAGMA wal_autocheckpoint = " + std::to_string(kJournalBytes / page_bytes));
     }
   } catch (...) {
     close();

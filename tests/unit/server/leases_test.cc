@@ -38,6 +38,25 @@ TEST_F(LeaseTest, CutsBlocksOfPositions) {
   EXPECT_EQ(covered, 1000U);
 }
 
+// Whoever comes last to the end has little left to do alone.
+TEST_F(LeaseTest, BlocksGetFinerTowardsTheEnd) {
+  submit();
+  prepare(4, 16000);
+  std::vector<std::uint64_t> sizes;
+  std::uint64_t covered = 0;
+  while (const std::optional<v1::Lease> block = store_->lease(worker_identity(), "", false)) {
+    EXPECT_EQ(block->positions(0).begin(), covered);
+    covered = block->positions(0).end();
+    sizes.push_back(covered - block->positions(0).begin());
+  }
+  EXPECT_EQ(covered, 16000U);
+  std::vector<std::uint64_t> expected(12, 1000);
+  expected.insert(expected.end(), 12, 250);
+  expected.insert(expected.end(), 15, 63);  // 15 * 63 of the last 1000 leave 55
+  expected.push_back(55);
+  EXPECT_EQ(sizes, expected);
+}
+
 TEST_F(LeaseTest, FewDirectionsMakeFewBlocks) {
   submit();
   prepare(4, 20);

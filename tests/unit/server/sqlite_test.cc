@@ -22,6 +22,20 @@ TEST_F(DatabaseTest, OpensDurablyAndWithForeignKeys) {
   EXPECT_EQ(db.integer("PRAGMA foreign_keys"), 1);
 }
 
+// The journal's bound is in bytes, whatever the pages of a database that an older version made.
+TEST_F(DatabaseTest, KeepsThePagesItWasMadeWithAndBoundsTheJournalInBytes) {
+  constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
+  {
+    Database db(file(), Database::Mode::kReadWrite);
+    EXPECT_EQ(db.integer("PRAGMA page_size"), 16384);
+    EXPECT_EQ(db.integer("PRAGMA wal_autocheckpoint"), kJournalBytes / 16384);
+    db.execute("PRAGMA journal_mode = DELETE; PRAGMA page_size = 4096; VACUUM");
+  }
+  Database db(file(), Database::Mode::kReadWrite);
+  EXPECT_EQ(db.integer("PRAGMA page_size"), 4096);
+  EXPECT_EQ(db.integer("PRAGMA wal_autocheckpoint"), kJournalBytes / 4096);
+}
+
 TEST_F(DatabaseTest, BindsAndReadsEveryType) {
   Database db(file(), Database::Mode::kReadWrite);
   const std::string bytes("\0\1\xff", 3);
