@@ -220,7 +220,8 @@ class Sheet(WithPage):
     def expected(self, least):
         """Triangles and pieces with at least that share of the area weighted by strength."""
         weights = [columns * strength for columns, strength in self.PIECES]
-        kept = [columns for (columns, _), weight in zip(self.PIECES, weights) if weight / sum(weights) >= least]
+        shares = [weight / sum(weights) for weight in weights]
+        kept = [columns for (columns, _), share in zip(self.PIECES, shares) if share >= least]
         return 16 * sum(kept), len(kept)
 
     def test_the_threshold_is_for_the_pieces(self):

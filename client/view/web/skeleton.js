@@ -1,5 +1,6 @@
-// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet in pieces
-// with their shares of its weight.  Both come, or are put, in the order of what the threshold slider compares.
+// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet in
+// pieces with their shares of its weight.  Both come, or are put, in the order of what the threshold slider
+// compares.
 import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
 import { descending, prefixLength } from './decode.js';
