@@ -55,8 +55,8 @@ std::string table_text(const Comparison& c) {
   for (const double radius : c.radii) {
     text += padded(rounded(shown_radius(c, radius), 7), kRadius);
     for (const Column& column : columns) {
-      text +=
-          padded(column_share(column.curve->share_within(radius)), kGap + std::string_view(column.title).size());
+      text += padded(column_share(column.curve->share_within(radius)),
+                     kGap + std::string_view(column.title).size());
     }
     text += "\n";
   }
@@ -105,8 +105,9 @@ std::string comparison_text(const Comparison& c) {
       key_line("within radius", there_and_back(column_share(s.a_in_b.share_within(c.radius)),
                                                column_share(s.b_in_a.share_within(c.radius)), " %"));
   if (c.chance) {
-    text += key_line("chance", column_share(c.chance->in_b.share_within(c.radius)) + " % of the solid near B, " +
-                                   column_share(c.chance->in_a.share_within(c.radius)) + " % near A");
+    text +=
+        key_line("chance", column_share(c.chance->in_b.share_within(c.radius)) + " % of the solid near B, " +
+                               column_share(c.chance->in_a.share_within(c.radius)) + " % near A");
   }
   text += key_line("area under curve",
                    there_and_back(rounded(area(c, s.a_in_b), 4), rounded(area(c, s.b_in_a), 4), "") + to);

@@ -1,11 +1,15 @@
 // Writes pages of a cube of edge 4, made up so that a test knows every number on them.
 //
 // affskel_made_up_page sheet FILE: the skeleton is a sheet of `chords`, level, 8 x 8 squares through the
-// middle; the strength of a vertex is 0.5 + 0.05 times its column, the colour of its E goes evenly from left
-// to right.
+// middle, cut into three pieces: from left to right one column of strength 0.5, five of 0.5 and two of 1. The
+// colour of E goes evenly from left to right.
+//
+// affskel_made_up_page stretched FILE: the skeleton is a column of six points through the middle, of a
+// lattice with steps of 1/8 along x and y and 1/2 along z.
 //
 // affskel_made_up_page thinned N FILE: of 31^3 sample points, none of them of the skeleton, one in N is left.
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -23,7 +27,7 @@ using affskel::client::ViewPointCollector;
 
 constexpr double kEdge = 4, kVolume = kEdge * kEdge * kEdge;
 constexpr double kHighestShare = 0.125;
-constexpr unsigned kSquares = 8, kVertices = kSquares + 1;
+constexpr unsigned kSquares = 8;
 
 // A lattice of so many steps along an edge.
 ViewInput cube(unsigned steps) {
@@ -39,6 +43,26 @@ ViewInput cube(unsigned steps) {
   return input;
 }
 
+// The columns begin .. end of the sheet, with vertices of their own.
+void add_strip(affskel::v1::TriangleMesh& sheet, unsigned begin, unsigned end, double strength) {
+  const auto first = static_cast<unsigned>(sheet.xyz_size() / 3);
+  const unsigned across = end - begin + 1;
+  for (unsigned row = 0; row <= kSquares; ++row) {
+    for (unsigned column = begin; column <= end; ++column) {
+      const double place = double(column) / kSquares;
+      for (const double c : {kEdge * place, kEdge * row / kSquares, kEdge / 2}) sheet.add_xyz(c);
+      sheet.add_strength(strength);
+      sheet.add_erosion(kVolume * kHighestShare * place * place * place);
+    }
+  }
+  for (unsigned row = 0; row < kSquares; ++row) {
+    for (unsigned column = 0; column + 1 < across; ++column) {
+      const unsigned a = first + row * across + column, b = a + 1, c = a + across, d = c + 1;
+      for (const unsigned v : {a, b, c, b, d, c}) sheet.add_corners(v);
+    }
+  }
+}
+
 ViewInput sheet_page() {
   ViewInput input = cube(kSquares);
   input.job.set_name("sheet");
@@ -50,20 +74,25 @@ ViewInput sheet_page() {
   centre.inward = {0, 0, 1};
   input.points = {centre};
   input.job.mutable_prepared()->set_points(1);
-  for (unsigned row = 0; row < kVertices; ++row) {
-    for (unsigned column = 0; column < kVertices; ++column) {
-      const double place = double(column) / kSquares;
-      for (const double c : {kEdge * place, kEdge * row / kSquares, kEdge / 2}) input.sheet.add_xyz(c);
-      input.sheet.add_strength(0.5 + 0.05 * column);
-      input.sheet.add_erosion(kVolume * kHighestShare * place * place * place);
-    }
+  add_strip(input.sheet, 0, 1, 0.5);
+  add_strip(input.sheet, 1, 6, 0.5);
+  add_strip(input.sheet, 6, 8, 1);
+  return input;
+}
+
+ViewInput stretched_page() {
+  ViewInput input = cube(32);
+  input.job.set_name("stretched");
+  input.grid.axes[2] = {0, 0, kEdge / 8};
+  for (std::uint16_t k = 1; k <= 6; ++k) {
+    ViewPoint point;
+    point.step = {16, 16, k};
+    point.share = kHighestShare;
+    point.divergence = 9;
+    point.inward = {0, 0, 1};
+    input.points.push_back(point);
   }
-  for (unsigned row = 0; row < kSquares; ++row) {
-    for (unsigned column = 0; column < kSquares; ++column) {
-      const unsigned a = row * kVertices + column, b = a + 1, c = a + kVertices, d = c + 1;
-      for (const unsigned v : {a, b, c, b, d, c}) input.sheet.add_corners(v);
-    }
-  }
+  input.job.mutable_prepared()->set_points(input.points.size());
   return input;
 }
 
@@ -93,15 +122,18 @@ ViewInput thinned_page(unsigned thinning) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const bool sheet = arguments.size() == 2 && arguments[0] == "sheet";
-  const bool thinned = arguments.size() == 3 && arguments[0] == "thinned";
-  if (!sheet && !thinned) {
-    std::cerr << "usage: affskel_made_up_page sheet FILE | thinned N FILE\n";
+  const std::string kind = arguments.size() == 2 || arguments.size() == 3 ? arguments[0] : "";
+  const bool known = kind == "thinned" ? arguments.size() == 3
+                                       : arguments.size() == 2 && (kind == "sheet" || kind == "stretched");
+  if (!known) {
+    std::cerr << "usage: affskel_made_up_page sheet FILE | stretched FILE | thinned N FILE\n";
     return 2;
   }
   try {
-    const ViewInput input =
-        sheet ? sheet_page() : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
+    const ViewInput input = kind == "sheet" ? sheet_page()
+                            : kind == "stretched"
+                                ? stretched_page()
+                                : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
     affskel::client::AtomicFile file(arguments.back());
     file.write(affskel::client::view_page(input));
     file.commit();

@@ -214,16 +214,41 @@ class Sheet(WithPage):
     def file(self):
         return self.made_up("sheet")
 
-    def test_the_threshold_is_for_the_strength(self):
-        self.assertEqual(self.page.element("threshold-symbol").text, "strength")
-        self.page.type_number("threshold-field", 0.49)
-        self.page.wait(lambda s: s["skeletonShown"] == 128)
-        # Above 0.62 are columns 3 to 8: five squares in each of eight rows.
-        self.page.type_number("threshold-field", 0.62)
+    # Columns of eight squares, two triangles each, and the strength of their corners.
+    PIECES = [(1, 0.5), (5, 0.5), (2, 1.0)]
+
+    def expected(self, least):
+        """Triangles and pieces with at least that share of the area weighted by strength."""
+        weights = [columns * strength for columns, strength in self.PIECES]
+        shares = [weight / sum(weights) for weight in weights]
+        kept = [columns for (columns, _), share in zip(self.PIECES, shares) if share >= least]
+        return 16 * sum(kept), len(kept)
+
+    def test_the_threshold_is_for_the_pieces(self):
+        self.assertEqual(self.page.element("threshold-symbol").text, "share ≥")
+        self.assertEqual(self.page.state()["skeletonShown"], 128, "at first the whole sheet")
+        # The shares are 0.1, 0.5 and 0.4; of the area alone they were 0.125, 0.625 and 0.25.
+        for least in [0.09, 0.11, 0.39, 0.45, 0]:
+            triangles, pieces = self.expected(least)
+            self.page.type_number("threshold-field", least)
+            self.page.wait(lambda s: s["threshold"] == least)
+            self.assertEqual(self.page.state()["skeletonShown"], triangles, least)
+            self.assertEqual(self.page.element("threshold-count").text,
+                             f"{triangles} triangles in {pieces} of 3 pieces")
+        slider = self.page.element("threshold-range")
+        slider.send_keys(Keys.END)
+        last = self.page.wait(lambda s: s["threshold"] > 0.4)
+        self.assertEqual(last["skeletonShown"], 80, "the heaviest piece stays")
+
+    def test_hides_what_is_too_light(self):
+        self.page.click("view-top")
+        for layer in ["mesh", "axes"]:
+            self.page.click("show-" + layer)
+        covered = lambda: 1 - colours(self.page.canvas_picture())[1]
+        whole = covered()
+        self.page.type_number("threshold-field", 0.45)
         self.page.wait(lambda s: s["skeletonShown"] == 80)
-        self.assertIn("80 triangles", self.page.element("threshold-count").text)
-        self.page.type_number("threshold-field", 2)
-        self.page.wait(lambda s: s["skeletonShown"] == 0)
+        self.assertAlmostEqual(covered() / whole, 5 / 8, 1)
 
     def test_draws_the_sheet(self):
         self.page.click("view-top")
@@ -235,6 +260,28 @@ class Sheet(WithPage):
         right = picture.getpixel((int(picture.width / 2 + 100), int(picture.height / 2)))
         self.assertGreater(left[2], left[1])
         self.assertGreater(right[1], right[2])
+
+
+class Stretched(WithPage):
+    """Points of a lattice whose steps are four times as long along z: see made_up_page.cc."""
+
+    def file(self):
+        return self.made_up("stretched")
+
+    def test_points_are_as_large_as_their_cells(self):
+        self.page.click("view-front")
+        for layer in ["mesh", "axes"]:
+            self.page.click("show-" + layer)
+        picture = self.page.canvas_picture()
+        background = picture.getpixel((2, 2))
+        drawn = [(x, y) for x in range(picture.width) for y in range(picture.height)
+                 if picture.getpixel((x, y)) != background]
+        columns, rows = [{place[axis] for place in drawn} for axis in (0, 1)]
+        unit = self.page.state()["camera"]["zoom"] * self.page.element("canvas").size["height"] / 4
+        # Six cells of 1/8 x 1/2 above each other, each drawn a tenth larger: without a gap.
+        self.assertAlmostEqual(max(columns) - min(columns) + 1, 1.1 / 8 * unit, delta=2)
+        self.assertAlmostEqual(max(rows) - min(rows) + 1, (5 + 1.1) / 2 * unit, delta=2)
+        self.assertEqual(len(rows), max(rows) - min(rows) + 1)
 
 
 class Thinned(WithPage):

@@ -1,5 +1,5 @@
-// The shape in which a sample point is drawn: the ellipsoid that has the ball's place in a cell of the lattice,
-// so that neighbours are equally near to each other along every axis, however long its steps are.
+// The shape in which a sample point is drawn: the ellipsoid that has the ball's place in a cell of the
+// lattice, so that neighbours are equally near to each other along every axis, however long its steps are.
 import { Matrix3, Vector3 } from 'three';
 
 // For the fragments of a point of `size` pixels.  What is smaller than two pixels is drawn that large.

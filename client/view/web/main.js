@@ -139,8 +139,9 @@ class Viewer {
   }
 
   applyThreshold() {
-    this.shown.skeleton = this.skeleton.show(this.threshold.value);
-    element('threshold-count').textContent = this.skeleton.describe(this.shown.skeleton, this.threshold.value);
+    const { skeleton, threshold } = this;
+    this.shown.skeleton = skeleton.show(threshold.value);
+    element('threshold-count').textContent = skeleton.describe(this.shown.skeleton, threshold.value);
     this.stage.requestFrame();
   }
 

@@ -1,5 +1,6 @@
-// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet in pieces
-// with their shares of its weight.  Both come, or are put, in the order of what the threshold slider compares.
+// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet in
+// pieces with their shares of its weight.  Both come, or are put, in the order of what the threshold slider
+// compares.
 import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
 import { descending, prefixLength } from './decode.js';
@@ -9,11 +10,10 @@ import { sublattice } from './shell.js';
 
 // As the operator's significance is defined: pieces with a smaller share are dropped.
 function makeSheet({ arrays, highestShare, threshold }) {
-  const { sheetPieceShares: shares, sheetPieces: pieces } = arrays;
+  const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
   const colours = coloursOf(arrays.sheetShares, highestShare);
-  const sheet = new Sheet(arrays.sheetPositions, colours, pieces, arrays.sheetCorners);
-  const values = Float32Array.from(sheet.order, (t) => shares[pieces[t]]);
-  const all = shares.length === 1 ? 'the only piece' : `${whole(shares.length)} pieces`;
+  const sheet = new Sheet(arrays.sheetPositions, colours, pieceOf, arrays.sheetCorners);
+  const values = Float32Array.from(sheet.order, (t) => shares[pieceOf[t]]);
   return {
     drawn: sheet,
     values,
@@ -25,7 +25,8 @@ function makeSheet({ arrays, highestShare, threshold }) {
     keeps: (value, least) => value >= least,
     describe(triangles, least) {
       const kept = prefixLength(shares, null, (share) => share >= least);
-      return `${whole(triangles)} triangles, ${whole(kept)} of ${all}`;
+      const pieces = shares.length === 1 ? 'one piece' : `${whole(kept)} of ${whole(shares.length)} pieces`;
+      return shares.length === 0 ? 'the sheet is empty' : `${whole(triangles)} triangles in ${pieces}`;
     },
   };
 }

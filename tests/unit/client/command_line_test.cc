@@ -109,9 +109,11 @@ TEST(CommandLine, KeepsTheOrderOfAffineSteps) {
 }
 
 TEST(CommandLine, KnowsWhetherSkeletonOptionsWereGiven) {
-  EXPECT_TRUE(parse({"skeleton", "@last", "-o", "s.ply"}).job.own_skeleton);
-  EXPECT_FALSE(parse({"skeleton", "@last", "-o", "s.ply", "--operator", "zucker-hummel"}).job.own_skeleton);
-  EXPECT_FALSE(parse({"surface", "@last", "-o", "s.ply", "--threshold", "3"}).job.own_skeleton);
+  EXPECT_FALSE(parse({"skeleton", "@last", "-o", "s.ply"}).job.skeleton.given());
+  EXPECT_TRUE(parse({"skeleton", "@last", "-o", "s", "--operator", "zucker-hummel"}).job.skeleton.given());
+  EXPECT_TRUE(parse({"surface", "@last", "-o", "s.ply", "--threshold", "3"}).job.skeleton.given());
+  EXPECT_EQ(parse({"view", "@last", "-o", "s.html", "--threshold", "3"}).job.skeleton.operator_name, "");
+  EXPECT_EQ(parse({"submit", "a.off", "--threshold", "3"}).submit.skeleton.operator_name, "zucker-hummel");
 }
 
 // Every command and subcommand of the tree.

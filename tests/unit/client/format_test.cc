@@ -11,6 +11,8 @@ TEST(ChooseFormat, FollowsTheExtensionInAnyCase) {
   EXPECT_EQ(choose_format("a/b.vtkhdf", field_formats(), "field"), FileFormat::kVtkHdf);
   EXPECT_EQ(choose_format("x.y.CSV", skeleton_formats(), "skeleton"), FileFormat::kCsv);
   EXPECT_EQ(choose_format("x.Stl", surface_formats(), "surface"), FileFormat::kStl);
+  EXPECT_EQ(lower_extension("A.b/C.OFF"), ".off");
+  EXPECT_EQ(lower_extension("A.b/C"), "");
 }
 
 TEST(ChooseFormat, NamesThePossibleOnes) {
@@ -22,6 +24,16 @@ TEST(ChooseFormat, NamesThePossibleOnes) {
       EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
       EXPECT_NE(std::string(error.what()).find(".csv, .dat, .vtkhdf"), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(ChooseFormat, SpeaksOfWhatIsToBeWritten) {
+  try {
+    choose_format("e.STL", skeleton_formats(), "eroded solid's points");
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_STREQ(error.what(),
+                 "cannot write the eroded solid's points as '.stl'; possible are .csv, .ply, .off, .xyz");
   }
 }
 

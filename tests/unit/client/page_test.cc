@@ -106,6 +106,13 @@ TEST(Page, PointsComeBackInPageUnits) {
   EXPECT_EQ(all.at("box"), json({2, 4, 10}));
 }
 
+TEST(Page, TheCellIsTheLatticesAlsoWhereTheGridIsCoarser) {
+  ViewInput input = sample_input();
+  input.grid.axes = {{{1, 0.5, 0}, {0, 2, 0}, {0, 0, 5}}};
+  input.grid.lattice_steps = {1, 2, 1};
+  EXPECT_EQ(facts(view_page(input)).at("cell"), json({{0.2, 0.1, 0}, {0, 0.2, 0}, {0, 0, 1}}));
+}
+
 TEST(Page, TheMeshComesBack) {
   const ViewInput input = sample_input();
   const std::string page = view_page(input);
@@ -129,15 +136,16 @@ TEST(Page, TheSheetOfChordsComesBack) {
   ViewInput input = sample_input();
   EXPECT_FALSE(facts(view_page(input)).at("arrays").contains("sheetCorners"));
   input.sheet_is_skeleton = true;
-  for (const double v : {1., 2., 5., 2., 4., 10., 0., 0., 0.}) input.sheet.add_xyz(v);
+  for (const double v : {1., 2., 5., 2., 2., 5., 0., 0., 0.}) input.sheet.add_xyz(v);
   for (const unsigned c : {2u, 0u, 1u}) input.sheet.add_corners(c);
   for (const double e : {40., 20., 10.}) input.sheet.add_erosion(e);
   for (const double s : {1., 0.75, 0.5}) input.sheet.add_strength(s);
   const std::string page = view_page(input);
   EXPECT_EQ(array_of<float>(page, "sheetPositions", "f32"),
-            (std::vector<float>{0, 0, 0, 0.2f, 0.4f, 1, -0.2f, -0.4f, -1}));
+            (std::vector<float>{0, 0, 0, 0.2f, 0, 0, -0.2f, -0.4f, -1}));
   EXPECT_EQ(array_of<float>(page, "sheetShares", "f32"), (std::vector<float>{0.5f, 0.25f, 0.125f}));
-  EXPECT_EQ(array_of<float>(page, "sheetStrengths", "f32"), (std::vector<float>{1, 0.75f, 0.5f}));
+  EXPECT_EQ(array_of<std::uint32_t>(page, "sheetPieces", "u32"), (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(array_of<float>(page, "sheetPieceShares", "f32"), (std::vector<float>{1}));
   EXPECT_EQ(array_of<std::uint32_t>(page, "sheetCorners", "u32"), (std::vector<std::uint32_t>{2, 0, 1}));
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "client/error.h"
@@ -100,6 +102,56 @@ TEST(Panel, BallsAreRoundAndInPlace) {
   EXPECT_EQ(image.at(10, 30), kWhite);
 }
 
+TEST(Panel, AnEllipsoidOfEqualAxesIsABall) {
+  Panel balls(40, 40, kFront, {0, 0, 0}, 2), ellipsoids(40, 40, kFront, {0, 0, 0}, 2);
+  for (const double y : {0., 2.}) {  // the second is partly hidden
+    const Ball ball{{2 + y, y, 1}, y > 0 ? kBlue : kRed};
+    balls.draw_ball(ball, 6);
+    ellipsoids.draw_ellipsoid(ball, {{{0, 0, 3}, {1.8, 2.4, 0}, {-2.4, 1.8, 0}}});  // radius 3, turned
+  }
+  const Image a = balls.resolve(), b = ellipsoids.resolve();
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      EXPECT_NEAR(a.at(x, y).r, b.at(x, y).r, 1e-5) << x << "," << y;
+      EXPECT_NEAR(a.at(x, y).b, b.at(x, y).b, 1e-5) << x << "," << y;
+    }
+  }
+}
+
+TEST(Panel, EllipsoidsHaveTheShadowOfTheStretchedBall) {
+  // The ball's image under u -> 2 u_x right + (u_x + 5 u_z) up, and 40 in depth: an ellipse of area 10 pi.
+  Panel panel(40, 40, kFront, {0, 0, 0}, 2);
+  const Ball red{{1, 0, 0}, kRed};
+  panel.draw_ellipsoid(red, {{{2, 0, 1}, {1e-9, 40, 0}, {0, 0, 5}}});
+  const Image image = panel.resolve();
+  double covered = 0;
+  int left = 40, right = 0, top = 40, bottom = 0;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      if (image.at(x, y).b == 1) continue;
+      covered += 1 - double(image.at(x, y).b);
+      left = std::min(left, x), right = std::max(right, x + 1);
+      top = std::min(top, y), bottom = std::max(bottom, y + 1);
+    }
+  }
+  EXPECT_NEAR(covered, 3.14159 * 10 * 4, 5);
+  EXPECT_NEAR(left, 22 - 4, 1);
+  EXPECT_NEAR(right, 22 + 4, 1);
+  EXPECT_NEAR(top, 20 - 2 * std::sqrt(26), 1);
+  EXPECT_NEAR(bottom, 20 + 2 * std::sqrt(26), 1);
+  // Its depth counts: it reaches 40 towards the viewer.
+  panel.draw_ball({{1, -30, 0}, kBlue}, 3);
+  EXPECT_EQ(panel.resolve().at(22, 20).b, 0);
+  panel.draw_ball({{1, -50, 0}, kBlue}, 3);
+  EXPECT_EQ(panel.resolve().at(22, 20).r, 0);
+}
+
+TEST(Panel, FlatEllipsoidsAreNotDrawn) {
+  Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+  panel.draw_ellipsoid({{0, 0, 0}, kRed}, {{{5, 0, 0}, {0, 0, 5}, {5, 0, 5}}});
+  EXPECT_EQ(panel.resolve().at(10, 10), kWhite);
+}
+
 TEST(Panel, TheSurfaceVeilsOnlyWhatIsBehindIt) {
   // A square in the plane y = 0, seen from -y.
   const core::Mesh square{{{-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}}, {{0, 1, 2}, {0, 2, 3}}};
@@ -194,7 +246,7 @@ TEST(RenderScene, IsAPngOfTheWidthAskedFor) {
   RenderInput input;
   input.mesh = core::make_sphere(100, 80);
   input.skeleton = sample_skeleton();
-  input.spacing = 10;
+  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
   input.volume = 4e6;
   input.title = "ball";
   const Image image = render_scene(input, {400});
@@ -205,6 +257,33 @@ TEST(RenderScene, IsAPngOfTheWidthAskedFor) {
   EXPECT_THROW(render_scene(input, {10}), ClientError);
   input.mesh = {};
   EXPECT_THROW(render_scene(input, {400}), ClientError);
+}
+
+// How many pixels a point without erosion makes dark, in all three views.
+int pixels_of_a_point(const std::array<core::Vec3, 3>& cell) {
+  RenderInput input;
+  input.mesh = core::make_sphere(100, 80);
+  input.cell = cell;
+  const Image without = render_scene(input, {1600});
+  for (const double c : {0., 0., 0.}) input.skeleton.add_xyz(c);
+  input.skeleton.add_point(0);
+  input.skeleton.add_erosion(0);
+  const Image with = render_scene(input, {1600});
+  int count = 0;
+  for (int y = 0; y < with.height(); ++y) {
+    for (int x = 0; x < with.width(); ++x) {
+      count += with.at(x, y).g < 0.5f && without.at(x, y).g > 0.5f ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+TEST(RenderScene, PointsAreAsLargeAsTheirCells) {
+  const int cube = pixels_of_a_point({{{12, 0, 0}, {0, 12, 0}, {0, 0, 12}}});
+  // The same volume: from the front and from the side twice as large, from above a quarter.
+  const int tall = pixels_of_a_point({{{6, 0, 0}, {0, 6, 0}, {0, 0, 48}}});
+  EXPECT_GT(cube, 50);
+  EXPECT_NEAR(double(tall) / cube, (2 + 2 + 0.25) / 3, 0.1);
 }
 
 }  // namespace

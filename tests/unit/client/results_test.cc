@@ -61,6 +61,30 @@ TEST_F(ClientTest, SkeletonAndSurfaceSendTheirParameters) {
   EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 2);
 }
 
+TEST_F(ClientTest, AThresholdAloneIsForTheJobsOperator) {
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  service_.job.mutable_skeleton()->set_threshold(0.02);
+  ASSERT_EQ(run({"skeleton", "@last", "--threshold", "0.1", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_CHORDS);
+  EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 0.1);
+  EXPECT_EQ(service_.fetches.back().job(), service_.job.id()) << "@last may be another job by then";
+  EXPECT_NE(slurp(dir_ / "s.ply").find("operator chords, threshold 0.1"), std::string::npos);
+  ASSERT_EQ(run({"surface", "@last", "--threshold", "0.1", "-o", dir_ / "s.off"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 0.1);
+}
+
+TEST_F(ClientTest, AnOperatorAloneHasItsDefaultThreshold) {
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  service_.job.mutable_skeleton()->set_threshold(0.02);
+  for (const auto& [name, which] :
+       {std::pair("sobel", v1::OPERATOR_SOBEL), std::pair("chords", v1::OPERATOR_CHORDS)}) {
+    ASSERT_EQ(run({"skeleton", "@last", "--operator", name, "-o", dir_ / "s.ply"}).exit_code, 0);
+    EXPECT_EQ(service_.fetches.back().skeleton().operator_(), which);
+    EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 0) << "the operator's default";
+  }
+}
+
 TEST_F(ClientTest, RenderWritesAPng) {
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
   EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
@@ -93,6 +117,8 @@ TEST_F(ClientTest, ErodeWritesPointsOrASurface) {
   EXPECT_EQ(slurp(dir_ / "e.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
   EXPECT_EQ(run({"erode", "@last", "--volume", "3", "--as", "points", "-o", dir_ / "e.ply"}).exit_code, 0);
   EXPECT_EQ(slurp(dir_ / "e.ply").find("property double H"), std::string::npos);
+  EXPECT_EQ(run({"erode", "@last", "--volume", "3", "-o", dir_ / "E.STL"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
   const Outcome told = run({"--json", "erode", "@last", "--fraction", "0.5", "-o", dir_ / "e.ply"});
   EXPECT_EQ(json::parse(told.out).at("volume"), 8e8);
   EXPECT_NE(slurp(dir_ / "e.ply").find("volume 8e+08"), std::string::npos);
@@ -130,6 +156,38 @@ TEST_F(ClientTest, QualityIsToldEverywhere) {
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
   EXPECT_NE(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.ply"}).err.find("take more directions"),
             std::string::npos);
+}
+
+TEST_F(ClientTest, EmptyResultsAreToldWithTheirAdvice) {
+  v1::SkeletonPoints skeleton;
+  skeleton.mutable_quality()->set_advice("take more directions");
+  service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
+  const Outcome points = run({"--json", "skeleton", "@last", "--threshold", "99", "-o", dir_ / "s.ply"});
+  EXPECT_EQ(points.exit_code, 0) << points.err;
+  EXPECT_EQ(json::parse(points.out).at("points"), 0);
+  EXPECT_EQ(json::parse(points.out).at("quality").at("advice"), "take more directions");
+
+  v1::TriangleMesh sheet;
+  sheet.mutable_quality()->set_advice("take a smaller significance");
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  const Outcome chords = run({"surface", "@last", "--operator", "chords", "-o", dir_ / "c.ply"});
+  EXPECT_NE(chords.err.find("the surface is empty: take a smaller significance"), std::string::npos);
+  EXPECT_EQ(chords.err.find("--alpha"), std::string::npos) << "chords have none";
+  const Outcome alpha = run({"surface", "@last", "-o", dir_ / "a.ply"});
+  EXPECT_NE(alpha.err.find("--alpha"), std::string::npos) << alpha.err;
+}
+
+TEST_F(ClientTest, AFieldOfAJobThatEndedBadlySaysHow) {
+  service_.job = sample_job(v1::JOB_STATE_CANCELLED);
+  const Outcome cancelled = run({"fetch", "@last", "field", "-o", dir_ / "f.csv"});
+  EXPECT_EQ(cancelled.exit_code, 4);
+  EXPECT_NE(cancelled.err.find("was cancelled at 5 of 12 directions"), std::string::npos) << cancelled.err;
+  service_.job = sample_job(v1::JOB_STATE_FAILED);
+  service_.job.mutable_error()->set_code("BAD_INPUT");
+  service_.job.mutable_error()->set_message("an open edge");
+  const Outcome failed = run({"fetch", "@last", "field", "-o", dir_ / "f.csv"});
+  EXPECT_EQ(failed.exit_code, 4);
+  EXPECT_NE(failed.err.find("failed: BAD_INPUT: an open edge"), std::string::npos) << failed.err;
 }
 
 TEST_F(ClientTest, SheetsOfChordsKeepTheirProperties) {

@@ -98,9 +98,24 @@ TEST_F(ViewTest, TakesTheJobsSkeletonOrAnother) {
   EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_CENTRAL);
   service_.fetches.clear();
   ASSERT_EQ(run({"--threshold", "5", "-o", dir_ / "p.html"}).exit_code, 0);
-  EXPECT_EQ(facts().at("operator"), "zucker-hummel");
+  EXPECT_EQ(facts().at("operator"), "central") << "a threshold alone is for the job's operator";
   EXPECT_EQ(facts().at("threshold"), 5);
-  EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+  EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_CENTRAL);
+}
+
+TEST_F(ViewTest, EveryOperatorBeginsAtItsOwnThreshold) {
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CENTRAL);
+  service_.job.mutable_skeleton()->set_threshold(0.25);
+  // types.proto; the spacing is 200.
+  for (const auto& [name, threshold] : {std::pair("zucker-hummel", 7.),
+                                        {"intermediate", 1 / 200.},
+                                        {"central", 0.57 / 200},
+                                        {"sobel", 18.25},
+                                        {"flux", 7 / 26.}}) {
+    ASSERT_EQ(run({"--operator", name, "-o", dir_ / "p.html"}).exit_code, 0) << name;
+    EXPECT_EQ(facts().at("operator"), name);
+    EXPECT_NEAR(facts().at("threshold").get<double>(), threshold, 0.005 * threshold) << name;
+  }
 }
 
 TEST_F(ViewTest, ChordsAreShownAsASheet) {
@@ -114,7 +129,9 @@ TEST_F(ViewTest, ChordsAreShownAsASheet) {
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   const Outcome done = run({"-o", dir_ / "p.html"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_EQ(facts().at("arrays").at("sheetStrengths").at(2), 3);
+  EXPECT_EQ(facts().at("arrays").at("sheetPieces").at(2), 1);
+  EXPECT_EQ(facts().at("arrays").at("sheetPieceShares").at(2), 1);
+  EXPECT_EQ(facts().at("threshold"), 0.005);
   EXPECT_EQ(fetched(v1::ARTIFACT_KIND_SURFACE).surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
 
   sheet.set_corners(1, 3);
@@ -131,7 +148,18 @@ TEST_F(ViewTest, WantsAFinishedJobAndAPageToWrite) {
   service_.job.set_directions_total(12);
   const Outcome early = run({"-o", dir_ / "p.html"});
   EXPECT_EQ(early.exit_code, 4);
-  EXPECT_NE(early.err.find("5 of 12"), std::string::npos) << early.err;
+  EXPECT_NE(early.err.find("is running: 5 of 12"), std::string::npos) << early.err;
+  service_.job.set_state(v1::JOB_STATE_FAILED);
+  service_.job.set_directions_done(12);
+  service_.job.mutable_error()->set_code("LIMIT");
+  service_.job.mutable_error()->set_message("no skeleton");
+  const Outcome failed = run({"-o", dir_ / "p.html"});
+  EXPECT_EQ(failed.exit_code, 4);
+  EXPECT_NE(failed.err.find("failed: "), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("no skeleton"), std::string::npos) << failed.err;
+  EXPECT_EQ(failed.err.find("12 of 12"), std::string::npos) << failed.err;
+  service_.job.set_state(v1::JOB_STATE_CANCELLED);
+  EXPECT_NE(run({"-o", dir_ / "p.html"}).err.find("was cancelled"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(dir_ / "p.html"));
 }
 
