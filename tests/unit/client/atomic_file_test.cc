@@ -89,6 +89,27 @@ TEST(AtomicFile, NamesTheTargetWhenItCannotBeWritten) {
   EXPECT_THROW(AtomicFile(dir.path()), ClientError);
 }
 
+TEST(AtomicFile, TakesNamesAsLongAsTheFileSystemDoes) {
+  const TempDir dir;
+  const std::string longest(255, 'n');
+  AtomicFile file(dir / longest);
+  file.write("x");
+  file.commit();
+  EXPECT_EQ(dir.names(), (std::vector<std::string>{longest}));
+  EXPECT_THROW(AtomicFile(dir / (longest + "n")), ClientError) << "known at once, not when all is done";
+  EXPECT_EQ(dir.names().size(), 1u);
+}
+
+TEST(AtomicFile, SyncDoesNotMakeTheFileAppear) {
+  const TempDir dir;
+  AtomicFile file(dir / "out.txt");
+  file.write("hello");
+  file.sync();
+  EXPECT_FALSE(std::filesystem::exists(dir / "out.txt"));
+  file.commit();
+  EXPECT_EQ(slurp(dir / "out.txt"), "hello");
+}
+
 TEST(AtomicFile, FullDiskIsALimit) {
   AtomicFile file("/dev/full");
   file.write("x");

@@ -17,6 +17,14 @@ TEST(CurvePlot, TicksAreRound) {
   }
 }
 
+TEST(CurvePlot, TicksEndWhereverTheLimitIs) {
+  EXPECT_EQ(round_ticks(1e-300, 8).size(), 6u);
+  EXPECT_EQ(round_ticks(1e300, 8).size(), 6u);
+  for (const double limit : {5e-324, 1e-310, 1e308, 0.0, -1.0}) {
+    EXPECT_EQ(round_ticks(limit, 8), (std::vector<double>{0})) << limit;
+  }
+}
+
 TEST(CurvePlot, HoldsEveryCurveAndNoMarkupOfItsLabels) {
   SharePlot plot;
   plot.title = "a < b & \"c\"";

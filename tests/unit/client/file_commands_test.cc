@@ -141,6 +141,101 @@ TEST_F(FileCommandsTest, CompareRefusesWhatItCannotCompare) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "c.png"));
 }
 
+TEST_F(FileCommandsTest, CompareKeepsRadiiInRange) {
+  const auto code = [&](const std::vector<std::string>& extra) {
+    std::vector<std::string> arguments = {"compare", dir_ / "a.csv", dir_ / "b.xyz", "--plot",
+                                          dir_ / "c.svg"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    return run(arguments).exit_code;
+  };
+  for (const char* wrong : {"5e-324", "1e-151", "1.1e150", "1e300"}) {
+    EXPECT_EQ(code({"--radius", wrong}), 2) << wrong;
+    EXPECT_EQ(code({"--radii", wrong}), 2) << wrong;
+  }
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "c.svg"));
+  for (const char* right : {"1e-150", "1e150"}) {
+    EXPECT_EQ(code({"--radius", right}), 0) << right;
+    EXPECT_EQ(code({"--radii", right}), 0) << right;
+  }
+  EXPECT_EQ(code({"--squared", "--radius", "1e-300"}), 0);
+  EXPECT_EQ(code({"--squared", "--radius", "1e300"}), 0);
+  EXPECT_EQ(code({"--squared", "--radius", "5e-324"}), 2);
+}
+
+TEST_F(FileCommandsTest, CompareIsRightOrRefusesAtAnySize) {
+  spit(dir_ / "tiny.csv", "x,y,z\n0,0,0\n1e-170,0,0\n");
+  spit(dir_ / "tiny2.csv", "x,y,z\n0,3e-170,0\n1e-170,3e-170,0\n");
+  spit(dir_ / "huge.csv", "x,y,z\n0,0,0\n1e160,0,0\n");
+  const Outcome refused = run({"compare", dir_ / "tiny.csv", dir_ / "tiny2.csv"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("3e-170"), std::string::npos) << refused.err;
+  const Outcome tiny = run({"--json", "compare", dir_ / "tiny.csv", dir_ / "tiny2.csv", "--radius", "1"});
+  ASSERT_EQ(tiny.exit_code, 0) << tiny.err;
+  EXPECT_EQ(json::parse(tiny.out).at("hausdorff").at("a_to_b"), 3e-170);
+  const Outcome huge = run({"compare", dir_ / "huge.csv", dir_ / "a.csv"});
+  EXPECT_EQ(huge.exit_code, 3);
+  EXPECT_NE(huge.err.find("huge.csv"), std::string::npos) << huge.err;
+  core::Mesh box = core::make_box(3e-80, 2e-80, 1e-80);
+  spit(dir_ / "tiny.off", core::write_off(box));
+  const Outcome surface = run({"compare", dir_ / "tiny.off", dir_ / "a.csv"});
+  EXPECT_EQ(surface.exit_code, 3);
+  EXPECT_NE(surface.err.find("tiny.off"), std::string::npos) << surface.err;
+}
+
+TEST_F(FileCommandsTest, CompareKnowsTheChanceLevelOfThinSolids) {
+  // A needle: points within 1e4 of its middle are a fifth of it.  A plate: within 1e5 of its middle lies
+  // the disc's share.
+  spit(dir_ / "needle.off", core::write_off(core::make_box(1e5, 1, 1)));
+  spit(dir_ / "needle.xyz", "5e4 0.5 0.5\n");
+  spit(dir_ / "plate.off", core::write_off(core::make_box(1e6, 1e6, 1)));
+  spit(dir_ / "plate.xyz", "5e5 5e5 0.5\n");
+  const auto chance = [&](const std::string& name, const char* radius) {
+    const Outcome done = run({"--json", "compare", dir_ / (name + ".xyz"), dir_ / (name + ".xyz"), "--solid",
+                              dir_ / (name + ".off"), "--radius", radius});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return json::parse(done.out).at("at_radius").at("chance_in_a").get<double>();
+  };
+  EXPECT_NEAR(chance("needle", "1e4"), 0.2, 0.002);
+  EXPECT_NEAR(chance("plate", "1e5"), 3.14159e-2, 0.001);
+}
+
+TEST_F(FileCommandsTest, CompareWritesBothFilesOrNone) {
+  spit(dir_ / "old.svg", "old");
+  std::filesystem::create_directory(dir_ / "full.csv");
+  for (const std::string& table : {dir_ / "none/c.csv", dir_ / "full.csv"}) {
+    const Outcome done =
+        run({"compare", dir_ / "a.csv", dir_ / "b.xyz", "--plot", dir_ / "old.svg", "-o", table});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_NE(done.err.find(table), std::string::npos) << done.err;
+    EXPECT_EQ(slurp(dir_ / "old.svg"), "old");
+  }
+  // A disk that fills up shows only when the table is written.
+  std::filesystem::create_symlink("/dev/full", dir_ / "disk.csv");
+  EXPECT_EQ(
+      run({"compare", dir_ / "a.csv", dir_ / "b.xyz", "--plot", dir_ / "old.svg", "-o", dir_ / "disk.csv"})
+          .exit_code,
+      8);
+  EXPECT_EQ(slurp(dir_ / "old.svg"), "old");
+  EXPECT_EQ(dir_.names().size(), 7u) << "temporary files are left";
+}
+
+TEST_F(FileCommandsTest, StlThatWouldBeSpoiltIsRefusedByName) {
+  const Outcome done =
+      run({"transform", dir_ / "box.off", "-o", dir_ / "far.stl", "--translate", "1e9,1e9,1e9"});
+  EXPECT_EQ(done.exit_code, 8);
+  EXPECT_NE(done.err.find("far.stl: .stl holds single precision"), std::string::npos) << done.err;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "far.stl"));
+  EXPECT_EQ(run({"make", "box", "--size", "1e39,1,1", "-o", dir_ / "far.stl"}).exit_code, 8);
+}
+
+TEST_F(FileCommandsTest, ChangedNamesOfColumnsAreTold) {
+  spit(dir_ / "n.csv", "x,y,z,my col\n1,2,3,4\n");
+  const Outcome done = run({"transform", dir_ / "n.csv", "-o", dir_ / "t.ply", "--scale", "2"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find("column 'my col' is written as 'my_col'"), std::string::npos) << done.err;
+  EXPECT_EQ(read_shape(dir_ / "t.ply").columns.at(0).name, "my_col");
+}
+
 TEST_F(FileCommandsTest, TransformTakesTheStepsInTheOrderGiven) {
   ASSERT_EQ(run({"transform", dir_ / "a.csv", "-o", dir_ / "t.csv", "--scale", "2", "--translate", "1,0,0",
                  "--scale", "10", "--rotate", "z:90"})

@@ -1,8 +1,11 @@
 #include "client/input_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <sstream>
 #include <thread>
 
@@ -40,6 +43,35 @@ TEST(ReadFile, KeepsToItsLimit) {
   EXPECT_EQ(read_file(dir / "file", 5), "12345");
   EXPECT_EQ(exit_of([&] { read_file(dir / "file", 4); }), ExitCode::kLimit);
   EXPECT_EQ(exit_of([&] { read_file("/dev/zero", 1000); }), ExitCode::kLimit) << "no size to ask for";
+}
+
+// Sanitizers need the address space for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void limit_memory(rlim_t bytes) {
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+TEST(ReadFileDeathTest, WithoutMemoryItNamesTheFile) {
+  EXPECT_EXIT(
+      {
+        limit_memory(rlim_t{1} << 30);
+        try {
+          read_file("/dev/zero");
+        } catch (const ClientError& error) {
+          std::fprintf(stderr, "%s\n", error.for_people().c_str());
+          _exit(static_cast<int>(error.exit_code()));
+        }
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(8), "/dev/zero: not enough memory");
+}
+#endif
+
+TEST(ReadFile, TakesNoMoreThanTheFileNeeds) {
+  const TempDir dir;
+  spit(dir / "file", std::string(10000000, 'x'));
+  EXPECT_LT(read_file(dir / "file").capacity(), 10100000u);
 }
 
 TEST(ReadFile, MissingFilesAndDirectoriesAreBadInput) {

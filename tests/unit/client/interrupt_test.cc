@@ -2,13 +2,20 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include "client/error.h"
 #include "client/exporters/atomic_file.h"
 #include "temp_dir.h"
 
 namespace affskel::client {
 namespace {
+
+void limit_file_size(rlim_t bytes) {
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
+}
 
 // Each runs in a process of its own.
 TEST(InterruptDeathTest, TellsThatTheJobGoesOn) {
@@ -32,6 +39,42 @@ TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
         raise(SIGTERM);
       },
       ::testing::ExitedWithCode(143), "");
+  EXPECT_TRUE(dir.names().empty());
+}
+
+TEST(InterruptDeathTest, RemovesEveryUnfinishedFile) {
+  const TempDir dir;
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        AtomicFile first(dir / "a.csv");
+        AtomicFile second(dir / "b.svg");
+        { AtomicFile third(dir / "c.svg"); }
+        AtomicFile fourth(dir / "d.csv");
+        fourth.commit();
+        if (dir.names().size() != 3) _exit(1);
+        raise(SIGTERM);
+      },
+      ::testing::ExitedWithCode(143), "");
+  EXPECT_EQ(dir.names(), (std::vector<std::string>{"d.csv"}));
+}
+
+TEST(InterruptDeathTest, AFileBeyondTheLimitIsAnErrorAndRemoved) {
+  const TempDir dir;
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        limit_file_size(1 << 16);
+        try {
+          AtomicFile file(dir / "out.csv");
+          file.write(std::string(3 << 20, 'x'));
+          file.commit();
+        } catch (const ClientError& error) {
+          _exit(static_cast<int>(error.exit_code()));
+        }
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(8), "");
   EXPECT_TRUE(dir.names().empty());
 }
 

@@ -8,6 +8,8 @@
 #include "affskel/v1/types.pb.h"
 #include "client/error.h"
 #include "core/mesh_io.h"
+#include "core/shapes.h"
+#include "temp_dir.h"
 
 namespace affskel::client {
 namespace {
@@ -85,6 +87,57 @@ TEST(MeshWriter, StlHoldsNormalsAndCorners) {
   EXPECT_EQ(first[1], 0.0f);
   EXPECT_EQ(first[2], 1.0f);  // the first triangle lies in z = 0, counter-clockwise
   EXPECT_EQ(first[3], 0.1f);
+}
+
+// The exit code and the cause of writing as .stl, into a file.
+std::string refusal_of_stl(const core::Mesh& mesh) {
+  const TempDir dir;
+  try {
+    AtomicFile file(dir / "out.stl");
+    write_mesh(FileFormat::kStl, mesh, {}, file);
+    file.commit();
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
+    EXPECT_EQ(error.file(), dir / "out.stl");
+    EXPECT_NE(std::string(error.what()).find(".off, .ply or .obj"), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+core::Mesh moved(const core::Mesh& mesh, double factor, double shift) {
+  core::Mesh result = mesh;
+  for (core::Vec3& p : result.points) p = factor * p + core::Vec3{shift, shift, shift};
+  return result;
+}
+
+TEST(MeshWriter, StlRefusesWhatSinglePrecisionSpoils) {
+  const core::Mesh sphere = core::make_sphere(1, 320);
+  EXPECT_EQ(refusal_of_stl(sphere), "");
+  EXPECT_EQ(refusal_of_stl(moved(sphere, 1e38, 0)), "");
+  EXPECT_EQ(refusal_of_stl(moved(sphere, 1e-30, 0)), "");
+  EXPECT_EQ(refusal_of_stl(moved(sphere, 1, 1e4)), "");
+  EXPECT_NE(refusal_of_stl(moved(sphere, 1e39, 0)).find("3.4e38"), std::string::npos);
+  EXPECT_NE(refusal_of_stl(moved(sphere, 1e-46, 0)).find("320 of 320 triangles"), std::string::npos);
+  EXPECT_NE(refusal_of_stl(moved(sphere, 1e-200, 0)).find("320 of 320 triangles"), std::string::npos);
+  EXPECT_NE(refusal_of_stl(moved(sphere, 1, 1e8)).find("320 of 320 triangles"), std::string::npos);
+  EXPECT_NE(refusal_of_stl(moved(sphere, 1, 1e8)).find("from (99999999"), std::string::npos);
+  // A needle whose length leaves no digits for its width.
+  EXPECT_NE(refusal_of_stl(moved(core::make_box(1e9, 1, 1), 1, 5e8)), "");
+}
+
+TEST(MeshWriter, StlHoldsSliversThatBecomeFlat) {
+  // The surface of an eroded solid has a few: two vertices near one lattice point.  They share their edge
+  // with others, which stay.
+  core::Mesh mesh = core::make_sphere(1000, 1280);
+  const core::Triangle t = mesh.triangles[0];
+  const auto extra = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.push_back(mesh.points[t[0]] + 1e-9 * (mesh.points[t[1]] - mesh.points[t[0]]) +
+                        1e-9 * (mesh.points[t[2]] - mesh.points[t[0]]));
+  mesh.triangles[0] = {extra, t[1], t[2]};
+  mesh.triangles.push_back({t[0], extra, t[2]});
+  mesh.triangles.push_back({t[0], t[1], extra});
+  EXPECT_EQ(refusal_of_stl(mesh), "");
 }
 
 TEST(MeshWriter, AnEmptyMeshIsAValidFile) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <utility>
 
 #include "client/error.h"
 #include "client/exporters/mesh_writer.h"
@@ -151,11 +152,112 @@ TEST_F(ShapeFileTest, PlyErrorsNameThePlace) {
   expect_bad("a.ply",
              "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
              "element face 1\nproperty list uchar int vertex_indices\nend_header\ninf 0 1 2\n",
-             10, "a list of inf");
+             10, "'inf' is outside the range of its type");
+  expect_bad("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 1\nproperty list int int vertex_indices\nend_header\n-1 0 1 2\n",
+             10, "a list of -1");
   expect_bad("a.ply",
              "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
              "property float y\nproperty float z\nend_header\n",
              7, "announced");
+}
+
+TEST_F(ShapeFileTest, PlyValuesFitTheirTypes) {
+  const std::string head = "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\n";
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  const std::string end = "end_header\n";
+  const auto with = [&](const std::string& type, const std::string& value) {
+    return head + xyz + "property " + type + " a\n" + end + "0 0 0 0\n1 0 0 " + value + "\n0 1 0 0\n";
+  };
+  for (const auto& [type, value] : std::vector<std::pair<std::string, std::string>>{{"uchar", "300"},
+                                                                                    {"uchar", "-1"},
+                                                                                    {"char", "128"},
+                                                                                    {"short", "-32769"},
+                                                                                    {"ushort", "65536"},
+                                                                                    {"int", "2147483648"},
+                                                                                    {"uint32", "4294967296"},
+                                                                                    {"uint", "inf"}}) {
+    expect_bad("a.ply", with(type, value), 11, "outside the range of its type");
+  }
+  EXPECT_EQ(read("a.ply", with("uchar", "255")).columns[0].values[1], 255);
+  EXPECT_EQ(read("a.ply", with("int", "-2147483648")).columns[0].values[1], -2147483648.0);
+  expect_bad("a.ply", with("uint", "nan"), 11, "whole number");
+  // Indices of vertices may be floats, but must be whole.
+  const auto face = [&](const std::string& corners) {
+    return head + xyz + "element face 1\nproperty list uchar float vertex_indices\n" + end +
+           "0 0 0\n1 0 0\n0 1 0\n3 " + corners + "\n";
+  };
+  EXPECT_EQ(read("a.ply", face("0 1 2")).mesh().triangles.size(), 1u);
+  expect_bad("a.ply", face("0 1 1.5"), 14, "1.5");
+  expect_bad("a.ply", face("0 1 nan"), 14, "whole");
+  expect_bad("a.ply", face("0 1 1e300"), 14, "whole");
+  expect_bad("a.ply", face("0 1 -1"), 14, "does not exist");
+}
+
+TEST_F(ShapeFileTest, PlyHeadersSayEverythingOnce) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  expect_bad("a.ply", "ply\nformat ascii 1.0\nformat binary_little_endian 1.0\nend_header\n", 3, "second");
+  expect_bad("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "property int x\nend_header\n", 7,
+             "called 'x'");
+  expect_bad("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
+                 "property int E\nproperty float E\nend_header\n1 2 3 4 5\n",
+             8, "called 'E'");
+  expect_bad(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 0\n" + xyz + "element vertex 1\n" + xyz + "end_header\n1 2 3\n",
+      11, "two elements");
+}
+
+TEST_F(ShapeFileTest, LinesInThePlyBodyAreThoseOfTheFile) {
+  const std::string good =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n1 2 3\n";
+  expect_bad("a.ply", good + "4 5 \r6\n", 9, "carriage return");
+  expect_bad("a.ply", good + "\n4 5 6" + std::string(1, '\0') + "\n", 10, "NUL");
+  EXPECT_EQ(read("a.ply", good + "\n4 5 6\n").off.vertex_line, (std::vector<std::uint32_t>{8, 10}));
+}
+
+TEST_F(ShapeFileTest, StlTextKeepsItsOrder) {
+  const std::string vertices = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  const std::string facet = "facet normal 0 0 1\nouter loop\n" + vertices + "endloop\nendfacet\n";
+  EXPECT_EQ(read("t.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n")
+                .mesh()
+                .triangles.size(),
+            2u);
+  expect_bad("t.stl", "solid\nfacet\nouter loop\n" + vertices + "endfacet\nendsolid\n", 7, "endloop");
+  expect_bad("t.stl", "solid\nfacet\nouter loop\n" + vertices + "vertex 1 1 1\nendloop\nendfacet\n", 7,
+             "after three vertices");
+  expect_bad("t.stl", "solid\n" + vertices + "endsolid\n", 2, "expected facet");
+  expect_bad("t.stl", "solid\n" + facet + "vertex 9 9 9\nendsolid\n", 9, "expected facet");
+  expect_bad("t.stl", "solid\nfacet\n" + vertices + "endfacet\nendsolid\n", 3, "outer loop");
+  expect_bad("t.stl", "solid\nfacet\nouter loop\n" + vertices + "endloop\nendsolid\n", 8, "endfacet");
+  expect_bad("t.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\n", 4, "ends before a vertex");
+  expect_bad("t.stl", "solid\n" + facet + "endsolid\n" + facet, 10, "expected solid");
+}
+
+TEST_F(ShapeFileTest, NamesOfColumnsThatWouldNotReadBackAreChanged) {
+  const ShapeFile shape = read("c.csv", "x,y,z,my col,my_col,\"q\",my\tcol\n1,2,3,4,5,6,7\n");
+  EXPECT_EQ(written_names(shape), (std::vector<std::string>{"my_col_2", "my_col", "_q_", "my_col_3"}));
+  // A PLY name is any word.
+  const ShapeFile ply = read("c.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\n"
+                             "property int z\nproperty int a,b\nproperty int x#\nproperty int E\n"
+                             "end_header\n1 2 3 4 5 6\n");
+  EXPECT_EQ(written_names(ply), (std::vector<std::string>{"a_b", "x_", "E"}));
+  for (const ShapeFile* from : {&shape, &ply}) {
+    for (const FileFormat format : {FileFormat::kCsv, FileFormat::kPly}) {
+      std::string bytes;
+      write_shape(format, *from, {}, [&](std::string_view piece) { bytes += piece; });
+      const ShapeFile back = read("back" + std::string(extension_of(format)), bytes);
+      ASSERT_EQ(back.columns.size(), from->columns.size());
+      for (std::size_t c = 0; c < back.columns.size(); ++c) {
+        EXPECT_EQ(back.columns[c].name, written_names(*from)[c]);
+        EXPECT_EQ(back.columns[c].values, from->columns[c].values);
+      }
+    }
+  }
 }
 
 TEST_F(ShapeFileTest, ColumnsOfWholeNumbersThatAreNotKeepTheirValues) {
