@@ -7,6 +7,9 @@
 
 #include "chord_fields.h"
 #include "core/error.h"
+#include "core/lattice_coordinates.h"
+#include "core/shapes.h"
+#include "test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -148,6 +151,109 @@ TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
   ChordPruningOptions options;
   options.least_erosion = 0;
   EXPECT_EQ(plane.prune(options).shocks.size(), 200U);
+}
+
+// Several boxes in one job, each with shocks laid by hand.
+class Boxes {
+ public:
+  explicit Boxes(const Mesh& mesh) : solid_(make_solid(mesh)) {
+    LatticeOptions options;
+    options.spacing = 1;
+    lattice_ = make_lattice(solid_, options);
+    std::vector<std::uint32_t> all(lattice_.points);
+    for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = p;
+    places_ = lattice_places(lattice_, all);
+  }
+
+  // A square of n x n shocks along axis 0 from a place on.
+  void add(const LatticePlace& from, std::uint32_t n, double opening, double erosion) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      for (std::uint32_t k = 0; k < n; ++k) {
+        ChordShock shock;
+        shock.place = {from[0], from[1] + j, from[2] + k};
+        const auto at = std::lower_bound(places_.begin(), places_.end(), shock.place);
+        shock.point = static_cast<std::uint32_t>(at - places_.begin());
+        shock.erosion = erosion;
+        shock.strength = 1;
+        shock.opening = opening;
+        shock.gradient_low = {1, 0, 0};
+        shock.gradient_high = {-1, 0, 0};
+        shocks_.push_back(shock);
+      }
+    }
+  }
+
+  SignificantShocks prune() {
+    std::sort(shocks_.begin(), shocks_.end(),
+              [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
+    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_);
+  }
+
+ private:
+  Solid solid_;
+  Lattice lattice_;
+  std::vector<LatticePlace> places_;
+  std::vector<ChordShock> shocks_;
+};
+
+// Boxes of 4 x 16 x 16 points, a quarter of a step apart: cells reach over the gap.
+constexpr double kThick = 15.75;
+
+void add_sheet_and_specks(Boxes& boxes, std::uint32_t k) {
+  boxes.add({1, 0, k}, 12, 1, 100);
+  boxes.add({1, 12, k + 4}, 4, 0.1, 100);    // weak, up to the rim of the box below
+  boxes.add({1, 15, k + 15}, 1, 0.26, 100);  // a strong one that weighs little
+  boxes.add({1, 14, k + 13}, 1, 1, 0.5);     // where less than 1.024 is cut off
+}
+
+TEST(SignificantShocks, CopiesOfASolidKeepWhatOneKeeps) {
+  Boxes one(make_box(4, 16, kThick));
+  add_sheet_and_specks(one, 0);
+  const SignificantShocks alone = one.prune();
+  ASSERT_EQ(alone.pieces.size(), 1U);
+  ASSERT_LT(alone.shocks.size(), 12U * 12U + 17U);
+  Mesh mesh;
+  for (std::uint32_t copy = 0; copy < 3; ++copy) {
+    mesh = joined(mesh, moved(make_box(4, 16, kThick), {0, 0, 16.0 * copy}));
+  }
+  Boxes three(mesh);
+  for (std::uint32_t copy = 0; copy < 3; ++copy) add_sheet_and_specks(three, 16 * copy);
+  const SignificantShocks kept = three.prune();
+  EXPECT_EQ(kept.pieces, std::vector<double>(3, alone.pieces[0]));
+  EXPECT_EQ(kept.bridges, 3 * alone.bridges);
+  ASSERT_EQ(kept.shocks.size(), 3 * alone.shocks.size());
+  for (std::uint32_t copy = 0; copy < 3; ++copy) {
+    for (const ChordShock& shock : alone.shocks) {
+      const LatticePlace place{shock.place[0], shock.place[1], shock.place[2] + 16 * copy};
+      EXPECT_TRUE(std::any_of(kept.shocks.begin(), kept.shocks.end(),
+                              [&](const ChordShock& s) { return s.place == place; }));
+    }
+  }
+}
+
+// 1 of 145 parts of the weight, and E = 0.5 of 32 beside 12800.
+TEST(SignificantShocks, ASmallSolidIsWeighedAlone) {
+  Boxes boxes(joined(make_box(20, 20, 32), moved(make_box(4, 4, 2), {30, 0, 0})));
+  boxes.add({10, 2, 2}, 12, 1, 100);
+  boxes.add({31, 1, 0}, 1, 1, 0.5);
+  const SignificantShocks kept = boxes.prune();
+  EXPECT_EQ(kept.shocks.size(), 145U);
+  EXPECT_EQ(kept.pieces, (std::vector<double>{1, 1}));
+}
+
+TEST(SignificantShocks, TellsWhatThereWasToChooseFrom) {
+  Plane plane;
+  plane.add(0, 10, 0, 10, 0.9);
+  plane.add(20, 5, 0, 5, 0.9);
+  plane.add(20, 5, 10, 5, 0.2);
+  plane.add(30, 3, 0, 2, 0.3, 1, 3.1);
+  const SignificantShocks kept = plane.prune(with_significance(0.9));
+  EXPECT_TRUE(kept.shocks.empty());
+  EXPECT_EQ(kept.census.candidates, 156U);
+  EXPECT_EQ(kept.census.wide, 131U);
+  EXPECT_EQ(kept.census.strong, 125U);
+  EXPECT_EQ(kept.census.widest_opening, 0.9);
+  EXPECT_NEAR(kept.census.heaviest_piece, 0.8, 1e-12);
 }
 
 TEST(SignificantShocks, NothingComesOfNothing) {

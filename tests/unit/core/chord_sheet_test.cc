@@ -11,7 +11,10 @@
 #include "chord_fields.h"
 #include "core/chord_cells.h"
 #include "core/error.h"
+#include "core/lattice_coordinates.h"
 #include "core/shapes.h"
+#include "core/solid_membership.h"
+#include "test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -87,6 +90,18 @@ TEST(ChordCells, AnEdgeHasFourCellsOnceRound) {
     const CellPlace &a = cells.place[cells.ring[0][corner]],
                     &b = cells.place[cells.ring[0][(corner + 1) % 4]];
     EXPECT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 1);
+  }
+}
+
+TEST(ChordCells, RefusesMoreShocksThanCanBeNumbered) {
+  const BoxLattice box(3, 3, 3);
+  const ChordShock shock;
+  const std::span<const ChordShock> many(&shock, std::size_t{1} << 30);
+  try {
+    chord_cells(box.lattice, SolidParts(box.solid, box.lattice), many);
+    FAIL() << "not refused";
+  } catch (const CoreError& error) {
+    EXPECT_EQ(error.code(), CoreError::Code::kLimit);
   }
 }
 
@@ -217,6 +232,107 @@ TEST(ChordSheet, ABoxGivesTheMiddleOfItsLargestFaces) {
   }
   EXPECT_EQ(topology(sheet).euler, 1);
   EXPECT_EQ(topology(sheet).components, 1U);
+}
+
+// A quarter of a step apart, so that cells reach over the gap: a sheet each, and the one that it has alone.
+TEST(ChordSheet, PartsOfASolidHaveASheetEach) {
+  const auto sheet_in = [](const Mesh& mesh) {
+    const Solid solid = make_solid(mesh);
+    LatticeOptions options;
+    options.spacing = 1;
+    const Lattice lattice = make_lattice(solid, options);
+    return chord_sheet(
+        solid, lattice,
+        field_of_branches(lattice, {linear_branch(1, {1, 0, 0}), linear_branch(8.6, {-1, 0, 0})}));
+  };
+  const Mesh box = make_box(9, 8, 3.75);
+  const ChordSheet one = sheet_in(box), two = sheet_in(joined(box, moved(box, {0, 0, 4})));
+  ASSERT_EQ(one.vertices.size(), 45U);
+  ASSERT_EQ(two.vertices.size(), 90U);
+  EXPECT_EQ(topology(two).components, 2U);
+  EXPECT_EQ(two.pieces, (std::vector<double>{1, 1}));
+  for (const ChordSheetVertex& v : one.vertices) {
+    for (const double z : {0.0, 4.0}) {
+      EXPECT_TRUE(std::any_of(two.vertices.begin(), two.vertices.end(), [&](const ChordSheetVertex& w) {
+        return norm(w.position - v.position - Vec3{0, 0, z}) < 1e-12;
+      }));
+    }
+  }
+}
+
+// The small one has 1/512 of the large one's volume.
+TEST(ChordSheet, ASmallDiscBesideALargeOneKeepsItsSkeleton) {
+  const Mesh large = make_cylinder(8, 4, 32), small = moved(make_cylinder(1, 0.5, 32), {16, 0, 0});
+  const ErodedSolid alone(small, axes(0.25), "random:100:1");
+  const ErodedSolid both(joined(large, small), axes(0.25), "random:100:1");
+  const ChordSheet sheet = chord_sheet(alone.solid, alone.lattice, alone.field);
+  std::vector<ChordShock> beside;
+  for (const ChordShock& shock : chord_sheet(both.solid, both.lattice, both.field).shocks) {
+    if (both.place(shock.position).x > 15) beside.push_back(shock);
+  }
+  ASSERT_GT(sheet.shocks.size(), 20U);
+  ASSERT_EQ(beside.size(), sheet.shocks.size());
+  for (std::size_t s = 0; s < beside.size(); ++s) {
+    EXPECT_LT(norm(both.place(beside[s].position) - alone.place(sheet.shocks[s].position)), 1e-9);
+    EXPECT_NEAR(beside[s].erosion, sheet.shocks[s].erosion, 1e-9);
+  }
+}
+
+// Two teeth, [0, 1] and [2, 3] along x, that a bar joins at their upper ends, z in [3, 4].  The lattice has a
+// column of points in the middle of each tooth, and a cell between the columns all corners of which lie
+// inside.
+struct Fork {
+  Solid solid = make_solid(comb(2));
+  Lattice lattice;
+
+  Fork() {
+    const double inner = 1 / solid.scale();
+    LatticeFrame frame;
+    frame.axes = axes(inner, 2, 0.25, 0.5);
+    frame.dims = {2, 4, 8};
+    frame.origin = inner * (Vec3{0.5, 0.125, 0.25} - solid.centre);
+    lattice = make_lattice(solid, frame);
+  }
+
+  // In steps.
+  std::vector<Vec3> vertices(std::vector<Branch> more = {}) const {
+    const double h = lattice.spacing;
+    more.push_back(linear_branch(1, {0, 0, 1 / h}));
+    more.push_back(linear_branch(6, {0, 0, -1 / h}));
+    std::vector<Vec3> result;
+    for (const ChordSheetVertex& v : chord_sheet(solid, lattice, field_of_branches(lattice, more)).vertices) {
+      result.push_back((1 / h) * v.position);
+    }
+    return result;
+  }
+};
+
+// The sheet z = 2.5 steps: the mean of a cell's shocks is in the gap, and one of them is taken.
+TEST(ChordSheet, AVertexInAGapIsDrawnToAShock) {
+  const Fork fork;
+  const SolidMembership membership(fork.solid.mesh);
+  const std::vector<Vec3> vertices = fork.vertices();
+  ASSERT_EQ(vertices.size(), 15U);
+  for (const Vec3& v : vertices) {
+    EXPECT_TRUE(v.x == 0 || v.x == 1) << v.x;
+    EXPECT_NEAR(v.z, 2.5, 1e-12);
+    EXPECT_TRUE(membership.contains(inner_place(fork.lattice, v)));
+  }
+}
+
+// Shocks in the second tooth only: drawn to the middle of their cell they would lie in the gap.
+TEST(ChordSheet, AVertexInAGapIsDrawnToTheMeanOfTheShocks) {
+  const Fork fork;
+  const std::vector<Vec3> vertices = fork.vertices({linear_branch(0.5, {10 / fork.lattice.spacing, 0, 0})});
+  std::size_t low = 0, between = 0;
+  for (const Vec3& v : vertices) {
+    if (v.z > 4) continue;
+    ++low;
+    EXPECT_EQ(v.x, 1);
+    between += v.y == 0.5 || v.y == 1.5 || v.y == 2.5 ? 1 : 0;
+  }
+  EXPECT_EQ(low, 10U);
+  EXPECT_EQ(between, 6U);
 }
 
 TEST(ChordSheet, NoShocksGiveAnEmptySheet) {

@@ -62,5 +62,43 @@ TEST(EmptySkeletonAdvice, SuggestsAThresholdThatKeepsSomethingWheneverThereIsSom
   EXPECT_TRUE(says(advice, "--threshold 2.97 would keep 1 of the 1000 points")) << advice;
 }
 
+TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
+  NormalBlock block({10, 10, 10});
+  ChordPruningOptions pruning;
+  pruning.significance = 0.9;
+  const std::string advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, pruning);
+  EXPECT_TRUE(says(advice, "all 125 strong shocks")) << advice;
+  EXPECT_TRUE(says(advice, "below the significance 0.9; the heaviest weighs 0.8")) << advice;
+  EXPECT_TRUE(says(advice, "--threshold 0.792 would keep it")) << advice;
+  EXPECT_FALSE(says(advice, "spacing")) << advice;
+}
+
+// Openings of 1/16 and 1/4 are angles of 29 and 60 degrees.
+TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
+  NormalBlock block({10, 10, 10});
+  const std::string advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
+  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 60")) << advice;
+  EXPECT_FALSE(says(advice, "--frame")) << advice;
+  EXPECT_FALSE(says(advice, "--threshold")) << advice;
+}
+
+TEST(EmptySheetAdvice, SuggestsOtherAxesWhenTheseAreStretched) {
+  NormalBlock block({10, 10, 10});
+  Lattice lattice = block.lattice;
+  lattice.frame.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.1}};
+  EXPECT_FALSE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame"));
+  lattice.frame.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, 0.05}};
+  EXPECT_TRUE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame axis or --frame pca"));
+}
+
+TEST(EmptySheetAdvice, TellsShocksNearTheSurfaceFromNone) {
+  NormalBlock block({3, 3, 3}, 0.25);
+  const std::string near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, {});
+  EXPECT_TRUE(says(near, "at none of the 5")) << near;
+  EXPECT_TRUE(says(near, "only 27 sample points: submit with a smaller spacing than 0.25")) << near;
+  const std::string none = empty_sheet_advice(block.lattice, {}, {});
+  EXPECT_TRUE(says(none, "nowhere do two different chords")) << none;
+}
+
 }  // namespace
 }  // namespace affskel::core
