@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/edge_value.h"
 #include "core/error.h"
 #include "core/field.h"
 
@@ -54,20 +55,21 @@ class ShockFinder {
       return {};
     }
     const Vec3 &g_x = field_.gradient[x], &g_y = field_.gradient[y];
-    const double rise_x = g_x[axis] * field_.spacing, rise_y = g_y[axis] * field_.spacing;
-    const double kink = rise_x - rise_y;
+    const EdgeValue at_x{field_.erosion[x], g_x[axis] * field_.spacing};
+    const EdgeValue at_y{field_.erosion[y], g_y[axis] * field_.spacing};
+    const double kink = tangents_kink(at_x, at_y);
     if (!(kink > 0)) return {};
     ChordShock shock;
-    shock.strength = kink / (std::abs(rise_x) + std::abs(rise_y));
+    shock.strength = kink / (std::abs(at_x.slope) + std::abs(at_y.slope));
     shock.opening = 0.5 * (1 - dot(g_x, g_y) / (norm(g_x) * norm(g_y)));
-    shock.t = (field_.erosion[y] - field_.erosion[x] - rise_y) / kink;
+    shock.t = tangents_crossing(at_x, at_y);
     if (!(shock.strength >= options_.least_strength && shock.opening >= options_.least_opening)) return {};
     if (!(shock.t >= -options_.slack && shock.t <= 1 + options_.slack)) return {};
     shock.t = std::clamp(shock.t, 0.0, 1.0);
     shock.point = x;
     shock.upper = y;
     shock.axis = static_cast<std::uint8_t>(axis);
-    shock.erosion = shock.t < 1 ? field_.erosion[x] + shock.t * rise_x : field_.erosion[y];
+    shock.erosion = shock.t < 1 ? at_x.erosion + shock.t * at_x.slope : at_y.erosion;
     shock.gradient_low = g_x;
     shock.gradient_high = g_y;
     shock.direction_low = field_.direction[x];

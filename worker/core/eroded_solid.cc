@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -45,12 +46,13 @@ constexpr double kMargin = 1e-3;
 class Marcher {
  public:
   Marcher(const Solid& solid, const Lattice& lattice, const FrameField& field, double level)
-      : field_(field), level_(level), cuts_(solid, lattice), ranks_(lattice) {
+      : lattice_(lattice), field_(field), level_(level), cuts_(solid, lattice), ranks_(lattice) {
     for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.frame.dims[a];
     for (Layer& layer : layers_) {
       const auto size = static_cast<std::size_t>((dims_[1] + 2) * (dims_[2] + 2));
       layer.full.assign(size, 0);
       layer.gaps.assign(size, 0);
+      layer.rows.resize(static_cast<std::size_t>(dims_[1] + 2));
     }
   }
 
@@ -68,11 +70,23 @@ class Marcher {
  private:
   using Names = std::unordered_map<std::uint64_t, std::uint32_t>;
 
+  /// From the first to the last full place of a row; empty when first > last.
+  struct Extent {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = -1;
+
+    void take(std::int64_t low, std::int64_t high) {
+      first = std::min(first, low);
+      last = std::max(last, high);
+    }
+  };
+
   /// Places (i, *, *) and what begins there.
   struct Layer {
     std::vector<std::uint8_t> full;
-    std::vector<std::uint8_t> gaps;  // bit `step`: the edge from here by that step has a gap
-    Names stops, rims;               // vertices by edge and end, by side and edge
+    std::vector<std::uint8_t> gaps;       // bit `step`: the edge from here by that step has a gap
+    std::vector<Extent> rows;             // by j + 1
+    std::vector<std::size_t> gap_places;  // where gaps are not 0
+    Names stops, rims;                    // vertices by edge and end, by side and edge
   };
 
   struct Join {
@@ -85,44 +99,79 @@ class Marcher {
     return static_cast<std::size_t>((j + 1) * (dims_[2] + 2) + (k + 1));
   }
 
-  /// Prepares layer i; the one before it stays.  Layer -1 is empty but for edges that begin there.
+  /// Prepares layer i; the one before it stays.  Layers -1 and dims are empty but for edges that begin there.
   void fill_layer(std::int64_t i) {
-    Layer& filled = layer(i);
-    std::fill(filled.full.begin(), filled.full.end(), std::uint8_t{0});
-    std::fill(filled.gaps.begin(), filled.gaps.end(), std::uint8_t{0});
-    filled.stops.clear();
-    filled.rims.clear();
+    clear(layer(i));
     if (i >= dims_[0]) return;
     ranks_.move_to(static_cast<std::uint32_t>(i));
-    for (std::int64_t j = 0; j < dims_[1]; ++j) {
-      for (std::int64_t k = 0; k < dims_[2]; ++k) {
-        const std::uint32_t rank = ranks_.at(i, j, k);
-        filled.full[in_layer(j, k)] = rank != SlabIndex::kOutside && field_.erosion[rank] >= level_;
+    fill_places(i, layer(i));
+    fill_gaps(i, layer(i));
+  }
+
+  /// Touches only what was filled: most of the box may be empty.
+  void clear(Layer& filled) const {
+    for (std::int64_t j = -1; j <= dims_[1]; ++j) {
+      Extent& row = filled.rows[static_cast<std::size_t>(j + 1)];
+      if (row.first > row.last) continue;
+      const auto begin = filled.full.begin() + static_cast<std::ptrdiff_t>(in_layer(j, row.first));
+      std::fill_n(begin, row.last - row.first + 1, std::uint8_t{0});
+      row = {};
+    }
+    for (std::size_t n : filled.gap_places) filled.gaps[n] = 0;
+    filled.gap_places.clear();
+    filled.stops = {};  // clear() would touch all the buckets that the fullest layer needed
+    filled.rims = {};
+  }
+
+  void fill_places(std::int64_t i, Layer& filled) {
+    const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
+    for (; next_run_ < runs.size() && runs[next_run_].start[0] == i; ++next_run_) {
+      const LatticeRun& run = runs[next_run_];
+      const std::int64_t j = run.start[1];
+      for (std::uint32_t n = 0; n < run.length; ++n) {
+        if (!(field_.erosion[run.first + n] >= level_)) continue;
+        const std::int64_t k = std::int64_t{run.start[2]} + n;
+        filled.full[in_layer(j, k)] = 1;
+        filled.rows[static_cast<std::size_t>(j + 1)].take(k, k);
       }
     }
+  }
+
+  void fill_gaps(std::int64_t i, Layer& filled) {
     const std::uint64_t first = cuts_.edge(i, -1, -1, 0), end = cuts_.edge(i + 1, -1, -1, 0);
     const std::vector<LatticeCut>& all = cuts_.all();
     for (; next_cut_ < all.size() && all[next_cut_].edge < end; ++next_cut_) {
       const LatticeCut& cut = all[next_cut_];
       if (!cut.gap || cut.edge < first) continue;
-      filled.gaps[static_cast<std::size_t>((cut.edge - first) / 8)] |=
-          static_cast<std::uint8_t>(1U << (cut.edge % 8));
+      const auto n = static_cast<std::size_t>((cut.edge - first) / 8);
+      if (filled.gaps[n] == 0) filled.gap_places.push_back(n);
+      filled.gaps[n] |= static_cast<std::uint8_t>(1U << (cut.edge % 8));
     }
   }
 
+  /// The cubes from places (at_[0], at_[1], *) with a full corner.
   void march_row() {
-    for (at_[2] = -1; at_[2] < dims_[2]; ++at_[2]) {
-      unsigned full = 0, gaps = 0;
+    std::array<const std::uint8_t*, 4> full{}, gaps{};  // of the cubes' edges along axis 2, by 2a + b
+    Extent reach;
+    for (unsigned r = 0; r < 4; ++r) {
+      const Layer& l = layer(at_[0] + (r >> 1));
+      const std::int64_t j = at_[1] + (r & 1);
+      full[r] = l.full.data() + in_layer(j, 0);
+      gaps[r] = l.gaps.data() + in_layer(j, 0);
+      const Extent& row = l.rows[static_cast<std::size_t>(j + 1)];
+      reach.take(row.first, row.last);
+    }
+    for (std::int64_t k = reach.first - 1; k <= reach.last; ++k) {
+      unsigned any_gaps = 0;
+      corner_full_ = 0;
       for (unsigned corner = 0; corner < 8; ++corner) {
-        const Place at = place(corner);
-        const Layer& l = layer(at[0]);
-        const std::size_t n = in_layer(at[1], at[2]);
-        full |= static_cast<unsigned>(l.full[n]) << corner;
-        gaps |= l.gaps[n];
-        corner_gaps_[corner] = l.gaps[n];
+        const std::int64_t n = k + (corner & 1);
+        corner_full_ |= static_cast<unsigned>(full[corner >> 1][n]) << corner;
+        corner_gaps_[corner] = gaps[corner >> 1][n];
+        any_gaps |= corner_gaps_[corner];
       }
-      if (full == 0 || (full == 0xFF && gaps == 0)) continue;
-      corner_full_ = full;
+      if (corner_full_ == 0 || (corner_full_ == 0xFF && any_gaps == 0)) continue;
+      at_[2] = k;
       for (const auto& tetrahedron : kTetrahedra) march_tetrahedron(tetrahedron);
     }
   }
@@ -270,7 +319,7 @@ class Marcher {
       return {t, t, t};
     }
     const Vec3& h = field_.gradient[y];
-    constexpr double kMostCosine = 0.5;  // of normals that count as different, as for operator `chords`
+    constexpr double kMostCosine = 0.5;  // see level_crossing_between
     const bool kinked = dot(g, h) < kMostCosine * norm(g) * norm(h);
     return level_crossing_between(here, {field_.erosion[y], dot(h, delta)}, level_, kinked);
   }
@@ -284,13 +333,14 @@ class Marcher {
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
   }
 
+  const Lattice& lattice_;
   const FrameField& field_;
   double level_;
   LatticeCuts cuts_;
   SlabIndex ranks_;  // of the layer filled last and the two beside it
   Place dims_{};
   std::array<Layer, 2> layers_;
-  std::size_t next_cut_ = 0;
+  std::size_t next_run_ = 0, next_cut_ = 0;  // of the layer to be filled next
   // The cube in hand.
   Place at_{};
   unsigned corner_full_ = 0;

@@ -21,9 +21,8 @@ double root(Function f) {
 /// The concave kink of the two tangents, when there is one: writes its place on the edge.
 bool find_kink(const EdgeValue& x, const EdgeValue& y, double& t) {
   constexpr double kLeastStrength = 0.5;
-  const double strength = x.slope - y.slope;
-  if (!(strength > kLeastStrength * (std::abs(x.slope) + std::abs(y.slope)))) return false;
-  t = (y.erosion - x.erosion - y.slope) / strength;
+  if (!(tangents_kink(x, y) > kLeastStrength * (std::abs(x.slope) + std::abs(y.slope)))) return false;
+  t = tangents_crossing(x, y);
   return t >= 0 && t <= 1;
 }
 

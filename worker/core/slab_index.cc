@@ -1,6 +1,7 @@
 #include "core/slab_index.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace affskel::core {
 
@@ -15,14 +16,22 @@ void SlabIndex::move_to(std::uint32_t i) {
 }
 
 void SlabIndex::fill(std::uint32_t i) {
-  auto& slab = slabs_[i % 3];
-  std::fill(slab.begin(), slab.end(), kOutside);
   const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
+  const auto begin_of = [&](const LatticeRun& run) {
+    const std::size_t place = std::size_t{run.start[1]} * lattice_.frame.dims[2] + run.start[2];
+    return slabs_[i % 3].begin() + static_cast<std::ptrdiff_t>(place);
+  };
+  // Only what i - 3 left there is wiped out: most of the box may be empty.
+  RunRange& filled = filled_[i % 3];
+  for (std::size_t r = filled.first; r < filled.last; ++r) {
+    std::fill_n(begin_of(runs[r]), runs[r].length, kOutside);
+  }
+  filled.first = next_;
   for (; next_ < runs.size() && runs[next_].start[0] == i; ++next_) {
     const LatticeRun& run = runs[next_];
-    const std::size_t row = std::size_t{run.start[1]} * lattice_.frame.dims[2] + run.start[2];
-    for (std::uint32_t n = 0; n < run.length; ++n) slab[row + n] = run.first + n;
+    std::iota(begin_of(run), begin_of(run) + run.length, run.first);
   }
+  filled.last = next_;
 }
 
 }  // namespace affskel::core

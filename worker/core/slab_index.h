@@ -29,10 +29,15 @@ class SlabIndex {
   }
 
  private:
+  struct RunRange {
+    std::size_t first = 0, last = 0;  // of the runs along axis 2, one past the end
+  };
+
   void fill(std::uint32_t i);
 
   const Lattice& lattice_;
   std::array<std::vector<std::uint32_t>, 3> slabs_;
+  std::array<RunRange, 3> filled_{};  // what stands in each slab
   std::size_t next_ = 0;
 };
 

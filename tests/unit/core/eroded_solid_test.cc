@@ -344,6 +344,32 @@ TEST(ErodedSurfaceTest, IsManifoldWhateverTheField) {
   }
 }
 
+TEST(ErodedSurfaceTest, DependsOnTheSolidNotOnTheLengthOfTheLattice) {
+  // A ball in two pieces with empty layers and rows between them, in lattices of 18 and of 2^18 layers or
+  // rows.
+  const Mesh two = joined(make_sphere(1, 320), moved(make_sphere(1, 320), {4, 3.5, 3}));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto lattice = [&](std::uint32_t length) {
+      return [axis, length](const Solid& solid) {
+        LatticeFrame frame;
+        frame.axes = {Vec3{0.0625, 0, 0}, Vec3{0, 0.0625, 0}, Vec3{0, 0, 0.0625}};
+        frame.origin = {-0.53125, -0.53125, -0.53125};
+        frame.dims = {18, 18, 18};
+        frame.dims[axis] = length;
+        return make_lattice(solid, frame);
+      };
+    };
+    const Eroded near = computed(two, lattice(18)), far = computed(two, lattice(1U << 18));
+    const double level = 0.01 * near.solid.volume;
+    const ErodedSurface expected = near.surface(level), found = far.surface(level);
+    expect_manifold(found.mesh);
+    EXPECT_EQ(mesh_facts(found.mesh).components, 2u);
+    EXPECT_EQ(found.mesh.triangles.size(), expected.mesh.triangles.size());
+    EXPECT_NEAR(found.volume / expected.volume, 1, 1e-9);
+    expect_sides(near, found.mesh, level, 0.3);
+  }
+}
+
 TEST(ErodedSurfaceTest, RefusesBadArguments) {
   Eroded e = ball(0.5);
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();

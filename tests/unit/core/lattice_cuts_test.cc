@@ -91,5 +91,62 @@ TEST(LatticeCutsTest, FindTheGapBetweenTwoBoxes) {
   });
 }
 
+// A lattice that is `length` places long along one axis, with the solid at its lower end.
+Lattice lattice_from_the_corner(const Solid& solid, std::size_t axis, std::uint32_t length) {
+  LatticeFrame frame;
+  frame.axes = {Vec3{0.125, 0, 0}, Vec3{0, 0.125, 0}, Vec3{0, 0, 0.125}};
+  frame.origin = {-0.53125, -0.53125, -0.53125};
+  frame.dims = {9, 9, 9};
+  frame.dims[axis] = length;
+  return make_lattice(solid, frame);
+}
+
+// A sheared frame of the long lattice has 2^36 lines: words for all of them fit in no memory.
+TEST(LatticeCutsTest, DependOnTheSolidNotOnTheLengthOfTheLattice) {
+  const Solid solid = make_solid(make_sphere(1, 320));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Lattice near = lattice_from_the_corner(solid, axis, 9);
+    const Lattice far = lattice_from_the_corner(solid, axis, 1U << 18);
+    ASSERT_EQ(near.points, far.points);
+    const LatticeCuts expected(solid, near), found(solid, far);
+    std::size_t met = 0;
+    for_each_edge(near, [&](const Place& from, const Place&, unsigned step, bool, bool) {
+      const LatticeCut* e = expected.find(expected.edge(from[0], from[1], from[2], step));
+      const LatticeCut* f = found.find(found.edge(from[0], from[1], from[2], step));
+      ASSERT_EQ(e == nullptr, f == nullptr);
+      if (e == nullptr) return;
+      ++met;
+      // Places are counted from the far end of the long lattice: 2^18 steps cost as many last digits.
+      EXPECT_NEAR(f->leaves, e->leaves, 1e-8);
+      EXPECT_NEAR(f->enters, e->enters, 1e-8);
+      EXPECT_EQ(f->gap, e->gap);
+    });
+    EXPECT_EQ(met, expected.all().size());
+    EXPECT_EQ(met, found.all().size());
+    EXPECT_GT(met, 500u);
+  }
+}
+
+TEST(LatticeCutsTest, OfABoxAreAsManyAlongEachStepInEveryOrderOfTheAxes) {
+  // Every place of the lattice lies in the box, those at its ends half a step from the faces.
+  for (const std::array<std::int64_t, 3>& n : std::vector<std::array<std::int64_t, 3>>{
+           {200, 3, 4}, {3, 200, 4}, {3, 4, 200}, {40, 50, 2}, {40, 2, 50}, {2, 40, 50}}) {
+    const Solid solid =
+        make_solid(make_box(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])));
+    const LatticeCuts cuts(solid, lattice_of(solid, 1));
+    std::array<std::int64_t, 8> leaving{};
+    for (const LatticeCut& cut : cuts.all()) leaving[cut.edge % 8] += cut.leaves > 0 && cut.leaves < 1;
+    for (std::int64_t step = 1; step < 8; ++step) {
+      // An edge leaves the box from every place without a neighbour by that step.
+      std::int64_t all = 1, kept = 1;
+      for (std::size_t a = 0; a < 3; ++a) {
+        all *= n[a];
+        kept *= n[a] - ((step >> (2 - a)) & 1);
+      }
+      EXPECT_EQ(leaving[static_cast<std::size_t>(step)], all - kept) << step;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace affskel::core

@@ -161,6 +161,30 @@ TEST(ScanConversion, EveryLineLeavesAsOftenAsItEnters) {
   }
 }
 
+TEST(ScanConversion, OfTheLinesMetFindsTheSameCrossings) {
+  // Lattice points on the faces of the box, so that many crossings of a line coincide.
+  const Solid solid = make_solid(make_box(1, 1, 1, 3));
+  LatticeFrame frame;
+  frame.origin = {-1, -0.75, -0.5};
+  frame.axes = {Vec3{0.125, 0, 0}, Vec3{0.125, 0.125, 0}, Vec3{0, 0.125, 0.125}};
+  frame.dims = {15, 17, 9};
+  for (int axis = 0; axis < 3; ++axis) {
+    const LineCrossings all = scan_convert(solid.mesh, frame, axis);
+    std::size_t next = 0;
+    const std::vector<CrossingOnLine> met = scan_convert_lines_met(solid.mesh, frame, axis);
+    ASSERT_EQ(met.size(), all.crossings.size());
+    EXPECT_GT(met.size(), 50u);
+    for (std::size_t line = 0; line + 1 < all.begin.size(); ++line) {
+      for (std::uint64_t c = all.begin[line]; c < all.begin[line + 1]; ++c, ++next) {
+        EXPECT_EQ(met[next].line, line);
+        EXPECT_EQ(met[next].crossing.depth, all.crossings[c].depth);
+        EXPECT_EQ(met[next].crossing.triangle, all.crossings[c].triangle);
+        EXPECT_EQ(met[next].crossing.exits, all.crossings[c].exits);
+      }
+    }
+  }
+}
+
 TEST(ScanConversion, TakesObliqueAndLeftHandedFrames) {
   const Solid solid = make_solid(make_sphere(1, 1280));
   LatticeFrame frame;
