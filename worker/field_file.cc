@@ -64,7 +64,8 @@ class Output {
     struct stat info {};
     if (exists) target_ = fs::canonical(path_);
     if (exists && stat(target_.c_str(), &info) != 0) throw failure("cannot be looked at");
-    std::string name = target_.parent_path() / ("." + target_.filename().string() + ".XXXXXX");
+    // Not after the target: its name may be as long as names can be.
+    std::string name = target_.parent_path() / ".affskel.XXXXXX";
     const int fd = mkostemp(name.data(), O_CLOEXEC);
     if (fd < 0) return;
     temporary_ = name;

@@ -35,8 +35,9 @@ FetchedSurface parse_surface(const std::string& bytes);
 /// @param comments lines for formats that have comments (PLY, OBJ), without line breaks.
 /// @param write takes the bytes, piece by piece.
 /// @throws ClientError kLimit when the mesh has more elements than the format can count, and for .stl when a
-/// coordinate does not fit into single precision or when triangles of more than 1e-6 of the area or 1 % of
-/// the number would become flat in it: the mesh is too small, or too far from the origin for its size.
+/// coordinate does not fit into single precision or when triangles would become flat in it that hold more
+/// than 1e-6 of the area or all the area round a vertex: the mesh or a part of it is too small, or too far
+/// from the origin for its size.
 void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std::string>& comments,
                 const std::function<void(std::string_view)>& write,
                 const std::vector<VertexProperty>& properties = {});

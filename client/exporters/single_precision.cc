@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "client/error.h"
 #include "client/exporters/numbers.h"
@@ -78,24 +79,36 @@ void check_range(const Extent& extent) {
   }
 }
 
+// How many triangles with an area are flat in single precision; 0 also when they are mere slivers: with a
+// negligible area in all, and at no vertex alone, so that no part of the surface is lost with them.
+std::size_t count_spoilt(const core::Mesh& mesh, const Areas& area) {
+  double total = 0, lost = 0;
+  std::size_t flat = 0;
+  std::vector<bool> stays(mesh.points.size()), flattened(mesh.points.size());
+  for (const core::Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+    const double before = area(a, b, c);
+    total += before;
+    if (before == 0) continue;
+    const bool is_flat = area(single(a), single(b), single(c)) == 0;
+    for (const std::uint32_t corner : t) (is_flat ? flattened : stays)[corner] = true;
+    if (!is_flat) continue;
+    lost += before;
+    ++flat;
+  }
+  bool slivers = lost <= 1e-6 * total;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) slivers = slivers && (stays[v] || !flattened[v]);
+  return slivers ? 0 : flat;
+}
+
 }  // namespace
 
 void check_fits_stl(const core::Mesh& mesh) {
   if (mesh.triangles.empty()) return;
   const Extent extent = extent_of(mesh);
   check_range(extent);
-  const Areas area(extent);
-  double total = 0, lost = 0;
-  std::size_t flat = 0;
-  for (const core::Triangle& t : mesh.triangles) {
-    const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-    const double before = area(a, b, c);
-    total += before;
-    if (before == 0 || area(single(a), single(b), single(c)) > 0) continue;
-    lost += before;
-    ++flat;
-  }
-  if (lost <= 1e-6 * total && 100 * flat <= mesh.triangles.size()) return;
+  const std::size_t flat = count_spoilt(mesh, Areas(extent));
+  if (flat == 0) return;
   throw ClientError(ExitCode::kLimit, ".stl holds single precision, about 7 digits; " + std::to_string(flat) +
                                           " of " + std::to_string(mesh.triangles.size()) +
                                           " triangles would become flat, because " + text_of(extent) +

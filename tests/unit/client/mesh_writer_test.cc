@@ -122,6 +122,15 @@ TEST(MeshWriter, StlRefusesWhatSinglePrecisionSpoils) {
   EXPECT_NE(refusal_of_stl(moved(sphere, 1e-200, 0)).find("320 of 320 triangles"), std::string::npos);
   EXPECT_NE(refusal_of_stl(moved(sphere, 1, 1e8)).find("320 of 320 triangles"), std::string::npos);
   EXPECT_NE(refusal_of_stl(moved(sphere, 1, 1e8)).find("from (99999999"), std::string::npos);
+  // A part too small for the place where it is, beside one that is not.
+  core::Mesh two = moved(core::make_sphere(1, 1280), 1e6, 0);
+  const auto first = static_cast<std::uint32_t>(two.points.size());
+  const core::Mesh grain = moved(core::make_tetrahedron(1), 0.01, 1e7);
+  two.points.insert(two.points.end(), grain.points.begin(), grain.points.end());
+  for (const core::Triangle& t : grain.triangles) {
+    two.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  EXPECT_NE(refusal_of_stl(two).find("4 of 1284 triangles"), std::string::npos);
   // A needle whose length leaves no digits for its width.
   EXPECT_NE(refusal_of_stl(moved(core::make_box(1e9, 1, 1), 1, 5e8)), "");
 }
