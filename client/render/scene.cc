@@ -92,7 +92,7 @@ Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, con
   Panel panel(layout.panel_width[which], layout.panel_height, kViews[which].view, box.centre(), layout.scale);
   const ErosionScale scale = scale_of(input.skeleton);
   // A ball in a cubic cell, and its affine image in any other: neighbours are as near to each other along
-  // every axis of the lattice.  All volumes are those of the cubes.
+  // every axis of the lattice.  Frames keep volumes, so that it is as large as in the mesh's own.
   const double smallest = std::max(1.0, layout.text / 9);
   const double whole =
       std::cbrt(std::fabs(core::dot(input.cell[0], core::cross(input.cell[1], input.cell[2]))));

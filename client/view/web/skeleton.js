@@ -17,11 +17,12 @@ function makeSheet({ arrays, highestShare, threshold }) {
   return {
     drawn: sheet,
     values,
-    name: 'Pieces of the sheet',
+    name: 'Sheet pieces',
     symbol: 'share ≥',
     curve: 3, // most are small
     low: 0,
-    first: Math.min(threshold, shares.length ? shares[shares.length - 1] : 0), // the whole sheet
+    // The whole sheet: joining and placing it may have split off pieces below the operator's threshold.
+    first: shares.every((share) => share >= threshold) ? threshold : 0,
     keeps: (value, least) => value >= least,
     describe(triangles, least) {
       const kept = prefixLength(shares, null, (share) => share >= least);
