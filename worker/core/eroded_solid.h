@@ -45,13 +45,14 @@ struct ErodedSurface {
 /// halving the spacing from 0.2 to 0.1 changes the volume by less than 2 %.
 ///
 /// All that decides the mesh's shape happens in lattice coordinates; the vertices are then mapped to mesh
-/// units, so lattices in affinely mapped frames give affinely mapped surfaces. Memory: 16 bytes for
-/// every place of a layer of the box across axis 0, and up to about 180 (measured on bodies, needles and
-/// plates) for every edge of the split that the surface of V or the eroded solid's meets, most of it for the
-/// result.  Time: in the order of the sample points, of those edges (their logarithm beside it, for sorting),
-/// of the lattice's lines along axes 2 and 1 and of the triangles' lengths in steps; and a few nanoseconds
-/// for every place between the outermost eroded points of two neighbouring lines along axis 2.  The result is
-/// a function of its arguments alone.
+/// units, so lattices in affinely mapped frames give affinely mapped surfaces.  The result is a function of
+/// its arguments alone.
+///
+/// Memory: 16 bytes for every place of a layer of the box across axis 0, and up to about 180 (measured on
+/// bodies, needles and plates) for every edge of the split that the surface of V or the result crosses. Time:
+/// in the order of the sample points, of those edges (with a logarithm, for sorting), of the lattice's lines
+/// along axis 2 and of the triangles' lengths in steps; and a few nanoseconds for every place between the
+/// outermost eroded points of four neighbouring lines along axis 2.
 /// @throws CoreError kBadInput when the level is not a finite number >= 0, the shortest edge not in [0, 1),
 /// or
 ///   the field is not one of this lattice.
