@@ -289,11 +289,12 @@ TEST(ErodedSurfaceTest, VerticesAreWithinAVoxelOfTheErodedPoints) {
 }
 
 TEST(ErodedSurfaceTest, KeepsSolidsWithANarrowGapApart) {
-  const Mesh mesh = joined(make_box(2, 4, 4), moved(make_box(2, 4, 4), {2.02, 0, 0}));
+  // No layer of sample points in the gap: they lie at 1.71 and 2.21.
+  const Mesh mesh = joined(make_box(2, 4, 4), moved(make_box(1.9, 4, 4), {2.02, 0, 0}));
   const ErodedSurface found = uneroded(mesh, 0.5).surface(0.5);
   expect_manifold(found.mesh);
   EXPECT_EQ(mesh_facts(found.mesh).components, 2u);
-  EXPECT_NEAR(found.volume, 64, 4);
+  EXPECT_NEAR(found.volume, 62.4, 4);
   for (const Vec3& p : found.mesh.points) EXPECT_FALSE(p.x > 2.001 && p.x < 2.019);
 }
 
