@@ -299,14 +299,19 @@ TEST(ErodedSurfaceTest, KeepsSolidsWithANarrowGapApart) {
 }
 
 TEST(ErodedSurfaceTest, ClosesTheEndOfANarrowSlit) {
-  // A comb's teeth pushed together: slits 0.1 wide that end inside, at a spacing of 0.3.
+  // A comb's teeth pushed together: slits 0.1 wide that end inside, between sample points 0.31 apart.
   Mesh mesh = comb(3);
   for (Vec3& p : mesh.points) {
     const double cell = std::floor(p.x / 2 + 1e-9);
     p = {cell * 1.1 + std::min(1.0, p.x - 2 * cell), 2 * p.y, p.z};
   }
-  const ErodedSurface found = uneroded(mesh, 0.3).surface(0.5);
+  const ErodedSurface found = uneroded(mesh, 0.31).surface(0.5);
   expect_solid_boundary(found.mesh);
+  std::size_t on_walls = 0;
+  for (const Vec3& p : found.mesh.points) {
+    if (p.z > 0.5 && p.z < 2.5) on_walls += std::abs(p.x - 1) < 1e-3 || std::abs(p.x - 1.1) < 1e-3;
+  }
+  EXPECT_GT(on_walls, 50u);
   EXPECT_NEAR(found.volume, mesh_facts(mesh).volume, 0.1 * mesh_facts(mesh).volume);
 }
 
