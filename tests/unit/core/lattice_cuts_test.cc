@@ -73,22 +73,25 @@ TEST(LatticeCutsTest, MeetABallsSurfaceOnEveryEdgeThatLeavesIt) {
 }
 
 TEST(LatticeCutsTest, FindTheGapBetweenTwoBoxes) {
-  // The plane of the gap, 2 to 2.1, lies between the lattice's places along x at 1.55 and 2.55.
-  const Mesh mesh = joined(make_box(2, 4, 4), moved(make_box(2, 4, 4), {2.1, 0, 0}));
+  // The gap, 2 to 2.1, lies between the lattice's places along x at 1.45 and 2.45.
+  const Mesh mesh = joined(make_box(2, 4, 4), moved(make_box(1.8, 4, 4), {2.1, 0, 0}));
   const Solid solid = make_solid(mesh);
   const Lattice lattice = lattice_of(solid, 1);
   const LatticeCuts cuts(solid, lattice);
   const SamplePlaces places(solid, lattice);
+  std::size_t gaps = 0;
   for_each_edge(lattice, [&](const Place& from, const Place& to, unsigned step, bool in, bool out) {
     if (!in || !out) return;
     const LatticeCut* cut = cuts.find(cuts.edge(from[0], from[1], from[2], step));
     const bool across = at(places, from, to, 0).x < 2.05 && at(places, from, to, 1).x > 2.05;
     ASSERT_EQ(cut != nullptr, across);
     if (cut == nullptr) return;
+    ++gaps;
     EXPECT_TRUE(cut->gap);
     EXPECT_NEAR(at(places, from, to, cut->leaves).x, 2, 1e-12);
     EXPECT_NEAR(at(places, from, to, cut->enters).x, 2.1, 1e-12);
   });
+  EXPECT_EQ(gaps, 4u * 4 + 2 * 3 * 4 + 3 * 3);  // the steps along x, with y or z, with both
 }
 
 // A lattice that is `length` places long along one axis, with the solid at its lower end.
