@@ -41,11 +41,6 @@ std::string frame_text(const google::protobuf::RepeatedField<double>& frame) {
   return text;
 }
 
-std::string frame_word(v1::Frame frame) {
-  return frame == v1::FRAME_UNSPECIFIED ? "axis"
-                                        : or_unknown(v1::Frame_descriptor()->FindValueByNumber(frame));
-}
-
 std::string prepared_details(const v1::PreparedSummary& p) {
   std::string text;
   text += key_line("points", std::to_string(p.points()));
@@ -116,6 +111,11 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 }
 
 }  // namespace
+
+std::string frame_word(v1::Frame frame) {
+  return frame == v1::FRAME_UNSPECIFIED ? "axis"
+                                        : or_unknown(v1::Frame_descriptor()->FindValueByNumber(frame));
+}
 
 std::string state_word(v1::JobState state) {
   return or_unknown(v1::JobState_descriptor()->FindValueByNumber(state));

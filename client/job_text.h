@@ -13,6 +13,8 @@ namespace affskel::client {
 std::string state_word(v1::JobState state);
 /// "prepare", "erode", "derive", "complete"; "unknown" for anything else.
 std::string stage_word(v1::JobStage stage);
+/// "axis", "pca", "obb" or "affine".
+std::string frame_word(v1::Frame frame);
 
 /// `key: value` lines for `status`.
 std::string job_details(const v1::Job& job);

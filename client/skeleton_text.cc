@@ -64,6 +64,7 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
   std::vector<std::pair<std::string, std::string>> lines;
   lines.emplace_back("points", std::to_string(q.points()));
   if (q.points() > 0) {
+    if (q.threshold() > 0) lines.emplace_back("threshold", shortest(q.threshold()));
     lines.emplace_back("inside", percent(q.inside_share()));
     lines.emplace_back("thickness", rounded(q.mean_thickness(), kDigits) + " voxels");
     lines.emplace_back("betti",

@@ -13,6 +13,7 @@
 #include "client/exporters/numbers.h"
 #include "client/exporters/skeleton_writer.h"
 #include "client/job_json.h"
+#include "client/job_text.h"
 #include "client/skeleton_text.h"
 
 namespace affskel::client {
@@ -108,7 +109,7 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
       "spacing " + shortest(job.prepared().spacing()) + ", " + std::to_string(job.prepared().points()) +
           " sample points, v0 " + shortest(job.prepared().volume()),
       "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) + " (" +
-          std::to_string(job.prepared().directions()) + ")",
+          std::to_string(job.prepared().directions()) + "), frame " + frame_word(job.params().frame()),
       how};
   if (quality != nullptr) {
     for (const auto& [key, value] : quality_lines(*quality))
@@ -184,11 +185,10 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
   const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
   AtomicFile out(file);
-  write_mesh(
-      format, fetched.mesh,
-      comments_for(header.job(), "affine skeleton, triangulated", "operator " + skeleton_params_text(params),
-                   sheet ? &fetched.quality : nullptr),
-      [&](std::string_view bytes) { out.write(bytes); }, fetched.properties);
+  write_mesh(format, fetched.mesh,
+             comments_for(header.job(), "affine skeleton, triangulated",
+                          "operator " + skeleton_params_text(params), sheet ? &fetched.quality : nullptr),
+             out, fetched.properties);
   out.commit();
   Written written{file, "surface", "triangles", fetched.mesh.triangles.size(), header.job()};
   if (sheet) written.quality = fetched.quality;
@@ -236,7 +236,7 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
   write_mesh(format, fetched.mesh,
              comments_for(header.job(), "eroded solid",
                           "level " + eroded_params_text(params) + ", volume " + shortest(fetched.volume)),
-             [&](std::string_view bytes) { out.write(bytes); });
+             out);
   out.commit();
   return {file, "eroded", "triangles", fetched.mesh.triangles.size(), header.job(), {}, fetched.volume};
 }

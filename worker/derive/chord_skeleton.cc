@@ -41,7 +41,10 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
     options.other = &other;
     options.other_threshold = next;
   }
-  return quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
+  v1::SkeletonQuality message =
+      quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
+  message.set_threshold(pruning.significance);
+  return message;
 }
 
 }  // namespace
