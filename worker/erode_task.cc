@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lease_keeper.h"
+#include "wire/address.h"
 #include "wire/direction_order.h"
 
 namespace affskel::worker {
@@ -117,23 +118,21 @@ class Progress : public core::ExecutionContext {
   bool finished_ = false;            // guarded by mutex_
 };
 
-v1::FieldRecords take_records(PreparedJob& job, core::ErosionField& field) {
-  const std::vector<std::uint32_t> points = field.take_changes();
-  v1::FieldRecords records;
-  const int count = static_cast<int>(points.size());
-  records.mutable_point()->Reserve(count);
-  records.mutable_direction()->Reserve(count);
-  records.mutable_erosion()->Reserve(count);
-  records.mutable_area()->Reserve(count);
+// What improved since the last call, in messages of the size that the wire takes.
+std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core::ErosionField& field) {
+  std::vector<v1::ReportErosionRequest> messages;
+  v1::FieldRecords* records = nullptr;
   const double volume_unit = job.volume_unit(), area_unit = job.area_unit();
-  for (std::uint32_t p : points) {
-    const core::FieldValue value = field.value(p);
-    records.add_point(p);
-    records.add_direction(value.direction);
-    records.add_erosion(value.erosion * volume_unit);
-    records.add_area(value.area * area_unit);
-  }
-  return records;
+  field.take_changes([&](std::uint32_t point, const core::FieldValue& value) {
+    if (records == nullptr || records->point_size() == wire::kRecordsPerMessage) {
+      records = messages.emplace_back().mutable_records();
+    }
+    records->add_point(point);
+    records->add_direction(value.direction);
+    records->add_erosion(value.erosion * volume_unit);
+    records->add_area(value.area * area_unit);
+  });
+  return messages;
 }
 
 }  // namespace

@@ -67,16 +67,22 @@ TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {
   EXPECT_THROW(PreparedJob(sample_mesh(), params), core::CoreError);
 }
 
+int count_changes(core::ErosionField& field) {
+  int count = 0;
+  field.take_changes([&](std::uint32_t, const core::FieldValue&) { ++count; });
+  return count;
+}
+
 TEST(PreparedJob, StartsFromTheStoredField) {
   PreparedJob job(sample_mesh(), sample_params());
   const std::string stored = finished_field(job);
   core::Erosion& erosion = job.erosion(1, stored);
-  EXPECT_TRUE(erosion.field().take_changes().empty());
+  EXPECT_EQ(count_changes(erosion.field()), 0);
   // Doing a direction again improves nothing.
   const std::uint32_t direction = 17;
   core::ExecutionContext context;
   erosion.run({&direction, 1}, context);
-  EXPECT_TRUE(erosion.field().take_changes().empty());
+  EXPECT_EQ(count_changes(erosion.field()), 0);
   EXPECT_THROW(unpack_field(stored.substr(1), job.lattice().points), core::CoreError);
 }
 
