@@ -61,9 +61,8 @@ TEST(ErosionField, NoImprovementEscapesWhoeverTakesTheChanges) {
     ErosionField field(kPoints, true);
     std::vector<double> seen(kPoints, std::numeric_limits<double>::infinity());
     const auto take = [&] {
-      field.take_changes([&](std::uint32_t p, const FieldValue& value) {
-        seen[p] = std::min(seen[p], value.erosion);
-      });
+      field.take_changes(
+          [&](std::uint32_t p, const FieldValue& value) { seen[p] = std::min(seen[p], value.erosion); });
     };
     std::vector<std::thread> threads;
     std::atomic<int> running{2};
