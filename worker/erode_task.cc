@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "lease_keeper.h"
 #include "wire/address.h"
 #include "wire/direction_order.h"
+#include "wire/erosion_bound.h"
 
 namespace affskel::worker {
 namespace {
@@ -135,6 +137,26 @@ std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core:
   return messages;
 }
 
+// What other workers found: greater chords need not be looked at.
+void take_bounds(const v1::ReportResponse& response, const PreparedJob& job, core::ErosionField& field) {
+  for (const v1::ErosionBounds& bounds : response.bounds()) {
+    std::uint64_t point = 0;
+    for (int i = 0; i < std::min(bounds.step_size(), bounds.bound_size()); ++i) {
+      point += bounds.step(i);
+      const double bound = wire::bound_value(bounds.bound(i)) / job.volume_unit();
+      // What is subnormal may have been rounded down.
+      if (point < field.size() && std::isnormal(bound)) field.bound(static_cast<std::uint32_t>(point), bound);
+    }
+  }
+}
+
+v1::ReportResponse report(const v1::ReportErosionHeader& header, const PreparedJob& job,
+                          core::Erosion& erosion, ServerLink& link) {
+  v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
+  take_bounds(response, job, erosion.field());
+  return response;
+}
+
 }  // namespace
 
 ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion, ServerLink& link,
@@ -179,12 +201,12 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
     if (header.block_done()) {
       last.start(lease.token(), [&job, &erosion, &link, lease, header] {
         const LeaseKeeper still(link, lease);
-        link.report(header, take_records(job, erosion.field()));
+        report(header, job, erosion, link);
       });
       return ErodeEnd::kBlockDone;
     }
     last.wait();
-    const v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
+    const v1::ReportResponse response = report(header, job, erosion, link);
     if (response.cancelled()) return ErodeEnd::kCancelled;
     if (ended) return ErodeEnd::kStopped;
     if (response.report_interval_ms() != 0)

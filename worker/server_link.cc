@@ -118,6 +118,7 @@ v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
     count += static_cast<std::uint64_t>(message.records().point_size());
   }
   first.mutable_header()->set_records(count);
+  first.mutable_header()->set_bounds_for(options_.worker);
   v1::ReportResponse response;
   with_retries("reporting", [&](grpc::ClientContext& context) {
     response.Clear();

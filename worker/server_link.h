@@ -30,6 +30,7 @@ class ServerGone : public std::runtime_error {
 struct ServerLinkOptions {
   std::string address;                ///< unix:PATH or HOST:PORT
   std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
+  std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
 };
 
 /// The worker's side of WorkerService.  Calls that the server can repeat safely are retried while it is

@@ -29,6 +29,19 @@ void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
   mask.store(mask.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
 }
 
+void ErosionField::bound(std::uint32_t point, double most) {
+  const std::lock_guard<SpinLock> guard(lock_of(point));
+  if (!(most < erosion_[point])) return;
+  std::atomic_ref<double>(erosion_[point]).store(most, std::memory_order_relaxed);
+  area_[point] = 0;
+  direction_[point] = FieldValue::kNoDirection;
+  if (changed_.empty()) return;
+  const Mask mask(changed_[point / kGroup]);
+  const auto bit = static_cast<std::uint16_t>(1U << (point % kGroup));
+  mask.store(mask.load(std::memory_order_relaxed) & static_cast<std::uint16_t>(~bit),
+             std::memory_order_relaxed);
+}
+
 FieldValue ErosionField::value(std::uint32_t point) const {
   const std::lock_guard<SpinLock> guard(lock_of(point));
   return {erosion_[point], area_[point], direction_[point]};

@@ -27,7 +27,8 @@ struct FieldValue {
 /// area.  A semilattice (design section 3): offers commute, repeat without effect and may come from any
 /// thread.  Volumes and areas in inner units of the solid.
 ///
-/// Threads: offer(), erosion() and value() from any; take_changes() from any, too, each change going to one.
+/// Threads: offer(), bound(), erosion() and value() from any; take_changes() from any, too, each change going
+/// to one.
 class ErosionField {
  public:
   /// @param track_changes remember which points improved, for take_changes().
@@ -47,7 +48,12 @@ class ErosionField {
 
   void offer(std::uint32_t point, const FieldValue& value);
 
-  /// A consistent copy of one value.
+  /// Makes it known that E is at most `most` at the point, by a direction that somebody else keeps.  A lesser
+  /// value here stays; a greater one, which cannot attain E, is dropped unless it was visited already, and
+  /// kNoDirection stands for the other's direction: whatever is equal still improves on it.
+  void bound(std::uint32_t point, double most);
+
+  /// A consistent copy of one value; without a direction after bound().
   FieldValue value(std::uint32_t point) const;
 
   /// Calls `visit(point, value)` for every point that improved since it was last visited, in ascending order,

@@ -47,6 +47,23 @@ TEST(ErosionField, TellsEachChangeOnceInAscendingOrder) {
   EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{2}));
 }
 
+TEST(ErosionField, ABoundRulesOutWhatIsGreaterOnly) {
+  ErosionField field(4, true);
+  for (std::uint32_t p = 0; p < 4; ++p) field.offer(p, {5, 1, 3});
+  field.bound(0, 5);    // by an equal value: which direction is the lesser one is not known here
+  field.bound(1, 4);    // outdone before it was told
+  field.bound(2, 5.5);  // worse
+  EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{0, 2, 3}));
+  EXPECT_EQ(field.value(0).direction, 3U);
+  EXPECT_EQ(field.value(1).erosion, 4);
+  EXPECT_EQ(field.value(1).direction, FieldValue::kNoDirection);
+  field.offer(1, {4.5, 1, 0});
+  EXPECT_TRUE(taken_points(field).empty());
+  field.offer(1, {4, 1, 1000});  // as good as the bound, which may have been rounded up
+  EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(field.value(1).direction, 1000U);
+}
+
 TEST(ErosionField, TellsNoChangesUnlessAskedTo) {
   ErosionField field(20, false);
   field.offer(3, {5, 1, 1});
