@@ -30,6 +30,7 @@ void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
 }
 
 void ErosionField::bound(std::uint32_t point, double most) {
+  if (!(most < erosion(point))) return;
   const std::lock_guard<SpinLock> guard(lock_of(point));
   if (!(most < erosion_[point])) return;
   std::atomic_ref<double>(erosion_[point]).store(most, std::memory_order_relaxed);
