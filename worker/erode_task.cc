@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "lease_keeper.h"
+#include "wire/address.h"
 #include "wire/direction_order.h"
+#include "wire/erosion_bound.h"
 
 namespace affskel::worker {
 namespace {
@@ -117,23 +120,41 @@ class Progress : public core::ExecutionContext {
   bool finished_ = false;            // guarded by mutex_
 };
 
-v1::FieldRecords take_records(PreparedJob& job, core::ErosionField& field) {
-  const std::vector<std::uint32_t> points = field.take_changes();
-  v1::FieldRecords records;
-  const int count = static_cast<int>(points.size());
-  records.mutable_point()->Reserve(count);
-  records.mutable_direction()->Reserve(count);
-  records.mutable_erosion()->Reserve(count);
-  records.mutable_area()->Reserve(count);
+// What improved since the last call, in messages of the size that the wire takes.
+std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core::ErosionField& field) {
+  std::vector<v1::ReportErosionRequest> messages;
+  v1::FieldRecords* records = nullptr;
   const double volume_unit = job.volume_unit(), area_unit = job.area_unit();
-  for (std::uint32_t p : points) {
-    const core::FieldValue value = field.value(p);
-    records.add_point(p);
-    records.add_direction(value.direction);
-    records.add_erosion(value.erosion * volume_unit);
-    records.add_area(value.area * area_unit);
+  field.take_changes([&](std::uint32_t point, const core::FieldValue& value) {
+    if (records == nullptr || records->point_size() == wire::kRecordsPerMessage) {
+      records = messages.emplace_back().mutable_records();
+    }
+    records->add_point(point);
+    records->add_direction(value.direction);
+    records->add_erosion(value.erosion * volume_unit);
+    records->add_area(value.area * area_unit);
+  });
+  return messages;
+}
+
+// What other workers found: greater chords need not be looked at.
+void take_bounds(const v1::ReportResponse& response, const PreparedJob& job, core::ErosionField& field) {
+  for (const v1::ErosionBounds& bounds : response.bounds()) {
+    std::uint64_t point = 0;
+    for (int i = 0; i < std::min(bounds.step_size(), bounds.bound_size()); ++i) {
+      point += bounds.step(i);
+      const double bound = wire::bound_value(bounds.bound(i)) / job.volume_unit();
+      // What is subnormal may have been rounded down.
+      if (point < field.size() && std::isnormal(bound)) field.bound(static_cast<std::uint32_t>(point), bound);
+    }
   }
-  return records;
+}
+
+v1::ReportResponse report(const v1::ReportErosionHeader& header, const PreparedJob& job,
+                          core::Erosion& erosion, ServerLink& link) {
+  v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
+  take_bounds(response, job, erosion.field());
+  return response;
 }
 
 }  // namespace
@@ -180,12 +201,12 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
     if (header.block_done()) {
       last.start(lease.token(), [&job, &erosion, &link, lease, header] {
         const LeaseKeeper still(link, lease);
-        link.report(header, take_records(job, erosion.field()));
+        report(header, job, erosion, link);
       });
       return ErodeEnd::kBlockDone;
     }
     last.wait();
-    const v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
+    const v1::ReportResponse response = report(header, job, erosion, link);
     if (response.cancelled()) return ErodeEnd::kCancelled;
     if (ended) return ErodeEnd::kStopped;
     if (response.report_interval_ms() != 0)

@@ -41,9 +41,9 @@ std::string random_id() {
   return id;
 }
 
-v1::WorkerIdentity own_identity(unsigned threads) {
+v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   v1::WorkerIdentity identity;
-  identity.set_id(random_id());
+  identity.set_id(id);
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   identity.set_host(host.data());
@@ -118,11 +118,12 @@ class LeaseLoop {
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
       : options_(options),
         stop_(stop),
-        link_({options.server, options.patience}, stop),
+        id_(random_id()),
+        link_({options.server, options.patience, id_}, stop),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
         }) {
-    *request_.mutable_worker() = own_identity(options.threads);
+    *request_.mutable_worker() = own_identity(id_, options.threads);
   }
 
   int run() {
@@ -311,6 +312,7 @@ class LeaseLoop {
 
   LeaseLoopOptions options_;
   std::stop_token stop_;
+  const std::string id_;
   ServerLink link_;
   v1::LeaseTaskRequest request_;
   std::set<std::string> jobs_;

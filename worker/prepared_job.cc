@@ -183,7 +183,7 @@ core::Erosion& PreparedJob::erosion(unsigned threads, std::string_view stored) {
     erosion->field().offer(
         p, {values[p].erosion / volume_unit(), values[p].area / area_unit(), values[p].direction});
   }
-  erosion->field().take_changes();  // the server knows these
+  erosion->field().take_changes([](std::uint32_t, const core::FieldValue&) {});  // the server knows these
   erosion_ = std::move(erosion);
   return *erosion_;
 }

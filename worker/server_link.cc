@@ -26,16 +26,6 @@ std::shared_ptr<grpc::Channel> connect(const std::string& address) {
                                    arguments);
 }
 
-// The records from..to of `all`.
-v1::FieldRecords slice(const v1::FieldRecords& all, int from, int to) {
-  v1::FieldRecords part;
-  part.mutable_point()->Add(all.point().begin() + from, all.point().begin() + to);
-  part.mutable_direction()->Add(all.direction().begin() + from, all.direction().begin() + to);
-  part.mutable_erosion()->Add(all.erosion().begin() + from, all.erosion().begin() + to);
-  part.mutable_area()->Add(all.area().begin() + from, all.area().begin() + to);
-  return part;
-}
-
 }  // namespace
 
 ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
@@ -119,20 +109,23 @@ std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind) {
 }
 
 v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
-                                      const v1::FieldRecords& records) {
+                                      const std::vector<v1::ReportErosionRequest>& records) {
+  v1::ReportErosionRequest first;
+  *first.mutable_header() = header;
+  // A stream that broke looks like one that ended: the count tells them apart.
+  std::uint64_t count = 0;
+  for (const v1::ReportErosionRequest& message : records) {
+    count += static_cast<std::uint64_t>(message.records().point_size());
+  }
+  first.mutable_header()->set_records(count);
+  first.mutable_header()->set_bounds_for(options_.worker);
   v1::ReportResponse response;
   with_retries("reporting", [&](grpc::ClientContext& context) {
     response.Clear();
     const auto writer = stub_->ReportErosion(&context, &response);
-    v1::ReportErosionRequest message;
-    *message.mutable_header() = header;
-    // A stream that broke looks like one that ended: the count tells them apart.
-    message.mutable_header()->set_records(static_cast<std::uint64_t>(records.point_size()));
-    bool open = writer->Write(message);
-    for (int from = 0; open && from < records.point_size(); from += wire::kRecordsPerMessage) {
-      *message.mutable_records() =
-          slice(records, from, std::min(records.point_size(), from + wire::kRecordsPerMessage));
-      open = writer->Write(message);
+    bool open = writer->Write(first);
+    for (auto message = records.begin(); open && message != records.end(); ++message) {
+      open = writer->Write(*message);
     }
     writer->WritesDone();
     return writer->Finish();

@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
 
@@ -29,6 +30,7 @@ class ServerGone : public std::runtime_error {
 struct ServerLinkOptions {
   std::string address;                ///< unix:PATH or HOST:PORT
   std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
+  std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
 };
 
 /// The worker's side of WorkerService.  Calls that the server can repeat safely are retried while it is
@@ -45,8 +47,11 @@ class ServerLink {
   /// @throws LeaseLost, ServerGone.
   std::string fetch(const std::string& token, v1::ArtifactKind kind);
 
-  /// Reports finished positions and field records.  @throws LeaseLost, ServerGone.
-  v1::ReportResponse report(const v1::ReportErosionHeader& header, const v1::FieldRecords& records);
+  /// Reports finished positions and field records.
+  /// @param records messages that hold records only, at most wire::kRecordsPerMessage each.
+  /// @throws LeaseLost, ServerGone.
+  v1::ReportResponse report(const v1::ReportErosionHeader& header,
+                            const std::vector<v1::ReportErosionRequest>& records);
 
   /// Hands in the result of a prepare or derive task.  @throws LeaseLost, ServerGone.
   v1::ReportResponse complete(v1::CompleteTaskHeader header, std::string_view data);

@@ -67,14 +67,18 @@ grpc::Status WorkerServiceImpl::ReportErosion(grpc::ServerContext* context,
   if (!reader->Read(&first) || !first.has_header()) return no_header();
   const v1::ReportErosionHeader& header = first.header();
   return with_lease(registry_, header.token(), [&] {
-    const Store::LeaseBounds bounds = store_.bounds(header.token());
-    RecordBatch batch(bounds.points, bounds.directions, header.records());
+    if (header.bounds_for().size() > kMaxWorkerIdBytes) refuse("a worker's id has at most 64 bytes");
+    const Store::ErodeLease lease = store_.erode_lease(header.token());
+    RecordBatch batch(lease.points, lease.directions, header.records());
     receive_records(*reader, batch);
     // A stream that broke can look like one that ended; what it carried may be only half of a report.
     if (context->IsCancelled() || (header.has_records() && header.records() != batch.records().size())) {
       refuse("the report broke off: not all of its records arrived");
     }
     *response = store_.report(header, batch);
+    if (!header.bounds_for().empty()) {
+      bounds_.exchange(lease.job, header.bounds_for(), batch.records(), *response);
+    }
     return response->cancelled() || header.block_done();
   });
 }

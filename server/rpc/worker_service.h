@@ -3,6 +3,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "rpc/bounds_exchange.h"
 #include "rpc/lease_queue.h"
 #include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
@@ -38,6 +39,7 @@ class WorkerServiceImpl final
   WorkerRegistry& registry_;
   LeaseQueue& queue_;
   UploadBudget& uploads_;
+  BoundsExchange bounds_;
 };
 
 }  // namespace affskel::server

@@ -20,6 +20,9 @@
 
 namespace affskel::server {
 
+/// Longest id of a worker.
+inline constexpr std::size_t kMaxWorkerIdBytes = 64;
+
 /// @throws StoreError kInvalid when a worker does not tell who it is as the contract says.
 void check_worker(const v1::WorkerIdentity& worker);
 
@@ -87,12 +90,13 @@ class Store {
   std::optional<v1::Lease> lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
                                  bool supervised);
 
-  struct LeaseBounds {
-    std::int64_t points = 0;
-    std::int64_t directions = 0;
+  struct ErodeLease {
+    std::string job;
+    std::int64_t points = 0;      ///< R
+    std::int64_t directions = 0;  ///< K
   };
-  /// R and K of a leased ERODE task, for checking a report while it arrives.
-  LeaseBounds bounds(const std::string& token);
+  /// What a leased ERODE task is about, for checking a report while it arrives.
+  ErodeLease erode_lease(const std::string& token);
 
   v1::ReportResponse renew(const std::string& token);
   v1::ReportResponse report(const v1::ReportErosionHeader& header, const RecordBatch& records);

@@ -9,7 +9,8 @@ namespace affskel::server {
 
 void check_worker(const v1::WorkerIdentity& worker) {
   const auto refuse = [](const char* why) { throw StoreError(StoreError::Code::kInvalid, why); };
-  if (worker.id().empty() || worker.id().size() > 64) refuse("a worker needs an id of 1 .. 64 bytes");
+  if (worker.id().empty() || worker.id().size() > kMaxWorkerIdBytes)
+    refuse("a worker needs an id of 1 .. 64 bytes");
   if (worker.threads() < 1) refuse("a worker has at least one thread");
   if (worker.core_version().empty()) refuse("a worker must tell the version of its core");
   if (worker.host().size() > 255 || worker.core_version().size() > 64)

@@ -70,10 +70,10 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
 
 }  // namespace
 
-Store::LeaseBounds Store::bounds(const std::string& token) {
+Store::ErodeLease Store::erode_lease(const std::string& token) {
   return read([&](Database& db) {
     const JobRow job = get_job(db, erode_task(db, token).job_id);
-    return LeaseBounds{job.points, job.directions};
+    return ErodeLease{job.id, job.points, job.directions};
   });
 }
 

@@ -1,26 +1,12 @@
 #include "core/field.h"
 
-#include <algorithm>
 #include <bit>
+#include <mutex>
 
 namespace affskel::core {
 namespace {
 
-// Sorts different numbers below `limit`.
-void sort_points(std::vector<std::uint32_t>& points, std::uint32_t limit) {
-  if (points.size() < limit / 64) {
-    std::sort(points.begin(), points.end());
-    return;
-  }
-  std::vector<std::uint64_t> present(limit / 64 + 1, 0);
-  for (std::uint32_t p : points) present[p / 64] |= std::uint64_t{1} << (p % 64);
-  auto to = points.begin();
-  for (std::uint32_t word = 0; word < present.size(); ++word) {
-    for (std::uint64_t bits = present[word]; bits != 0; bits &= bits - 1) {
-      *to++ = 64 * word + static_cast<std::uint32_t>(std::countr_zero(bits));
-    }
-  }
-}
+using Mask = std::atomic_ref<std::uint16_t>;
 
 }  // namespace
 
@@ -28,7 +14,7 @@ ErosionField::ErosionField(std::uint32_t points, bool track_changes)
     : erosion_(points, std::numeric_limits<double>::infinity()),
       area_(points, 0),
       direction_(points, FieldValue::kNoDirection),
-      changed_(track_changes ? points : 0, 0) {}
+      changed_(track_changes ? points / kGroup + 1 : 0, 0) {}
 
 void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
   const std::lock_guard<SpinLock> guard(lock_of(point));
@@ -36,11 +22,25 @@ void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
   std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
   area_[point] = offered.area;
   direction_[point] = offered.direction;
-  if (changed_.empty() || changed_[point] != 0) return;
-  // Listed before the point is let go: whoever improves it next relies on finding it listed.
-  changed_[point] = 1;
-  const std::lock_guard<std::mutex> list_guard(changes_mutex_);
-  changes_.push_back(point);
+  if (changed_.empty()) return;
+  // Only ever written under the lock; take_changes() looks at it without.
+  const Mask mask(changed_[point / kGroup]);
+  const auto bit = static_cast<std::uint16_t>(1U << (point % kGroup));
+  mask.store(mask.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
+}
+
+void ErosionField::bound(std::uint32_t point, double most) {
+  if (!(most < erosion(point))) return;
+  const std::lock_guard<SpinLock> guard(lock_of(point));
+  if (!(most < erosion_[point])) return;
+  std::atomic_ref<double>(erosion_[point]).store(most, std::memory_order_relaxed);
+  area_[point] = 0;
+  direction_[point] = FieldValue::kNoDirection;
+  if (changed_.empty()) return;
+  const Mask mask(changed_[point / kGroup]);
+  const auto bit = static_cast<std::uint16_t>(1U << (point % kGroup));
+  mask.store(mask.load(std::memory_order_relaxed) & static_cast<std::uint16_t>(~bit),
+             std::memory_order_relaxed);
 }
 
 FieldValue ErosionField::value(std::uint32_t point) const {
@@ -48,19 +48,16 @@ FieldValue ErosionField::value(std::uint32_t point) const {
   return {erosion_[point], area_[point], direction_[point]};
 }
 
-std::vector<std::uint32_t> ErosionField::take_changes() {
-  std::vector<std::uint32_t> taken;
-  {
-    const std::lock_guard<std::mutex> guard(changes_mutex_);
-    taken.swap(changes_);
+void ErosionField::take_group(std::uint32_t group, ChangedGroup& taken) {
+  taken.count = 0;
+  const std::lock_guard<SpinLock> guard(lock_of(group * kGroup));
+  const Mask mask(changed_[group]);
+  for (unsigned bits = mask.load(std::memory_order_relaxed); bits != 0; bits &= bits - 1) {
+    const std::uint32_t point = group * kGroup + static_cast<std::uint32_t>(std::countr_zero(bits));
+    taken.point[taken.count] = point;
+    taken.value[taken.count++] = {erosion_[point], area_[point], direction_[point]};
   }
-  sort_points(taken, size());
-  // A point that improves again from here on is listed again; its value read later is at least as new.
-  for (std::uint32_t point : taken) {
-    const std::lock_guard<SpinLock> guard(lock_of(point));
-    changed_[point] = 0;
-  }
-  return taken;
+  mask.store(0, std::memory_order_relaxed);
 }
 
 }  // namespace affskel::core

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -27,7 +27,8 @@ struct FieldValue {
 /// area.  A semilattice (design section 3): offers commute, repeat without effect and may come from any
 /// thread.  Volumes and areas in inner units of the solid.
 ///
-/// Threads: offer(), erosion() and value() from any; take_changes() from one at a time.
+/// Threads: offer(), bound(), erosion() and value() from any; take_changes() from any, too, each change going
+/// to one.
 class ErosionField {
  public:
   /// @param track_changes remember which points improved, for take_changes().
@@ -47,11 +48,25 @@ class ErosionField {
 
   void offer(std::uint32_t point, const FieldValue& value);
 
-  /// A consistent copy of one value.
+  /// Makes it known that E is at most `most` at the point, by a direction that somebody else keeps.  A lesser
+  /// value here stays; a greater one, which cannot attain E, is dropped unless it was visited already, and
+  /// kNoDirection stands for the other's direction: whatever is equal still improves on it.
+  void bound(std::uint32_t point, double most);
+
+  /// A consistent copy of one value; without a direction after bound().
   FieldValue value(std::uint32_t point) const;
 
-  /// Points improved since the last call, each once, ascending.
-  std::vector<std::uint32_t> take_changes();
+  /// Calls `visit(point, value)` for every point that improved since it was last visited, in ascending order,
+  /// with a value that is at least as new as the improvement.
+  template <class Visit>
+  void take_changes(Visit visit) {
+    ChangedGroup taken;
+    for (std::size_t group = 0; group < changed_.size(); ++group) {
+      if (std::atomic_ref<std::uint16_t>(changed_[group]).load(std::memory_order_relaxed) == 0) continue;
+      take_group(static_cast<std::uint32_t>(group), taken);
+      for (std::uint32_t n = 0; n < taken.count; ++n) visit(taken.point[n], taken.value[n]);
+    }
+  }
 
  private:
   static constexpr std::size_t kLocks = 1024;
@@ -69,16 +84,23 @@ class ErosionField {
     std::atomic_flag flag_;
   };
 
-  // A run's points share a lock.
-  SpinLock& lock_of(std::uint32_t point) const { return locks_[(point >> 4) % kLocks]; }
+  // Points that stand next to each other along a run share a lock and a mask of changes.
+  static constexpr std::uint32_t kGroup = 16;
+  struct ChangedGroup {
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, kGroup> point;
+    std::array<FieldValue, kGroup> value;
+  };
+
+  SpinLock& lock_of(std::uint32_t point) const { return locks_[point / kGroup % kLocks]; }
+
+  void take_group(std::uint32_t group, ChangedGroup& taken);
 
   std::vector<double> erosion_;
   std::vector<double> area_;
   std::vector<std::uint32_t> direction_;
-  std::vector<std::uint8_t> changed_;  // per point, empty when not tracked
+  std::vector<std::uint16_t> changed_;  // per group, a bit for each point; empty when not tracked
   mutable std::array<SpinLock, kLocks> locks_;
-  std::mutex changes_mutex_;
-  std::vector<std::uint32_t> changes_;
 };
 
 }  // namespace affskel::core

@@ -11,6 +11,15 @@
 namespace affskel::core {
 namespace {
 
+std::vector<std::uint32_t> taken_points(ErosionField& field) {
+  std::vector<std::uint32_t> points;
+  field.take_changes([&](std::uint32_t p, const FieldValue& value) {
+    EXPECT_EQ(value.erosion, field.value(p).erosion);
+    points.push_back(p);
+  });
+  return points;
+}
+
 TEST(ErosionField, KeepsTheLeastErosionThenTheLeastDirection) {
   ErosionField field(1, false);
   EXPECT_EQ(field.value(0).direction, FieldValue::kNoDirection);
@@ -24,19 +33,41 @@ TEST(ErosionField, KeepsTheLeastErosionThenTheLeastDirection) {
   EXPECT_EQ(field.value(0).area, 13);
 }
 
-TEST(ErosionField, TellsEachChangeOnce) {
-  ErosionField field(3, true);
-  field.offer(2, {5, 1, 1});
+// Points far apart and on both sides of every power of two up to a thousand.
+TEST(ErosionField, TellsEachChangeOnceInAscendingOrder) {
+  ErosionField field(1000, true);
+  const std::vector<std::uint32_t> points{0, 1, 2, 15, 16, 17, 31, 32, 63, 64, 127, 128, 511, 512, 999};
+  for (auto p = points.rbegin(); p != points.rend(); ++p) field.offer(*p, {5, 1, 1});
   field.offer(2, {4, 1, 2});
-  field.offer(0, {4, 1, 2});
-  std::vector<std::uint32_t> changes = field.take_changes();
-  std::sort(changes.begin(), changes.end());
-  EXPECT_EQ(changes, (std::vector<std::uint32_t>{0, 2}));
-  EXPECT_TRUE(field.take_changes().empty());
+  EXPECT_EQ(taken_points(field), points);
+  EXPECT_TRUE(taken_points(field).empty());
   field.offer(2, {4, 1, 9});  // no improvement
-  EXPECT_TRUE(field.take_changes().empty());
+  EXPECT_TRUE(taken_points(field).empty());
   field.offer(2, {3, 1, 9});
-  EXPECT_EQ(field.take_changes(), (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{2}));
+}
+
+TEST(ErosionField, ABoundRulesOutWhatIsGreaterOnly) {
+  ErosionField field(4, true);
+  for (std::uint32_t p = 0; p < 4; ++p) field.offer(p, {5, 1, 3});
+  field.bound(0, 5);    // by an equal value: which direction is the lesser one is not known here
+  field.bound(1, 4);    // outdone before it was told
+  field.bound(2, 5.5);  // worse
+  EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{0, 2, 3}));
+  EXPECT_EQ(field.value(0).direction, 3U);
+  EXPECT_EQ(field.value(1).erosion, 4);
+  EXPECT_EQ(field.value(1).direction, FieldValue::kNoDirection);
+  field.offer(1, {4.5, 1, 0});
+  EXPECT_TRUE(taken_points(field).empty());
+  field.offer(1, {4, 1, 1000});  // as good as the bound, which may have been rounded up
+  EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(field.value(1).direction, 1000U);
+}
+
+TEST(ErosionField, TellsNoChangesUnlessAskedTo) {
+  ErosionField field(20, false);
+  field.offer(3, {5, 1, 1});
+  EXPECT_TRUE(taken_points(field).empty());
 }
 
 // A point offered by several threads while changes are taken: after the threads are done, a last call
@@ -47,7 +78,8 @@ TEST(ErosionField, NoImprovementEscapesWhoeverTakesTheChanges) {
     ErosionField field(kPoints, true);
     std::vector<double> seen(kPoints, std::numeric_limits<double>::infinity());
     const auto take = [&] {
-      for (std::uint32_t p : field.take_changes()) seen[p] = std::min(seen[p], field.value(p).erosion);
+      field.take_changes(
+          [&](std::uint32_t p, const FieldValue& value) { seen[p] = std::min(seen[p], value.erosion); });
     };
     std::vector<std::thread> threads;
     std::atomic<int> running{2};

@@ -11,6 +11,7 @@
 #include "lease_loop.h"
 #include "sample_job.h"
 #include "server_link.h"
+#include "wire/erosion_bound.h"
 
 namespace affskel::worker {
 namespace {
@@ -67,16 +68,22 @@ TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {
   EXPECT_THROW(PreparedJob(sample_mesh(), params), core::CoreError);
 }
 
+int count_changes(core::ErosionField& field) {
+  int count = 0;
+  field.take_changes([&](std::uint32_t, const core::FieldValue&) { ++count; });
+  return count;
+}
+
 TEST(PreparedJob, StartsFromTheStoredField) {
   PreparedJob job(sample_mesh(), sample_params());
   const std::string stored = finished_field(job);
   core::Erosion& erosion = job.erosion(1, stored);
-  EXPECT_TRUE(erosion.field().take_changes().empty());
+  EXPECT_EQ(count_changes(erosion.field()), 0);
   // Doing a direction again improves nothing.
   const std::uint32_t direction = 17;
   core::ExecutionContext context;
   erosion.run({&direction, 1}, context);
-  EXPECT_TRUE(erosion.field().take_changes().empty());
+  EXPECT_EQ(count_changes(erosion.field()), 0);
   EXPECT_THROW(unpack_field(stored.substr(1), job.lattice().points), core::CoreError);
 }
 
@@ -166,6 +173,58 @@ TEST_F(LinkTest, ErodeReportsEveryPositionOnceAndAllItsPoints) {
   ASSERT_EQ(done.size(), 256U);
   for (std::uint64_t p = 0; p < 256; ++p) EXPECT_EQ(done[p], p);
   EXPECT_TRUE(merged(prepared_, reports) == finished_field(prepared_));
+}
+
+// One worker does the last directions and is told, after its first report, what another found in all before:
+// together they must have reported the whole field, and the one nothing that the other has outdone.  (Half
+// and half would not do: the torus is its own mirror image, and both halves give much the same.)
+TEST_F(LinkTest, ErodeReportsNothingThatAnotherWorkerHasOutdone) {
+  const auto part = [&](std::uint64_t begin, std::uint64_t end) {
+    PreparedJob job(sample_mesh(), sample_params());
+    core::Erosion& erosion = job.erosion(1, empty_field(job));
+    ServerLink to_server({server_.address(), std::chrono::seconds(20), "me"}, stop_.get_token());
+    const std::size_t before = server_.reports().size();
+    // Two blocks: what is learnt from the first one's report counts in the second.
+    for (const auto& [from, to] : {std::pair{begin, begin + 1}, std::pair{begin + 1, end}}) {
+      v1::Lease lease = erode_lease(job, "t", from, to);
+      lease.set_report_interval_ms(60000);
+      EXPECT_EQ(erode(lease, job, erosion, to_server, stop_.get_token(), last_, [] {}), ErodeEnd::kBlockDone);
+      last_.wait();
+    }
+    const std::vector<FakeServer::Report> reports = server_.reports();
+    EXPECT_EQ(reports.back().header.bounds_for(), "me");
+    return std::vector<FakeServer::Report>(reports.begin() + static_cast<std::ptrdiff_t>(before),
+                                           reports.end());
+  };
+  const std::vector<FakeServer::Report> first = part(0, 224), alone = part(224, 256);
+  const std::vector<core::FieldValue> known =
+      unpack_field(merged(prepared_, first), prepared_.lattice().points);
+  // Of the last report: how many records are worse than what is known, by more than rounding.
+  const auto outdone = [&](const std::vector<FakeServer::Report>& reports) {
+    const v1::FieldRecords& records = reports.back().records;
+    int count = 0;
+    for (int i = 0; i < records.point_size(); ++i) {
+      count += records.erosion(i) > (1 + 1e-5) * known[records.point(i)].erosion ? 1 : 0;
+    }
+    return count;
+  };
+  server_.on_report([&](const v1::ReportErosionHeader&) {
+    v1::ReportResponse response;
+    v1::ErosionBounds* bounds = response.add_bounds();
+    for (std::uint32_t p = 0; p < known.size(); ++p) {
+      bounds->add_step(p == 0 ? 0 : 1);
+      bounds->add_bound(wire::bound_above(known[p].erosion));
+    }
+    bounds->add_step(0xFFFFFFFFU);  // beyond the field
+    bounds->add_bound(0);
+    return response;
+  });
+  const std::vector<FakeServer::Report> second = part(224, 256);
+  EXPECT_GT(outdone(alone), 100);
+  EXPECT_EQ(outdone(second), 0);
+  std::vector<FakeServer::Report> together = first;
+  together.insert(together.end(), second.begin(), second.end());
+  EXPECT_TRUE(merged(prepared_, together) == finished_field(prepared_));
 }
 
 // The next block goes on while the report of the one before is on its way, but reports nothing of its own

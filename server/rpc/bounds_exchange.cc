@@ -1,0 +1,92 @@
+#include "rpc/bounds_exchange.h"
+
+#include <algorithm>
+
+#include "wire/erosion_bound.h"
+
+namespace affskel::server {
+namespace {
+
+// In memory; on the wire a step is often shorter.
+constexpr std::size_t kPointBytes = 8;
+
+std::size_t size_of(const v1::ErosionBounds& message) {
+  return kPointBytes * static_cast<std::size_t>(message.step_size());
+}
+
+}  // namespace
+
+void BoundsExchange::exchange(const std::string& job, const std::string& worker,
+                              const std::vector<FieldRecord>& records, v1::ReportResponse& response) {
+  std::vector<Message> theirs;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!enter(job, worker)) return;
+    theirs = collect(job, worker);
+  }
+  const std::vector<Message> ours = pack(records);
+  {
+    const std::lock_guard lock(mutex_);
+    keep(job, worker, ours);
+  }
+  for (const Message& message : theirs) *response.add_bounds() = *message;
+}
+
+std::vector<BoundsExchange::Message> BoundsExchange::pack(const std::vector<FieldRecord>& records) const {
+  const auto in_order = [](const FieldRecord& a, const FieldRecord& b) { return a.point < b.point; };
+  if (!std::is_sorted(records.begin(), records.end(), in_order)) return {};
+  std::vector<Message> messages;
+  for (std::size_t begin = 0; begin < records.size(); begin += options_.message_points) {
+    const std::size_t end = std::min(begin + options_.message_points, records.size());
+    const auto message = std::make_shared<v1::ErosionBounds>();
+    message->mutable_step()->Reserve(static_cast<int>(end - begin));
+    message->mutable_bound()->Reserve(static_cast<int>(end - begin));
+    std::uint32_t before = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      message->add_step(records[i].point - before);
+      message->add_bound(wire::bound_above(records[i].erosion));
+      before = records[i].point;
+    }
+    messages.push_back(message);
+  }
+  return messages;
+}
+
+/// Notes who works on the job; whether it has company.
+bool BoundsExchange::enter(const std::string& job, const std::string& worker) {
+  if (seen_.size() >= options_.jobs && !seen_.contains(job)) seen_.clear();
+  auto& workers = seen_[job];
+  workers.try_emplace(worker, forgotten_ + entries_.size());
+  return workers.size() > 1;
+}
+
+std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& job,
+                                                             const std::string& worker) {
+  std::uint64_t& next = seen_[job][worker];
+  next = std::max(next, forgotten_);
+  std::vector<Message> messages;
+  std::size_t bytes = 0;
+  for (; next < forgotten_ + entries_.size(); ++next) {
+    const Entry& entry = entries_[next - forgotten_];
+    if (entry.job != job || entry.worker == worker) continue;
+    bytes += entry.bytes;
+    if (bytes > options_.reply_bytes && !messages.empty()) break;
+    messages.push_back(entry.message);
+  }
+  return messages;
+}
+
+void BoundsExchange::keep(const std::string& job, const std::string& worker,
+                          const std::vector<Message>& messages) {
+  for (const Message& message : messages) {
+    entries_.push_back({job, worker, message, size_of(*message)});
+    bytes_ += entries_.back().bytes;
+  }
+  while (bytes_ > options_.kept_bytes) {
+    bytes_ -= entries_.front().bytes;
+    entries_.pop_front();
+    ++forgotten_;
+  }
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "affskel/v1/worker_service.pb.h"
+#include "store/field.h"
+
+namespace affskel::server {
+
+struct BoundsExchangeOptions {
+  std::size_t kept_bytes = std::size_t{64} << 20;     ///< of all jobs; what is oldest is forgotten
+  std::size_t reply_bytes = std::size_t{8} << 20;     ///< of one answer; the rest comes with the next
+  std::size_t message_points = std::size_t{1} << 16;  ///< per v1::ErosionBounds
+  std::size_t jobs = 256;                             ///< whose workers are remembered
+};
+
+/// What the workers on one job learn from each other's reports: without it each leaves out only what its own
+/// directions rule out, and reports improvements that others have outdone.  Kept in memory and lost without
+/// harm, for bounds only save time.  Thread-safe.
+class BoundsExchange {
+ public:
+  explicit BoundsExchange(const BoundsExchangeOptions& options = {}) : options_(options) {}
+
+  /// Passes on a report that is committed, and adds to the answer what other workers on the job reported
+  /// since this worker's last one; nothing for its first.
+  /// @param records of the report; passed on when in ascending order of points, as our workers send them.
+  void exchange(const std::string& job, const std::string& worker, const std::vector<FieldRecord>& records,
+                v1::ReportResponse& response);
+
+ private:
+  using Message = std::shared_ptr<const v1::ErosionBounds>;
+  struct Entry {
+    std::string job, worker;
+    Message message;
+    std::size_t bytes;
+  };
+
+  std::vector<Message> pack(const std::vector<FieldRecord>& records) const;
+  bool enter(const std::string& job, const std::string& worker);
+  std::vector<Message> collect(const std::string& job, const std::string& worker);
+  void keep(const std::string& job, const std::string& worker, const std::vector<Message>& messages);
+
+  const BoundsExchangeOptions options_;
+  std::mutex mutex_;
+  // All guarded by mutex_.
+  std::deque<Entry> entries_;    // entry number n is at n - forgotten_
+  std::uint64_t forgotten_ = 0;  // entries so far
+  std::size_t bytes_ = 0;
+  std::map<std::string, std::map<std::string, std::uint64_t>> seen_;  // job, worker: its first unseen entry
+};
+
+}  // namespace affskel::server

@@ -1,0 +1,111 @@
+#include "rpc/bounds_exchange.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+#include <map>
+
+#include "wire/erosion_bound.h"
+
+namespace affskel::server {
+namespace {
+
+FieldRecord record(std::uint32_t point, double erosion) {
+  return {erosion, 1.0, 7, point};
+}
+
+/// What a worker is told when it reports, by point.
+std::map<std::uint64_t, double> told(BoundsExchange& exchange, const std::string& job,
+                                     const std::string& worker,
+                                     const std::vector<FieldRecord>& records = {}) {
+  v1::ReportResponse response;
+  exchange.exchange(job, worker, records, response);
+  std::map<std::uint64_t, double> bounds;
+  for (const v1::ErosionBounds& message : response.bounds()) {
+    EXPECT_EQ(message.step_size(), message.bound_size());
+    std::uint64_t point = 0;
+    for (int i = 0; i < message.step_size(); ++i) {
+      point += message.step(i);
+      bounds[point] = wire::bound_value(message.bound(i));
+    }
+  }
+  return bounds;
+}
+
+TEST(ErosionBound, IsNeverBelowAndHardlyAbove) {
+  for (double e : {0.0, 1.0, 1.0 / 3, 69717072563.5, 5e-324, 1e-300, 1e300}) {
+    const double bound = wire::bound_value(wire::bound_above(e));
+    EXPECT_GE(bound, e);
+    if (e > 1e-307) {
+      EXPECT_LE(bound, e * (1 + 1e-6));
+    }
+  }
+  EXPECT_EQ(wire::bound_value(wire::bound_above(1.0)), 1.0) << "short numbers arrive as they are";
+  EXPECT_EQ(wire::bound_value(wire::bound_above(std::numeric_limits<double>::max())),
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(BoundsExchange, TellsEachWorkerWhatTheOthersReportedSince) {
+  BoundsExchange exchange;
+  EXPECT_TRUE(told(exchange, "job", "a", {record(3, 2.0)}).empty());
+  EXPECT_TRUE(told(exchange, "job", "b", {record(3, 1.5), record(70000, 4.0)}).empty()) << "its first report";
+  EXPECT_EQ(told(exchange, "job", "a", {record(0, 8.0)}),
+            (std::map<std::uint64_t, double>{{3, 1.5}, {70000, 4.0}}));
+  EXPECT_TRUE(told(exchange, "job", "a").empty()) << "told already, and nothing of its own";
+  EXPECT_EQ(told(exchange, "job", "b"), (std::map<std::uint64_t, double>{{0, 8.0}}));
+}
+
+TEST(BoundsExchange, KeepsJobsApart) {
+  BoundsExchange exchange;
+  for (const char* worker : {"a", "b"}) {
+    told(exchange, "one", worker);
+    told(exchange, "two", worker);
+  }
+  told(exchange, "one", "a", {record(1, 1.0)});
+  EXPECT_TRUE(told(exchange, "two", "b").empty());
+  EXPECT_EQ(told(exchange, "one", "b").size(), 1U);
+}
+
+TEST(BoundsExchange, PassesNothingOnThatIsOutOfOrder) {
+  BoundsExchange exchange;
+  told(exchange, "job", "a");
+  told(exchange, "job", "b");
+  told(exchange, "job", "a", {record(2, 1.0), record(1, 1.0)});
+  EXPECT_TRUE(told(exchange, "job", "b").empty());
+}
+
+TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
+  BoundsExchangeOptions options;
+  options.message_points = 10;
+  options.reply_bytes = 2 * 80;
+  options.kept_bytes = 3 * 80;
+  BoundsExchange exchange(options);
+  told(exchange, "job", "a");
+  told(exchange, "job", "b");
+  std::vector<FieldRecord> records;
+  for (std::uint32_t p = 0; p < 40; ++p) records.push_back(record(p, 1 + p));
+  told(exchange, "job", "a", records);
+  const auto first = told(exchange, "job", "b"), second = told(exchange, "job", "b");
+  EXPECT_EQ(first.size(), 20U);
+  EXPECT_EQ(first.begin()->first, 10U) << "the first ten are forgotten";
+  EXPECT_EQ(second.size(), 10U);
+  EXPECT_EQ(second.rbegin()->first, 39U);
+  EXPECT_TRUE(told(exchange, "job", "b").empty());
+}
+
+TEST(BoundsExchange, RemembersTheWorkersOfSoManyJobs) {
+  BoundsExchangeOptions options;
+  options.jobs = 2;
+  BoundsExchange exchange(options);
+  for (const char* job : {"one", "two", "three"}) {
+    told(exchange, job, "a");
+    told(exchange, job, "b");
+  }
+  told(exchange, "three", "a", {record(1, 1.0)});
+  EXPECT_EQ(told(exchange, "three", "b").size(), 1U);
+  EXPECT_TRUE(told(exchange, "one", "a", {record(1, 1.0)}).empty());
+}
+
+}  // namespace
+}  // namespace affskel::server
