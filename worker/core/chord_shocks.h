@@ -55,9 +55,9 @@ struct ChordShock {
 /// along with the solid gives the same numbers.  The opening is not: an angle between covectors needs a
 /// metric.  It is invariant only when the frame's metric is mapped along, as in the `affine` frame.
 ///
-/// Where E is smooth but its normals turn fast, near the middle of a box seen by very many directions, say,
-/// the opening across an edge shrinks with the spacing: such a ridge is a shock at a coarse spacing only.
-/// At a true shock it does not.
+/// Where E is smooth but its normals turn fast, in the middle plane of a box seen by very many directions,
+/// say (a test shows that they draw together as the lattice is refined), the opening across an edge shrinks
+/// with the spacing: such a ridge is a shock at a coarse spacing only. At a true shock it does not.
 ///
 /// @throws CoreError kBadInput when an option is not finite or out of range.
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,

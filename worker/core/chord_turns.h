@@ -36,10 +36,10 @@ struct ChordTurnOptions {
 /// bound: each cell has the mean turn of its shocks, weighted by turn and area (|N_a|, see chord_pruning.h),
 /// each shock that of its four cells.  Lone facets lose by it, gaps in a sheet gain.
 ///
-/// Measured on bodies of 292 to 8560 triangles at a body's height / 180 as spacing, share of the skeleton
-/// within delta = sqrt(3)/128 of that height of the one of the mesh with vertex noise of 1 % of its diagonal,
-/// and back, means of 3 seeds: 93.4/94.3 % on the five bodies that the options were chosen on, 92.2/93.1 % on
-/// six others; by the shocks' own openings and equally many points 90.7/91.0 % and 89.7/89.9 %.
+/// Measured on bodies of 292 to 8560 triangles at a body's height / 180 as spacing: share of the skeleton
+/// within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the diagonal, and
+/// back, means of 3 seeds: 94.1/93.8 % on the five bodies that the options were chosen on, 92.8/92.9 % on six
+/// others with other seeds.  By the shocks' own openings of 1/4 and more, it is 90.7/91.0 % and 89.7/89.9 %.
 ///
 /// The band is 2 reach + 1 spacings wide: a ridge that turns more slowly than that is no shock at this
 /// spacing. Invariance: that of the opening (see chord_shocks.h).

@@ -13,7 +13,6 @@
 #include "core/error.h"
 #include "core/lattice_coordinates.h"
 #include "core/shapes.h"
-#include "core/similarity.h"
 #include "core/solid_membership.h"
 #include "test_solids.h"
 
@@ -219,54 +218,6 @@ TEST(ChordSheet, SizesFarFromOneGiveTheSameSheetToTheLastBit) {
       EXPECT_EQ(other.vertices[v].normal_a, sheet.vertices[v].normal_a);
     }
   }
-}
-
-// The vertices at least `far` from the rim, and all of them.
-std::vector<Vec3> places_of(const ErodedSolid& solid, const ChordSheet& sheet, double far) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const Triangle& t : sheet.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
-  }
-  std::vector<Vec3> rim, result;
-  for (const auto& [edge, triangles] : edges) {
-    if (triangles == 1) rim.push_back(solid.place(sheet.vertices[edge.first].position));
-  }
-  for (const ChordSheetVertex& v : sheet.vertices) {
-    const Vec3 p = solid.place(v.position);
-    if (std::all_of(rim.begin(), rim.end(), [&](const Vec3& q) { return norm(p - q) >= far; }))
-      result.push_back(p);
-  }
-  return result;
-}
-
-// Away from the rim by two of the coarser spacings, both ways, against less than half of it.  Distances are
-// to the finer sheet's vertices and to the coarser one's: half a cell's diagonal apart at worst.
-TEST(ChordSheet, HalvingTheSpacingHardlyMovesATorusSheet) {
-  const double h = 0.2;
-  const ErodedSolid coarse(make_torus(3, 1, 1024), axes(h), "triangles");
-  const ErodedSolid fine(make_torus(3, 1, 1024), axes(h / 2), "triangles");
-  const ChordSheet a = chord_sheet(coarse.solid, coarse.lattice, coarse.field);
-  const ChordSheet b = chord_sheet(fine.solid, fine.lattice, fine.field);
-  EXPECT_EQ(topology(a).components, 1U);
-  EXPECT_EQ(topology(b).components, 1U);
-  EXPECT_EQ(topology(b).euler, 0);
-  const std::vector<Vec3> inner_a = places_of(coarse, a, 2 * h), inner_b = places_of(fine, b, 2 * h);
-  ASSERT_GT(inner_a.size(), 100U);
-  ASSERT_GT(inner_b.size(), 400U);
-  // The sheets themselves: triangles sampled by their corners and edges' middles.
-  const auto sampled = [](const ErodedSolid& solid, const ChordSheet& sheet) {
-    std::vector<Vec3> points = places_of(solid, sheet, 0);
-    for (const Triangle& t : sheet.triangles) {
-      const Vec3 p = solid.place(sheet.vertices[t[0]].position),
-                 q = solid.place(sheet.vertices[t[1]].position),
-                 r = solid.place(sheet.vertices[t[2]].position);
-      for (const Vec3& middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p), (1.0 / 3) * (p + q + r)})
-        points.push_back(middle);
-    }
-    return points;
-  };
-  EXPECT_LT(DistanceCurve(inner_a, sampled(fine, b)).hausdorff(), h / 2);
-  EXPECT_LT(DistanceCurve(inner_b, sampled(coarse, a)).hausdorff(), h / 2);
 }
 
 // The level sets of a ball's E are spheres, those of an ellipsoid's homothetic ellipsoids: only the centre.
