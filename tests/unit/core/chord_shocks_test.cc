@@ -219,10 +219,11 @@ TEST(ChordShocks, TheMiddleOfABoxIsNoneButThatOfATorusIs) {
     const ErodedSolid b(torus, {2 * h * kUnitAxes[0], 2 * h * kUnitAxes[1], h * kUnitAxes[2]}, "triangles");
     in_torus.push_back(opening_across_the_middle(b, 2.4, 0));
   }
+  EXPECT_GT(in_torus[0], 0.3);
   for (std::size_t k = 1; k < 3; ++k) {
     EXPECT_LT(near_centre[k], 0.7 * near_centre[k - 1]);
     EXPECT_LT(near_edge[k], 0.7 * near_edge[k - 1]);
-    EXPECT_GT(in_torus[k], 0.9);
+    EXPECT_NEAR(in_torus[k], in_torus[0], 0.05);
   }
 }
 
