@@ -208,7 +208,7 @@ double opening_across_the_middle(const ErodedSolid& solid, double x, double y) {
 // symmetric body is.  Near an upright edge, a and b from the two faces, the upright cut 2 a b c is the strict
 // least of all through a point of the middle plane: turning it to tan = k about any axis in it adds a volume
 // of the order of k^2.  So the normals on both sides draw together as the lattice is refined; at a torus's
-// sheet they stay opposite.
+// sheet they keep their angle.
 TEST(ChordShocks, TheMiddleOfABoxIsNoneButThatOfATorusIs) {
   const Mesh box = moved(make_box(3, 2, 1), {-1.5, -1, -0.5}), torus = make_torus(3, 1, 1024);
   std::vector<double> near_centre, near_edge, in_torus;
