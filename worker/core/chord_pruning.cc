@@ -17,12 +17,11 @@ namespace {
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 double weight(const ChordShock& shock) {
-  const Vec3 normal = shock.gradient_low - shock.gradient_high;
-  return std::abs(normal[shock.axis]) / norm(normal) * shock.strength * shock.opening;
+  return squares_of(shock) * shock.strength * shock.turn;
 }
 
 double cost(const ChordShock& shock) {
-  return 1 / (shock.strength * shock.opening);
+  return 1 / (shock.strength * shock.turn);
 }
 
 // Every cell's cheapest way to a piece, and the ways between pieces that follow from them.  A piece is named
@@ -134,7 +133,7 @@ class Pruning {
  private:
   std::uint32_t part(std::uint32_t s) const { return cells_.part[cells_.ring[s][0]]; }
 
-  bool wide(std::uint32_t s) const { return shocks_[s].opening >= options_.strong_opening; }
+  bool wide(std::uint32_t s) const { return shocks_[s].turn >= options_.strong_turn; }
 
   bool strong(std::uint32_t s) const { return wide(s) && shocks_[s].erosion >= least_erosion_[part(s)]; }
 
@@ -144,7 +143,7 @@ class Pruning {
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       census.wide += wide(s) ? 1 : 0;
       census.strong += strong(s) ? 1 : 0;
-      census.widest_opening = std::max(census.widest_opening, shocks_[s].opening);
+      census.widest_turn = std::max(census.widest_turn, shocks_[s].turn);
     }
   }
 
@@ -253,7 +252,7 @@ SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& p
                                      const std::vector<ChordShock>& candidates,
                                      const ChordPruningOptions& options) {
   check(options.significance, 0, 1, "the significance must lie between 0 and 1");
-  check(options.strong_opening, 0, 1, "the opening of strong shocks must lie between 0 and 1");
+  check(options.strong_turn, 0, 1, "the turn of strong shocks must lie between 0 and 1");
   check(options.least_erosion, 0, 1, "the least erosion must be a share of the volume between 0 and 1");
   check(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
   return Pruning(lattice, parts, candidates, options).run();

@@ -11,9 +11,10 @@ namespace affskel::core {
 
 // Notation.  The sheet's normal at a shock is N = (g_x - g_y) / |g_x - g_y|; a lattice edge along axis a that
 // crosses the sheet stands for |N_a| squares of the lattice, because these add up to the sheet's area.  The
-// weight of a shock is  |N_a| r o,  r its relative strength, o its opening: area weighted by strength.
+// weight of a shock is  |N_a| r w,  r its relative strength, w its turn (see measure_turns): area weighted by
+// strength.
 //
-// Two shocks touch when their edges bound a common cell.  Passing through a shock costs 1 / (r o): 1 where
+// Two shocks touch when their edges bound a common cell.  Passing through a shock costs 1 / (r w): 1 where
 // the two normals are opposite, 4 where they differ by 60 degrees, 100 and more between the facets that a
 // finite direction set cuts into the level surfaces of E.
 
@@ -26,8 +27,9 @@ struct ChordPruningOptions {
   /// legs, arms and head on all of them in the `axis` frame; in the `affine` frame, which makes a standing
   /// body as thick as high, 0.02 does on all but one, 0.03 on all.
   double significance = 0.005;
-  /// Least opening of a strong shock; 1/4 is an angle of 60 degrees between the two normals.
-  double strong_opening = 0.25;
+  /// Least turn of a strong shock; 1/2 is a right angle between the normals on the two sides of the band that
+  /// measure_turns() looks at.
+  double strong_turn = 0.5;
   /// Least E of a strong shock, as a share of the volume of the sample points' cells in its part of the
   /// solid. Where a thousandth of the solid is cut off, the tips of fingers and toes, one shock in three is
   /// lost under vertex noise that nine of ten others survive.
@@ -40,9 +42,9 @@ struct ChordPruningOptions {
 /// What there was to choose from: why nothing may be left.
 struct ShockCensus {
   std::uint64_t candidates = 0;
-  std::uint64_t wide = 0;     ///< of these, with the opening of a strong shock
+  std::uint64_t wide = 0;     ///< of these, with the turn of a strong shock
   std::uint64_t strong = 0;   ///< of these, with the E of one
-  double widest_opening = 0;  ///< of the candidates
+  double widest_turn = 0;     ///< of the candidates
   double heaviest_piece = 0;  ///< its share of the weight in its part of the solid, kept or not
 };
 
@@ -60,11 +62,12 @@ struct SignificantShocks {
 /// 3. what is left is joined by the cheapest ways through weaker shocks, as far as there are any (shortest
 ///    paths from all pieces at once, then a least spanning tree: Mehlhorn 1988);
 /// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept ones.
-/// Everything here is a function of r, E, o and N alone, and so affinely invariant when these are (see
+/// Everything here is a function of r, E, w and N alone, and so affinely invariant when these are (see
 /// chord_shocks.h).  The parts of a solid have nothing to do with each other: each keeps what it would keep
 /// alone, however small it is beside the others.
 /// @param parts of the solid in this lattice.
-/// @param candidates of this lattice, strong and weak, in the order chord_shocks() gives them.
+/// @param candidates of this lattice, strong and weak, in the order chord_shocks() gives them, their turns
+/// measured.
 /// @throws CoreError kBadInput when an option is not finite or out of range; kLimit for 2^30 candidates and
 ///   more.
 SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,

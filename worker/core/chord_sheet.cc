@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "core/chord_cells.h"
+#include "core/chord_pinholes.h"
 #include "core/error.h"
 #include "core/lattice_coordinates.h"
 #include "core/matrix3.h"
+#include "core/near_one.h"
 #include "core/slab_index.h"
 #include "core/solid_membership.h"
 #include "core/solid_parts.h"
@@ -27,8 +29,9 @@ Vec3 solve(const Matrix& m, const Vec3& b) {
 }
 
 Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
+  const Vec3 near = near_one(v);
+  const double length = norm(near);
+  return length > 0 ? (1 / length) * near : Vec3{};
 }
 
 // Which places of the frame lie inside the parts of a solid.
@@ -79,7 +82,7 @@ class Contouring {
   };
 
   // |grad_x E| = |F^-T g| for a gradient g in the frame: the area of the section.
-  double area(const Vec3& g) const { return norm(to_mesh_ * g); }
+  double area(const Vec3& g) const { return std::ldexp(norm(to_mesh_ * near_one(g)), largest_exponent(g)); }
 
   Side side(const ChordShock& shock, const Vec3& reference) const {
     const Vec3 normal = unit(shock.gradient_low - shock.gradient_high);
@@ -187,6 +190,18 @@ class Contouring {
   PartInterior interior_;
 };
 
+std::vector<ChordShock> with_pinholes_closed(const Lattice& lattice, const SolidParts& parts,
+                                             const FrameField& field, std::vector<ChordShock> shocks) {
+  const std::vector<ChordShock> missing = pinhole_shocks(lattice, parts, field, shocks);
+  const auto old_end = static_cast<std::ptrdiff_t>(shocks.size());
+  shocks.insert(shocks.end(), missing.begin(), missing.end());
+  std::inplace_merge(shocks.begin(), shocks.begin() + old_end, shocks.end(),
+                     [](const ChordShock& a, const ChordShock& b) {
+                       return a.point != b.point ? a.point < b.point : a.axis < b.axis;
+                     });
+  return shocks;
+}
+
 }  // namespace
 
 ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
@@ -195,10 +210,11 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
     throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
   }
   const SolidParts parts(solid, lattice);
-  SignificantShocks kept =
-      significant_shocks(lattice, parts, chord_shocks(lattice, field, options.shocks), options.pruning);
+  std::vector<ChordShock> candidates = chord_shocks(lattice, field, options.shocks);
+  measure_turns(lattice, parts, field, candidates, options.turns);
+  SignificantShocks kept = significant_shocks(lattice, parts, candidates, options.pruning);
   ChordSheet sheet;
-  sheet.shocks = std::move(kept.shocks);
+  sheet.shocks = with_pinholes_closed(lattice, parts, field, std::move(kept.shocks));
   sheet.pieces = std::move(kept.pieces);
   sheet.census = kept.census;
   Contouring(lattice, parts, sheet.shocks, options.regularisation).run(sheet);

@@ -4,6 +4,7 @@
 
 #include "core/chord_pruning.h"
 #include "core/chord_shocks.h"
+#include "core/chord_turns.h"
 #include "core/frame_field.h"
 #include "core/lattice.h"
 #include "core/mesh.h"
@@ -13,6 +14,7 @@ namespace affskel::core {
 
 struct ChordSheetOptions {
   ChordShockOptions shocks;     ///< the candidates
+  ChordTurnOptions turns;       ///< how far the normals turn at them
   ChordPruningOptions pruning;  ///< which of them stay; its `significance` is the threshold of `chords`
   /// Pull of the shocks' mean on a vertex, against 1 for all tangent planes together, > 0.
   double regularisation = 0.05;
@@ -36,9 +38,10 @@ struct ChordSheet {
   std::vector<Triangle> triangles;         ///< two per shock, in the order of the shocks
 };
 
-/// The significant shocks joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002):
-/// every lattice cell that has shocks on its edges has one vertex, every shock a quadrilateral through the
-/// vertices of the four cells round its edge, cut along its shorter diagonal.  All four always exist, cells
+/// The significant shocks (their turns measured, see measure_turns; pinholes closed, see pinhole_shocks)
+/// joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002): every lattice cell that
+/// has shocks on its edges has one vertex, every shock a quadrilateral through the vertices of the four cells
+/// round its edge, cut along its shorter diagonal.  All four always exist, cells
 /// partly outside the solid included, so that the sheet has holes only where shocks are missing, and ends
 /// where they end: at most half a spacing beyond the outermost.
 ///

@@ -22,7 +22,7 @@ struct ChordShockOptions {
   double least_strength = 0.05;
   /// Least opening o = (1 - n_x.n_y) / 2 of the two normals, 0 (equal) .. 1 (opposite); 0.005 is an angle of
   /// 8 degrees.  The facets that a finite direction set cuts into the level surfaces of E are shocks, too;
-  /// which ones matter is for significant_shocks() to say.
+  /// which ones matter is for measure_turns() and significant_shocks() to say.
   double least_opening = 0.005;
   /// How far outside [0, 1] t may lie; it is then moved to the nearer end.  The branches bend between x and
   /// y, and a third one may come between them: without slack one crossing in fifteen is missed, and
@@ -40,8 +40,9 @@ struct ChordShock {
   Vec3 position;                         ///< x + t delta, frame coordinates; always inside the solid
   double erosion = 0;                    ///< E there, volume
   double strength = 0;                   ///< r
-  double opening = 0;                    ///< o
-  Vec3 gradient_low, gradient_high;      ///< g_x and g_y; the sheet's normal is along their difference
+  double opening = 0;                    ///< o, of the edge's own ends
+  double turn = 0;                   ///< the same over a band across the sheet, see measure_turns(); o before
+  Vec3 gradient_low, gradient_high;  ///< g_x and g_y; the sheet's normal is along their difference
   std::uint32_t direction_low = 0, direction_high = 0;  ///< indices of the two optimal directions
 };
 
@@ -54,12 +55,15 @@ struct ChordShock {
 /// along with the solid gives the same numbers.  The opening is not: an angle between covectors needs a
 /// metric.  It is invariant only when the frame's metric is mapped along, as in the `affine` frame.
 ///
-/// Where E is smooth but its normals turn fast, near the middle of a box seen by very many directions, say,
-/// the opening across an edge shrinks with the spacing: such a ridge is a shock at a coarse spacing only.
-/// At a true shock it does not.
+/// Where E is smooth but its normals turn fast, in the middle plane of a box seen by very many directions,
+/// say (a test shows that they draw together as the lattice is refined), the opening across an edge shrinks
+/// with the spacing: such a ridge is a shock at a coarse spacing only. At a true shock it does not.
 ///
 /// @throws CoreError kBadInput when an option is not finite or out of range.
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
                                      const ChordShockOptions& options = {});
+
+/// The squares of the lattice that the shock's edge stands for, |N_a|: area of the sheet per spacing squared.
+double squares_of(const ChordShock& shock);
 
 }  // namespace affskel::core

@@ -70,7 +70,7 @@ std::string on_few_points(const Lattice& lattice) {
          ", or --points 100000.";
 }
 
-// The angle between two normals, from their opening (see ChordShockOptions), in whole degrees.
+// The angle between two normals, from their opening (see ChordShock), in whole degrees.
 std::string degrees(double opening) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
   char text[32];
@@ -90,10 +90,9 @@ bool is_stretched(const Lattice& lattice) {
   return false;
 }
 
-std::string on_opening(const Lattice& lattice, const ShockCensus& census,
-                       const ChordPruningOptions& pruning) {
-  std::string advice = "the normals of equal chords differ by " + degrees(census.widest_opening) +
-                       " degrees at most, and a skeleton needs " + degrees(pruning.strong_opening) + ".";
+std::string on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
+  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.widest_turn) +
+                       " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".";
   if (is_stretched(lattice)) {
     advice +=
         " The lattice's frame is stretched, which makes a flat solid as thick as it is wide: submit with "
@@ -137,7 +136,7 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
              " where equal chords clearly differ is E " + in_words(pruning.least_erosion) +
              " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
-    advice = on_opening(lattice, census, pruning);
+    advice = on_turn(lattice, census, pruning);
   } else {
     advice =
         "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "

@@ -14,11 +14,18 @@
 namespace affskel::core {
 namespace {
 
+// With turns of a quarter and more strong.
+ChordPruningOptions quarter() {
+  ChordPruningOptions options;
+  options.strong_turn = 0.25;
+  return options;
+}
+
 // Shocks of the plane z = 1.5 in a box of 40 x 20 x 4 points, laid by hand.
 class Plane {
  public:
   // Over 0 <= i - i0 < ni, 0 <= j - j0 < nj.
-  void add(std::uint32_t i0, std::uint32_t ni, std::uint32_t j0, std::uint32_t nj, double opening,
+  void add(std::uint32_t i0, std::uint32_t ni, std::uint32_t j0, std::uint32_t nj, double turn,
            double strength = 1, double erosion = 100) {
     for (std::uint32_t i = i0; i < i0 + ni; ++i) {
       for (std::uint32_t j = j0; j < j0 + nj; ++j) {
@@ -30,7 +37,7 @@ class Plane {
         shock.position = {static_cast<double>(i), static_cast<double>(j), 1.5};
         shock.erosion = erosion;
         shock.strength = strength;
-        shock.opening = opening;
+        shock.turn = turn;
         shock.gradient_low = {0, 0, 1};
         shock.gradient_high = {0, 0, -1};
         shocks_.push_back(shock);
@@ -38,7 +45,7 @@ class Plane {
     }
   }
 
-  SignificantShocks prune(const ChordPruningOptions& options = {}) {
+  SignificantShocks prune(const ChordPruningOptions& options = quarter()) {
     std::sort(shocks_.begin(), shocks_.end(),
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
     return significant_shocks(box_.lattice, SolidParts(box_.solid, box_.lattice), shocks_, options);
@@ -55,12 +62,12 @@ bool keeps(const SignificantShocks& kept, std::uint32_t i, std::uint32_t j) {
 }
 
 ChordPruningOptions with_significance(double significance) {
-  ChordPruningOptions options;
+  ChordPruningOptions options = quarter();
   options.significance = significance;
   return options;
 }
 
-TEST(SignificantShocks, APieceIsWeighedByAreaStrengthAndOpening) {
+TEST(SignificantShocks, APieceIsWeighedByAreaStrengthAndTurn) {
   Plane plane;
   plane.add(0, 10, 0, 10, 1);
   plane.add(30, 5, 0, 4, 0.3, 0.5);  // 20 * 0.15 = 3 against 100
@@ -107,7 +114,7 @@ TEST(SignificantShocks, PiecesAreJoinedByTheCheapestWay) {
   for (std::uint32_t i = 6; i < 14; ++i) EXPECT_TRUE(keeps(kept, i, 3)) << i;
   EXPECT_FALSE(keeps(kept, 10, 6));
   EXPECT_LE(kept.shocks.size(), 90U);
-  ChordPruningOptions options;
+  ChordPruningOptions options = quarter();
   options.near_cost = 101;
   EXPECT_EQ(plane.prune(options).pieces, std::vector<double>{1.0});
 }
@@ -148,7 +155,7 @@ TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
   plane.add(0, 10, 0, 10, 1, 1, 3.3);
   plane.add(20, 10, 0, 10, 1, 1, 3.1);
   EXPECT_EQ(plane.prune().shocks.size(), 100U);
-  ChordPruningOptions options;
+  ChordPruningOptions options = quarter();
   options.least_erosion = 0;
   EXPECT_EQ(plane.prune(options).shocks.size(), 200U);
 }
@@ -166,7 +173,7 @@ class Boxes {
   }
 
   // A square of n x n shocks along axis 0 from a place on.
-  void add(const LatticePlace& from, std::uint32_t n, double opening, double erosion) {
+  void add(const LatticePlace& from, std::uint32_t n, double turn, double erosion) {
     for (std::uint32_t j = 0; j < n; ++j) {
       for (std::uint32_t k = 0; k < n; ++k) {
         ChordShock shock;
@@ -175,7 +182,7 @@ class Boxes {
         shock.point = static_cast<std::uint32_t>(at - places_.begin());
         shock.erosion = erosion;
         shock.strength = 1;
-        shock.opening = opening;
+        shock.turn = turn;
         shock.gradient_low = {1, 0, 0};
         shock.gradient_high = {-1, 0, 0};
         shocks_.push_back(shock);
@@ -186,7 +193,7 @@ class Boxes {
   SignificantShocks prune() {
     std::sort(shocks_.begin(), shocks_.end(),
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
-    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_);
+    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_, quarter());
   }
 
  private:
@@ -252,7 +259,7 @@ TEST(SignificantShocks, TellsWhatThereWasToChooseFrom) {
   EXPECT_EQ(kept.census.candidates, 156U);
   EXPECT_EQ(kept.census.wide, 131U);
   EXPECT_EQ(kept.census.strong, 125U);
-  EXPECT_EQ(kept.census.widest_opening, 0.9);
+  EXPECT_EQ(kept.census.widest_turn, 0.9);
   EXPECT_NEAR(kept.census.heaviest_piece, 0.8, 1e-12);
 }
 

@@ -202,6 +202,24 @@ TEST(ChordSheet, ATorusGivesOneFlatAnnulus) {
   }
 }
 
+// Squares of gradients would leave the range of a double.
+TEST(ChordSheet, SizesFarFromOneGiveTheSameSheetToTheLastBit) {
+  const ErodedSolid plain(make_torus(3, 1, 256), axes(0.2), "triangles");
+  const ChordSheet sheet = chord_sheet(plain.solid, plain.lattice, plain.field);
+  ASSERT_FALSE(sheet.vertices.empty());
+  for (const int power : {300, -300}) {
+    const double scale = std::ldexp(1.0, power);
+    const ErodedSolid torus(moved(make_torus(3, 1, 256), {}, scale), axes(0.2 * scale), "triangles");
+    const ChordSheet other = chord_sheet(torus.solid, torus.lattice, torus.field);
+    ASSERT_EQ(other.triangles, sheet.triangles) << power;
+    for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
+      EXPECT_EQ(other.vertices[v].position, scale * sheet.vertices[v].position);
+      EXPECT_EQ(other.vertices[v].area, scale * scale * sheet.vertices[v].area);
+      EXPECT_EQ(other.vertices[v].normal_a, sheet.vertices[v].normal_a);
+    }
+  }
+}
+
 // The level sets of a ball's E are spheres, those of an ellipsoid's homothetic ellipsoids: only the centre.
 TEST(ChordSheet, BallAndEllipsoidShrinkToTheirCentres) {
   const double s = std::cbrt(3.0);  // volume-preserving: 3:1:1 seen in its frame is a ball of radius s
@@ -228,7 +246,7 @@ TEST(ChordSheet, ABoxGivesTheMiddleOfItsLargestFaces) {
     columns.insert({shock.place[0], shock.place[1]});
   }
   for (std::uint32_t i = 8; i < 22; ++i) {
-    for (std::uint32_t j = 7; j < 13; ++j) EXPECT_EQ(columns.count({i, j}), 1U) << i << " " << j;
+    for (std::uint32_t j = 8; j < 12; ++j) EXPECT_EQ(columns.count({i, j}), 1U) << i << " " << j;
   }
   EXPECT_EQ(topology(sheet).euler, 1);
   EXPECT_EQ(topology(sheet).components, 1U);

@@ -188,6 +188,45 @@ TEST(ChordShocks, AMappedLatticeGivesTheSameNumbers) {
   EXPECT_GT(equal, of_a.size() * 99 / 100);
 }
 
+// The opening across the middle plane z = 0 at the lattice edge over (x, y), both steps of spacing h.
+double opening_across_the_middle(const ErodedSolid& solid, double x, double y) {
+  ChordShockOptions options;
+  options.least_strength = 0;
+  options.least_opening = 0;
+  double nearest = 1e300, opening = 0;
+  for (const ChordShock& shock : chord_shocks(solid.lattice, solid.field, options)) {
+    const Vec3 p = solid.place(shock.position);
+    const double away = std::hypot(p.x - x, p.y - y);
+    if (shock.axis != 2 || std::abs(p.z) > 1e-6 || away >= nearest) continue;
+    nearest = away;
+    opening = shock.opening;
+  }
+  return opening;
+}
+
+// No shock in the middle of a box: seen by ever more directions, its E is smooth there, as the depth of every
+// symmetric body is.  Near an upright edge, a and b from the two faces, the upright cut 2 a b c is the strict
+// least of all through a point of the middle plane: turning it to tan = k about any axis in it adds a volume
+// of the order of k^2.  So the normals on both sides draw together as the lattice is refined; at a torus's
+// sheet they keep their angle.
+TEST(ChordShocks, TheMiddleOfABoxIsNoneButThatOfATorusIs) {
+  const Mesh box = moved(make_box(3, 2, 1), {-1.5, -1, -0.5}), torus = make_torus(3, 1, 1024);
+  std::vector<double> near_centre, near_edge, in_torus;
+  for (const double h : {0.2, 0.1, 0.05}) {
+    const ErodedSolid a(box, {h * kUnitAxes[0], h * kUnitAxes[1], 1.25 * h * kUnitAxes[2]}, "sphere:8000");
+    near_centre.push_back(opening_across_the_middle(a, 0.4, 0.2));
+    near_edge.push_back(opening_across_the_middle(a, 1.2, 0.7));
+    const ErodedSolid b(torus, {2 * h * kUnitAxes[0], 2 * h * kUnitAxes[1], h * kUnitAxes[2]}, "triangles");
+    in_torus.push_back(opening_across_the_middle(b, 2.4, 0));
+  }
+  EXPECT_GT(in_torus[0], 0.3);
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_LT(near_centre[k], 0.7 * near_centre[k - 1]);
+    EXPECT_LT(near_edge[k], 0.7 * near_edge[k - 1]);
+    EXPECT_NEAR(in_torus[k], in_torus[0], 0.05);
+  }
+}
+
 TEST(ChordShocks, RefusesOptionsOutOfRange) {
   const BoxLattice box(2, 2, 2);
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});

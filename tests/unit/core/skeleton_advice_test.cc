@@ -73,11 +73,11 @@ TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
   EXPECT_FALSE(says(advice, "spacing")) << advice;
 }
 
-// Openings of 1/16 and 1/4 are angles of 29 and 60 degrees.
+// Turns of 1/16 and 1/2 are angles of 29 and 90 degrees.
 TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
   NormalBlock block({10, 10, 10});
   const std::string advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
-  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 60")) << advice;
+  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 90")) << advice;
   EXPECT_FALSE(says(advice, "--frame")) << advice;
   EXPECT_FALSE(says(advice, "--threshold")) << advice;
 }

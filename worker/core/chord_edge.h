@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/chord_shocks.h"
+#include "core/frame_field.h"
+#include "core/vec3.h"
+
+namespace affskel::core {
+
+/// What the tangents of E at the ends of a lattice edge say about a shock on it, whatever that is worth: r, o
+/// and t are as they come, r negative and t anywhere (or not finite) where there is none.  `position` and
+/// `erosion` are left at 0; see settle_on_edge().
+/// @param x, y ranks of the edge's lower and upper end, both with an optimal direction.
+/// @param place lattice indices of x.
+ChordShock tangents_on_edge(const FrameField& field, std::uint32_t x, std::uint32_t y, std::uint8_t axis,
+                            const std::array<std::uint32_t, 3>& place);
+
+/// Moves the shock to the nearest place on its edge, to the middle when the tangents do not cross, and sets
+/// `position` and `erosion`.
+void settle_on_edge(const FrameField& field, ChordShock& shock);
+
+/// The opening o = (1 - a.b / (|a| |b|)) / 2 of two normals of any length, 0 .. 1; NaN when one is zero.
+double opening_of(const Vec3& a, const Vec3& b);
+
+}  // namespace affskel::core
