@@ -86,8 +86,11 @@ void add_erode(CLI::App& app, Options& options) {
 
 void add_render(CLI::App& app, Options& options) {
   CLI::App* sub = command(app, options, "render", Command::kRender, "Picture of the body with its skeleton",
-                          "  affskel-client render @last -o body.png --width 2400");
+                          "  affskel-client render @last -o body.png --width 2400\n"
+                          "  affskel-client render @last --operator chords -o sheet.png\n"
+                          "A skeleton by chords is drawn as its sheet, any other as its points");
   add_job(sub, options);
+  add_skeleton_options(sub, options.job.skeleton);
   sub->add_option("--width", options.job.width, "Pixels")
       ->check(whole_in(200, 8000))
       ->capture_default_str()

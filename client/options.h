@@ -72,7 +72,7 @@ struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
   std::string output;        ///< fetch, skeleton, surface, erode, render, view
-  SkeletonOptions skeleton;  ///< skeleton, surface, view, fetch divergence; no operator: the job's
+  SkeletonOptions skeleton;  ///< skeleton, surface, render, view, fetch divergence; no operator: the job's
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
   double fraction = 0;       ///< erode; level as a share of v0, 0 = not given
   double volume = 0;         ///< erode; level, mesh units cubed, 0 = not given

@@ -1,13 +1,8 @@
-// Commands that write results: fetch, skeleton, surface, erode, render.
+// Commands that write results: fetch, skeleton, surface, erode.
 #include "client/commands/commands.h"
 #include "client/commands/follow.h"
 #include "client/commands/transfer.h"
-#include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/skeleton_writer.h"
-#include "client/input_file.h"
-#include "client/render/scene.h"
 #include "wire/params.h"
 
 #include <nlohmann/json.hpp>
@@ -63,24 +58,6 @@ Chosen choose(Context& context, const JobOptions& options) {
   return {job.id(), skeleton_params(options.skeleton, job)};
 }
 
-// The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
-std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
-  std::array<core::Vec3, 3> cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  for (int a = 0; a < 3; ++a) {
-    core::Vec3& axis = cell[static_cast<std::size_t>(a)];
-    if (prepared.frame_size() == 9)
-      axis = {prepared.frame(3 * a), prepared.frame(3 * a + 1), prepared.frame(3 * a + 2)};
-    axis = prepared.spacing() * axis;
-  }
-  return cell;
-}
-
-std::string title_of(const v1::Job& job, const core::Mesh& mesh, int skeleton_points) {
-  return job.name() + ": " + std::to_string(mesh.triangles.size()) + " triangles, " +
-         std::to_string(job.prepared().points()) + " sample points at spacing " +
-         rounded(job.prepared().spacing(), 4) + ", " + std::to_string(skeleton_points) + " skeleton points";
-}
-
 }  // namespace
 
 void run_fetch(Context& context, const JobOptions& options) {
@@ -121,29 +98,6 @@ void run_erode(Context& context, const JobOptions& options) {
   const std::string form = options.form.empty() ? eroded_form(options.output) : options.form;
   finish(context, form == "points" ? transfer_eroded_points(context, options.job, params, options.output)
                                    : transfer_eroded_surface(context, options.job, params, options.output));
-}
-
-void run_render(Context& context, const JobOptions& options) {
-  choose_format(options.output, picture_formats(), "picture");
-  v1::FetchArtifactRequest request;
-  request.set_job(options.job);
-  request.set_kind(v1::ARTIFACT_KIND_SKELETON);
-  v1::ArtifactHeader header;
-  RenderInput input;
-  input.skeleton = parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
-  request.set_job(header.job().id());
-  request.set_kind(v1::ARTIFACT_KIND_MESH);
-  input.mesh = parse_mesh(context.session().fetch_bytes(request), "mesh of job " + header.job().id()).mesh;
-  input.cell = lattice_cell(header.job().prepared());
-  input.volume = header.job().prepared().volume();
-  input.title = title_of(header.job(), input.mesh, input.skeleton.point_size());
-  warn_if_empty(context.console(), static_cast<std::uint64_t>(input.skeleton.point_size()),
-                input.skeleton.quality(), header.job());
-  AtomicFile file(options.output);
-  file.write(encode_png(render_scene(input, {options.width})));
-  file.commit();
-  context.console().note("wrote " + options.output);
-  context.console().document({{"job", header.job().id()}, {"artefact", "picture"}, {"file", options.output}});
 }
 
 }  // namespace affskel::client

@@ -93,6 +93,44 @@ TEST_F(ClientTest, RenderWritesAPng) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
 }
 
+TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
+  const std::string plain = dir_ / "p.png", other = dir_ / "q.png";
+  ASSERT_EQ(run({"render", "@last", "-o", plain, "--width", "300"}).exit_code, 0);
+  EXPECT_FALSE(service_.fetches.front().has_skeleton()) << "the job's own, which is stored";
+  service_.fetches.clear();
+  ASSERT_EQ(run({"render", "@last", "--threshold", "3", "-o", other}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.front().kind(), v1::ARTIFACT_KIND_SKELETON);
+  EXPECT_EQ(service_.fetches.front().skeleton().threshold(), 3);
+  EXPECT_EQ(service_.fetches.front().skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+
+  v1::TriangleMesh sheet;
+  for (const double v : {0., 0., 1000., 2000., 0., 1000., 0., 2000., 1000.}) sheet.add_xyz(v);
+  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
+  for (const double e : {3., 4., 5.}) sheet.add_erosion(e);
+  for (const double r : {0.5, 0.6, 0.7}) sheet.add_strength(r);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  service_.fetches.clear();
+  ASSERT_EQ(run({"render", "@last", "--operator", "chords", "-o", other, "--width", "300"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.front().kind(), v1::ARTIFACT_KIND_SURFACE);
+  EXPECT_EQ(service_.fetches.front().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
+  EXPECT_NE(slurp(plain), slurp(other));
+  sheet.add_corners(9);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"render", "@last", "--operator", "chords", "-o", other}).exit_code, 70) << "a damaged sheet";
+}
+
+TEST_F(ClientTest, RenderOfAnEmptySheetSaysWhy) {
+  v1::TriangleMesh sheet;
+  sheet.mutable_quality()->set_advice("take a smaller significance");
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  const Outcome outcome = run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("empty: take a smaller significance"), std::string::npos) << outcome.err;
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "q.png"}).exit_code, 4);
+}
+
 TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.csv"}).exit_code, 0);
   const std::string text = slurp(dir_ / "H.csv");
