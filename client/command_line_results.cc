@@ -16,7 +16,7 @@ void add_fetch(CLI::App& app, Options& options) {
                           "  affskel-client fetch @last skeleton -o body.csv\n"
                           "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
                           "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
-                          "Formats by extension: field .csv .dat .vtkhdf; divergence .csv .dat;\n"
+                          "Formats by extension: field and divergence .csv .dat .vtkhdf;\n"
                           "skeleton and eroded points .csv .ply .off .xyz; surface and eroded surface\n"
                           ".off .ply .obj .stl; mesh: the submitted bytes. Of an eroded solid this is the\n"
                           "one at a tenth of the volume; see erode");

@@ -10,7 +10,7 @@ namespace affskel::client {
 namespace {
 
 constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
-constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat};
+constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
 constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz};
 constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl};
 constexpr std::array kPicture = {FileFormat::kPng};

@@ -11,7 +11,7 @@ enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng,
 
 /// What can be written as which formats.
 std::span<const FileFormat> field_formats();       // csv dat vtkhdf
-std::span<const FileFormat> divergence_formats();  // csv dat
+std::span<const FileFormat> divergence_formats();  // csv dat vtkhdf
 std::span<const FileFormat> skeleton_formats();    // csv ply off xyz
 std::span<const FileFormat> surface_formats();     // off ply obj stl
 std::span<const FileFormat> picture_formats();     // png

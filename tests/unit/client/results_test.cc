@@ -139,6 +139,8 @@ TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   EXPECT_FALSE(service_.fetches.back().has_skeleton()) << "the job's own operator";
   EXPECT_EQ(run({"fetch", "@last", "divergence", "--operator", "sobel", "-o", dir_ / "H.dat"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
+  EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.vtkhdf"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "H.vtkhdf").substr(1, 3), "HDF");
   EXPECT_EQ(run({"fetch", "@last", "mesh", "--operator", "sobel", "-o", dir_ / "m.off"}).exit_code, 2);
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(4 * 8);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "short.csv"}).exit_code, 70);
