@@ -62,12 +62,15 @@ void add_surface(CLI::App& app, Options& options) {
 void add_erode(CLI::App& app, Options& options) {
   CLI::App* sub = command(app, options, "erode", Command::kErode,
                           "Eroded solid: where E is at least a level, from the stored field",
-                          "  affskel-client erode @last --fraction 0.05 -o eroded.stl\n"
-                          "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply");
+                          "  affskel-client erode @last --fraction 5% -o eroded.stl\n"
+                          "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply\n"
+                          "The volume that is left is told: of a surface what it encloses, of points their\n"
+                          "share of the sample points times v0");
   add_job(sub, options);
-  CLI::Option* fraction = sub->add_option("--fraction", options.job.fraction, "Level as a share of v0")
-                              ->check(CLI::Range(0.0, 1.0) & positive_number())
-                              ->type_name("F");
+  CLI::Option* fraction =
+      sub->add_option("--fraction", options.job.fraction, "Level as a share of v0: 0.1 or 10%")
+          ->transform(proper_share())
+          ->type_name("F");
   sub->add_option("--volume", options.job.volume, "Level in mesh units cubed")
       ->check(positive_number())
       ->type_name("V")

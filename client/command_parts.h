@@ -11,6 +11,8 @@ namespace affskel::client {
 // What the files that build the command line share.
 
 CLI::Validator positive_number();
+/// "0.1" or "10%", above 0 and below 1; rewrites it to a number.
+CLI::Validator proper_share();
 CLI::Validator whole_in(std::uint64_t low, std::uint64_t high);
 /// An empty variable of a script must not mean another server or file than the one that was meant.
 CLI::Validator given();

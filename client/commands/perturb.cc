@@ -15,16 +15,14 @@ namespace affskel::client {
 namespace {
 
 // "0.5%" or "0.005"
-double fraction_of(std::string text) {
-  const bool percent = text.ends_with('%');
-  if (percent) text.pop_back();
-  const std::optional<double> number = parse_number(text);
-  if (!number || *number < 0) {
-    throw ClientError(ExitCode::kUsage,
-                      "--noise: expected a share of the box diagonal >= 0 as in 0.5% or 0.005, not '" + text +
-                          (percent ? "%'" : "'"));
+double fraction_of(const std::string& text) {
+  const std::optional<double> share = parse_share(text);
+  if (!share || *share < 0) {
+    throw ClientError(
+        ExitCode::kUsage,
+        "--noise: expected a share of the box diagonal >= 0 as in 0.5% or 0.005, not '" + text + "'");
   }
-  return percent ? *number / 100 : *number;
+  return *share;
 }
 
 // The surface crosses itself when it does so as one whose corners at the same place are joined.

@@ -29,7 +29,9 @@ void finish(Context& context, const Written& written) {
     context.console().warning("the surface is empty: " + advice_for_empty_surface(written));
   }
   if (written.kind == "eroded" && written.items == 0) {
-    context.console().warning("the eroded solid is empty: no sample point has such an E; try a lower level");
+    context.console().warning("the eroded solid is empty: " +
+                              (written.advice.empty() ? "no sample point has such an E" : written.advice) +
+                              "; try a lower level");
   }
   tell_written(context.console(), written);
   context.console().document(written_json(written));

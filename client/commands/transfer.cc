@@ -1,5 +1,6 @@
 #include "client/commands/transfer.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -118,6 +119,18 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
   return comments;
 }
 
+// The points' share of v0.  The lattice's cells would give another sum, wrong where the solid is thin; this
+// is v0 when all points are left.
+double volume_of_points(const v1::Job& job, int points) {
+  const double all = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
+  return job.prepared().volume() * (points / all);
+}
+
+std::string volume_text(const Written& written) {
+  if (!written.volume) return "";
+  return (written.unit == "points" ? ", volume about " : ", volume ") + rounded(*written.volume, 6);
+}
+
 }  // namespace
 
 v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
@@ -218,11 +231,17 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
   v1::ArtifactHeader header;
   const v1::SkeletonPoints points =
       parse_eroded_points(fetch_patiently(context, request, header, "eroded solid"));
+  const double volume = volume_of_points(header.job(), points.point_size());
   AtomicFile out(file);
   write_skeleton(format, points,
-                 comments_for(header.job(), "eroded solid", "level " + eroded_params_text(params)), out);
+                 comments_for(header.job(), "eroded solid",
+                              "level " + eroded_params_text(params) + ", volume about " + rounded(volume, 6)),
+                 out);
   out.commit();
-  return {file, "eroded", "points", static_cast<std::uint64_t>(points.point_size()), header.job()};
+  Written written{file, "eroded", "points", static_cast<std::uint64_t>(points.point_size()), header.job()};
+  written.volume = volume;
+  written.advice = points.quality().advice();
+  return written;
 }
 
 Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
@@ -238,7 +257,10 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
                           "level " + eroded_params_text(params) + ", volume " + shortest(fetched.volume)),
              out);
   out.commit();
-  return {file, "eroded", "triangles", fetched.mesh.triangles.size(), header.job(), {}, fetched.volume};
+  Written written{file, "eroded", "triangles", fetched.mesh.triangles.size(), header.job()};
+  written.volume = fetched.volume;
+  written.advice = fetched.quality.advice();
+  return written;
 }
 
 Written transfer_mesh(Context& context, const std::string& job, const fs::path& file) {
@@ -253,15 +275,14 @@ nlohmann::ordered_json written_json(const Written& written) {
                                      {"artefact", written.kind},
                                      {"file", written.file.string()},
                                      {written.unit, written.items}};
-  if (written.volume > 0) document["volume"] = written.volume;
+  if (written.volume) document["volume"] = *written.volume;
   if (written.quality) document["quality"] = to_json(*written.quality);
   return document;
 }
 
 void tell_written(Console& console, const Written& written) {
   console.note("wrote " + written.file.string() + " (" + written.kind + ", " + std::to_string(written.items) +
-               " " + written.unit +
-               (written.volume > 0 ? ", volume " + rounded(written.volume, 6) : std::string()) + ")");
+               " " + written.unit + volume_text(written) + ")");
 }
 
 }  // namespace affskel::client

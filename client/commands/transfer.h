@@ -18,7 +18,10 @@ struct Written {
   std::uint64_t items = 0;  ///< how many
   v1::Job job;              ///< as the server sent it along
   std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet of chords
-  double volume = 0;                                ///< enclosed by an eroded solid's surface
+  /// Of an eroded solid, mesh units cubed: what the surface encloses, or of points their share of the sample
+  /// points times v0.
+  std::optional<double> volume = {};
+  std::string advice = {};  ///< why an eroded solid is empty
 };
 
 /// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own

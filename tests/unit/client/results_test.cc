@@ -162,8 +162,37 @@ TEST_F(ClientTest, ErodeWritesPointsOrASurface) {
   const Outcome told = run({"--json", "erode", "@last", "--fraction", "0.5", "-o", dir_ / "e.ply"});
   EXPECT_EQ(json::parse(told.out).at("volume"), 8e8);
   EXPECT_NE(slurp(dir_ / "e.ply").find("volume 8e+08"), std::string::npos);
+  EXPECT_EQ(run({"erode", "@last", "--fraction", "7%", "-o", dir_ / "e.stl"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.07);
   EXPECT_EQ(run({"fetch", "@last", "eroded", "-o", dir_ / "f.off"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.1);
+}
+
+TEST_F(ClientTest, ErodedPointsTellTheirShareOfTheVolume) {
+  // Two of the five sample points of a solid of 8e9.
+  const Outcome told = run({"erode", "@last", "--fraction", "0.1", "-o", dir_ / "e.ply", "--as", "points"});
+  EXPECT_NE(told.err.find("2 points, volume about 3.2e+09"), std::string::npos) << told.err;
+  EXPECT_NE(slurp(dir_ / "e.ply").find("volume about 3.2e+09"), std::string::npos);
+  const json document =
+      json::parse(run({"--json", "erode", "@last", "--fraction", "0.1", "-o", dir_ / "e.csv"}).out);
+  EXPECT_DOUBLE_EQ(document.at("volume"), 3.2e9);
+  EXPECT_FALSE(json::parse(run({"--json", "fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out)
+                   .contains("volume"));
+}
+
+TEST_F(ClientTest, AnEmptyErodedSolidSaysWhatTheLargestLevelIs) {
+  v1::SkeletonPoints none;
+  none.mutable_quality()->set_advice("the largest E is 12");
+  service_.artifacts[v1::ARTIFACT_KIND_ERODED_POINTS] = none.SerializeAsString();
+  v1::TriangleMesh nothing;
+  nothing.mutable_quality()->set_advice("the largest E is 13");
+  service_.artifacts[v1::ARTIFACT_KIND_ERODED_SURFACE] = nothing.SerializeAsString();
+  const Outcome points = run({"--json", "erode", "@last", "--fraction", "0.9", "-o", dir_ / "e.csv"});
+  EXPECT_EQ(json::parse(points.out).at("volume"), 0);
+  EXPECT_NE(run({"erode", "@last", "--fraction", "0.9", "-o", dir_ / "e.csv"}).err.find("largest E is 12"),
+            std::string::npos);
+  EXPECT_NE(run({"erode", "@last", "--fraction", "0.9", "-o", dir_ / "e.off"}).err.find("largest E is 13"),
+            std::string::npos);
 }
 
 TEST_F(ClientTest, ErodeRefusesWrongLevels) {
@@ -171,6 +200,9 @@ TEST_F(ClientTest, ErodeRefusesWrongLevels) {
        std::vector<std::vector<std::string>>{{},
                                              {"--fraction", "0"},
                                              {"--fraction", "1.5"},
+                                             {"--fraction", "1"},
+                                             {"--fraction", "100%"},
+                                             {"--fraction", "10%%"},
                                              {"--volume", "-1"},
                                              {"--fraction", "0.5", "--volume", "1"}}) {
     std::vector<std::string> arguments = {"erode", "@last", "-o", dir_ / "e.off"};
