@@ -7,7 +7,7 @@ namespace affskel::client {
 namespace {
 
 void add_output(CLI::App* sub, Options& options, const std::string& what) {
-  sub->add_option("-o,--output", options.job.output, what)->required()->type_name("FILE");
+  sub->add_option("-o,--output", options.job.output, what)->required()->check(given())->type_name("FILE");
 }
 
 void add_fetch(CLI::App& app, Options& options) {
@@ -16,6 +16,7 @@ void add_fetch(CLI::App& app, Options& options) {
                           "  affskel-client fetch @last skeleton -o body.csv\n"
                           "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
                           "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
+                          "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
                           "Formats by extension: field and divergence .csv .dat .vtkhdf;\n"
                           "skeleton and eroded points .csv .ply .off .xyz; surface and eroded surface\n"
                           ".off .ply .obj .stl; mesh: the submitted bytes. Of an eroded solid this is the\n"
@@ -33,8 +34,12 @@ void add_fetch(CLI::App& app, Options& options) {
     if (sub->count("--operator") > 0 && options.job.artifact != "divergence") {
       throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
     }
+    if (sub->count("--format") > 0 && options.job.artifact == "mesh") {
+      throw CLI::ValidationError("--format", "the mesh is the submitted bytes; see transform --help");
+    }
   });
-  add_output(sub, options, "File to write; the format follows the extension");
+  add_output(sub, options, "File to write; the format follows the extension; - is stdout");
+  add_format(sub, options.job.format);
 }
 
 void add_skeleton(CLI::App& app, Options& options) {
@@ -43,7 +48,8 @@ void add_skeleton(CLI::App& app, Options& options) {
                           "  affskel-client skeleton @last --threshold 5 -o fine.ply");
   add_job(sub, options);
   add_skeleton_options(sub, options.job.skeleton);
-  add_output(sub, options, "File to write: .csv .ply .off .xyz");
+  add_output(sub, options, "File to write: .csv .ply .off .xyz, or -");
+  add_format(sub, options.job.format);
 }
 
 void add_surface(CLI::App& app, Options& options) {
@@ -56,7 +62,8 @@ void add_surface(CLI::App& app, Options& options) {
   sub->add_option("--alpha", options.job.alpha, "Squared radius in mesh units squared (default: 3 DT^2)")
       ->check(positive_number())
       ->type_name("A");
-  add_output(sub, options, "File to write: .off .ply .obj .stl");
+  add_output(sub, options, "File to write: .off .ply .obj .stl, or -");
+  add_format(sub, options.job.format);
 }
 
 void add_erode(CLI::App& app, Options& options) {
@@ -84,7 +91,8 @@ void add_erode(CLI::App& app, Options& options) {
       throw CLI::RequiredError("--fraction or --volume");
     }
   });
-  add_output(sub, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl");
+  add_output(sub, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl; - is stdout");
+  add_format(sub, options.job.format);
 }
 
 void add_render(CLI::App& app, Options& options) {
@@ -98,7 +106,7 @@ void add_render(CLI::App& app, Options& options) {
       ->check(whole_in(200, 8000))
       ->capture_default_str()
       ->type_name("W");
-  add_output(sub, options, "PNG file to write");
+  add_output(sub, options, "PNG file to write, or -");
 }
 
 void add_view(CLI::App& app, Options& options) {
@@ -109,7 +117,7 @@ void add_view(CLI::App& app, Options& options) {
                           "  affskel-client view 3f2a9c --threshold 5 -o body.html");
   add_job(sub, options);
   add_skeleton_options(sub, options.job.skeleton);
-  add_output(sub, options, "HTML file to write");
+  add_output(sub, options, "HTML file to write, or -");
 }
 
 }  // namespace

@@ -79,6 +79,12 @@ void add_job(CLI::App* sub, Options& options) {
       ->type_name("");
 }
 
+void add_format(CLI::App* sub, std::string& format) {
+  sub->add_option("--format", format, "Format, whatever the file's name: csv, ply, ...")
+      ->check(given())
+      ->type_name("EXT");
+}
+
 void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
   const bool of_job = skeleton.operator_name.empty();
   CLI::Option* name =

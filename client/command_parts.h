@@ -19,6 +19,9 @@ CLI::Validator given();
 /// For what becomes a string of the protocol.
 CLI::Validator utf8_text();
 
+/// --format, for commands that write one of several formats.
+void add_format(CLI::App* sub, std::string& format);
+
 /// A command with its description and examples; choosing it sets options.command.
 CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
                   const std::string& description, const std::string& examples);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/commands/follow.h"
 #include "client/commands/sheet.h"
 #include "client/commands/transfer.h"
@@ -65,7 +66,9 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
 }  // namespace
 
 void run_render(Context& context, const JobOptions& options) {
-  choose_format(options.output, picture_formats(), "picture");
+  const Destination destination = destination_of(options.output, "", context.console());
+  choose_format(destination, picture_formats(), "picture");
+  AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
   v1::SkeletonParams params = skeleton_params(options.skeleton, job);
   RenderInput input;
@@ -77,10 +80,9 @@ void run_render(Context& context, const JobOptions& options) {
   input.cell = lattice_cell(job.prepared());
   input.volume = job.prepared().volume();
   input.title = title_of(input, job, params);
-  AtomicFile file(options.output);
   file.write(encode_png(render_scene(input, {options.width})));
   file.commit();
-  context.console().note("wrote " + options.output);
+  context.console().note("wrote " + destination.name());
   context.console().document({{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}});
 }
 

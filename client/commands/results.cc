@@ -1,5 +1,6 @@
 // Commands that write results: fetch, skeleton, surface, erode.
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/commands/follow.h"
 #include "client/commands/transfer.h"
 #include "client/exporters/format.h"
@@ -38,8 +39,8 @@ void finish(Context& context, const Written& written) {
 }
 
 // Formats that hold only points mean points; the others can hold a surface.
-std::string eroded_form(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
+std::string eroded_form(const Destination& destination) {
+  const std::string extension = destination.extension();
   for (const FileFormat format : surface_formats()) {
     if (extension == extension_of(format)) return "surface";
   }
@@ -63,43 +64,46 @@ Chosen choose(Context& context, const JobOptions& options) {
 }  // namespace
 
 void run_fetch(Context& context, const JobOptions& options) {
-  if (options.artifact == "field")
-    return finish(context, transfer_field(context, options.job, options.output));
+  const Destination destination = destination_of(options.output, options.format, context.console());
+  if (options.artifact == "field") return finish(context, transfer_field(context, options.job, destination));
   if (options.artifact == "skeleton") {
-    return finish(context, transfer_skeleton(context, options.job, nullptr, options.output));
+    return finish(context, transfer_skeleton(context, options.job, nullptr, destination));
   }
   if (options.artifact == "surface") {
-    return finish(context, transfer_surface(context, options.job, nullptr, options.output));
+    return finish(context, transfer_surface(context, options.job, nullptr, destination));
   }
   if (options.artifact == "divergence") {
     const Chosen chosen = choose(context, options);
-    return finish(context, transfer_divergence(context, chosen.job, chosen.get(), options.output));
+    return finish(context, transfer_divergence(context, chosen.job, chosen.get(), destination));
   }
   if (options.artifact == "eroded") return run_erode(context, options);
-  finish(context, transfer_mesh(context, options.job, options.output));
+  finish(context, transfer_mesh(context, options.job, destination));
 }
 
 void run_skeleton(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
   const Chosen chosen = choose(context, options);
-  finish(context, transfer_skeleton(context, chosen.job, chosen.get(), options.output));
+  finish(context, transfer_skeleton(context, chosen.job, chosen.get(), destination));
 }
 
 void run_surface(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
   v1::SurfaceParams params;
   const Chosen chosen = choose(context, options);
   if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
-  finish(context, transfer_surface(context, chosen.job, &params, options.output));
+  finish(context, transfer_surface(context, chosen.job, &params, destination));
 }
 
 void run_erode(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
   v1::ErodedParams params;
   params.set_fraction(wire::kErodedFraction);
   if (options.fraction > 0) params.set_fraction(options.fraction);
   if (options.volume > 0) params.set_volume(options.volume);
-  const std::string form = options.form.empty() ? eroded_form(options.output) : options.form;
-  finish(context, form == "points" ? transfer_eroded_points(context, options.job, params, options.output)
-                                   : transfer_eroded_surface(context, options.job, params, options.output));
+  const std::string form = options.form.empty() ? eroded_form(destination) : options.form;
+  finish(context, form == "points" ? transfer_eroded_points(context, options.job, params, destination)
+                                   : transfer_eroded_surface(context, options.job, params, destination));
 }
 
 }  // namespace affskel::client

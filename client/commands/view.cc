@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/commands/follow.h"
 #include "client/commands/sheet.h"
 #include "client/commands/transfer.h"
@@ -111,14 +112,15 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
 }  // namespace
 
 void run_view(Context& context, const JobOptions& options) {
-  choose_format(options.output, page_formats(), "page");
+  const Destination destination = destination_of(options.output, "", context.console());
+  choose_format(destination, page_formats(), "page");
+  AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
   const ViewInput input = fetch_input(context, job, skeleton_params(options.skeleton, job));
   const std::string page = view_page(input);
-  AtomicFile file(options.output);
   file.write(page);
   file.commit();
-  context.console().note("wrote " + options.output + " (page, " + std::to_string(input.points.size()) +
+  context.console().note("wrote " + destination.name() + " (page, " + std::to_string(input.points.size()) +
                          " points, " + std::to_string(page.size()) + " bytes): open it in a browser");
   context.console().document({{"job", job.id()},
                               {"artefact", "page"},

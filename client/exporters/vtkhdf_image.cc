@@ -207,9 +207,6 @@ struct VtkHdfImage::Open {
 };
 
 VtkHdfImage::VtkHdfImage(AtomicFile& file, const LatticePoints& points) : file_(file) {
-  if (!file.is_regular()) {
-    throw ClientError(ExitCode::kUsage, "HDF5 can only be written to a regular file", file.target());
-  }
   if (points.count() == 0) throw ClientError(ExitCode::kNotFound, "the field has no points", file.target());
   slab_.dims = points.dims();
   slab_.width = std::min(kSlab, slab_.dims[0]);

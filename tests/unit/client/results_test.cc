@@ -28,6 +28,55 @@ TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
   EXPECT_EQ(document.at("file"), dir_ / "s.csv");
 }
 
+TEST_F(ClientTest, ResultsGoToTheStandardOutput) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"fetch", "@last", "field", "--format", "csv"},
+      {"fetch", "@last", "field", "--format", "vtkhdf"},
+      {"fetch", "@last", "mesh"},
+      {"skeleton", "@last", "--format", "ply"},
+      {"surface", "@last", "--format", ".STL"},
+      {"erode", "@last", "--volume", "3", "--format", "xyz"},
+      {"render", "@last", "--width", "300"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"-o", "-"});
+    ::testing::internal::CaptureStdout();
+    const Outcome outcome = run(command);
+    const std::string piped = ::testing::internal::GetCapturedStdout();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("wrote standard output"), std::string::npos) << outcome.err;
+    command.back() = dir_ / "file";
+    if (command[0] == "render") command.back() += ".png";
+    ASSERT_EQ(run(command).exit_code, 0) << command[0];
+    EXPECT_EQ(piped, slurp(command.back())) << command[0];
+    command.back() = "-";
+    command.insert(command.begin(), "--json");
+    EXPECT_EQ(run(command).exit_code, 2) << "both want standard output";
+  }
+  EXPECT_EQ(run({"skeleton", "@last", "-o", "-"}).exit_code, 2) << "as what?";
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", "-", "--format", "off"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, APlaceThatCannotBeWrittenIsKnownBeforeTheWorkIsDone) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"skeleton", "@last", "--operator", "sobel", "-o", "/nowhere/s.ply"},
+           {"surface", "@last", "--operator", "chords", "-o", "/nowhere/s.ply"},
+           {"erode", "@last", "--fraction", "1%", "-o", "/nowhere/s.ply"},
+           {"erode", "@last", "--fraction", "1%", "-o", "/nowhere/s.csv"},
+           {"render", "@last", "-o", "/nowhere/s.png"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("cannot write: No such file"), std::string::npos) << outcome.err;
+  }
+  EXPECT_TRUE(service_.fetches.empty());
+}
+
+TEST_F(ClientTest, AFormatStandsAboveTheExtension) {
+  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.txt", "--format", "csv"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "s.txt").substr(0, 6), "x,y,z,");
+  EXPECT_EQ(run({"erode", "@last", "--volume", "3", "-o", dir_ / "e.csv", "--format", "stl"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
+}
+
 TEST_F(ClientTest, DamagedTransfersLeaveNoFile) {
   service_.damage = true;
   for (const auto& [kind, name] : {std::pair("mesh", "m.off"), std::pair("skeleton", "s.ply"),
