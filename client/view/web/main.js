@@ -15,7 +15,7 @@ import { Stage } from './stage.js';
 import { TickNumbers } from './ticks.js';
 
 const kNumbersBelow = 22; // pixels: a tick and a line
-const kNumbersBeside = 56; // and a number of five digits
+const kTickBeside = 16; // pixels: a tick and gaps
 
 const element = (id) => document.getElementById(id);
 
@@ -27,14 +27,14 @@ function fail(message) {
 }
 
 // What the buttons above, the legend below and the numbers of the box all round cover.
-function freeEdges() {
+function freeEdges(numbers) {
   const [main, nav, foot] = ['main', 'nav', '.foot'].map((s) =>
     document.querySelector(s).getBoundingClientRect(),
   );
   return {
     top: nav.bottom - main.top,
     bottom: main.bottom - foot.top + kNumbersBelow,
-    side: Math.min(kNumbersBeside, main.width / 8),
+    side: Math.min(numbers.widest() + kTickBeside, main.width / 4),
   };
 }
 
@@ -60,7 +60,7 @@ class Viewer {
     this.stage = new Stage(element('canvas'), {
       up: page.up,
       halfBox: page.halfBox,
-      inset: freeEdges,
+      inset: () => freeEdges(this.numbers),
       onFrame: () => this.beforeFrame(),
     });
     this.layers = {

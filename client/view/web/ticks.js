@@ -27,14 +27,20 @@ export class TickNumbers {
 
   // Once there is a layout: how large every number is, pixels.
   measure() {
+    if (this.sizes) return;
     this.sizes = this.spans.map((spans) =>
       spans.map((span) => ({ width: span.offsetWidth, height: span.offsetHeight })),
     );
   }
 
+  widest() {
+    this.measure();
+    return Math.max(0, ...this.sizes.flat().map((size) => size.width));
+  }
+
   // pixels: of the layout, per page unit.
   place(camera, pixels) {
-    if (!this.sizes) this.measure();
+    this.measure();
     const placed = [];
     this.frame.edges.forEach((edge, axis) => {
       const labels = edge ? this.labelsOf(edge, axis, camera) : [];
