@@ -31,7 +31,11 @@ void add_submit(CLI::App& app, Options& options) {
               "  affskel-client submit body.off --spacing 200 -o OUT\n"
               "  affskel-client submit cube.off --points 50000 --directions triangles+sphere:1000 --wait\n"
               "  JOB=$(affskel-client submit body.off --name subject-7)");
-  sub->add_option("FILE", o.file, "Closed triangle mesh, Geomview OFF text")->required()->type_name("");
+  sub->add_option(
+         "FILE", o.file,
+         "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl, which are submitted as OFF text")
+      ->required()
+      ->type_name("");
   sub->add_flag("-w,--wait", o.wait, "Follow the job to its end");
   sub->add_option("-o,--output-dir", o.output_dir,
                   "Wait, then write STEM.field.vtkhdf, STEM.skeleton.ply and STEM.surface.off here")
@@ -137,8 +141,10 @@ void triple(CLI::App* sub, const std::string& name, std::vector<double>& values,
 void add_inspect(CLI::App& app, Options& options) {
   CLI::App* sub = command(app, options, "inspect", Command::kInspect,
                           "What a mesh is, and every defect with its place; needs no server",
-                          "  affskel-client inspect body.off\n  affskel-client --json inspect body.off");
-  sub->add_option("FILE", options.inspect_file, "Geomview OFF text")->required()->type_name("");
+                          "  affskel-client inspect body.off\n  affskel-client --json inspect scan.stl");
+  sub->add_option("FILE", options.inspect_file, "Geomview OFF text, .ply, .obj or .stl")
+      ->required()
+      ->type_name("");
 }
 
 void add_make(CLI::App& app, Options& options) {

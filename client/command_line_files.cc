@@ -87,6 +87,7 @@ void add_transform(CLI::App& app, Options& options) {
       ->required()
       ->check(given())
       ->type_name("FILE");
+  add_format(sub, o.format);
   // CLI11 wants a place for the values of each option; their order comes from the parse.
   auto values = std::make_shared<std::array<std::vector<std::string>, 5>>();
   add_step(sub, "--matrix", (*values)[0],
@@ -117,6 +118,7 @@ void add_perturb(CLI::App& app, Options& options) {
       ->required()
       ->check(given())
       ->type_name("FILE");
+  add_format(sub, o.format);
   CLI::Option* noise =
       sub->add_option("--noise", o.noise, "Sigma as a share of the box diagonal: 0.5% or 0.005")
           ->check(given())

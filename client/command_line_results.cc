@@ -7,7 +7,7 @@ namespace affskel::client {
 namespace {
 
 void add_output(CLI::App* sub, Options& options, const std::string& what) {
-  sub->add_option("-o,--output", options.job.output, what)->required()->type_name("FILE");
+  sub->add_option("-o,--output", options.job.output, what)->required()->check(given())->type_name("FILE");
 }
 
 void add_fetch(CLI::App& app, Options& options) {
@@ -16,7 +16,8 @@ void add_fetch(CLI::App& app, Options& options) {
                           "  affskel-client fetch @last skeleton -o body.csv\n"
                           "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
                           "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
-                          "Formats by extension: field .csv .dat .vtkhdf; divergence .csv .dat;\n"
+                          "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
+                          "Formats by extension: field and divergence .csv .dat .vtkhdf;\n"
                           "skeleton and eroded points .csv .ply .off .xyz; surface and eroded surface\n"
                           ".off .ply .obj .stl; mesh: the submitted bytes. Of an eroded solid this is the\n"
                           "one at a tenth of the volume; see erode");
@@ -33,8 +34,12 @@ void add_fetch(CLI::App& app, Options& options) {
     if (sub->count("--operator") > 0 && options.job.artifact != "divergence") {
       throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
     }
+    if (sub->count("--format") > 0 && options.job.artifact == "mesh") {
+      throw CLI::ValidationError("--format", "the mesh is the submitted bytes; see transform --help");
+    }
   });
-  add_output(sub, options, "File to write; the format follows the extension");
+  add_output(sub, options, "File to write; the format follows the extension; - is stdout");
+  add_format(sub, options.job.format);
 }
 
 void add_skeleton(CLI::App& app, Options& options) {
@@ -43,7 +48,8 @@ void add_skeleton(CLI::App& app, Options& options) {
                           "  affskel-client skeleton @last --threshold 5 -o fine.ply");
   add_job(sub, options);
   add_skeleton_options(sub, options.job.skeleton);
-  add_output(sub, options, "File to write: .csv .ply .off .xyz");
+  add_output(sub, options, "File to write: .csv .ply .off .xyz, or -");
+  add_format(sub, options.job.format);
 }
 
 void add_surface(CLI::App& app, Options& options) {
@@ -56,18 +62,22 @@ void add_surface(CLI::App& app, Options& options) {
   sub->add_option("--alpha", options.job.alpha, "Squared radius in mesh units squared (default: 3 DT^2)")
       ->check(positive_number())
       ->type_name("A");
-  add_output(sub, options, "File to write: .off .ply .obj .stl");
+  add_output(sub, options, "File to write: .off .ply .obj .stl, or -");
+  add_format(sub, options.job.format);
 }
 
 void add_erode(CLI::App& app, Options& options) {
   CLI::App* sub = command(app, options, "erode", Command::kErode,
                           "Eroded solid: where E is at least a level, from the stored field",
-                          "  affskel-client erode @last --fraction 0.05 -o eroded.stl\n"
-                          "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply");
+                          "  affskel-client erode @last --fraction 5% -o eroded.stl\n"
+                          "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply\n"
+                          "The volume that is left is told: of a surface what it encloses, of points their\n"
+                          "share of the sample points times v0");
   add_job(sub, options);
-  CLI::Option* fraction = sub->add_option("--fraction", options.job.fraction, "Level as a share of v0")
-                              ->check(CLI::Range(0.0, 1.0) & positive_number())
-                              ->type_name("F");
+  CLI::Option* fraction =
+      sub->add_option("--fraction", options.job.fraction, "Level as a share of v0: 0.1 or 10%")
+          ->transform(proper_share())
+          ->type_name("F");
   sub->add_option("--volume", options.job.volume, "Level in mesh units cubed")
       ->check(positive_number())
       ->type_name("V")
@@ -81,18 +91,22 @@ void add_erode(CLI::App& app, Options& options) {
       throw CLI::RequiredError("--fraction or --volume");
     }
   });
-  add_output(sub, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl");
+  add_output(sub, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl; - is stdout");
+  add_format(sub, options.job.format);
 }
 
 void add_render(CLI::App& app, Options& options) {
   CLI::App* sub = command(app, options, "render", Command::kRender, "Picture of the body with its skeleton",
-                          "  affskel-client render @last -o body.png --width 2400");
+                          "  affskel-client render @last -o body.png --width 2400\n"
+                          "  affskel-client render @last --operator chords -o sheet.png\n"
+                          "A skeleton by chords is drawn as its sheet, any other as its points");
   add_job(sub, options);
+  add_skeleton_options(sub, options.job.skeleton);
   sub->add_option("--width", options.job.width, "Pixels")
       ->check(whole_in(200, 8000))
       ->capture_default_str()
       ->type_name("W");
-  add_output(sub, options, "PNG file to write");
+  add_output(sub, options, "PNG file to write, or -");
 }
 
 void add_view(CLI::App& app, Options& options) {
@@ -103,7 +117,7 @@ void add_view(CLI::App& app, Options& options) {
                           "  affskel-client view 3f2a9c --threshold 5 -o body.html");
   add_job(sub, options);
   add_skeleton_options(sub, options.job.skeleton);
-  add_output(sub, options, "HTML file to write");
+  add_output(sub, options, "HTML file to write, or -");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "client/exporters/numbers.h"
+#include "client/number_list.h"
 #include "client/skeleton_text.h"
 #include "client/utf8.h"
 
@@ -16,6 +18,19 @@ CLI::Validator positive_number() {
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool good = error == std::errc{} && end == text.data() + text.size();
         return good && std::isfinite(value) && value > 0 ? "" : "must be a number > 0, not '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator proper_share() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const std::optional<double> share = parse_share(text);
+        if (!share || !(*share > 0 && *share < 1)) {
+          return "must be a share between 0 and 1 as in 0.1 or 10%, not '" + text + "'";
+        }
+        text = shortest(*share);
+        return "";
       },
       "");
 }
@@ -62,6 +77,12 @@ void add_job(CLI::App* sub, Options& options) {
       ->required()
       ->check(utf8_text())
       ->type_name("");
+}
+
+void add_format(CLI::App* sub, std::string& format) {
+  sub->add_option("--format", format, "Format, whatever the file's name: csv, ply, ...")
+      ->check(given())
+      ->type_name("EXT");
 }
 
 void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {

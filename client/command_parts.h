@@ -11,11 +11,16 @@ namespace affskel::client {
 // What the files that build the command line share.
 
 CLI::Validator positive_number();
+/// "0.1" or "10%", above 0 and below 1; rewrites it to a number.
+CLI::Validator proper_share();
 CLI::Validator whole_in(std::uint64_t low, std::uint64_t high);
 /// An empty variable of a script must not mean another server or file than the one that was meant.
 CLI::Validator given();
 /// For what becomes a string of the protocol.
 CLI::Validator utf8_text();
+
+/// --format, for commands that write one of several formats.
+void add_format(CLI::App* sub, std::string& format);
 
 /// A command with its description and examples; choosing it sets options.command.
 CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,

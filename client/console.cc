@@ -76,7 +76,9 @@ void Console::error(const ClientError& error) {
 
 void Console::finish() {
   out_.flush();
-  if (!out_) throw ClientError(ExitCode::kLimit, "cannot write to standard output");
+  if (!out_)
+    throw ClientError(ExitCode::kLimit,
+                      "cannot write to standard output: it is closed, or there is no room left");
 }
 
 std::string printable(std::string_view text) {

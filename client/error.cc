@@ -109,7 +109,8 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise) {
   ExitCode code = otherwise;
-  if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG) code = ExitCode::kLimit;
+  if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG || error_number == EPIPE)
+    code = ExitCode::kLimit;
   if (error_number == EACCES || error_number == EPERM || error_number == EROFS) code = ExitCode::kNotAllowed;
   return {code, action + ": " + std::strerror(error_number), file};
 }

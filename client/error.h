@@ -56,7 +56,8 @@ ClientError error_from_status(const grpc::Status& status, const std::string& ser
 /// Error for a core error about the file (or, when `file` is empty, about an option).
 ClientError error_from_core(const core::CoreError& error, const std::string& file);
 
-/// Error for a failed system call on `file`, by errno: disk full 8, no permission 7, otherwise `otherwise`.
+/// Error for a failed system call on `file`, by errno: disk full or a pipe that nobody reads 8, no permission
+/// 7, otherwise `otherwise`.
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise = ExitCode::kUsage);
 

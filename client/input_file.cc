@@ -9,6 +9,9 @@
 #include <new>
 
 #include "client/error.h"
+#include "client/exporters/format.h"
+#include "client/importers/shape_file.h"
+#include "wire/sha256.h"
 
 namespace affskel::client {
 namespace {
@@ -56,6 +59,27 @@ std::string read_all(int fd, const std::string& path, std::uint64_t announced, s
   return bytes;
 }
 
+// What OFF text is not is told by the name, or by the first bytes of a file that is named after nothing
+// known.
+std::string format_of(const std::string& path, std::string_view bytes) {
+  const std::string extension = lower_extension(path);
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl}) {
+    if (extension == extension_of(format)) return extension.substr(1);
+  }
+  return extension != extension_of(FileFormat::kOff) && bytes.starts_with("ply") ? "ply" : "off";
+}
+
+// The server stores OFF text: what the file holds beside its surface (colours, normals) has no place there.
+void convert(InputFile& input) {
+  ShapeFile shape = parse_shape(input.path, input.bytes);
+  if (!shape.is_surface()) {
+    throw ClientError(ExitCode::kBadInput, "has no triangles; a mesh that bounds a solid is wanted",
+                      input.path);
+  }
+  input.off = std::move(shape.off);
+  input.bytes = core::write_off(input.off.mesh);
+}
+
 }  // namespace
 
 ClientError out_of_memory(const std::string& path) {
@@ -91,8 +115,22 @@ InputFile read_input(const std::string& path) {
   InputFile input;
   input.path = path;
   input.bytes = read_file(path);
-  input.off = parse_mesh(input.bytes, path);
+  input.format = format_of(path, input.bytes);
+  input.file_bytes = input.bytes.size();
+  input.file_sha256 = wire::sha256_hex(input.bytes);
+  if (input.converted()) {
+    convert(input);
+  } else {
+    input.off = parse_mesh(input.bytes, path);
+  }
   return input;
+}
+
+void tell_conversion(const InputFile& input, Console& console) {
+  if (!input.converted()) return;
+  console.note(input.path + ": read as " + input.format + " and submitted as OFF text, " +
+               std::to_string(input.off.mesh.points.size()) + " vertices and " +
+               std::to_string(input.off.mesh.triangles.size()) + " triangles; fetch mesh gives that text");
 }
 
 core::Solid check_solid(const InputFile& input, bool repair) {

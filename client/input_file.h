@@ -13,8 +13,12 @@ namespace affskel::client {
 /// A mesh file that was read and parsed.
 struct InputFile {
   std::string path;
-  std::string bytes;  ///< as they are in the file
-  core::OffMesh off;
+  std::string bytes;           ///< OFF text: the file's own bytes, or what was made of another format
+  core::OffMesh off;           ///< with the lines of the file, where it is text
+  std::string format = "off";  ///< of the file: off, ply, obj or stl
+  std::uint64_t file_bytes = 0;
+  std::string file_sha256;  ///< hexadecimal
+  bool converted() const { return format != "off"; }
 };
 
 /// Largest file that is read at all.
@@ -28,7 +32,9 @@ ClientError out_of_memory(const std::string& path);
 /// or than the memory holds.
 std::string read_file(const std::string& path, std::uint64_t max_bytes = kMaxFileBytes);
 
-/// Reads and parses. @throws ClientError as read_file, and kBadInput with the line for malformed text.
+/// Reads and parses a mesh: .ply, .obj and .stl as read_shape does, after which `bytes` are the OFF text of
+/// their surface; everything else as OFF text, kept byte for byte.
+/// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path);
 
 /// Parses bytes that came from `path`, or from the server when `path` names no file.
@@ -36,6 +42,9 @@ core::OffMesh parse_mesh(const std::string& bytes, const std::string& path);
 
 /// Checks that the mesh bounds a solid. @throws ClientError kBadInput with the place.
 core::Solid check_solid(const InputFile& input, bool repair);
+
+/// Tells when the file is not what is submitted.
+void tell_conversion(const InputFile& input, Console& console);
 
 /// Tells the notes of the solid: repairs as notes, oddities as warnings.
 void tell_notes(const core::Solid& solid, const InputFile& input, Console& console);

@@ -49,7 +49,9 @@ void install_interrupt_handlers() {
     action.sa_handler = on_signal;
     sigaction(signal_number, &action, nullptr);
   }
+  // Both then fail as writes do, with a message.
   signal(SIGXFSZ, SIG_IGN);
+  signal(SIGPIPE, SIG_IGN);
 }
 
 void set_interrupt_message(const std::string& text) {

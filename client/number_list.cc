@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <string>
 
 namespace affskel::client {
 
@@ -13,6 +14,18 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<double> parse_share(std::string_view text) {
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  if (!text.ends_with('%')) return parse_number(text);
+  text.remove_suffix(1);
+  const std::optional<double> percent = parse_number(text);
+  if (!percent) return std::nullopt;
+  // The decimal point moves in the text: a division would round a second time.
+  if (text.find_first_of("eE") != std::string_view::npos) return *percent / 100;
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return parse_number(std::string(text) + "e-2");
 }
 
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {

@@ -71,8 +71,9 @@ struct ListOptions {
 struct JobOptions {
   std::string job;
   std::string artifact;      ///< fetch
-  std::string output;        ///< fetch, skeleton, surface, erode, render, view
-  SkeletonOptions skeleton;  ///< skeleton, surface, view, fetch divergence; no operator: the job's
+  std::string output;        ///< fetch, skeleton, surface, erode, render, view; "-" = standard output
+  std::string format;        ///< fetch, skeleton, surface, erode; an extension, empty = the output's
+  SkeletonOptions skeleton;  ///< skeleton, surface, render, view, fetch divergence; no operator: the job's
   double alpha = 0;          ///< surface; squared radius, 0 = from the spacing
   double fraction = 0;       ///< erode; level as a share of v0, 0 = not given
   double volume = 0;         ///< erode; level, mesh units cubed, 0 = not given
@@ -110,13 +111,13 @@ struct CompareOptions {
 };
 
 struct TransformOptions {
-  std::string file, output;
+  std::string file, output, format;
   std::vector<AffineStep> steps;  ///< in the order given
   bool inverse = false;
 };
 
 struct PerturbOptions {
-  std::string file, output;
+  std::string file, output, format;
   std::string noise;            ///< share of the box diagonal, "0.5%" or "0.005"; empty = sigma
   std::optional<double> sigma;  ///< mesh units
   std::uint64_t seed = 1;

@@ -82,4 +82,11 @@ std::string unfinished_text(const v1::Job& job) {
   return "is " + state_word(job.state()) + ": " + done + " are done";
 }
 
+v1::Job finished_job(Context& context, const std::string& name) {
+  v1::Job job = context.session().get_job(name);
+  if (job.state() == v1::JOB_STATE_DONE) return job;
+  throw ClientError(ExitCode::kNotFound,
+                    "there is nothing to show: job " + job.id() + " " + unfinished_text(job));
+}
+
 }  // namespace affskel::client

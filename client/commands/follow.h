@@ -28,4 +28,7 @@ v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job
 /// done", for a job that does not have what was asked for.
 std::string unfinished_text(const v1::Job& job);
 
+/// A job to show, which must be done.  @throws ClientError kNotFound saying how far it is.
+v1::Job finished_job(Context& context, const std::string& name);
+
 }  // namespace affskel::client

@@ -28,13 +28,19 @@ std::string text_of(const ordered_json& value) {
 }
 
 ordered_json file_facts(const InputFile& input) {
-  return {{"file", input.path},
-          {"bytes", input.bytes.size()},
-          {"sha256", wire::sha256_hex(input.bytes)},
-          {"vertices", input.off.mesh.points.size()},
-          {"polygons", input.off.polygons},
-          {"polygons_cut", input.off.polygons_cut},
-          {"triangles", input.off.mesh.triangles.size()}};
+  ordered_json facts = {{"file", input.path},
+                        {"format", input.format},
+                        {"bytes", input.file_bytes},
+                        {"sha256", input.file_sha256}};
+  if (input.converted()) {
+    facts["submitted_bytes"] = input.bytes.size();
+    facts["submitted_sha256"] = wire::sha256_hex(input.bytes);
+  }
+  facts["vertices"] = input.off.mesh.points.size();
+  facts["polygons"] = input.off.polygons;
+  facts["polygons_cut"] = input.off.polygons_cut;
+  facts["triangles"] = input.off.mesh.triangles.size();
+  return facts;
 }
 
 void add_solid_facts(ordered_json& facts, const core::Solid& solid) {

@@ -1,11 +1,11 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
 #include "client/exporters/mesh_writer.h"
 #include "core/body.h"
-#include "core/mesh_io.h"
 #include "core/shapes.h"
 
 namespace affskel::client {
@@ -36,23 +36,18 @@ core::Mesh make_shape(const MakeOptions& o) {
 }  // namespace
 
 void run_make(Console& console, const MakeOptions& options) {
-  const bool to_stdout = options.output == "-";
-  if (to_stdout && console.style().json) {
-    throw ClientError(ExitCode::kUsage, "--json and -o - both want standard output");
-  }
-  const FileFormat format =
-      to_stdout ? FileFormat::kOff : choose_format(options.output, surface_formats(), "shape");
+  const Destination destination = destination_of(options.output, options.output == "-" ? "off" : "", console);
+  const FileFormat format = choose_format(destination, surface_formats(), "shape");
   core::Mesh mesh;
   try {
     mesh = make_shape(options);
   } catch (const core::CoreError& error) {
     throw error_from_core(error, "");
   }
-  if (to_stdout) return console.result(core::write_off(mesh));
-  AtomicFile file(options.output);
+  AtomicFile file(destination.file);
   write_mesh(format, mesh, {}, file);
   file.commit();
-  console.note("wrote " + options.output + " (" + std::to_string(mesh.triangles.size()) + " triangles)");
+  console.note("wrote " + destination.name() + " (" + std::to_string(mesh.triangles.size()) + " triangles)");
   console.document(
       {{"file", options.output}, {"vertices", mesh.points.size()}, {"triangles", mesh.triangles.size()}});
 }

@@ -1,13 +1,9 @@
-// Commands that write results: fetch, skeleton, surface, erode, render.
+// Commands that write results: fetch, skeleton, surface, erode.
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/commands/follow.h"
 #include "client/commands/transfer.h"
-#include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/skeleton_writer.h"
-#include "client/input_file.h"
-#include "client/render/scene.h"
 #include "wire/params.h"
 
 #include <nlohmann/json.hpp>
@@ -34,15 +30,17 @@ void finish(Context& context, const Written& written) {
     context.console().warning("the surface is empty: " + advice_for_empty_surface(written));
   }
   if (written.kind == "eroded" && written.items == 0) {
-    context.console().warning("the eroded solid is empty: no sample point has such an E; try a lower level");
+    context.console().warning("the eroded solid is empty: " +
+                              (written.advice.empty() ? "no sample point has such an E" : written.advice) +
+                              "; try a lower level");
   }
   tell_written(context.console(), written);
   context.console().document(written_json(written));
 }
 
 // Formats that hold only points mean points; the others can hold a surface.
-std::string eroded_form(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
+std::string eroded_form(const Destination& destination) {
+  const std::string extension = destination.extension();
   for (const FileFormat format : surface_formats()) {
     if (extension == extension_of(format)) return "surface";
   }
@@ -63,87 +61,49 @@ Chosen choose(Context& context, const JobOptions& options) {
   return {job.id(), skeleton_params(options.skeleton, job)};
 }
 
-// The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
-std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
-  std::array<core::Vec3, 3> cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  for (int a = 0; a < 3; ++a) {
-    core::Vec3& axis = cell[static_cast<std::size_t>(a)];
-    if (prepared.frame_size() == 9)
-      axis = {prepared.frame(3 * a), prepared.frame(3 * a + 1), prepared.frame(3 * a + 2)};
-    axis = prepared.spacing() * axis;
-  }
-  return cell;
-}
-
-std::string title_of(const v1::Job& job, const core::Mesh& mesh, int skeleton_points) {
-  return job.name() + ": " + std::to_string(mesh.triangles.size()) + " triangles, " +
-         std::to_string(job.prepared().points()) + " sample points at spacing " +
-         rounded(job.prepared().spacing(), 4) + ", " + std::to_string(skeleton_points) + " skeleton points";
-}
-
 }  // namespace
 
 void run_fetch(Context& context, const JobOptions& options) {
-  if (options.artifact == "field")
-    return finish(context, transfer_field(context, options.job, options.output));
+  const Destination destination = destination_of(options.output, options.format, context.console());
+  if (options.artifact == "field") return finish(context, transfer_field(context, options.job, destination));
   if (options.artifact == "skeleton") {
-    return finish(context, transfer_skeleton(context, options.job, nullptr, options.output));
+    return finish(context, transfer_skeleton(context, options.job, nullptr, destination));
   }
   if (options.artifact == "surface") {
-    return finish(context, transfer_surface(context, options.job, nullptr, options.output));
+    return finish(context, transfer_surface(context, options.job, nullptr, destination));
   }
   if (options.artifact == "divergence") {
     const Chosen chosen = choose(context, options);
-    return finish(context, transfer_divergence(context, chosen.job, chosen.get(), options.output));
+    return finish(context, transfer_divergence(context, chosen.job, chosen.get(), destination));
   }
   if (options.artifact == "eroded") return run_erode(context, options);
-  finish(context, transfer_mesh(context, options.job, options.output));
+  finish(context, transfer_mesh(context, options.job, destination));
 }
 
 void run_skeleton(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
   const Chosen chosen = choose(context, options);
-  finish(context, transfer_skeleton(context, chosen.job, chosen.get(), options.output));
+  finish(context, transfer_skeleton(context, chosen.job, chosen.get(), destination));
 }
 
 void run_surface(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
   v1::SurfaceParams params;
   const Chosen chosen = choose(context, options);
   if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
-  finish(context, transfer_surface(context, chosen.job, &params, options.output));
+  finish(context, transfer_surface(context, chosen.job, &params, destination));
 }
 
 void run_erode(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
   v1::ErodedParams params;
   params.set_fraction(wire::kErodedFraction);
   if (options.fraction > 0) params.set_fraction(options.fraction);
   if (options.volume > 0) params.set_volume(options.volume);
-  const std::string form = options.form.empty() ? eroded_form(options.output) : options.form;
-  finish(context, form == "points" ? transfer_eroded_points(context, options.job, params, options.output)
-                                   : transfer_eroded_surface(context, options.job, params, options.output));
-}
-
-void run_render(Context& context, const JobOptions& options) {
-  choose_format(options.output, picture_formats(), "picture");
-  v1::FetchArtifactRequest request;
-  request.set_job(options.job);
-  request.set_kind(v1::ARTIFACT_KIND_SKELETON);
-  v1::ArtifactHeader header;
-  RenderInput input;
-  input.skeleton = parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
-  request.set_job(header.job().id());
-  request.set_kind(v1::ARTIFACT_KIND_MESH);
-  input.mesh = parse_mesh(context.session().fetch_bytes(request), "mesh of job " + header.job().id()).mesh;
-  input.cell = lattice_cell(header.job().prepared());
-  input.volume = header.job().prepared().volume();
-  input.title = title_of(header.job(), input.mesh, input.skeleton.point_size());
-  warn_if_empty(context.console(), static_cast<std::uint64_t>(input.skeleton.point_size()),
-                input.skeleton.quality(), header.job());
-  AtomicFile file(options.output);
-  file.write(encode_png(render_scene(input, {options.width})));
-  file.commit();
-  context.console().note("wrote " + options.output);
-  context.console().document({{"job", header.job().id()}, {"artefact", "picture"}, {"file", options.output}});
+  const std::string form = options.form.empty() ? eroded_form(destination) : options.form;
+  finish(context, form == "points" ? transfer_eroded_points(context, options.job, params, destination)
+                                   : transfer_eroded_surface(context, options.job, params, destination));
 }
 
 }  // namespace affskel::client

@@ -74,11 +74,11 @@ void prepare_output_dir(const std::string& directory) {
 std::vector<Written> fetch_results(Context& context, const v1::Job& job, const SubmitOptions& options) {
   const fs::path stem = fs::path(options.output_dir) / fs::path(options.file).stem();
   std::vector<Written> written;
-  written.push_back(transfer_field(context, job.id(), stem.string() + ".field.vtkhdf"));
+  written.push_back(transfer_field(context, job.id(), {stem.string() + ".field.vtkhdf"}));
   tell_written(context.console(), written.back());
-  written.push_back(transfer_skeleton(context, job.id(), nullptr, stem.string() + ".skeleton.ply"));
+  written.push_back(transfer_skeleton(context, job.id(), nullptr, {stem.string() + ".skeleton.ply"}));
   tell_written(context.console(), written.back());
-  written.push_back(transfer_surface(context, job.id(), nullptr, stem.string() + ".surface.off"));
+  written.push_back(transfer_surface(context, job.id(), nullptr, {stem.string() + ".surface.off"}));
   tell_written(context.console(), written.back());
   return written;
 }
@@ -98,6 +98,7 @@ void check_size(Context& context, const InputFile& input) {
 void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const InputFile input = read_input(options.file);
+  tell_conversion(input, console);
   tell_notes(check_solid(input, options.repair == "auto"), input, console);
   const v1::SubmitJobHeader header = header_for(options, input, user_name(context.environment()));
   prepare_output_dir(options.output_dir);
@@ -116,7 +117,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   }
   nlohmann::ordered_json document = to_json(job);
   document["existed"] = existed;
-  for (const Written& file : written) document["files"][file.kind] = file.file.string();
+  for (const Written& file : written) document["files"][file.kind] = file.destination.file.string();
   console.document(document);
   if (wait) throw_unless_done(job);
 }

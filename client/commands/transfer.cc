@@ -1,5 +1,6 @@
 #include "client/commands/transfer.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -118,6 +119,18 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
   return comments;
 }
 
+// The points' share of v0.  The lattice's cells would give another sum, wrong where the solid is thin; this
+// is v0 when all points are left.
+double volume_of_points(const v1::Job& job, int points) {
+  const double all = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
+  return job.prepared().volume() * (points / all);
+}
+
+std::string volume_text(const Written& written) {
+  if (!written.volume) return "";
+  return (written.unit == "points" ? ", volume about " : ", volume ") + rounded(*written.volume, 6);
+}
+
 }  // namespace
 
 v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
@@ -134,8 +147,8 @@ std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& re
   return context.session().fetch_bytes(request, &header);
 }
 
-Written transfer_field(Context& context, const std::string& job, const fs::path& file) {
-  const FileFormat format = choose_format(file, field_formats(), "field");
+Written transfer_field(Context& context, const std::string& job, const Destination& destination) {
+  const FileFormat format = choose_format(destination, field_formats(), "field");
   const v1::Job now = context.session().get_job(job);
   // The finished field first: its absence is the error to report.
   if (now.state() != v1::JOB_STATE_DONE &&
@@ -149,34 +162,36 @@ Written transfer_field(Context& context, const std::string& job, const fs::path&
       fetch_message<v1::Directions>(context, now.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
   const v1::ArtifactHeader header = context.session().fetch(
       request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<FieldSink>(format, file, points, directions);
+        return std::make_unique<FieldSink>(format, destination.file, points, directions);
       });
-  return {file, "field", "points", points.count(), header.job()};
+  return {destination, "field", "points", points.count(), header.job()};
 }
 
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
-                          const fs::path& file) {
-  const FileFormat format = choose_format(file, skeleton_formats(), "skeleton");
+                          const Destination& destination) {
+  const FileFormat format = choose_format(destination, skeleton_formats(), "skeleton");
+  AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SKELETON);
   if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
   v1::ArtifactHeader header;
   const v1::SkeletonPoints points = parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
   const v1::SkeletonParams& params = skeleton ? *skeleton : header.job().skeleton();
   const v1::SkeletonQuality* quality = points.has_quality() ? &points.quality() : nullptr;
-  AtomicFile out(file);
   write_skeleton(
       format, points,
       comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality),
       out);
   out.commit();
-  Written written{file, "skeleton", "points", static_cast<std::uint64_t>(points.point_size()), header.job()};
+  Written written{destination, "skeleton", "points", static_cast<std::uint64_t>(points.point_size()),
+                  header.job()};
   if (quality != nullptr) written.quality = *quality;
   return written;
 }
 
 Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
-                         const fs::path& file) {
-  const FileFormat format = choose_format(file, surface_formats(), "surface");
+                         const Destination& destination) {
+  const FileFormat format = choose_format(destination, surface_formats(), "surface");
+  AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
   if (surface != nullptr) *request.mutable_surface() = *surface;
   v1::ArtifactHeader header;
@@ -184,20 +199,19 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const bool own = surface == nullptr || !surface->has_skeleton();
   const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
   const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
-  AtomicFile out(file);
   write_mesh(format, fetched.mesh,
              comments_for(header.job(), "affine skeleton, triangulated",
                           "operator " + skeleton_params_text(params), sheet ? &fetched.quality : nullptr),
              out, fetched.properties);
   out.commit();
-  Written written{file, "surface", "triangles", fetched.mesh.triangles.size(), header.job()};
+  Written written{destination, "surface", "triangles", fetched.mesh.triangles.size(), header.job()};
   if (sheet) written.quality = fetched.quality;
   return written;
 }
 
 Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
-                            const fs::path& file) {
-  const FileFormat format = choose_format(file, divergence_formats(), "divergence");
+                            const Destination& destination) {
+  const FileFormat format = choose_format(destination, divergence_formats(), "divergence");
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_DIVERGENCE);
   if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
   request.set_job(context.session().get_job(job).id());
@@ -205,63 +219,72 @@ Written transfer_divergence(Context& context, const std::string& job, const v1::
       fetch_message<v1::Lattice>(context, request.job(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
   const WaitingNote note(context.console(), "divergence");
   const v1::ArtifactHeader header = context.session().fetch(request, [&]() -> std::unique_ptr<ArtifactSink> {
-    return std::make_unique<DivergenceSink>(format, file, points);
+    return std::make_unique<DivergenceSink>(format, destination.file, points);
   });
-  return {file, "divergence", "points", points.count(), header.job()};
+  return {destination, "divergence", "points", points.count(), header.job()};
 }
 
 Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
-                               const fs::path& file) {
-  const FileFormat format = choose_format(file, skeleton_formats(), "eroded solid's points");
+                               const Destination& destination) {
+  const FileFormat format = choose_format(destination, skeleton_formats(), "eroded solid's points");
+  AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_POINTS);
   *request.mutable_eroded() = params;
   v1::ArtifactHeader header;
   const v1::SkeletonPoints points =
       parse_eroded_points(fetch_patiently(context, request, header, "eroded solid"));
-  AtomicFile out(file);
+  const double volume = volume_of_points(header.job(), points.point_size());
   write_skeleton(format, points,
-                 comments_for(header.job(), "eroded solid", "level " + eroded_params_text(params)), out);
+                 comments_for(header.job(), "eroded solid",
+                              "level " + eroded_params_text(params) + ", volume about " + rounded(volume, 6)),
+                 out);
   out.commit();
-  return {file, "eroded", "points", static_cast<std::uint64_t>(points.point_size()), header.job()};
+  Written written{destination, "eroded", "points", static_cast<std::uint64_t>(points.point_size()),
+                  header.job()};
+  written.volume = volume;
+  written.advice = points.quality().advice();
+  return written;
 }
 
 Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
-                                const fs::path& file) {
-  const FileFormat format = choose_format(file, surface_formats(), "eroded solid's surface");
+                                const Destination& destination) {
+  const FileFormat format = choose_format(destination, surface_formats(), "eroded solid's surface");
+  AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_SURFACE);
   *request.mutable_eroded() = params;
   v1::ArtifactHeader header;
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "eroded solid"));
-  AtomicFile out(file);
   write_mesh(format, fetched.mesh,
              comments_for(header.job(), "eroded solid",
                           "level " + eroded_params_text(params) + ", volume " + shortest(fetched.volume)),
              out);
   out.commit();
-  return {file, "eroded", "triangles", fetched.mesh.triangles.size(), header.job(), {}, fetched.volume};
+  Written written{destination, "eroded", "triangles", fetched.mesh.triangles.size(), header.job()};
+  written.volume = fetched.volume;
+  written.advice = fetched.quality.advice();
+  return written;
 }
 
-Written transfer_mesh(Context& context, const std::string& job, const fs::path& file) {
+Written transfer_mesh(Context& context, const std::string& job, const Destination& destination) {
   const v1::ArtifactHeader header = context.session().fetch(
       request_for(job, v1::ARTIFACT_KIND_MESH),
-      [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(file); });
-  return {file, "mesh", "bytes", header.bytes(), header.job()};
+      [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(destination.file); });
+  return {destination, "mesh", "bytes", header.bytes(), header.job()};
 }
 
 nlohmann::ordered_json written_json(const Written& written) {
   nlohmann::ordered_json document = {{"job", written.job.id()},
                                      {"artefact", written.kind},
-                                     {"file", written.file.string()},
+                                     {"file", written.destination.file.string()},
                                      {written.unit, written.items}};
-  if (written.volume > 0) document["volume"] = written.volume;
+  if (written.volume) document["volume"] = *written.volume;
   if (written.quality) document["quality"] = to_json(*written.quality);
   return document;
 }
 
 void tell_written(Console& console, const Written& written) {
-  console.note("wrote " + written.file.string() + " (" + written.kind + ", " + std::to_string(written.items) +
-               " " + written.unit +
-               (written.volume > 0 ? ", volume " + rounded(written.volume, 6) : std::string()) + ")");
+  console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
+               std::to_string(written.items) + " " + written.unit + volume_text(written) + ")");
 }
 
 }  // namespace affskel::client

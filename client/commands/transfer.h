@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -12,29 +11,33 @@ namespace affskel::client {
 
 /// What a transfer wrote.
 struct Written {
-  std::filesystem::path file;
+  Destination destination;
   std::string kind;         ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
   std::string unit;         ///< what is counted: "points", "triangles" or "bytes"
   std::uint64_t items = 0;  ///< how many
   v1::Job job;              ///< as the server sent it along
   std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet of chords
-  double volume = 0;                                ///< enclosed by an eroded solid's surface
+  /// Of an eroded solid, mesh units cubed: what the surface encloses, or of points their share of the sample
+  /// points times v0.
+  std::optional<double> volume = {};
+  std::string advice = {};  ///< why an eroded solid is empty
 };
 
 /// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
-/// parameters.  Those that have to be computed first are waited for.
-Written transfer_field(Context& context, const std::string& job, const std::filesystem::path& file);
+/// parameters.  Those that have to be computed first are waited for,
+/// after the file was opened: a place that cannot be written is known before the work is done.
+Written transfer_field(Context& context, const std::string& job, const Destination& destination);
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
-                          const std::filesystem::path& file);
+                          const Destination& destination);
 Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
-                         const std::filesystem::path& file);
+                         const Destination& destination);
 Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
-                            const std::filesystem::path& file);
+                            const Destination& destination);
 Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
-                               const std::filesystem::path& file);
+                               const Destination& destination);
 Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
-                                const std::filesystem::path& file);
-Written transfer_mesh(Context& context, const std::string& job, const std::filesystem::path& file);
+                                const Destination& destination);
+Written transfer_mesh(Context& context, const std::string& job, const Destination& destination);
 
 v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind);
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/commands/shapes.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/numbers.h"
@@ -74,23 +75,24 @@ void run_transform(Console& console, const TransformOptions& options) {
   }
   core::AffineMap map = affine_map_of(options.steps);
   if (options.inverse) map = core::inverse(map);
+  const Destination destination = destination_of(options.output, options.format, console);
   ShapeFile shape = read_shape(options.file);
   const FileFormat format =
-      choose_format(options.output, shape_formats(shape), shape.is_surface() ? "surface" : "file of points");
+      choose_format(destination, shape_formats(shape), shape.is_surface() ? "surface" : "file of points");
   try {
     shape.off.mesh = core::map_mesh(map, shape.mesh());
   } catch (const core::CoreError& error) {
     throw error_from_core(error, options.file);
   }
   map_columns(map, shape);
-  tell_what_is_lost(console, shape, format, options.output);
+  tell_what_is_lost(console, shape, format, destination.name());
 
   const std::vector<double> numbers = numbers_of(map);
-  AtomicFile file(options.output);
+  AtomicFile file(destination.file);
   write_shape(format, shape, {comment_for(numbers)}, file);
   file.commit();
   const double det = core::determinant(map);
-  console.note("wrote " + options.output + " (" + counts_text(shape) + ", volumes times " +
+  console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", volumes times " +
                rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
   console.document({{"file", options.output},
                     {"points", shape.mesh().points.size()},

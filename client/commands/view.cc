@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
+#include "client/commands/destination.h"
 #include "client/commands/follow.h"
+#include "client/commands/sheet.h"
 #include "client/commands/transfer.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/numbers.h"
@@ -37,13 +39,6 @@ class PointSink : public ArtifactSink {
   ViewPointCollector collector_;
   FieldDecoder decoder_;
 };
-
-v1::Job finished_job(Context& context, const std::string& name) {
-  v1::Job job = context.session().get_job(name);
-  if (job.state() == v1::JOB_STATE_DONE) return job;
-  throw ClientError(ExitCode::kNotFound,
-                    "there is nothing to show: job " + job.id() + " " + unfinished_text(job));
-}
 
 // For an operator of H; `chords` has none.
 core::ShockOperator core_operator(v1::Operator which) {
@@ -86,25 +81,6 @@ std::vector<float> fetch_divergences(Context& context, const std::string& job,
   return divergences;
 }
 
-bool is_sheet(const v1::TriangleMesh& mesh) {
-  const int vertices = mesh.xyz_size() / 3;
-  const auto in_range = [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); };
-  return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices &&
-         mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 &&
-         std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range);
-}
-
-v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params) {
-  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
-  *request.mutable_surface()->mutable_skeleton() = params;
-  v1::ArtifactHeader header;
-  v1::TriangleMesh sheet;
-  if (!sheet.ParseFromString(fetch_patiently(context, request, header, "sheet")) || !is_sheet(sheet)) {
-    throw ClientError(ExitCode::kInternal, "the server sent a damaged sheet");
-  }
-  return sheet;
-}
-
 ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
   ViewInput input;
   input.job = job;
@@ -136,14 +112,15 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
 }  // namespace
 
 void run_view(Context& context, const JobOptions& options) {
-  choose_format(options.output, page_formats(), "page");
+  const Destination destination = destination_of(options.output, "", context.console());
+  choose_format(destination, page_formats(), "page");
+  AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
   const ViewInput input = fetch_input(context, job, skeleton_params(options.skeleton, job));
   const std::string page = view_page(input);
-  AtomicFile file(options.output);
   file.write(page);
   file.commit();
-  context.console().note("wrote " + options.output + " (page, " + std::to_string(input.points.size()) +
+  context.console().note("wrote " + destination.name() + " (page, " + std::to_string(input.points.size()) +
                          " points, " + std::to_string(page.size()) + " bytes): open it in a browser");
   context.console().document({{"job", job.id()},
                               {"artefact", "page"},

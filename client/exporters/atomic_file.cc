@@ -37,6 +37,20 @@ fs::path follow_dangling(fs::path path) {
   return path;
 }
 
+fs::path directory_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+bool write_all(int fd, std::string_view rest) {
+  while (!rest.empty()) {
+    const ssize_t written = ::write(fd, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
 void sync_directory(const fs::path& directory) {
   const int fd = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;  // some file systems do not let directories be opened; the file itself is safe
@@ -48,35 +62,53 @@ void sync_directory(const fs::path& directory) {
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   struct stat info {};
-  const bool exists = stat(target.c_str(), &info) == 0;
-  if (!exists && errno != ENOENT) fail("cannot write");
+  const bool exists = target != "-" && stat(target.c_str(), &info) == 0;
+  if (!exists && target != "-" && errno != ENOENT) fail("cannot write");
   if (exists && S_ISDIR(info.st_mode)) throw ClientError(ExitCode::kUsage, "is a directory", target);
-  if (exists && !S_ISREG(info.st_mode)) {
-    regular_ = false;
-    path_ = target;
-    fd_ = open(target.c_str(), O_WRONLY | O_CLOEXEC);
-    if (fd_ < 0) fail("cannot write");
+  if (target == "-" || (exists && !S_ISREG(info.st_mode))) {
+    open_stream(target);
     return;
   }
   std::error_code error;
   if (exists) target_ = fs::canonical(target, error);
   if (error) target_ = target;
   if (!exists) target_ = follow_dangling(target);
-  const fs::path directory = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  make_temporary(directory_of(target_));
+  fchmod(fd_, exists ? info.st_mode & 07777 : default_mode());
+}
+
+AtomicFile::~AtomicFile() {
+  for (const int fd : {fd_, stream_}) {
+    if (fd >= 0) close(fd);
+  }
+  if (committed_ || path_.empty()) return;
+  unlink(path_.c_str());
+  release_temporary_file(path_.string());
+}
+
+void AtomicFile::open_stream(const fs::path& target) {
+  if (target == "-") target_ = "standard output";
+  stream_ =
+      target == "-" ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : open(target.c_str(), O_WRONLY | O_CLOEXEC);
+  if (stream_ < 0) fail("cannot write");
+  std::error_code error;
+  const fs::path directory = fs::temp_directory_path(error);
+  if (error) throw error_from_errno(error.value(), "cannot use the folder for temporary files", "$TMPDIR");
+  try {
+    make_temporary(directory);
+  } catch (...) {  // no destructor will run
+    close(stream_);
+    throw;
+  }
+}
+
+void AtomicFile::make_temporary(const fs::path& directory) {
   // Not after the target: its name may be as long as names can be.
   std::string name = (directory / ".affskel.XXXXXX").string();
   fd_ = mkostemp(name.data(), O_CLOEXEC);
   if (fd_ < 0) fail("cannot write");
   path_ = name;
   guard_temporary_file(name);
-  fchmod(fd_, exists ? info.st_mode & 07777 : default_mode());
-}
-
-AtomicFile::~AtomicFile() {
-  if (fd_ >= 0) close(fd_);
-  if (!regular_ || committed_) return;
-  unlink(path_.c_str());
-  release_temporary_file(path_.string());
 }
 
 void AtomicFile::fail(const char* action) const {
@@ -89,32 +121,49 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty()) {
-    const ssize_t written = ::write(fd_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("cannot write");
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!write_all(fd_, buffer_)) fail("cannot write");
   buffer_.clear();
 }
 
 void AtomicFile::sync() {
   flush();
-  if (regular_ && fsync(fd_) != 0) fail("cannot write");
+  if (stream_ >= 0) return copy_to_stream();
+  if (fsync(fd_) != 0) fail("cannot write");
 }
 
 void AtomicFile::commit() {
   sync();
-  if (regular_) {
-    if (rename(path_.c_str(), target_.c_str()) != 0) fail("cannot rename the finished file");
-    committed_ = true;
-    release_temporary_file(path_.string());
-    sync_directory(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
-  }
-  const int fd = fd_;
-  fd_ = -1;
+  if (stream_ < 0) rename_temporary();
+  int& last = stream_ < 0 ? fd_ : stream_;
+  const int fd = last;
+  last = -1;
   if (close(fd) != 0) fail("cannot write");
+}
+
+void AtomicFile::rename_temporary() {
+  if (rename(path_.c_str(), target_.c_str()) != 0) fail("cannot rename the finished file");
+  committed_ = true;
+  release_temporary_file(path_.string());
+  sync_directory(directory_of(target_));
+}
+
+void AtomicFile::copy_to_stream() {
+  // Opened again: libraries that write by path may have replaced the file.
+  const int from = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) fail("cannot read what was written");
+  buffer_.resize(kBufferBytes);
+  ssize_t got = 0;
+  bool written = true;
+  while (written && ((got = read(from, buffer_.data(), buffer_.size())) > 0 || (got < 0 && errno == EINTR))) {
+    if (got > 0) written = write_all(stream_, std::string_view(buffer_).substr(0, std::size_t(got)));
+  }
+  const int error = errno;
+  close(from);
+  buffer_.clear();
+  errno = error;
+  if (!written || got < 0) fail("cannot write");
+  // What was sent is not sent again.
+  if (ftruncate(fd_, 0) != 0 || lseek(fd_, 0, SEEK_SET) != 0) fail("cannot write");
 }
 
 }  // namespace affskel::client

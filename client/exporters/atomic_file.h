@@ -8,8 +8,9 @@ namespace affskel::client {
 
 /// A file that appears under its name complete or not at all: written to a temporary file in the same
 /// directory, synced, renamed.  Without `commit` nothing is left behind, also after an interrupt.  A target
-/// that is no regular file (a device, a pipe) is written to directly; a symbolic link is followed.  All
-/// members throw ClientError naming the target.
+/// that is no regular file (a device, a pipe), and the standard output, "-", get everything at `commit`, from
+/// a temporary file in $TMPDIR or /tmp: a transfer that breaks off and begins again sends them nothing twice.
+/// A symbolic link is followed.  All members throw ClientError naming the target.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -23,8 +24,6 @@ class AtomicFile {
   /// For libraries that write by path, instead of `write`.
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& target() const { return target_; }
-  /// Whether the target is replaced by a rename and can thus be written in any order.
-  bool is_regular() const { return regular_; }
 
   /// Puts everything written so far on the disk, so that `commit` has little left that can fail.
   void sync();
@@ -33,14 +32,18 @@ class AtomicFile {
   void commit();
 
  private:
+  void open_stream(const std::filesystem::path& target);
+  void make_temporary(const std::filesystem::path& directory);
   void flush();
+  void rename_temporary();
+  void copy_to_stream();
   [[noreturn]] void fail(const char* action) const;
 
   std::filesystem::path target_;
   std::filesystem::path path_;
   std::string buffer_;
-  int fd_ = -1;
-  bool regular_ = true;
+  int fd_ = -1;      // of the temporary file
+  int stream_ = -1;  // of a target that is no regular file
   bool committed_ = false;
 };
 

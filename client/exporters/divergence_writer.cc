@@ -1,16 +1,72 @@
 #include "client/exporters/divergence_writer.h"
 
 #include <cstring>
+#include <limits>
 
 #include "client/error.h"
 #include "client/exporters/numbers.h"
+#include "client/exporters/vtkhdf_image.h"
 
 namespace affskel::client {
+namespace {
+
+class TextOutput : public DivergenceOutput {
+ public:
+  TextOutput(AtomicFile& file, char separator) : file_(file), separator_(separator) {}
+
+  void put(const LatticeCursor& at, double divergence) override {
+    const core::Vec3 place = at.position();
+    row_.clear();
+    for (const double coordinate : {place.x, place.y, place.z}) {
+      append_exact(row_, coordinate);
+      row_.push_back(separator_);
+    }
+    append_exact(row_, divergence);
+    row_.push_back('\n');
+    file_.write(row_);
+  }
+
+  void finish() override {}
+
+ private:
+  AtomicFile& file_;
+  char separator_;
+  std::string row_;
+};
+
+class VtkHdfOutput : public DivergenceOutput {
+ public:
+  VtkHdfOutput(AtomicFile& file, const LatticePoints& points)
+      : image_(file, points),
+        divergence_(image_.add("H", 1, std::numeric_limits<double>::quiet_NaN())),
+        inside_(image_.add("inside", 1, std::uint8_t{0})) {}
+
+  void put(const LatticeCursor& at, double divergence) override {
+    image_.enter(at.i());
+    divergence_.at(at.i(), at.j(), at.k()) = divergence;
+    inside_.at(at.i(), at.j(), at.k()) = 1;
+  }
+
+  void finish() override { image_.finish(); }
+
+ private:
+  VtkHdfImage image_;
+  VtkHdfArray<double>& divergence_;
+  VtkHdfArray<std::uint8_t>& inside_;
+};
+
+std::unique_ptr<DivergenceOutput> make_output(FileFormat format, AtomicFile& file,
+                                              const LatticePoints& points) {
+  if (format == FileFormat::kVtkHdf) return std::make_unique<VtkHdfOutput>(file, points);
+  if (format == FileFormat::kDat) return std::make_unique<TextOutput>(file, ' ');
+  file.write("x,y,z,H\n");
+  return std::make_unique<TextOutput>(file, ',');
+}
+
+}  // namespace
 
 DivergenceWriter::DivergenceWriter(FileFormat format, AtomicFile& file, const LatticePoints& points)
-    : file_(file), cursor_(points), separator_(format == FileFormat::kCsv ? ',' : ' ') {
-  if (format == FileFormat::kCsv) file_.write("x,y,z,H\n");
-}
+    : cursor_(points), output_(make_output(format, file, points)) {}
 
 void DivergenceWriter::data(std::string_view bytes) {
   while (!bytes.empty()) {
@@ -28,22 +84,15 @@ void DivergenceWriter::data(std::string_view bytes) {
 void DivergenceWriter::value(double divergence) {
   if (cursor_.at_end())
     throw ClientError(ExitCode::kInternal, "the divergence has more values than sample points");
-  const core::Vec3 place = cursor_.position();
+  output_->put(cursor_, divergence);
   cursor_.advance();
-  row_.clear();
-  for (const double coordinate : {place.x, place.y, place.z}) {
-    append_exact(row_, coordinate);
-    row_.push_back(separator_);
-  }
-  append_exact(row_, divergence);
-  row_.push_back('\n');
-  file_.write(row_);
 }
 
 void DivergenceWriter::finish() {
   if (!rest_.empty() || !cursor_.at_end()) {
     throw ClientError(ExitCode::kInternal, "the divergence has fewer values than sample points");
   }
+  output_->finish();
 }
 
 }  // namespace affskel::client

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -9,9 +10,19 @@
 
 namespace affskel::client {
 
+/// Where the values of a divergence go, one by one in lattice order.
+class DivergenceOutput {
+ public:
+  virtual ~DivergenceOutput() = default;
+  /// @param at the sample point.
+  virtual void put(const LatticeCursor& at, double divergence) = 0;
+  /// Call once, last; the file is left uncommitted.
+  virtual void finish() = 0;
+};
+
 /// Writes a DIVERGENCE artefact as its bytes arrive, in pieces of any size: H at every sample point in
 /// lattice order, in one of divergence_formats(): .csv `x,y,z,H`, .dat the same, separated by blanks, no
-/// header.
+/// header, .vtkhdf the field's image with the arrays `H` (NaN outside) and `inside`.
 class DivergenceWriter {
  public:
   /// `file` and `points` must outlive it.
@@ -24,11 +35,9 @@ class DivergenceWriter {
  private:
   void value(double divergence);
 
-  AtomicFile& file_;
   LatticeCursor cursor_;
-  char separator_;
+  std::unique_ptr<DivergenceOutput> output_;
   std::string rest_;  // the beginning of a value that was cut in two
-  std::string row_;
 };
 
 }  // namespace affskel::client

@@ -33,9 +33,8 @@ class FieldWriter {
 std::unique_ptr<FieldWriter> make_field_writer(FileFormat format, AtomicFile& file,
                                                const LatticePoints& points);
 
-/// The VTKHDF writer: HDF5 in VTK's ImageData layout (version 1.0), PointData `E` (NaN outside), `normal`
-/// (0 outside), `direction` (-1 outside), `inside` (0 or 1), dimensions in the order z, y, x.
-/// Holds eight lattice planes at a time.
+/// The VTKHDF writer, see VtkHdfImage: PointData `E` (NaN outside), `normal` (0 outside), `direction` (-1
+/// outside), `inside` (0 or 1).
 std::unique_ptr<FieldWriter> make_vtkhdf_writer(AtomicFile& file, const LatticePoints& points);
 
 /// Decodes a FIELD artefact as its bytes arrive, in pieces of any size.

@@ -10,11 +10,17 @@ namespace affskel::client {
 namespace {
 
 constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
-constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat};
+constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
 constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz};
 constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl};
 constexpr std::array kPicture = {FileFormat::kPng};
 constexpr std::array kPage = {FileFormat::kHtml};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 }  // namespace
 
@@ -46,23 +52,33 @@ std::string_view extension_of(FileFormat format) {
 }
 
 std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower(file.extension().string());
 }
 
-FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
+std::string Destination::extension() const {
+  if (format.empty()) return is_stdout() ? std::string() : lower_extension(file);
+  return lower(format.starts_with('.') ? format : "." + format);
+}
+
+FileFormat choose_format(const Destination& destination, std::span<const FileFormat> possible,
                          const std::string& what) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = destination.extension();
+  if (extension.empty() && destination.is_stdout() && possible.size() == 1) return possible.front();
   std::string names;
   for (const FileFormat format : possible) {
     if (extension == extension_of(format)) return format;
     names += (names.empty() ? "" : ", ") + std::string(extension_of(format));
   }
-  const std::string refused = extension.empty() ? "cannot tell from no extension how to write the " + what
-                                                : "cannot write the " + what + " as '" + extension + "'";
-  throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, file);
+  std::string refused = "cannot write the " + what + " as '" + extension + "'";
+  if (extension.empty()) refused = "cannot tell from no extension how to write the " + what;
+  if (extension.empty() && destination.is_stdout()) refused = "say by --format how to write the " + what;
+  throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, destination.name());
+}
+
+FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
+                         const std::string& what) {
+  if (file == "-") return choose_format(Destination{"./-"}, possible, what);
+  return choose_format(Destination{file}, possible, what);
 }
 
 }  // namespace affskel::client

@@ -11,7 +11,7 @@ enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng,
 
 /// What can be written as which formats.
 std::span<const FileFormat> field_formats();       // csv dat vtkhdf
-std::span<const FileFormat> divergence_formats();  // csv dat
+std::span<const FileFormat> divergence_formats();  // csv dat vtkhdf
 std::span<const FileFormat> skeleton_formats();    // csv ply off xyz
 std::span<const FileFormat> surface_formats();     // off ply obj stl
 std::span<const FileFormat> picture_formats();     // png
@@ -23,9 +23,26 @@ std::string_view extension_of(FileFormat format);
 /// The file's extension with the dot, in lower case; empty without one.
 std::string lower_extension(const std::filesystem::path& file);
 
+/// Where a result goes, and as what.
+struct Destination {
+  std::filesystem::path file;  ///< "-" is the standard output
+  std::string format = {};     ///< an extension with or without its dot, in any case; empty = the file's
+
+  bool is_stdout() const { return file == "-"; }
+  /// The file for people.
+  std::string name() const { return is_stdout() ? "standard output" : file.string(); }
+  /// Of the format, else of the file: with the dot, in lower case; empty without one.
+  std::string extension() const;
+};
+
 /// The format that the file's extension (in any case) stands for, if it is one of `possible`.
 /// @throws ClientError kUsage naming the possible extensions.
 FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
+                         const std::string& what);
+
+/// The same for a destination: its format, if it names one, else what its file's extension stands for.  The
+/// standard output needs a format, unless there is but one.
+FileFormat choose_format(const Destination& destination, std::span<const FileFormat> possible,
                          const std::string& what);
 
 }  // namespace affskel::client

@@ -67,7 +67,10 @@ const PointColumn* ShapeFile::column(std::string_view name) const {
 }
 
 ShapeFile read_shape(const std::string& path) {
-  const std::string bytes = read_file(path);
+  return parse_shape(path, read_file(path));
+}
+
+ShapeFile parse_shape(const std::string& path, std::string_view bytes) {
   const Parser parser = parser_for(path, bytes);
   try {
     ShapeFile file = parser(bytes);

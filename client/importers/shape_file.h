@@ -40,4 +40,7 @@ struct ShapeFile {
 /// @throws ClientError kBadInput with the line where there is one; kLimit when the file is too large.
 ShapeFile read_shape(const std::string& path);
 
+/// The same for bytes that came from `path`.
+ShapeFile parse_shape(const std::string& path, std::string_view bytes);
+
 }  // namespace affskel::client

@@ -11,7 +11,11 @@ namespace {
 
 using core::Vec3;
 
-constexpr double kCreaseCosine = 0.643;  // of 50 degrees
+constexpr double kCreaseCosine = 0.643;       // of 50 degrees
+constexpr double kFacetShade = 0.4;           // brightness where no light falls
+constexpr double kSheetShade = 0.65;          // less deep: colours must be told from each other
+constexpr double kProfile = Panel::kSamples;  // thickness of a line of one pixel, in samples
+constexpr float kProfileLight = 0.9f;         // what is seen from its edge has no side to be lit
 constexpr Rgb kSurfaceDark{0.30f, 0.38f, 0.50f};
 constexpr Rgb kSurfaceLight{0.80f, 0.86f, 0.93f};
 
@@ -121,19 +125,63 @@ void Panel::draw_ellipsoid(const Ball& ball, const std::array<Vec3, 3>& half_axe
 
 void Panel::draw_facets(const core::Mesh& mesh, Rgb colour) {
   for (const core::Triangle& corners : mesh.triangles) {
-    std::array<Projected, 3> p{};
-    for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[corners[c]]);
-    const Vec3& a = mesh.points[corners[0]];
-    const Vec3 n = unit(core::cross(mesh.points[corners[1]] - a, mesh.points[corners[2]] - a));
-    const double facing = core::dot(n, view_.toward), side = facing < 0 ? -1 : 1;
-    const double light =
-        0.4 + 0.6 * lambert(side * core::dot(n, view_.right), side * core::dot(n, view_.up), side * facing);
-    const Rgb shaded = static_cast<float>(light) * colour;
-    const std::array<ScreenPoint, 3> screen = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
-    for_each_sample(screen, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
-      cover(at(x, y), static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth), shaded);
-    });
+    draw_facet({mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]},
+               {colour, colour, colour}, kFacetShade);
   }
+}
+
+void Panel::draw_sheet(const core::Mesh& mesh, const std::vector<Rgb>& colours) {
+  for (const core::Triangle& c : mesh.triangles) {
+    const std::array<Vec3, 3> places = {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
+    const std::array<Rgb, 3> paint = {colours[c[0]], colours[c[1]], colours[c[2]]};
+    if (!draw_profile(places, paint)) draw_facet(places, paint, kSheetShade);
+  }
+}
+
+void Panel::draw_facet(const std::array<Vec3, 3>& corners, const std::array<Rgb, 3>& colours,
+                       double darkest) {
+  const std::array<Projected, 3> p = {project(corners[0]), project(corners[1]), project(corners[2])};
+  const Vec3 n = unit(core::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double facing = core::dot(n, view_.toward), side = facing < 0 ? -1 : 1;
+  const double lit = lambert(side * core::dot(n, view_.right), side * core::dot(n, view_.up), side * facing);
+  const auto light = static_cast<float>(darkest + (1 - darkest) * lit);
+  const std::array<ScreenPoint, 3> screen = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
+  for_each_sample(screen, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
+    const Rgb colour = static_cast<float>(w0) * colours[0] + static_cast<float>(w1) * colours[1] +
+                       static_cast<float>(w2) * colours[2];
+    cover(at(x, y), static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth),
+          light * colour);
+  });
+}
+
+bool Panel::draw_profile(const std::array<Vec3, 3>& corners, const std::array<Rgb, 3>& colours) {
+  const std::array<Projected, 3> p = {project(corners[0]), project(corners[1]), project(corners[2])};
+  // The longest side of the projection; its height over that side is how thick the facet looks.
+  std::size_t a = 0, b = 1;
+  double longest = 0;
+  for (std::size_t e = 0; e < 3; ++e) {
+    const std::size_t next = (e + 1) % 3;
+    const double length = std::hypot(p[next].x - p[e].x, p[next].y - p[e].y);
+    if (length > longest) longest = length, a = e, b = next;
+  }
+  const double doubled =
+      std::fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
+  if (longest == 0) return true;  // nothing to be seen of it
+  if (doubled >= kProfile * longest) return false;
+  const double across_x = -(p[b].y - p[a].y) / longest * kProfile / 2;
+  const double across_y = (p[b].x - p[a].x) / longest * kProfile / 2;
+  const ScreenPoint a0{p[a].x - across_x, p[a].y - across_y}, a1{p[a].x + across_x, p[a].y + across_y};
+  const ScreenPoint b0{p[b].x - across_x, p[b].y - across_y}, b1{p[b].x + across_x, p[b].y + across_y};
+  // t: the share of the way from a to b.
+  const auto paint = [&](int x, int y, double t) {
+    const auto depth = static_cast<float>((1 - t) * p[a].depth + t * p[b].depth);
+    cover(at(x, y), depth, kProfileLight * mix(colours[a], colours[b], static_cast<float>(t)));
+  };
+  for_each_sample({a0, b0, b1}, columns_, rows_,
+                  [&](int x, int y, double, double w1, double w2) { paint(x, y, w1 + w2); });
+  for_each_sample({a0, b1, a1}, columns_, rows_,
+                  [&](int x, int y, double, double w1, double) { paint(x, y, w1); });
+  return true;
 }
 
 void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normals) {

@@ -22,9 +22,9 @@ struct Ball {
   Rgb colour;
 };
 
-/// Draws one view: opaque balls and facets, depth-buffered, inside a translucent surface.  Works on a grid of
-/// 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers takes a share of the
-/// light, and the layers in front of a ball and those behind it are kept apart.
+/// Draws one view: opaque balls, facets and sheets, depth-buffered, inside a translucent surface.  Works on a
+/// grid of 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers takes a
+/// share of the light, and the layers in front of a ball and those behind it are kept apart.
 class Panel {
  public:
   static constexpr int kSamples = 2;  ///< per pixel and axis
@@ -39,6 +39,9 @@ class Panel {
   void draw_ellipsoid(const Ball& ball, const std::array<core::Vec3, 3>& half_axes);
   /// The mesh's triangles, opaque and flat, seen from either side.
   void draw_facets(const core::Mesh& mesh, Rgb colour);
+  /// The same with a colour per vertex, blended in between; facets that look thinner than a pixel are drawn
+  /// as lines of one, so that a sheet does not vanish where it is seen from its edge.
+  void draw_sheet(const core::Mesh& mesh, const std::vector<Rgb>& colours);
   /// @param normals one per triangle and corner, unit or zero.
   void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals);
 
@@ -64,6 +67,11 @@ class Panel {
     double x, y, depth;
   };
   Projected project(const core::Vec3& point) const;
+  // Flat, lit on the side that the viewer sees.  `darkest`: brightness where no light falls.
+  void draw_facet(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours,
+                  double darkest);
+  // Draws a facet that looks thinner than a pixel as a line along its longest side; false for any other.
+  bool draw_profile(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours);
   // Keeps what is nearer.
   static void cover(Sample& sample, float depth, Rgb colour);
   const Sample& at(int x, int y) const {

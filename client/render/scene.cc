@@ -73,9 +73,10 @@ struct ErosionScale {
   }
 };
 
-ErosionScale scale_of(const v1::SkeletonPoints& skeleton) {
+ErosionScale scale_of(const RenderInput& input) {
   ErosionScale scale;
-  for (const double e : skeleton.erosion()) scale.highest = std::max(scale.highest, e);
+  for (const double e : input.skeleton.erosion()) scale.highest = std::max(scale.highest, e);
+  for (const double e : input.sheet.erosion()) scale.highest = std::max(scale.highest, e);
   return scale;
 }
 
@@ -87,10 +88,7 @@ void paste(Image& image, const Image& part, int left, int top) {
   }
 }
 
-Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, const Layout& layout,
-                 const Box& box, std::size_t which) {
-  Panel panel(layout.panel_width[which], layout.panel_height, kViews[which].view, box.centre(), layout.scale);
-  const ErosionScale scale = scale_of(input.skeleton);
+void draw_points(const RenderInput& input, const Layout& layout, const ErosionScale& scale, Panel& panel) {
   // A ball in a cubic cell, and its affine image in any other: neighbours are as near to each other along
   // every axis of the lattice.  Frames keep volumes, so that it is as large as in the mesh's own.
   const double smallest = std::max(1.0, layout.text / 9);
@@ -105,6 +103,27 @@ Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, con
     panel.draw_ball(ball, smallest);
     panel.draw_ellipsoid(ball, half_axes);
   }
+}
+
+void draw_sheet(const v1::TriangleMesh& sheet, const ErosionScale& scale, Panel& panel) {
+  core::Mesh mesh;
+  std::vector<Rgb> colours;
+  for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
+    mesh.points.push_back({sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)});
+    colours.push_back(viridis(scale.colour_position(sheet.erosion(v))));
+  }
+  for (int t = 0; t < sheet.corners_size() / 3; ++t) {
+    mesh.triangles.push_back({sheet.corners(3 * t), sheet.corners(3 * t + 1), sheet.corners(3 * t + 2)});
+  }
+  panel.draw_sheet(mesh, colours);
+}
+
+Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, const Layout& layout,
+                 const Box& box, std::size_t which) {
+  Panel panel(layout.panel_width[which], layout.panel_height, kViews[which].view, box.centre(), layout.scale);
+  const ErosionScale scale = scale_of(input);
+  draw_points(input, layout, scale, panel);
+  draw_sheet(input.sheet, scale, panel);
   panel.draw_surface(input.mesh, normals);
   return panel.resolve();
 }
@@ -132,7 +151,7 @@ void draw_scale_bar(Image& image, const Layout& layout) {
 }
 
 void draw_colour_bar(Image& image, const Layout& layout, const RenderInput& input) {
-  const ErosionScale scale = scale_of(input.skeleton);
+  const ErosionScale scale = scale_of(input);
   if (scale.highest <= 0) return;
   const int width = image.width() * 2 / 5, left = image.width() - layout.margin - width;
   const int top = image.height() - static_cast<int>(3.6 * layout.text),

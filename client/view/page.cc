@@ -174,6 +174,7 @@ ordered_json facts_of(const ViewInput& input, const Box& box, const Scale& scale
           {"box", components(size)},
           {"up", std::string(1, up_axis(size))},
           {"unit", scale.unit},
+          {"centre", components(scale.centre)},
           {"halfBox", scale.length(0.5 * size)},
           {"cell", cell_of(input.grid, scale)}};
 }
@@ -240,6 +241,7 @@ std::string view_page(const ViewInput& input) {
                     block = base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
                                 {"version", wire::kVersion},
+                                {"overlay", page_overlay_style()},
                                 {"style", page_style()},
                                 {"script", page_script()},
                                 {"facts", data},

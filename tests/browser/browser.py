@@ -83,9 +83,9 @@ class Page:
     def canvas_picture(self):
         """The screenshot where nothing lies over the canvas."""
         self.drawn()
-        self.script("document.querySelectorAll('nav, .foot').forEach((e) => (e.style.opacity = 0))")
+        self.script("document.querySelectorAll('nav, .foot, #tick-numbers').forEach((e) => (e.style.opacity = 0))")
         picture = Image.open(io.BytesIO(self.element("canvas").screenshot_as_png)).convert("RGB")
-        self.script("document.querySelectorAll('nav, .foot').forEach((e) => (e.style.opacity = ''))")
+        self.script("document.querySelectorAll('nav, .foot, #tick-numbers').forEach((e) => (e.style.opacity = ''))")
         return picture
 
     def errors(self):

@@ -28,6 +28,16 @@ def tearDownModule():
     job.close()
 
 
+def tick_numbers(page):
+    """The numbers at the box that are shown: axis, text, sides and height of the letters, pixels."""
+    return page.script("""
+        return Array.from(document.querySelectorAll('#tick-numbers span'), (span) => {
+          const { left, top, right, bottom } = span.getBoundingClientRect();
+          return { axis: span.className, text: span.textContent, shown: !span.hidden, left, top, right, bottom,
+                   size: parseFloat(getComputedStyle(span).fontSize) };
+        }).filter((span) => span.shown)""")
+
+
 class WithPage(unittest.TestCase):
     window = dict(width=1200, height=800)
 
@@ -116,6 +126,27 @@ class Desktop(WithPage):
         state = self.page.wait(lambda s: s["threshold"] == 7)
         self.assertEqual(state["camera"], start)
 
+    def assert_numbers_fit(self):
+        """No two numbers of the box overlap, none is cut, and they are large enough to read."""
+        numbers = tick_numbers(self.page)
+        self.assertGreaterEqual(len(numbers), 4)
+        canvas = self.page.script("const b = document.getElementById('canvas').getBoundingClientRect();"
+                                  "return [b.left, b.top, b.right, b.bottom]")
+        for i, a in enumerate(numbers):
+            self.assertGreaterEqual(a["size"], 12)
+            self.assertTrue(canvas[0] <= a["left"] and a["right"] <= canvas[2] and
+                            canvas[1] <= a["top"] and a["bottom"] <= canvas[3], a)
+            for b in numbers[:i]:
+                apart = (a["right"] <= b["left"] or b["right"] <= a["left"] or
+                         a["bottom"] <= b["top"] or b["bottom"] <= a["top"])
+                self.assertTrue(apart, (a, b))
+
+    def test_the_numbers_of_the_box_can_be_read(self):
+        for view in ["reset", "view-front", "view-side", "view-top"]:
+            self.page.click(view)
+            self.page.drawn()
+            self.assert_numbers_fit()
+
     def test_the_view_fits_between_buttons_and_legend(self):
         for view in ["view-front", "view-side", "view-top", "reset"]:
             self.page.click(view)
@@ -184,6 +215,11 @@ class Phone(WithPage):
         self.assertGreater(room, 250, "the body stays in sight while the controls are open")
         self.assertGreater(colours(self.page.canvas_picture())[0], 300)
 
+    def test_the_numbers_of_the_box_can_be_read(self):
+        Desktop.test_the_numbers_of_the_box_can_be_read(self)
+
+    assert_numbers_fit = Desktop.assert_numbers_fit
+
     def touch(self, kind, *points):
         self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {
             "type": kind, "touchPoints": [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]})
@@ -239,6 +275,25 @@ class Sheet(WithPage):
         slider.send_keys(Keys.END)
         last = self.page.wait(lambda s: s["threshold"] > 0.4)
         self.assertEqual(last["skeletonShown"], 80, "the heaviest piece stays")
+
+    def test_the_numbers_of_the_box_are_coordinates(self):
+        # The cube goes from 0 to 4; from the front x goes right and z up, and y points at the viewer.
+        self.page.click("view-front")
+        self.page.drawn()
+        numbers = tick_numbers(self.page)
+        unit = self.page.state()["camera"]["zoom"] * self.page.element("canvas").size["height"] / 4
+        for axis, low, high, sign in [("x", "left", "right", 1), ("z", "top", "bottom", -1)]:
+            values = {float(n["text"]): (n[low] + n[high]) / 2 for n in numbers if n["axis"] == axis}
+            # Where the axes meet one of the two may make room for the other.
+            self.assertTrue({1, 2, 3, 4} <= set(values), values)
+            for value, place in values.items():
+                self.assertAlmostEqual((place - values[2]) * sign, (value - 2) * unit, delta=1)
+        self.assertEqual([n for n in numbers if n["axis"] == "y"], [])
+        self.page.click("view-top")
+        self.page.drawn()
+        self.assertEqual({n["axis"] for n in tick_numbers(self.page)}, {"x", "y"})
+        self.page.click("show-axes")
+        self.assertFalse(self.page.element("tick-numbers").is_displayed())
 
     def test_hides_what_is_too_light(self):
         self.page.click("view-top")

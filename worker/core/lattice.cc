@@ -8,6 +8,7 @@
 #include "core/cube_root.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/point_spacing.h"
 #include "core/scan_conversion.h"
 
 namespace affskel::core {
@@ -27,6 +28,11 @@ class LatticeBuilder {
   LatticeBuilder(const Solid& solid, const LatticeFrame& frame, unsigned threads)
       : mesh_(solid.mesh), threads_(threads) {
     lattice_.frame = frame;
+  }
+
+  std::uint32_t count() {
+    fill_axis_2();
+    return lattice_.points;
   }
 
   Lattice run() {
@@ -202,6 +208,36 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
   return {solid.scale() * (high - low), f * (0.5 * (low + high)), 1 - 1e-9};
 }
 
+// The lattice of a spacing before it is filled.
+struct Plan {
+  LatticeFrame frame;
+  double lines = 0;
+  double estimate = 0;  // of the points
+  bool fits = false;    // within the limits; only then there is a frame
+};
+
+Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
+  const Vec3& sides = box.sides;
+  Plan plan;
+  plan.lines = (sides.x / spacing + 1) * (sides.y / spacing + 1) +
+               (sides.y / spacing + 1) * (sides.z / spacing + 1) +
+               (sides.z / spacing + 1) * (sides.x / spacing + 1);
+  plan.estimate = solid.volume / spacing / spacing / spacing;
+  plan.fits = plan.estimate <= static_cast<double>(options.max_points) && plan.lines <= kMaxLines;
+  if (!plan.fits) return plan;
+  const double step = std::ldexp(spacing, -solid.exponent);
+  plan.frame.axes = step * options.frame;
+  std::array<double, 3> origin{};
+  for (int k = 0; k < 3; ++k) {
+    const double count = std::max(1.0, std::ceil(sides[k] / spacing * box.shrunk));
+    plan.frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
+    origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
+  }
+  const Vec3 corner{origin[0], origin[1], origin[2]};
+  plan.frame.origin = box.centre + options.frame * corner;
+  return plan;
+}
+
 }  // namespace
 
 Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads) {
@@ -215,33 +251,18 @@ Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned thr
   return lattice;
 }
 
-Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
-  const double spacing = wanted_spacing(solid, options);
-  const FrameBox box = box_in(solid, options.frame);
-  const Vec3& sides = box.sides;
-  const double lines = (sides.x / spacing + 1) * (sides.y / spacing + 1) +
-                       (sides.y / spacing + 1) * (sides.z / spacing + 1) +
-                       (sides.z / spacing + 1) * (sides.x / spacing + 1);
-  const double estimate = solid.volume / spacing / spacing / spacing;
-  if (!(estimate <= static_cast<double>(options.max_points)) || !(lines <= kMaxLines)) {
+namespace {
+
+Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
+  const Plan plan = plan_lattice(solid, box, options, spacing);
+  if (!plan.fits) {
     throw CoreError(CoreError::Code::kLimit,
-                    "spacing " + in_words(spacing) + " would give about " + in_words(estimate) +
-                        " sample points on " + in_words(lines) + " lattice lines; at most " +
+                    "spacing " + in_words(spacing) + " would give about " + in_words(plan.estimate) +
+                        " sample points on " + in_words(plan.lines) + " lattice lines; at most " +
                         in_words(static_cast<double>(options.max_points)) + " points on " +
                         in_words(kMaxLines) + " lines are supported");
   }
-  LatticeFrame frame;
-  const double step = std::ldexp(spacing, -solid.exponent);
-  frame.axes = step * options.frame;
-  std::array<double, 3> origin{};
-  for (int k = 0; k < 3; ++k) {
-    const double count = std::max(1.0, std::ceil(sides[k] / spacing * box.shrunk));
-    frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
-    origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
-  }
-  const Vec3 corner{origin[0], origin[1], origin[2]};
-  frame.origin = box.centre + options.frame * corner;
-  Lattice lattice = make_lattice(solid, frame, options.threads);
+  Lattice lattice = make_lattice(solid, plan.frame, options.threads);
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
@@ -249,6 +270,30 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
                                                     in_words(solid.volume));
   }
   return lattice;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
+  const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);
+  if (!plan.fits) return std::nullopt;
+  return LatticeBuilder(solid, plan.frame, options.threads).count();
+}
+
+Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
+  const double spacing = wanted_spacing(solid, options);
+  const FrameBox box = box_in(solid, options.frame);
+  const Plan plan = plan_lattice(solid, box, options, spacing);
+  // Too many points by their volume are refused; lines that a thin solid would not need are not.
+  if (options.spacing == 0 && plan.estimate <= static_cast<double>(options.max_points)) {
+    if (plan.fits) {
+      Lattice lattice = make_lattice(solid, plan.frame, options.threads);
+      lattice.spacing = spacing;
+      if (is_near(lattice.points, options.target_points)) return lattice;
+    }
+    return lattice_at(solid, box, options, spacing_for_points(solid, options, spacing));
+  }
+  return lattice_at(solid, box, options, spacing);
 }
 
 }  // namespace affskel::core

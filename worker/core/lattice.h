@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/matrix3.h"
@@ -67,7 +68,7 @@ class SamplePlaces {
 
 struct LatticeOptions {
   double spacing = 0;                                 ///< dT, mesh units; > 0, or 0 to use target_points
-  std::uint64_t target_points = 0;                    ///< sets dT = (v0 / target_points)^(1/3)
+  std::uint64_t target_points = 0;                    ///< sets dT, see spacing_for_points
   Matrix3 frame = kIdentity3;                         ///< F of det 1, see solid_frame
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
   unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
@@ -84,6 +85,10 @@ struct LatticeOptions {
 /// Sides that are whole multiples of dT to 1e-9 count as such in any frame but the mesh's own, where rounding
 /// in F would decide otherwise.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
+
+/// How many sample points make_lattice would give for options.spacing, by one scan conversion; nothing when
+/// it would refuse them as too many, or too many lines.
+std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
 Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1);

@@ -12,6 +12,10 @@ import { makeErosion, makeSkeleton } from './skeleton.js';
 import { leastAround, sublattice } from './shell.js';
 import { Slider } from './slider.js';
 import { Stage } from './stage.js';
+import { TickNumbers } from './ticks.js';
+
+const kNumbersBelow = 22; // pixels: a tick and a line
+const kTickBeside = 16; // pixels: a tick and gaps
 
 const element = (id) => document.getElementById(id);
 
@@ -22,12 +26,16 @@ function fail(message) {
   document.body.classList.add('failed');
 }
 
-// What the buttons above and the legend below cover.
-function freeEdges() {
+// What the buttons above, the legend below and the numbers of the box all round cover.
+function freeEdges(numbers) {
   const [main, nav, foot] = ['main', 'nav', '.foot'].map((s) =>
     document.querySelector(s).getBoundingClientRect(),
   );
-  return { top: nav.bottom - main.top, bottom: main.bottom - foot.top };
+  return {
+    top: nav.bottom - main.top,
+    bottom: main.bottom - foot.top + kNumbersBelow,
+    side: Math.min(numbers.widest() + kTickBeside, main.width / 4),
+  };
 }
 
 class Viewer {
@@ -47,11 +55,12 @@ class Viewer {
       ),
     });
     this.glass = new Glass(meshPositions(page), page.arrays.meshCorners);
-    this.frame = new BoxFrame(page.halfBox, page.unit);
+    this.frame = new BoxFrame(page.halfBox, page.centre, page.unit);
+    this.numbers = new TickNumbers(element('tick-numbers'), this.frame);
     this.stage = new Stage(element('canvas'), {
       up: page.up,
       halfBox: page.halfBox,
-      inset: freeEdges,
+      inset: () => freeEdges(this.numbers),
       onFrame: () => this.beforeFrame(),
     });
     this.layers = {
@@ -75,6 +84,8 @@ class Viewer {
     this.stage.camera.updateMatrixWorld();
     this.skeleton.drawn.look(this.stage.camera, buffer);
     this.skin.look(this.stage.camera, buffer);
+    this.frame.look(this.stage.camera);
+    this.numbers.place(this.stage.camera, pixels);
     drawCross(element('cross'), this.stage.camera);
     drawScaleBar(element('scale'), pixels / this.page.unit, this.stage.canvas.clientWidth);
   }
@@ -98,7 +109,8 @@ class Viewer {
         Object.assign(document.createElement('dd'), { textContent: value }),
       );
     }
-    element('ticks').textContent = `Ticks on the box every ${rounded(this.frame.tickDistance, 6)} units.`;
+    element('ticks').textContent =
+      `Numbers on the box are coordinates, its ticks ${rounded(this.frame.tickDistance, 6)} units apart.`;
     if (page.thinning > 1) {
       element('thinned').hidden = false;
       element('thinned').textContent =
@@ -163,7 +175,9 @@ class Viewer {
   toggle(name, on) {
     element(`show-${name}`).checked = on;
     if (this.layers[name]) this.layers[name].visible = on;
-    if (name === 'axes') element('cross').classList.toggle('off', !on);
+    if (name === 'axes') {
+      for (const id of ['cross', 'tick-numbers']) element(id).classList.toggle('off', !on);
+    }
     if (name === 'scale') element('scale').classList.toggle('off', !on);
     this.glass.fade(element('show-eroded').checked ? 0.45 : 1);
     this.stage.requestFrame();

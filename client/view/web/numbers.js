@@ -15,6 +15,16 @@ export function rounded(value, digits = 4) {
   return `${Number(mantissa)} × 10${Number(exponent) < 0 ? '⁻' : ''}${power}`;
 }
 
+// A coordinate in full, as short as it is; a true minus sign.
+export function coordinate(value) {
+  const size = Math.abs(value);
+  const text =
+    value === 0 || (size >= 1e-4 && size < 1e7)
+      ? size.toLocaleString('en-US', { maximumSignificantDigits: 12 })
+      : rounded(size, 12);
+  return value < 0 ? `−${text}` : text;
+}
+
 // 1, 2 or 5 times a power of ten, at most `limit`.
 export function roundLength(limit) {
   const power = 10 ** Math.floor(Math.log10(limit));

@@ -15,8 +15,8 @@ const kViews = {
 };
 
 export class Stage {
-  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels at the top and the
-  // bottom that a whole view keeps free.  `onFrame` runs before every frame.
+  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels at the top, at the
+  // bottom and on either side that a whole view keeps free.  `onFrame` runs before every frame.
   constructor(canvas, { up, halfBox, inset, onFrame }) {
     this.canvas = canvas;
     this.inset = inset;
@@ -51,9 +51,9 @@ export class Stage {
     const box = new Box3(this.halfBox.clone().negate(), this.halfBox.clone());
     box.applyMatrix4(this.camera.matrixWorldInverse);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const { top, bottom } = this.inset();
+    const { top, bottom, side } = this.inset();
     const room = Math.max(height / 3, height - top - bottom);
-    this.camera.zoom = Math.min(this.camera.right / box.max.x, room / height / box.max.y) / kMargin;
+    this.camera.zoom = Math.min(((width - 2 * side) / height) / box.max.x, room / height / box.max.y) / kMargin;
     this.camera.setViewOffset(width, height, 0, (bottom - top) / 2, width, height); // updates the projection
     this.requestFrame();
   }

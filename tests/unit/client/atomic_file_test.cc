@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
+
 #include "client/error.h"
 #include "temp_dir.h"
 
@@ -69,12 +71,61 @@ TEST(AtomicFile, FollowsLinksThatLeadNowhereYet) {
   EXPECT_THROW(AtomicFile(dir / "loop"), ClientError);
 }
 
-TEST(AtomicFile, WritesToDevicesDirectly) {
+TEST(AtomicFile, LeavesDevicesWhatTheyAre) {
   AtomicFile file("/dev/null");
-  EXPECT_FALSE(file.is_regular());
   file.write("gone");
   file.commit();
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+// What AtomicFiles in `action` write to the standard output.
+template <typename Action>
+std::string on_stdout(Action&& action) {
+  ::testing::internal::CaptureStdout();
+  action();
+  return ::testing::internal::GetCapturedStdout();
+}
+
+TEST(AtomicFile, AMinusSignIsTheStandardOutput) {
+  const std::string large(3 << 20, 'x');
+  EXPECT_EQ(on_stdout([&] {
+              AtomicFile file("-");
+              file.write("hello ");
+              file.write(large);
+              file.commit();
+            }),
+            "hello " + large);
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
+TEST(AtomicFile, TheStandardOutputGetsEverythingOrNothing) {
+  std::filesystem::path temporary;
+  EXPECT_EQ(on_stdout([&] {
+              AtomicFile file("-");
+              temporary = file.path();
+              file.write(std::string(3 << 20, 'x'));
+              EXPECT_TRUE(std::filesystem::exists(temporary));
+            }),
+            "")
+      << "what was not committed";
+  EXPECT_FALSE(std::filesystem::exists(temporary));
+}
+
+TEST(AtomicFile, LibrariesWriteForTheStandardOutputByPath) {
+  EXPECT_EQ(on_stdout([&] {
+              AtomicFile file("-");
+              spit(file.path(), "by path");
+              file.commit();
+            }),
+            "by path");
+}
+
+TEST(AtomicFile, WithoutAFolderForTemporaryFilesThereIsNoStandardOutput) {
+  const char* const before = std::getenv("TMPDIR");
+  const std::string old = before == nullptr ? "" : before;
+  setenv("TMPDIR", "/nowhere/at/all", 1);
+  EXPECT_THROW(AtomicFile("-"), ClientError);
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", old.c_str(), 1);
 }
 
 TEST(AtomicFile, NamesTheTargetWhenItCannotBeWritten) {

@@ -251,11 +251,31 @@ TEST_F(ClientTest, InspectNeedsNoServer) {
   EXPECT_EQ(json::parse(open.out).at("defects").at(0).at("count"), 3);
 }
 
+TEST_F(ClientTest, OtherFormatsAreSubmittedAsOffText) {
+  ASSERT_EQ(run({"transform", dir_ / "cube.off", "-o", dir_ / "cube.stl", "--scale", "1"}).exit_code, 0);
+  const Outcome submitted = run({"submit", dir_ / "cube.stl"});
+  EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
+  EXPECT_NE(submitted.err.find("cube.stl: read as stl and submitted as OFF text, 8 vertices"),
+            std::string::npos)
+      << submitted.err;
+  EXPECT_EQ(core::read_off(service_.mesh).mesh.points.size(), 8u);
+  EXPECT_EQ(service_.submitted.mesh_sha256(), wire::sha256_hex(service_.mesh));
+  EXPECT_EQ(service_.submitted.mesh_bytes(), service_.mesh.size());
+  EXPECT_EQ(service_.submitted.name(), "cube");
+  const json facts = json::parse(run({"--json", "inspect", dir_ / "cube.stl"}).out);
+  EXPECT_EQ(facts.at("format"), "stl");
+  EXPECT_EQ(facts.at("bytes"), 84 + 12 * 50);
+  EXPECT_EQ(facts.at("submitted_bytes"), service_.mesh.size());
+  EXPECT_EQ(facts.at("submitted_sha256"), service_.submitted.mesh_sha256());
+  EXPECT_EQ(facts.at("volume"), 8e9);
+}
+
 TEST_F(ClientTest, MakeWritesShapes) {
   EXPECT_EQ(run({"make", "torus", "--triangles", "18", "-o", dir_ / "t.off"}).exit_code, 0);
   EXPECT_EQ(core::read_off(slurp(dir_ / "t.off")).mesh.triangles.size(), 18u);
-  const Outcome box = run({"make", "box", "--size", "3,2,1", "-o", "-"});
-  EXPECT_EQ(box.out, core::write_off(core::make_box(3, 2, 1)));
+  ::testing::internal::CaptureStdout();
+  run({"make", "box", "--size", "3,2,1", "-o", "-"});
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), core::write_off(core::make_box(3, 2, 1)));
   EXPECT_EQ(run({"make", "torus", "--triangles", "7", "-o", dir_ / "t.off"}).exit_code, 2);
   EXPECT_EQ(run({"--json", "make", "box", "-o", "-"}).exit_code, 2);
 }

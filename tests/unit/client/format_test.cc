@@ -27,6 +27,26 @@ TEST(ChooseFormat, NamesThePossibleOnes) {
   }
 }
 
+TEST(ChooseFormat, AFormatStandsAboveTheName) {
+  for (const char* format : {"ply", ".PLY", "Ply"}) {
+    EXPECT_EQ(choose_format(Destination{"x.csv", format}, skeleton_formats(), "skeleton"), FileFormat::kPly);
+    EXPECT_EQ(choose_format(Destination{"-", format}, skeleton_formats(), "skeleton"), FileFormat::kPly);
+  }
+  EXPECT_EQ(choose_format(Destination{"x.csv"}, skeleton_formats(), "skeleton"), FileFormat::kCsv);
+  EXPECT_EQ(choose_format(Destination{"-"}, picture_formats(), "picture"), FileFormat::kPng);
+  for (const Destination& wrong :
+       {Destination{"-"}, Destination{"x.csv", "png"}, Destination{"x.csv", "."}}) {
+    EXPECT_THROW(choose_format(wrong, skeleton_formats(), "skeleton"), ClientError) << wrong.format;
+  }
+  try {
+    choose_format(Destination{"-"}, skeleton_formats(), "skeleton");
+  } catch (const ClientError& error) {
+    EXPECT_EQ(
+        error.for_people(),
+        "standard output: say by --format how to write the skeleton; possible are .csv, .ply, .off, .xyz");
+  }
+}
+
 TEST(ChooseFormat, SpeaksOfWhatIsToBeWritten) {
   try {
     choose_format("e.STL", skeleton_formats(), "eroded solid's points");

@@ -10,8 +10,10 @@
 #include <thread>
 
 #include "client/error.h"
+#include "client/exporters/mesh_writer.h"
 #include "core/shapes.h"
 #include "temp_dir.h"
+#include "wire/sha256.h"
 
 namespace affskel::client {
 namespace {
@@ -78,6 +80,64 @@ TEST(ReadFile, MissingFilesAndDirectoriesAreBadInput) {
   const TempDir dir;
   EXPECT_EQ(exit_of([&] { read_file(dir / "none"); }), ExitCode::kBadInput);
   EXPECT_EQ(exit_of([&] { read_file(dir.path()); }), ExitCode::kBadInput);
+}
+
+// The box as the bytes of a format.
+std::string bytes_as(FileFormat format, const core::Mesh& mesh) {
+  std::string bytes;
+  write_mesh(format, mesh, {}, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+TEST(ReadInput, MakesOffTextOfOtherFormats) {
+  const TempDir dir;
+  const core::Mesh box = core::make_box(3, 2, 1);
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl}) {
+    const std::string path = dir / ("box" + std::string(extension_of(format))), bytes = bytes_as(format, box);
+    spit(path, bytes);
+    const InputFile input = read_input(path);
+    EXPECT_EQ("." + input.format, extension_of(format));
+    EXPECT_TRUE(input.converted());
+    EXPECT_EQ(input.file_bytes, bytes.size());
+    EXPECT_EQ(input.file_sha256, wire::sha256_hex(bytes));
+    // What is submitted is the surface, its corners joined, whatever STL repeats.
+    const core::Mesh read = core::read_off(input.bytes).mesh;
+    EXPECT_EQ(read.points.size(), 8u) << path;
+    EXPECT_EQ(read.triangles.size(), 12u) << path;
+    EXPECT_EQ(core::make_solid(read, {false}).volume, 6) << path;
+    std::ostringstream out, err;
+    Console console(out, err, {});
+    tell_conversion(input, console);
+    EXPECT_NE(err.str().find("8 vertices and 12 triangles"), std::string::npos) << err.str();
+  }
+}
+
+TEST(ReadInput, KeepsTheBytesOfOffText) {
+  const TempDir dir;
+  const std::string text = "# mine\n" + core::write_off(core::make_box(3, 2, 1));
+  for (const char* name : {"box.off", "box", "box.mesh"}) {
+    spit(dir / name, text);
+    const InputFile input = read_input(dir / name);
+    EXPECT_EQ(input.bytes, text);
+    EXPECT_FALSE(input.converted());
+    std::ostringstream out, err;
+    Console console(out, err, {});
+    tell_conversion(input, console);
+    EXPECT_EQ(err.str(), "");
+  }
+}
+
+TEST(ReadInput, KnowsAFormatByItsNameOrItsFirstBytes) {
+  const TempDir dir;
+  const std::string ply = bytes_as(FileFormat::kPly, core::make_box(3, 2, 1));
+  spit(dir / "scan", ply);
+  EXPECT_EQ(read_input(dir / "scan").format, "ply");
+  spit(dir / "scan.off", ply);
+  EXPECT_EQ(exit_of([&] { read_input(dir / "scan.off"); }), ExitCode::kBadInput);
+  spit(dir / "scan.STL", ply);
+  EXPECT_EQ(exit_of([&] { read_input(dir / "scan.STL"); }), ExitCode::kBadInput);
+  spit(dir / "points.obj", "v 0 0 0\nv 1 0 0\n");
+  EXPECT_EQ(exit_of([&] { read_input(dir / "points.obj"); }), ExitCode::kBadInput) << "no triangles";
 }
 
 TEST(CheckSolid, RepairsOnlyWhenAllowedAndTellsIt) {

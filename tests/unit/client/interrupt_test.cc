@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
+
 #include "client/error.h"
 #include "client/exporters/atomic_file.h"
 #include "temp_dir.h"
@@ -40,6 +42,28 @@ TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
       },
       ::testing::ExitedWithCode(143), "");
   EXPECT_TRUE(dir.names().empty());
+}
+
+// 0 when an AtomicFile into a pipe that nobody reads fails with a message about it.
+[[noreturn]] void write_to_nobody() {
+  install_interrupt_handlers();
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) _exit(3);
+  close(ends[0]);
+  dup2(ends[1], STDOUT_FILENO);
+  try {
+    AtomicFile file("-");
+    file.write("x");
+    file.commit();
+  } catch (const ClientError& error) {
+    const bool told = error.for_people() == "standard output: cannot write: Broken pipe";
+    _exit(told && error.exit_code() == ExitCode::kLimit ? 0 : 1);
+  }
+  _exit(2);
+}
+
+TEST(InterruptDeathTest, APipeThatNobodyReadsIsAnErrorNotADeath) {
+  EXPECT_EXIT(write_to_nobody(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(InterruptDeathTest, RemovesEveryUnfinishedFile) {

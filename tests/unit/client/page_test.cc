@@ -103,6 +103,7 @@ TEST(Page, PointsComeBackInPageUnits) {
             (std::vector<std::int8_t>{0, 0, -127, 127, 0, 0}));
   EXPECT_EQ(all.at("highestShare"), 0.5);
   EXPECT_EQ(all.at("unit"), 5);
+  EXPECT_EQ(all.at("centre"), json({1, 2, 5}));
   EXPECT_EQ(all.at("box"), json({2, 4, 10}));
 }
 

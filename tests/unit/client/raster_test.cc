@@ -184,6 +184,43 @@ TEST(Panel, FacetsAreOpaqueFromEitherSideAndHideWhatIsBehind) {
   }
 }
 
+// A square of side 16 in a plane that holds the x axis and rises to `up` there, red on the left, blue on the
+// right.
+Image picture_of_sheet(const core::Vec3& up) {
+  const core::Vec3 left{-8, 0, 0}, right{8, 0, 0};
+  const core::Mesh square{{left - 8 * up, right - 8 * up, right + 8 * up, left + 8 * up},
+                          {{0, 1, 2}, {0, 2, 3}}};
+  Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+  panel.draw_sheet(square, {kRed, kBlue, kBlue, kRed});
+  return panel.resolve();
+}
+
+TEST(Panel, SheetsBlendTheColoursOfTheirVertices) {
+  const Image image = picture_of_sheet({0, 0, 1});
+  for (int y = 3; y < 17; ++y) {
+    const float sum = image.at(3, y).r + image.at(3, y).b;  // the light
+    EXPECT_GT(sum, 0.7f);
+    for (int x = 3; x < 17; ++x) {
+      const float share = static_cast<float>(x + 0.5 - 2) / 16;
+      EXPECT_NEAR(image.at(x, y).b, sum * share, 0.02) << x << "," << y;
+      EXPECT_NEAR(image.at(x, y).r, sum * (1 - share), 0.02) << x << "," << y;
+    }
+  }
+  EXPECT_EQ(image.at(1, 10), kWhite);
+}
+
+TEST(Panel, ASheetSeenFromItsEdgeIsALineOfAPixel) {
+  for (const core::Vec3& up : {core::Vec3{0, 1, 0}, core::Vec3{0, 1, 0.01}}) {
+    const Image image = picture_of_sheet(up);
+    for (int x = 3; x < 17; ++x) {
+      float covered = 0;
+      for (int y = 0; y < 20; ++y) covered += 1 - image.at(x, y).g;
+      EXPECT_NEAR(covered, 1, 0.51) << x;
+    }
+    EXPECT_GT(image.at(4, 10).r + image.at(4, 9).r, image.at(4, 10).b + image.at(4, 9).b);
+  }
+}
+
 TEST(Panel, SurfaceLayersDoNotDependOnTheirOrder) {
   core::Mesh two{{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}, {-9, 3, -9}, {9, 6, -9}, {0, 1, 9}},
                  {{0, 1, 2}, {3, 4, 5}}};
@@ -257,6 +294,28 @@ TEST(RenderScene, IsAPngOfTheWidthAskedFor) {
   EXPECT_THROW(render_scene(input, {10}), ClientError);
   input.mesh = {};
   EXPECT_THROW(render_scene(input, {400}), ClientError);
+}
+
+TEST(RenderScene, ASheetIsColouredByItsErosion) {
+  RenderInput input;
+  input.mesh = core::make_box(100, 100, 100);
+  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
+  const Image without = render_scene(input, {1600});
+  for (const double c : {10., 10., 50., 90., 10., 50., 90., 90., 50.}) input.sheet.add_xyz(c);
+  for (const unsigned v : {0u, 1u, 2u}) input.sheet.add_corners(v);
+  for (const double e : {5., 5., 5.}) input.sheet.add_erosion(e);  // the highest: yellow
+  const Image with = render_scene(input, {1600});
+  int yellow = 0;
+  const int panels = with.width() / 3;  // from above is the last
+  for (int y = 0; y < with.height() * 4 / 5; ++y) {
+    for (int x = 2 * panels; x < with.width(); ++x) {
+      const Rgb c = with.at(x, y);
+      yellow += c != without.at(x, y) && c.r > 1.5f * c.b ? 1 : 0;
+    }
+  }
+  // Half of a square whose side is 0.8 of the box's, which fills a third of the picture less its margins.
+  const double side = 0.8 * (1600 - 4 * 32) / 3;
+  EXPECT_NEAR(yellow, side * side / 2, 0.02 * side * side);
 }
 
 // How many pixels a point without erosion makes dark, in all three views.

@@ -28,6 +28,55 @@ TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
   EXPECT_EQ(document.at("file"), dir_ / "s.csv");
 }
 
+TEST_F(ClientTest, ResultsGoToTheStandardOutput) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"fetch", "@last", "field", "--format", "csv"},
+      {"fetch", "@last", "field", "--format", "vtkhdf"},
+      {"fetch", "@last", "mesh"},
+      {"skeleton", "@last", "--format", "ply"},
+      {"surface", "@last", "--format", ".STL"},
+      {"erode", "@last", "--volume", "3", "--format", "xyz"},
+      {"render", "@last", "--width", "300"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"-o", "-"});
+    ::testing::internal::CaptureStdout();
+    const Outcome outcome = run(command);
+    const std::string piped = ::testing::internal::GetCapturedStdout();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("wrote standard output"), std::string::npos) << outcome.err;
+    command.back() = dir_ / "file";
+    if (command[0] == "render") command.back() += ".png";
+    ASSERT_EQ(run(command).exit_code, 0) << command[0];
+    EXPECT_EQ(piped, slurp(command.back())) << command[0];
+    command.back() = "-";
+    command.insert(command.begin(), "--json");
+    EXPECT_EQ(run(command).exit_code, 2) << "both want standard output";
+  }
+  EXPECT_EQ(run({"skeleton", "@last", "-o", "-"}).exit_code, 2) << "as what?";
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", "-", "--format", "off"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, APlaceThatCannotBeWrittenIsKnownBeforeTheWorkIsDone) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"skeleton", "@last", "--operator", "sobel", "-o", "/nowhere/s.ply"},
+           {"surface", "@last", "--operator", "chords", "-o", "/nowhere/s.ply"},
+           {"erode", "@last", "--fraction", "1%", "-o", "/nowhere/s.ply"},
+           {"erode", "@last", "--fraction", "1%", "-o", "/nowhere/s.csv"},
+           {"render", "@last", "-o", "/nowhere/s.png"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("cannot write: No such file"), std::string::npos) << outcome.err;
+  }
+  EXPECT_TRUE(service_.fetches.empty());
+}
+
+TEST_F(ClientTest, AFormatStandsAboveTheExtension) {
+  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.txt", "--format", "csv"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "s.txt").substr(0, 6), "x,y,z,");
+  EXPECT_EQ(run({"erode", "@last", "--volume", "3", "-o", dir_ / "e.csv", "--format", "stl"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
+}
+
 TEST_F(ClientTest, DamagedTransfersLeaveNoFile) {
   service_.damage = true;
   for (const auto& [kind, name] : {std::pair("mesh", "m.off"), std::pair("skeleton", "s.ply"),
@@ -93,6 +142,44 @@ TEST_F(ClientTest, RenderWritesAPng) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
 }
 
+TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
+  const std::string plain = dir_ / "p.png", other = dir_ / "q.png";
+  ASSERT_EQ(run({"render", "@last", "-o", plain, "--width", "300"}).exit_code, 0);
+  EXPECT_FALSE(service_.fetches.front().has_skeleton()) << "the job's own, which is stored";
+  service_.fetches.clear();
+  ASSERT_EQ(run({"render", "@last", "--threshold", "3", "-o", other}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.front().kind(), v1::ARTIFACT_KIND_SKELETON);
+  EXPECT_EQ(service_.fetches.front().skeleton().threshold(), 3);
+  EXPECT_EQ(service_.fetches.front().skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+
+  v1::TriangleMesh sheet;
+  for (const double v : {0., 0., 1000., 2000., 0., 1000., 0., 2000., 1000.}) sheet.add_xyz(v);
+  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
+  for (const double e : {3., 4., 5.}) sheet.add_erosion(e);
+  for (const double r : {0.5, 0.6, 0.7}) sheet.add_strength(r);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  service_.fetches.clear();
+  ASSERT_EQ(run({"render", "@last", "--operator", "chords", "-o", other, "--width", "300"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.front().kind(), v1::ARTIFACT_KIND_SURFACE);
+  EXPECT_EQ(service_.fetches.front().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
+  EXPECT_NE(slurp(plain), slurp(other));
+  sheet.add_corners(9);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"render", "@last", "--operator", "chords", "-o", other}).exit_code, 70) << "a damaged sheet";
+}
+
+TEST_F(ClientTest, RenderOfAnEmptySheetSaysWhy) {
+  v1::TriangleMesh sheet;
+  sheet.mutable_quality()->set_advice("take a smaller significance");
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  const Outcome outcome = run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("empty: take a smaller significance"), std::string::npos) << outcome.err;
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "q.png"}).exit_code, 4);
+}
+
 TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.csv"}).exit_code, 0);
   const std::string text = slurp(dir_ / "H.csv");
@@ -101,6 +188,8 @@ TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   EXPECT_FALSE(service_.fetches.back().has_skeleton()) << "the job's own operator";
   EXPECT_EQ(run({"fetch", "@last", "divergence", "--operator", "sobel", "-o", dir_ / "H.dat"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
+  EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.vtkhdf"}).exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "H.vtkhdf").substr(1, 3), "HDF");
   EXPECT_EQ(run({"fetch", "@last", "mesh", "--operator", "sobel", "-o", dir_ / "m.off"}).exit_code, 2);
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(4 * 8);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "short.csv"}).exit_code, 70);
@@ -122,8 +211,37 @@ TEST_F(ClientTest, ErodeWritesPointsOrASurface) {
   const Outcome told = run({"--json", "erode", "@last", "--fraction", "0.5", "-o", dir_ / "e.ply"});
   EXPECT_EQ(json::parse(told.out).at("volume"), 8e8);
   EXPECT_NE(slurp(dir_ / "e.ply").find("volume 8e+08"), std::string::npos);
+  EXPECT_EQ(run({"erode", "@last", "--fraction", "7%", "-o", dir_ / "e.stl"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.07);
   EXPECT_EQ(run({"fetch", "@last", "eroded", "-o", dir_ / "f.off"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.1);
+}
+
+TEST_F(ClientTest, ErodedPointsTellTheirShareOfTheVolume) {
+  // Two of the five sample points of a solid of 8e9.
+  const Outcome told = run({"erode", "@last", "--fraction", "0.1", "-o", dir_ / "e.ply", "--as", "points"});
+  EXPECT_NE(told.err.find("2 points, volume about 3.2e+09"), std::string::npos) << told.err;
+  EXPECT_NE(slurp(dir_ / "e.ply").find("volume about 3.2e+09"), std::string::npos);
+  const json document =
+      json::parse(run({"--json", "erode", "@last", "--fraction", "0.1", "-o", dir_ / "e.csv"}).out);
+  EXPECT_DOUBLE_EQ(document.at("volume"), 3.2e9);
+  EXPECT_FALSE(json::parse(run({"--json", "fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out)
+                   .contains("volume"));
+}
+
+TEST_F(ClientTest, AnEmptyErodedSolidSaysWhatTheLargestLevelIs) {
+  v1::SkeletonPoints none;
+  none.mutable_quality()->set_advice("the largest E is 12");
+  service_.artifacts[v1::ARTIFACT_KIND_ERODED_POINTS] = none.SerializeAsString();
+  v1::TriangleMesh nothing;
+  nothing.mutable_quality()->set_advice("the largest E is 13");
+  service_.artifacts[v1::ARTIFACT_KIND_ERODED_SURFACE] = nothing.SerializeAsString();
+  const Outcome points = run({"--json", "erode", "@last", "--fraction", "0.9", "-o", dir_ / "e.csv"});
+  EXPECT_EQ(json::parse(points.out).at("volume"), 0);
+  EXPECT_NE(run({"erode", "@last", "--fraction", "0.9", "-o", dir_ / "e.csv"}).err.find("largest E is 12"),
+            std::string::npos);
+  EXPECT_NE(run({"erode", "@last", "--fraction", "0.9", "-o", dir_ / "e.off"}).err.find("largest E is 13"),
+            std::string::npos);
 }
 
 TEST_F(ClientTest, ErodeRefusesWrongLevels) {
@@ -131,6 +249,9 @@ TEST_F(ClientTest, ErodeRefusesWrongLevels) {
        std::vector<std::vector<std::string>>{{},
                                              {"--fraction", "0"},
                                              {"--fraction", "1.5"},
+                                             {"--fraction", "1"},
+                                             {"--fraction", "100%"},
+                                             {"--fraction", "10%%"},
                                              {"--volume", "-1"},
                                              {"--fraction", "0.5", "--volume", "1"}}) {
     std::vector<std::string> arguments = {"erode", "@last", "-o", dir_ / "e.off"};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <string>
 
@@ -21,6 +22,23 @@ inline v1::Lattice sample_lattice() {
   run(1, 2);   // (0,0,1) (0,0,2)
   run(7, 1);   // (0,1,3)
   run(20, 2);  // (2,1,0) (2,1,1)
+  return lattice;
+}
+
+/// A lattice of several slabs and chunks of an image, every third line inside, with an empty slab in between.
+inline v1::Lattice lattice_of_slabs() {
+  v1::Lattice lattice;
+  for (const double v : {0.0, 0.0, 0.0}) lattice.add_origin(v);
+  for (const double v : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) lattice.add_axes(v);
+  const std::array<std::uint32_t, 3> dims = {35, 40, 33};
+  for (const unsigned d : dims) lattice.add_dims(d);
+  for (std::uint32_t i = 0; i < dims[0]; ++i) {
+    if (i >= 8 && i < 16) continue;
+    for (std::uint32_t j = i % 3; j < dims[1]; j += 3) {
+      lattice.add_run_start((std::uint64_t{i} * dims[1] + j) * dims[2] + j % 5);
+      lattice.add_run_length(dims[2] - j % 7 - j % 5);
+    }
+  }
   return lattice;
 }
 

@@ -1,0 +1,89 @@
+// The picture of a job: fetches what it needs, hands it to client/render.
+#include <nlohmann/json.hpp>
+
+#include "client/commands/commands.h"
+#include "client/commands/destination.h"
+#include "client/commands/follow.h"
+#include "client/commands/sheet.h"
+#include "client/commands/transfer.h"
+#include "client/exporters/atomic_file.h"
+#include "client/exporters/numbers.h"
+#include "client/exporters/skeleton_writer.h"
+#include "client/input_file.h"
+#include "client/render/scene.h"
+#include "client/skeleton_text.h"
+
+namespace affskel::client {
+namespace {
+
+// The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
+std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
+  std::array<core::Vec3, 3> cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (int a = 0; a < 3; ++a) {
+    core::Vec3& axis = cell[static_cast<std::size_t>(a)];
+    if (prepared.frame_size() == 9)
+      axis = {prepared.frame(3 * a), prepared.frame(3 * a + 1), prepared.frame(3 * a + 2)};
+    axis = prepared.spacing() * axis;
+  }
+  return cell;
+}
+
+std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
+  const std::string skeleton =
+      params.operator_() == v1::OPERATOR_CHORDS
+          ? "sheet of " + std::to_string(input.sheet.corners_size() / 3) + " triangles"
+          : std::to_string(input.skeleton.point_size()) + " skeleton points";
+  return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
+         std::to_string(job.prepared().points()) + " sample points at spacing " +
+         rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) + ")";
+}
+
+// @param own whether the parameters are the job's, whose skeleton is stored.
+v1::SkeletonPoints fetch_points(Context& context, const v1::Job& job, const v1::SkeletonParams& params,
+                                bool own) {
+  v1::FetchArtifactRequest request = request_for(job.id(), v1::ARTIFACT_KIND_SKELETON);
+  if (!own) *request.mutable_skeleton() = params;
+  v1::ArtifactHeader header;
+  return parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
+}
+
+// The skeleton as its operator gives it: points, or the sheet of chords.  Tells when there is none.
+// Returns the threshold that was applied, 0 when the server does not say.
+double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonParams& params, bool own,
+                      RenderInput& input) {
+  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
+  if (sheet) {
+    input.sheet = fetch_sheet(context, job.id(), params);
+  } else {
+    input.skeleton = fetch_points(context, job, params, own);
+  }
+  const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
+  const int items = sheet ? input.sheet.corners_size() / 3 : input.skeleton.point_size();
+  warn_if_empty(context.console(), static_cast<std::uint64_t>(items), quality, job);
+  return quality.threshold();
+}
+
+}  // namespace
+
+void run_render(Context& context, const JobOptions& options) {
+  const Destination destination = destination_of(options.output, "", context.console());
+  choose_format(destination, picture_formats(), "picture");
+  AtomicFile file(destination.file);
+  const v1::Job job = finished_job(context, options.job);
+  v1::SkeletonParams params = skeleton_params(options.skeleton, job);
+  RenderInput input;
+  const double applied = fetch_skeleton(context, job, params, !options.skeleton.given(), input);
+  if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
+  input.mesh = parse_mesh(context.session().fetch_bytes(request_for(job.id(), v1::ARTIFACT_KIND_MESH)),
+                          "mesh of job " + job.id())
+                   .mesh;
+  input.cell = lattice_cell(job.prepared());
+  input.volume = job.prepared().volume();
+  input.title = title_of(input, job, params);
+  file.write(encode_png(render_scene(input, {options.width})));
+  file.commit();
+  context.console().note("wrote " + destination.name());
+  context.console().document({{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}});
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,89 @@
+// The numbers at the ticks of the box: text over the canvas, so that it is sharp and no smaller on a phone.
+import { Vector3 } from 'three';
+import { coordinate } from './numbers.js';
+
+const kGap = 4; // pixels between a tick and its number
+const kApart = 6; // and between two numbers
+const kMultiples = [1, 2, 5, 10, 20, 50, 100];
+
+const overlap = (a, b) =>
+  Math.abs(a.x - b.x) < (a.width + b.width) / 2 + kApart / 2 &&
+  Math.abs(a.y - b.y) < (a.height + b.height) / 2;
+
+export class TickNumbers {
+  constructor(container, frame) {
+    this.container = container;
+    this.frame = frame;
+    this.spans = frame.ticks.map((ticks, axis) =>
+      ticks.map(({ coordinate: value }) => {
+        const span = container.ownerDocument.createElement('span');
+        span.className = 'xyz'[axis];
+        span.textContent = coordinate(value);
+        container.append(span);
+        return span;
+      }),
+    );
+  }
+
+  // Once there is a layout: how large every number is, pixels.
+  measure() {
+    if (this.sizes) return;
+    this.sizes = this.spans.map((spans) =>
+      spans.map((span) => ({ width: span.offsetWidth, height: span.offsetHeight })),
+    );
+  }
+
+  widest() {
+    this.measure();
+    return Math.max(0, ...this.sizes.flat().map((size) => size.width));
+  }
+
+  // pixels: of the layout, per page unit.
+  place(camera, pixels) {
+    this.measure();
+    const placed = [];
+    this.frame.edges.forEach((edge, axis) => {
+      const labels = edge ? this.labelsOf(edge, axis, camera) : [];
+      const every = edge ? this.stepOf(edge, axis, pixels) : 1;
+      this.spans[axis].forEach((span, i) => {
+        const label = labels[i];
+        const shown =
+          edge && this.frame.ticks[axis][i].step % every === 0 && !placed.some((p) => overlap(p, label));
+        span.hidden = !shown;
+        if (!shown) return;
+        placed.push(label);
+        span.style.transform =
+          `translate(${(label.x - label.width / 2).toFixed(1)}px, ${(label.y - label.height / 2).toFixed(1)}px)`;
+      });
+    });
+  }
+
+  // Middles and sizes, pixels from the upper left corner of the canvas.
+  labelsOf(edge, axis, camera) {
+    const { clientWidth, clientHeight } = this.container;
+    const [right, up] = edge.outward;
+    return this.frame.ticks[axis].map(({ at }, i) => {
+      const foot = this.frame.placeOn(edge, axis, at);
+      const tip = new Vector3(...foot.map((c, k) => c + edge.tick[k])).project(camera);
+      const { width, height } = this.sizes[axis][i];
+      const away = kGap + (Math.abs(right) * width) / 2 + (Math.abs(up) * height) / 2;
+      return {
+        x: ((tip.x + 1) / 2) * clientWidth + away * right,
+        y: ((1 - tip.y) / 2) * clientHeight - away * up,
+        width,
+        height,
+      };
+    });
+  }
+
+  // Of how many ticks one gets its number, so that there is room for the longest.
+  stepOf(edge, axis, pixels) {
+    const width = Math.max(0, ...this.sizes[axis].map((size) => size.width));
+    const height = Math.max(0, ...this.sizes[axis].map((size) => size.height));
+    const [right, up] = edge.outward;
+    // Along the edge: across `outward`.
+    const needed = Math.min(width / Math.max(1e-6, Math.abs(up)), height / Math.max(1e-6, Math.abs(right)));
+    const distance = (this.frame.tickDistance / this.frame.unit) * pixels * edge.length;
+    return kMultiples.find((multiple) => multiple * distance >= needed + kApart) || kMultiples[kMultiples.length - 1];
+  }
+}
