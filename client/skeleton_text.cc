@@ -70,6 +70,8 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
     lines.emplace_back("betti",
                        betti(q.components(), q.holes(), q.cavities()) + " (components, tunnels, voids)");
   }
+  if (q.has_bridges())
+    lines.emplace_back("bridges", std::to_string(q.bridges()) + " (ways through weaker shocks)");
   lines.emplace_back("betti_solid", betti(q.solid_components(), static_cast<std::uint64_t>(q.solid_genus()),
                                           q.solid_cavities()));
   if (q.has_hausdorff_there() && q.has_hausdorff_back()) {

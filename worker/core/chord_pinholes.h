@@ -12,13 +12,13 @@ namespace affskel::core {
 
 /// The shocks that a sheet lacks where all of its surroundings ask for one.
 ///
-/// Once round a square of the lattice, the sheet is crossed as often one way as the other; a square with a
-/// single shock on its four edges lies on the sheet's rim.  When all four squares round a lattice edge are
-/// such, the sheet ends on all sides of that edge: it passes between the edge's ends, and the tangents there
-/// merely fail to say where (a third branch comes between, or the two bend more than the slack of
-/// chord_shocks() allows).  That is a hole as large as one edge's quadrilateral.  Its shock lies where the
-/// tangents cross, moved to the nearer end when that is outside the edge, to the middle when they do not
-/// cross; its strength is 0 then.
+/// A square of the lattice with a single shock on its four edges lies on the sheet's rim (see
+/// chord_squares.h). When three or four squares round a lattice edge are such, the sheet ends on most sides
+/// of that edge: it passes between the edge's ends, and the tangents there merely fail to say where (a third
+/// branch comes between, or the two bend more than the slack of chord_shocks() allows).  That is a hole as
+/// large as one edge's quadrilateral, or a corner of a larger one.  Its shock lies where the tangents cross,
+/// moved to the nearer end when that is outside the edge, to the middle when they do not cross; its strength
+/// is 0 then.
 ///
 /// Edges whose ends have the same optimal direction stay open: no two chords are equal there.
 /// @param parts of the solid in this lattice.

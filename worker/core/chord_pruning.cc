@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/chord_cells.h"
+#include "core/chord_squares.h"
 #include "core/disjoint_sets.h"
 #include "core/error.h"
 
@@ -107,7 +108,8 @@ class Pruning {
  public:
   Pruning(const Lattice& lattice, const SolidParts& parts, const std::vector<ChordShock>& shocks,
           const ChordPruningOptions& options)
-      : shocks_(shocks),
+      : parts_(parts),
+        shocks_(shocks),
         options_(options),
         cells_(chord_cells(lattice, parts, shocks)),
         pieces_(shocks.size()),
@@ -123,7 +125,8 @@ class Pruning {
     join_touching();
     keep_significant();
     join_kept();
-    fill_holes();
+    while (fill_holes()) {
+    }
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (kept(s)) result_.shocks.push_back(shocks_[s]);
     }
@@ -218,21 +221,39 @@ class Pruning {
     }
   }
 
-  // All at once, so that the order does not matter.
-  void fill_holes() {
+  // All at once, so that the order does not matter.  Whether there was any.
+  bool fill_holes() {
     std::vector<std::uint8_t> used(cells_.size(), 0);
+    std::vector<std::uint32_t> sheet;
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!kept(s)) continue;
+      sheet.push_back(s);
       for (std::uint32_t cell : cells_.ring[s]) used[cell] = 1;
     }
+    const std::vector<RimSquare> rim = rim_squares(parts_, shocks_, sheet);
+    bool any = false;
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       const auto& ring = cells_.ring[s];
       if (kept(s) || !std::all_of(ring.begin(), ring.end(), [&](std::uint32_t c) { return used[c] != 0; }))
         continue;
+      if (rim_round(s, rim) < kMostOfFour) continue;
       owner_[s] = s;
+      any = true;
     }
+    return any;
   }
 
+  // How many of the squares round a shock's edge lie on the rim.
+  std::size_t rim_round(std::uint32_t s, const std::vector<RimSquare>& rim) const {
+    std::size_t count = 0;
+    for (const LatticeElement& square : squares_round(edge_of(shocks_[s], parts_))) {
+      const auto found = std::lower_bound(rim.begin(), rim.end(), RimSquare{square, 0});
+      count += found != rim.end() && found->first == square ? 1 : 0;
+    }
+    return count;
+  }
+
+  const SolidParts& parts_;
   const std::vector<ChordShock>& shocks_;
   const ChordPruningOptions& options_;
   const ChordCells cells_;

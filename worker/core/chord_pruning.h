@@ -61,7 +61,10 @@ struct SignificantShocks {
 /// 2. pieces below the significance are dropped;
 /// 3. what is left is joined by the cheapest ways through weaker shocks, as far as there are any (shortest
 ///    paths from all pieces at once, then a least spanning tree: Mehlhorn 1988);
-/// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept ones.
+/// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept ones and three or
+///    four of the squares lie on the sheet's rim (see chord_squares.h), until there is none left.  Without
+///    the squares, a sheet that steps from one layer of cells to the next fills up with the facets in
+///    between.
 /// Everything here is a function of r, E, w and N alone, and so affinely invariant when these are (see
 /// chord_shocks.h).  The parts of a solid have nothing to do with each other: each keeps what it would keep
 /// alone, however small it is beside the others.

@@ -190,32 +190,55 @@ class Contouring {
   PartInterior interior_;
 };
 
-std::vector<ChordShock> with_pinholes_closed(const Lattice& lattice, const SolidParts& parts,
-                                             const FrameField& field, std::vector<ChordShock> shocks) {
-  const std::vector<ChordShock> missing = pinhole_shocks(lattice, parts, field, shocks);
-  const auto old_end = static_cast<std::ptrdiff_t>(shocks.size());
-  shocks.insert(shocks.end(), missing.begin(), missing.end());
-  std::inplace_merge(shocks.begin(), shocks.begin() + old_end, shocks.end(),
-                     [](const ChordShock& a, const ChordShock& b) {
-                       return a.point != b.point ? a.point < b.point : a.axis < b.axis;
-                     });
-  return shocks;
+void close_pinholes(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
+                    std::vector<ChordShock>& shocks) {
+  const auto by_edge = [](const ChordShock& a, const ChordShock& b) {
+    return a.point != b.point ? a.point < b.point : a.axis < b.axis;
+  };
+  // Closing one may leave another: each round makes the rim shorter.
+  for (;;) {
+    const std::vector<ChordShock> missing = pinhole_shocks(lattice, parts, field, shocks);
+    if (missing.empty()) return;
+    const auto old_end = static_cast<std::ptrdiff_t>(shocks.size());
+    shocks.insert(shocks.end(), missing.begin(), missing.end());
+    std::inplace_merge(shocks.begin(), shocks.begin() + old_end, shocks.end(), by_edge);
+  }
+}
+
+// In a frame that stretches a flat solid, no turn may be as wide as that of a strong shock.
+double strong_turn(const std::vector<ChordShock>& shocks, const ChordSheetOptions& options) {
+  double widest = 0;
+  for (const ChordShock& shock : shocks) widest = std::max(widest, shock.turn);
+  return std::min(options.pruning.strong_turn,
+                  std::max(options.least_strong_turn, options.strong_share * widest));
 }
 
 }  // namespace
 
 ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const ChordSheetOptions& options) {
+  for (const double share : {options.strong_share, options.least_strong_turn}) {
+    if (!(share >= 0 && share <= 1)) {
+      throw CoreError(CoreError::Code::kBadInput, "the shares of strong turns must lie between 0 and 1");
+    }
+  }
   if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
     throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
   }
   const SolidParts parts(solid, lattice);
   std::vector<ChordShock> candidates = chord_shocks(lattice, field, options.shocks);
   measure_turns(lattice, parts, field, candidates, options.turns);
-  SignificantShocks kept = significant_shocks(lattice, parts, candidates, options.pruning);
+  LevelEdgeOptions level = options.level;
+  ChordPruningOptions pruning = options.pruning;
+  level.least_turn = pruning.strong_turn = strong_turn(candidates, options);
+  add_level_edges(lattice, parts, field, candidates, level);
+  SignificantShocks kept = significant_shocks(lattice, parts, candidates, pruning);
   ChordSheet sheet;
-  sheet.shocks = with_pinholes_closed(lattice, parts, field, std::move(kept.shocks));
+  sheet.shocks = std::move(kept.shocks);
+  close_pinholes(lattice, parts, field, sheet.shocks);
   sheet.pieces = std::move(kept.pieces);
+  sheet.bridges = kept.bridges;
+  sheet.strong_turn = pruning.strong_turn;
   sheet.census = kept.census;
   Contouring(lattice, parts, sheet.shocks, options.regularisation).run(sheet);
   return sheet;

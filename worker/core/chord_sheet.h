@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "core/chord_level_edges.h"
 #include "core/chord_pruning.h"
 #include "core/chord_shocks.h"
 #include "core/chord_turns.h"
@@ -15,7 +17,12 @@ namespace affskel::core {
 struct ChordSheetOptions {
   ChordShockOptions shocks;     ///< the candidates
   ChordTurnOptions turns;       ///< how far the normals turn at them
+  LevelEdgeOptions level;       ///< edges that lie in the sheet; its least_turn is that of strong shocks
   ChordPruningOptions pruning;  ///< which of them stay; its `significance` is the threshold of `chords`
+  /// Where hardly a turn is as wide as pruning.strong_turn, this share of the widest one takes its place, 0
+  /// .. 1: a frame that makes a flat solid as thick as it is wide makes all its turns narrow...
+  double strong_share = 0.8;
+  double least_strong_turn = 0.1;  ///< ... but no less than this takes its place, 0 .. 1
   /// Pull of the shocks' mean on a vertex, against 1 for all tangent planes together, > 0.
   double regularisation = 0.05;
 };
@@ -33,17 +40,19 @@ struct ChordSheetVertex {
 struct ChordSheet {
   std::vector<ChordShock> shocks;          ///< the skeleton's points, by (point, axis)
   std::vector<double> pieces;              ///< see SignificantShocks
+  std::uint32_t bridges = 0;               ///< likewise
+  double strong_turn = 0;                  ///< that was applied, see ChordSheetOptions::strong_share
   ShockCensus census;                      ///< likewise
   std::vector<ChordSheetVertex> vertices;  ///< in lattice order of their cells (see ChordCells)
   std::vector<Triangle> triangles;         ///< two per shock, in the order of the shocks
 };
 
-/// The significant shocks (their turns measured, see measure_turns; pinholes closed, see pinhole_shocks)
-/// joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002): every lattice cell that
-/// has shocks on its edges has one vertex, every shock a quadrilateral through the vertices of the four cells
-/// round its edge, cut along its shorter diagonal.  All four always exist, cells
-/// partly outside the solid included, so that the sheet has holes only where shocks are missing, and ends
-/// where they end: at most half a spacing beyond the outermost.
+/// The significant shocks (their turns measured, see measure_turns; with those that lie in the sheet, see
+/// add_level_edges; pinholes closed, see pinhole_shocks) joined into a sheet by dual contouring (Ju, Losasso,
+/// Schaefer and Warren 2002): every lattice cell that has shocks on its edges has one vertex, every shock a
+/// quadrilateral through the vertices of the four cells round its edge, cut along its shorter diagonal.  All
+/// four always exist, cells partly outside the solid included, so that the sheet has holes only where shocks
+/// are missing, and ends where they end: at most half a spacing beyond the outermost.
 ///
 /// A vertex is placed by least squares on the tangent planes of its cell's shocks (normal g_x - g_y), drawn
 /// towards their mean, and kept in the cell.  On the rim the mean alone would lie on the outermost shocks

@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr std::uint32_t kMost = 16;
+// What a mean may make of a turn: twice as much.  Edges that lie in a sheet, between two facets of one of its
+// sides, have the sheet's own shocks round them.
+constexpr double kMostGain = 2;
 
 class TurnGauge {
  public:
@@ -47,7 +50,8 @@ class TurnGauge {
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!speaks_[s]) continue;
       const auto& [a, b, c, d] = cells_.ring[s];
-      shocks_[s].turn = 0.25 * ((mean[a] + mean[b]) + (mean[c] + mean[d]));
+      const double along = 0.25 * ((mean[a] + mean[b]) + (mean[c] + mean[d]));
+      shocks_[s].turn = std::min(along, kMostGain * shocks_[s].turn);
     }
   }
 

@@ -30,7 +30,8 @@ core::Mesh mesh_of(const core::ChordSheet& sheet) {
 v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
                                const core::ChordSheet& sheet, double threshold,
                                const std::vector<core::Vec3>* points) {
-  const core::ChordPruningOptions pruning = options_for(threshold).pruning;
+  core::ChordPruningOptions pruning = options_for(threshold).pruning;
+  pruning.strong_turn = sheet.strong_turn;
   const double next = core::next_threshold(pruning.significance);
   core::SheetQualityOptions options;
   options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, pruning);
@@ -44,6 +45,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(pruning.significance);
+  if (!sheet.shocks.empty()) message.set_bridges(sheet.bridges);
   return message;
 }
 

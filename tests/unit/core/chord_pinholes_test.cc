@@ -43,11 +43,24 @@ TEST(Pinholes, OneMissingShockIsPutBack) {
   EXPECT_NEAR(missing[0].erosion, 4.8, 1e-12);
 }
 
-TEST(Pinholes, LargerHolesAndTheRimStayOpen) {
+// A slit has ends, with three of four sides closed, and so has a notch in the rim.
+TEST(Pinholes, SlitsAndNotchesCloseFromTheirEnds) {
   Plane plane;
-  plane.drop(4, 5);
-  plane.drop(4, 6);
+  for (std::uint32_t j = 3; j < 7; ++j) plane.drop(4, j);
   plane.drop(0, 2);
+  const std::vector<ChordShock> missing = plane.missing();
+  ASSERT_EQ(missing.size(), 3U);
+  EXPECT_EQ(missing[0].place, (std::array<std::uint32_t, 3>{0, 2, 3}));
+  EXPECT_EQ(missing[1].place, (std::array<std::uint32_t, 3>{4, 3, 3}));
+  EXPECT_EQ(missing[2].place, (std::array<std::uint32_t, 3>{4, 6, 3}));
+}
+
+TEST(Pinholes, WiderHolesAndTheRimStayOpen) {
+  Plane plane;
+  for (std::uint32_t i : {4U, 5U}) {
+    for (std::uint32_t j : {5U, 6U}) plane.drop(i, j);
+  }
+  for (std::uint32_t j : {2U, 3U}) plane.drop(0, j);
   EXPECT_TRUE(plane.missing().empty());
 }
 

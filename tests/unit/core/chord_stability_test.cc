@@ -87,6 +87,14 @@ TEST(ChordSheet, HalvingTheSpacingHardlyMovesATorusSheet) {
   EXPECT_LT(DistanceCurve(inner_b, sampled(coarse, a)).hausdorff(), h / 2);
 }
 
+// An odd number of layers: those in the torus's plane have two equal chords at every point.
+TEST(ChordSheet, IsOneAnnulusWhenSamplePointsLieOnIt) {
+  const ErodedSolid torus(make_torus(4, 2, 1024), axes(0.15), "sphere:2000");
+  ASSERT_EQ(torus.lattice.frame.dims[2] % 2, 1U);
+  const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
+  EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0}));
+}
+
 constexpr double kHeight = 18000, kSpacing = 100;
 const double kDelta = std::sqrt(3.0) * kHeight / 128;
 
@@ -189,7 +197,7 @@ TEST_P(BodySkeletons, FollowShearAndStretch) {
     expect_alike(affine.zucker_hummel, in_affine.zucker_hummel, 98, 98, "affine, Zucker-Hummel");
     expect_alike(affine.chords, in_affine.chords, 98, 98, "affine, chords");
     const Skeletons in_axis = mapped(skeletons(image, FrameKind::kAxis), c.back);
-    // 91 to 97 measured: the generated bodies stay below the 94 of the measured ones.
+    // 90.8 and more measured: the generated bodies stay below the 94 of the real ones.
     expect_alike(axis.zucker_hummel, in_axis.zucker_hummel, 90, 90, "axis, Zucker-Hummel");
   }
 }

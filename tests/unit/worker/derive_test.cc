@@ -63,6 +63,7 @@ TEST_F(DeriveTest, DivergenceAndSkeletonAgree) {
     EXPECT_EQ(points.quality().points(), static_cast<std::uint64_t>(points.point_size()));
     EXPECT_EQ(points.quality().inside_share(), 1);
     EXPECT_EQ(points.quality().solid_genus(), 1);
+    EXPECT_FALSE(points.quality().has_bridges()) << "of chords only";
   }
 }
 
@@ -73,6 +74,7 @@ TEST_F(DeriveTest, ChordsGiveTheTorusItsAnnulus) {
   EXPECT_EQ(points.quality().inside_share(), 1);
   EXPECT_EQ(points.quality().components(), 1U);
   EXPECT_EQ(points.quality().holes(), 1U);
+  EXPECT_TRUE(points.quality().has_bridges());
   v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
   lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(run(lease));
