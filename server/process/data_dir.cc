@@ -12,6 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 
 #include "wire/version.h"
 
@@ -38,13 +39,24 @@ std::string read_pid(int fd) {
   return size > 0 ? std::string(text.data(), std::strcspn(text.data(), "\n")) : "unknown";
 }
 
+// False with errno set when it cannot be locked in time.
+bool lock_within(int fd, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds kPause(20);
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK || std::chrono::steady_clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
+}
+
 }  // namespace
 
-DataDir::DataDir(const std::string& path) : path_(make_directory(path)) {
+DataDir::DataDir(const std::string& path, std::chrono::milliseconds patience) : path_(make_directory(path)) {
   const std::string file = path_ + "/server.lock";
   lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (lock_ < 0) refuse(path_, "server.lock: " + std::string(std::strerror(errno)));
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+  if (!lock_within(lock_, patience)) {
     const std::string why = errno == EWOULDBLOCK
                                 ? "another affskel-server uses it (pid " + read_pid(lock_) + ")"
                                 : "server.lock: " + std::string(std::strerror(errno));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@ namespace affskel::server {
 class DataDir {
  public:
   /// Makes the directory (mode 0700) when it is absent, and locks it.
+  /// @param patience how long another server may hold it: one that is about to leave does so in a moment.
   /// @throws std::runtime_error naming the directory: not usable, or held by another server.
-  explicit DataDir(const std::string& path);
+  explicit DataDir(const std::string& path, std::chrono::milliseconds patience = std::chrono::seconds(3));
   ~DataDir();
   DataDir(const DataDir&) = delete;
   DataDir& operator=(const DataDir&) = delete;

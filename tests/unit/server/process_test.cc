@@ -3,6 +3,9 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
+#include <chrono>
+#include <future>
+#include <memory>
 
 #include <cstdlib>
 #include <cstring>
@@ -98,13 +101,23 @@ TEST(DataDirTest, IsHeldByOneServer) {
     ASSERT_EQ(stat(path.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0700U);
     try {
-      const DataDir second(path);
+      const DataDir second(path, std::chrono::milliseconds(0));
       FAIL() << "two servers share one directory";
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(std::to_string(getpid())), std::string::npos) << error.what();
     }
   }
   EXPECT_NO_THROW(DataDir again(path));
+}
+
+// As when a client starts a private server while the idle one is leaving.
+TEST(DataDirTest, WaitsForAServerThatLeaves) {
+  const TemporaryDirectory directory;
+  auto leaving = std::make_unique<DataDir>(directory.path().string());
+  std::future<void> next = std::async(
+      std::launch::async, [&] { const DataDir held(directory.path().string(), std::chrono::minutes(1)); });
+  leaving.reset();
+  EXPECT_NO_THROW(next.get());
 }
 
 TEST(DataDirTest, NoticesThatItIsGone) {
