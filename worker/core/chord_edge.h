@@ -5,9 +5,33 @@
 
 #include "core/chord_shocks.h"
 #include "core/frame_field.h"
+#include "core/lattice.h"
 #include "core/vec3.h"
 
 namespace affskel::core {
+
+/// Calls `visit(x, y, axis, place)` for every lattice edge between neighbouring sample points of one run:
+/// ranks of its lower and upper end, its axis (std::uint8_t) and the lattice indices of x.  Between two runs
+/// lies the surface, and across it E says nothing.
+template <class Visit>
+void for_each_edge(const Lattice& lattice, Visit visit) {
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    const AxisRuns& along = lattice.axis[axis];
+    for (const LatticeRun& run : along.runs) {
+      std::array<std::uint32_t, 3> place = run.start;
+      for (std::uint32_t n = run.first; n + 1 < run.first + run.length; ++n, ++place[axis]) {
+        const std::uint32_t x = along.order.empty() ? n : along.order[n];
+        const std::uint32_t y = along.order.empty() ? n + 1 : along.order[n + 1];
+        visit(x, y, axis, place);
+      }
+    }
+  }
+}
+
+/// The order of lists of shocks: by (point, axis).
+inline bool by_edge(const ChordShock& a, const ChordShock& b) {
+  return a.point != b.point ? a.point < b.point : a.axis < b.axis;
+}
 
 /// What the tangents of E at the ends of a lattice edge say about a shock on it, whatever that is worth: r, o
 /// and t are as they come, r negative and t anywhere (or not finite) where there is none.  `position` and

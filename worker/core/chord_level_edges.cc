@@ -12,10 +12,6 @@
 namespace affskel::core {
 namespace {
 
-bool by_edge(const ChordShock& a, const ChordShock& b) {
-  return a.point != b.point ? a.point < b.point : a.axis < b.axis;
-}
-
 class LevelEdges {
  public:
   LevelEdges(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
@@ -32,21 +28,12 @@ class LevelEdges {
     if (rim_.empty()) return;
     const std::vector<LatticeElement> edges = edges_of_rim();
     std::vector<ChordShock> found;
-    for (std::uint8_t axis = 0; axis < 3; ++axis) {
-      const AxisRuns& along = lattice_.axis[axis];
-      for (const LatticeRun& run : along.runs) {
-        std::array<std::uint32_t, 3> place = run.start;
-        for (std::uint32_t n = run.first; n + 1 < run.first + run.length; ++n, ++place[axis]) {
-          const std::uint32_t x = along.order.empty() ? n : along.order[n];
-          const std::uint32_t y = along.order.empty() ? n + 1 : along.order[n + 1];
-          if (field_.direction[x] == field_.direction[y]) continue;
-          const LatticeElement edge{{place[0], place[1], place[2]}, axis, parts_.of_point(x)};
-          if (!std::binary_search(edges.begin(), edges.end(), edge)) continue;
-          if (const auto shock = on(edge, tangents_on_edge(field_, x, y, axis, place)))
-            found.push_back(*shock);
-        }
-      }
-    }
+    for_each_edge(lattice_, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
+      if (field_.direction[x] == field_.direction[y]) return;
+      const LatticeElement edge{{place[0], place[1], place[2]}, axis, parts_.of_point(x)};
+      if (!std::binary_search(edges.begin(), edges.end(), edge)) return;
+      if (const auto shock = on(edge, tangents_on_edge(field_, x, y, axis, place))) found.push_back(*shock);
+    });
     put(found);
   }
 

@@ -38,27 +38,17 @@ std::vector<ChordShock> pinhole_shocks(const Lattice& lattice, const SolidParts&
   const std::vector<LatticeElement> holes = pinholes(parts, shocks);
   std::vector<ChordShock> result;
   if (holes.empty()) return result;
-  for (std::uint8_t axis = 0; axis < 3; ++axis) {
-    const AxisRuns& along = lattice.axis[axis];
-    for (const LatticeRun& run : along.runs) {
-      std::array<std::uint32_t, 3> place = run.start;
-      for (std::uint32_t n = run.first; n + 1 < run.first + run.length; ++n, ++place[axis]) {
-        const std::uint32_t x = along.order.empty() ? n : along.order[n];
-        const std::uint32_t y = along.order.empty() ? n + 1 : along.order[n + 1];
-        if (field.direction[x] == field.direction[y]) continue;
-        const LatticeElement edge{{place[0], place[1], place[2]}, axis, parts.of_point(x)};
-        if (!std::binary_search(holes.begin(), holes.end(), edge)) continue;
-        ChordShock shock = tangents_on_edge(field, x, y, axis, place);
-        if (!(shock.strength > 0)) shock.strength = 0;
-        settle_on_edge(field, shock);
-        shock.turn = shock.opening;
-        result.push_back(shock);
-      }
-    }
-  }
-  std::sort(result.begin(), result.end(), [](const ChordShock& a, const ChordShock& b) {
-    return a.point != b.point ? a.point < b.point : a.axis < b.axis;
+  for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
+    if (field.direction[x] == field.direction[y]) return;
+    const LatticeElement edge{{place[0], place[1], place[2]}, axis, parts.of_point(x)};
+    if (!std::binary_search(holes.begin(), holes.end(), edge)) return;
+    ChordShock shock = tangents_on_edge(field, x, y, axis, place);
+    if (!(shock.strength > 0)) shock.strength = 0;
+    settle_on_edge(field, shock);
+    shock.turn = shock.opening;
+    result.push_back(shock);
   });
+  std::sort(result.begin(), result.end(), by_edge);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/chord_cells.h"
+#include "core/chord_edge.h"
 #include "core/chord_pinholes.h"
 #include "core/error.h"
 #include "core/lattice_coordinates.h"
@@ -192,9 +193,6 @@ class Contouring {
 
 void close_pinholes(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
                     std::vector<ChordShock>& shocks) {
-  const auto by_edge = [](const ChordShock& a, const ChordShock& b) {
-    return a.point != b.point ? a.point < b.point : a.axis < b.axis;
-  };
   // Closing one may leave another: each round makes the rim shorter.
   for (;;) {
     const std::vector<ChordShock> missing = pinhole_shocks(lattice, parts, field, shocks);

@@ -24,29 +24,14 @@ class ShockFinder {
       : lattice_(lattice), field_(field), options_(options) {}
 
   std::vector<ChordShock> run() {
-    for (std::uint8_t axis = 0; axis < 3; ++axis) walk(axis);
-    std::sort(shocks_.begin(), shocks_.end(), [](const ChordShock& a, const ChordShock& b) {
-      return a.point != b.point ? a.point < b.point : a.axis < b.axis;
+    for_each_edge(lattice_, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
+      if (const std::optional<ChordShock> shock = between(x, y, axis, place)) shocks_.push_back(*shock);
     });
+    std::sort(shocks_.begin(), shocks_.end(), by_edge);
     return std::move(shocks_);
   }
 
  private:
-  // Only neighbours of one run: between two runs lies the surface, and across it E says nothing.
-  void walk(std::uint8_t axis) {
-    const AxisRuns& along = lattice_.axis[axis];
-    for (const LatticeRun& run : along.runs) {
-      for (std::uint32_t n = 0; n + 1 < run.length; ++n) {
-        const std::uint32_t at = run.first + n;
-        const std::uint32_t x = along.order.empty() ? at : along.order[at];
-        const std::uint32_t y = along.order.empty() ? at + 1 : along.order[at + 1];
-        std::array<std::uint32_t, 3> place = run.start;
-        place[axis] += n;
-        if (const std::optional<ChordShock> shock = between(x, y, axis, place)) shocks_.push_back(*shock);
-      }
-    }
-  }
-
   std::optional<ChordShock> between(std::uint32_t x, std::uint32_t y, std::uint8_t axis,
                                     const std::array<std::uint32_t, 3>& place) const {
     const std::uint32_t none = FieldValue::kNoDirection;
