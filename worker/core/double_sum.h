@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 namespace affskel::core {
 
 /// A number kept as an unevaluated sum of two doubles: about 104 bits, so that huge terms cancel and leave
@@ -18,16 +16,28 @@ struct DoubleSum {
   double value() const { return hi + lo; }
 };
 
+/// a * b as two doubles, exactly unless they over- or underflow (Dekker 1971).  Without std::fma, which is a
+/// call where the processor may lack the instruction.
+inline DoubleSum product(double a, double b) {
+  constexpr double kSplitter = 134217729;  // 2^27 + 1
+  const double wide_a = kSplitter * a, wide_b = kSplitter * b;
+  const double a_hi = wide_a - (wide_a - a), b_hi = wide_b - (wide_b - b);
+  const double a_lo = a - a_hi, b_lo = b - b_hi;
+  const double p = a * b;
+  return {p, ((a_hi * b_hi - p) + (a_hi * b_lo + a_lo * b_hi)) + a_lo * b_lo};
+}
+
 /// num / (a b); the arguments are taken as exact.
 inline DoubleSum quotient(double num, double a, double b) {
-  const double product = a * b, product_low = std::fma(a, b, -product);
-  const double hi = num / product;
-  return {hi, (std::fma(-hi, product, num) - hi * product_low) / product};
+  const DoubleSum divisor = product(a, b);
+  const double hi = num / divisor.hi;
+  const DoubleSum back = product(hi, divisor.hi);
+  return {hi, (((num - back.hi) - back.lo) - hi * divisor.lo) / divisor.hi};
 }
 
 inline DoubleSum times(const DoubleSum& s, double factor) {
-  const double hi = s.hi * factor;
-  return {hi, std::fma(s.hi, factor, -hi) + s.lo * factor};
+  const DoubleSum hi = product(s.hi, factor);
+  return {hi.hi, hi.lo + s.lo * factor};
 }
 
 }  // namespace affskel::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace affskel::core {
 namespace {
@@ -10,10 +11,11 @@ namespace {
 constexpr double kRounder = 384.0;
 // The tilt that breaks ties; any vector in no special position will do.
 constexpr Vec3 kTilt{0.5497787143782138, 0.7853981633974483, 0.2861788337373061};
-// Up to this many vertices comparing is quicker than clearing counters, and up to that many four passes
-// over 8 bits are quicker than three over 11.
-constexpr std::size_t kFewVertices = 48;
-constexpr std::size_t kManyVertices = 3000;
+// Below the first comparing is quicker than clearing counters.  Below the others two or three digits of 8 bits
+// leave so few keys equal that settling them costs less than a digit more, or counters of 11 bits.
+constexpr std::size_t kComparedVertices = 48;
+constexpr std::size_t kTwoDigitVertices = 500;
+constexpr std::size_t kThreeDigitVertices = 3000;
 
 }  // namespace
 
@@ -22,7 +24,6 @@ HeightOrder::HeightOrder(const std::vector<Vec3>& points)
       entries_(points.size()),
       buffer_(points.size()),
       order_(points.size()),
-      rank_(points.size()),
       height_(points.size()) {
   x_.reserve(points.size());
   y_.reserve(points.size());
@@ -37,18 +38,26 @@ HeightOrder::HeightOrder(const std::vector<Vec3>& points)
 }
 
 void HeightOrder::sort(const Vec3& d) {
-  compute_keys(d);
-  sort_entries();
+  const std::size_t vertices = entries_.size();
+  const int key_bits = vertices < kTwoDigitVertices ? 16 : vertices < kThreeDigitVertices ? 24 : 32;
+  compute_keys(d, key_bits);
+  if (vertices < kComparedVertices) {
+    comparison_sort();
+  } else if (vertices < kTwoDigitVertices) {
+    radix_sort<8, 2>();
+  } else if (vertices < kThreeDigitVertices) {
+    radix_sort<8, 3>();
+  } else {
+    radix_sort<11, 3>();
+  }
   settle_equal_keys();
-  for (std::size_t r = 0; r < entries_.size(); ++r) {
-    const std::uint32_t v = entries_[r].vertex;
-    order_[r] = v;
-    rank_[v] = static_cast<std::uint32_t>(r);
-    height_[r] = rounded_[v];
+  for (std::size_t r = 0; r < vertices; ++r) {
+    order_[r] = entries_[r].vertex;
+    height_[r] = rounded_[entries_[r].vertex];
   }
 }
 
-void HeightOrder::compute_keys(const Vec3& d) {
+void HeightOrder::compute_keys(const Vec3& d, int key_bits) {
   const std::size_t count = rounded_.size();
   double low = 2, high = -2;
   for (std::size_t v = 0; v < count; ++v) {
@@ -58,10 +67,11 @@ void HeightOrder::compute_keys(const Vec3& d) {
     low = std::min(low, rounded);
     high = std::max(high, rounded);
   }
-  const double scale = high > low ? 4294967040.0 / (high - low) : 0;
+  const double largest = static_cast<double>((std::uint64_t{1} << key_bits) - 1);
+  const double scale = high > low ? largest / (high - low) : 0;
   for (std::size_t v = 0; v < count; ++v) {
-    entries_[v] = {static_cast<std::uint32_t>(static_cast<std::int64_t>((rounded_[v] - low) * scale)),
-                   static_cast<std::uint32_t>(v)};
+    const double key = std::min((rounded_[v] - low) * scale, largest);
+    entries_[v] = {static_cast<std::uint32_t>(static_cast<std::int64_t>(key)), static_cast<std::uint32_t>(v)};
   }
 }
 
@@ -70,43 +80,29 @@ bool HeightOrder::below(std::uint32_t a, std::uint32_t b) const {
   return tilt_[a] != tilt_[b] ? tilt_[a] < tilt_[b] : a < b;
 }
 
-void HeightOrder::sort_entries() {
-  if (entries_.size() < kFewVertices) {
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.key != b.key ? a.key < b.key : a.vertex < b.vertex;
-    });
-    return;
-  }
-  if (entries_.size() < kManyVertices) {
-    radix_sort<8>();
-  } else {
-    radix_sort<11>();
-  }
+void HeightOrder::comparison_sort() {
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+    return a.key != b.key ? a.key < b.key : a.vertex < b.vertex;
+  });
 }
 
-template <int bits>
+template <int bits, int passes>
 void HeightOrder::radix_sort() {
-  for (int shift = 0; shift < 32; shift += bits) {
-    radix_pass<bits>(shift, entries_, buffer_);
+  constexpr std::size_t kDigits = std::size_t{1} << bits;
+  const auto digit = [](const Entry& e, std::size_t pass) { return (e.key >> (bits * pass)) & (kDigits - 1); };
+  std::array<std::array<std::uint32_t, kDigits>, passes> place{};
+  for (const Entry& e : entries_) {
+    for (std::size_t pass = 0; pass < passes; ++pass) ++place[pass][digit(e, pass)];
+  }
+  for (std::size_t pass = 0; pass < passes; ++pass) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t& p : place[pass]) sum += std::exchange(p, sum);
+    for (const Entry& e : entries_) buffer_[place[pass][digit(e, pass)]++] = e;
     entries_.swap(buffer_);
   }
 }
 
-template <int bits>
-void HeightOrder::radix_pass(int shift, const std::vector<Entry>& from, std::vector<Entry>& to) {
-  constexpr std::size_t kDigits = std::size_t{1} << bits;
-  std::array<std::uint32_t, kDigits> place{};
-  for (const Entry& e : from) ++place[(e.key >> shift) & (kDigits - 1)];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& p : place) {
-    const std::uint32_t count = p;
-    p = sum;
-    sum += count;
-  }
-  for (const Entry& e : from) to[place[(e.key >> shift) & (kDigits - 1)]++] = e;
-}
-
-// Keys hold the first 32 bits of the heights; what they leave equal is compared in full.
+// Keys hold the first bits of the heights; what they leave equal is compared in full.
 void HeightOrder::settle_equal_keys() {
   const auto full = [this](const Entry& a, const Entry& b) { return below(a.vertex, b.vertex); };
   for (std::size_t first = 0; first < entries_.size();) {

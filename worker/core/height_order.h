@@ -16,12 +16,11 @@ class HeightOrder {
  public:
   explicit HeightOrder(const std::vector<Vec3>& points);
 
-  /// Fills order, rank and height for unit vector d.  O(V).
+  /// Fills order and height for unit vector d.  O(V).
   void sort(const Vec3& d);
 
   const std::vector<std::uint32_t>& order() const { return order_; }  ///< vertex, by rank
-  const std::vector<std::uint32_t>& rank() const { return rank_; }    ///< rank, by vertex
-  const std::vector<double>& height() const { return height_; }       ///< rounded height, by rank
+  const std::vector<double>& height() const { return height_; }  ///< rounded height, by rank
 
  private:
   struct Entry {
@@ -29,20 +28,18 @@ class HeightOrder {
     std::uint32_t vertex;
   };
 
-  void compute_keys(const Vec3& d);
-  void sort_entries();
-  template <int bits>
+  void compute_keys(const Vec3& d, int key_bits);
+  void comparison_sort();
+  template <int bits, int passes>
   void radix_sort();
-  template <int bits>
-  void radix_pass(int shift, const std::vector<Entry>& from, std::vector<Entry>& to);
   void settle_equal_keys();
   bool below(std::uint32_t a, std::uint32_t b) const;
 
   std::vector<double> x_, y_, z_;
   std::vector<double> tilt_;             // by vertex: height along the tilt
   std::vector<double> rounded_;          // by vertex
-  std::vector<Entry> entries_, buffer_;  // key: height scaled to 32 bits
-  std::vector<std::uint32_t> order_, rank_;
+  std::vector<Entry> entries_, buffer_;  // key: height scaled to so many bits
+  std::vector<std::uint32_t> order_;
   std::vector<double> height_;
 };
 

@@ -27,36 +27,28 @@ constexpr double kThinRim = 1e-9;  // radians: what angle-weighted normals sum u
 // Small trees get about this many cells in all: filling them costs less than the chords they save.
 constexpr std::uint32_t kFewCells = 1024;
 
-// Running coefficients of one component, about `height`: A(t) = area + slope s + bend s^2.
+// What a component's last piece has in common with the exact A(t) = area + slope s + bend s^2 is rounded; of
+// these two, which nearly level triangles may make huge for a while, the exact values are kept as well.
 struct Running {
-  double height = 0;
-  DoubleSum volume, area, slope, bend;
+  DoubleSum slope, bend;
 };
 
-inline void advance(Running& r, double height) {
-  const double s = height - r.height;
-  if (s == 0) return;
-  const double slope = r.slope.value();
-  r.volume.add(s * (r.area.value() + s * (0.5 * slope + s * (r.bend.value() / 3))));
-  const DoubleSum rise = times(r.bend, s);  // half of what the slope gains
-  DoubleSum middle = r.slope;
-  middle.add(rise);
-  r.area.add(times(middle, s));
-  middle.add(rise);
-  r.slope = middle;
-  r.height = height;
-}
-
-inline void add(Running& sum, const Running& other) {
-  sum.volume.add(other.volume);
-  sum.area.add(other.area);
+void add(Running& sum, const Running& other) {
   sum.slope.add(other.slope);
   sum.bend.add(other.bend);
 }
 
+// The component `rise` above its last piece: volume and area into `sum`.
+inline void advance(Running& running, const Piece& last, double height, Piece& sum) {
+  const double s = height - last.height;
+  sum.volume += last.volume_at(height);
+  sum.area += last.area_at(height);
+  running.slope.add(times(running.bend, 2 * s));
+}
+
 // The arcs as the topology pass finds them.
 struct Topology {
-  std::vector<std::uint32_t> vertex_arc;      // by rank
+  std::vector<std::uint32_t> vertex_arc;      // per vertex
   std::vector<std::uint32_t> start_rank;      // per arc: the vertex it starts at
   std::vector<std::uint32_t> piece_count;     // per arc
   std::vector<std::uint32_t> arc_solid;       // per arc
@@ -65,38 +57,45 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-double pass_volumes(const SectionBends& bends, const Topology& topology, std::vector<Running>& running,
-                    JoinTree& tree) {
+double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends& bends,
+                    const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
+  constexpr double kThird = 1.0 / 3;
   double least_step = 0;
   auto jump = bends.jumps.begin();
-  for (std::uint32_t r = 0; r < bends.vertices.size(); ++r) {
-    const SectionBends::Vertex& vertex = bends.vertices[r];
-    const double height = vertex.height;
-    const std::uint32_t a = topology.vertex_arc[r];
-    Running& state = running[a];
-    const double before = state.volume.value();
+  for (std::uint32_t r = 0; r < order.size(); ++r) {
+    const SectionBends::Vertex& vertex = bends.vertices[order[r]];
+    const std::uint32_t a = topology.vertex_arc[order[r]];
+    Arc& arc = tree.arcs[a];
+    Running state = running[a];
+    Piece piece{.height = vertex.height};
+    double before = 0;
     if (topology.start_rank[a] == r) {
-      state = {height, {}, {}, {}, {}};
+      state = {};
       for (std::uint32_t i = topology.children_begin[a]; i < topology.children_begin[a + 1]; ++i) {
-        advance(running[topology.children[i]], height);
-        add(state, running[topology.children[i]]);
+        const std::uint32_t child = topology.children[i];
+        advance(running[child], tree.pieces[tree.arcs[child].last_piece], vertex.height, piece);
+        add(state, running[child]);
       }
+      before = -kInfinity;
     } else {
-      advance(state, height);
+      const Piece& last = tree.pieces[arc.last_piece];
+      before = last.volume;
+      advance(state, last, vertex.height, piece);
+      arc.last_piece += last.height != vertex.height ? 1 : 0;
     }
-    state.bend.add(bends.bend[r]);
-    state.bend.add(vertex.plain_bend);
+    state.bend.add(vertex.bend[0], vertex.bend[1]);
+    const std::uint32_t steep = bends.links[order[r]].steep;
+    if (steep != kNone) state.bend.add(bends.steep_bend[steep]);
     for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
-      state.volume.add(jump->volume);
-      state.area.add(jump->area);
+      piece.volume += jump->volume;
+      piece.area += jump->area;
       state.slope.add(jump->slope);
     }
-    const double volume = state.volume.value();
-    if (topology.start_rank[a] != r) least_step = std::min(least_step, volume - before);
-    Arc& arc = tree.arcs[a];
-    if (topology.start_rank[a] != r && tree.pieces[arc.last_piece].height != height) ++arc.last_piece;
-    tree.pieces[arc.last_piece] = {height, volume, state.area.value(), 0.5 * state.slope.value(),
-                                   state.bend.value() / 3};
+    least_step = std::min(least_step, piece.volume - before);
+    piece.half_slope = 0.5 * state.slope.value();
+    piece.sixth_bend = kThird * state.bend.value();
+    running[a] = state;
+    tree.pieces[arc.last_piece] = piece;
   }
   return least_step;
 }
@@ -125,7 +124,7 @@ class JoinTreeBuilder::Work {
     find_arcs();
     lay_out_pieces();
     running_.resize(tree_.arcs.size());
-    tree_.least_step = pass_volumes(vertex_, topology_, running_, tree_);
+    tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
     fill_cells();
     for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
       tree_.triangle_arc[t] = topology_.vertex_arc[vertex_.lowest[t]];
@@ -154,21 +153,28 @@ class JoinTreeBuilder::Work {
     return arc;
   }
 
-  std::uint32_t arc_of(std::uint32_t rank) { return find(topology_.vertex_arc[rank]); }
+  std::uint32_t arc_of(std::uint32_t vertex) { return find(topology_.vertex_arc[vertex]); }
+
+  // Whether the triangle begins below rank r.
+  bool begins_below(std::uint32_t triangle, std::uint32_t r) const {
+    return vertex_.vertices[vertex_.lowest[triangle]].rank < r;
+  }
 
   void find_arcs() {
     for (std::uint32_t r = 0; r < heights_.order().size(); ++r) {
+      const std::uint32_t v = heights_.order()[r];
+      const SectionBends::Vertex& vertex = vertex_.vertices[v];
       std::uint32_t arc = 0;
-      if (!input_.crossing(heights_.order()[r]).empty()) {
+      if (!input_.crossing(v).empty()) {
         arc = at_crossing(r);
-      } else if (vertex_.vertices[r].down == kNone) {
+      } else if (vertex.down == kNone) {
         arc = at_minimum(r);
-      } else if (vertex_.vertices[r].middles <= 2) {
-        arc = arc_of(vertex_.vertices[r].down);
+      } else if (vertex_.links[v].middles <= 2) {
+        arc = arc_of(vertex.down);
       } else {
         arc = at_saddle(r);
       }
-      topology_.vertex_arc[r] = arc;
+      topology_.vertex_arc[v] = arc;
       ++topology_.piece_count[arc];
     }
   }
@@ -194,7 +200,7 @@ class JoinTreeBuilder::Work {
     const double up = -dot(input_.pseudonormal[v], d_);
     if (up > 0 && !nested) return new_arc(r, input_.vertex_solid[v]);
     const std::uint32_t below =
-        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return vertex_.lowest[t] < r; });
+        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return begins_below(t, r); });
     if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
     // At the rim of a thin plate the normals of its two sides cancel but for rounding.
     const bool undecided = up > -kThinRim;
@@ -219,14 +225,15 @@ class JoinTreeBuilder::Work {
     meeting_.clear();
     gather_fan(r);
     for (std::uint32_t t : input_.crossing(heights_.order()[r])) {
-      if (vertex_.lowest[t] < r) meeting_.push_back(arc_of(vertex_.lowest[t]));
+      if (begins_below(t, r)) meeting_.push_back(arc_of(vertex_.lowest[t]));
     }
     return meeting_.empty() ? at_minimum(r) : join_meeting(r);
   }
 
   void gather_fan(std::uint32_t r) {
-    for (std::uint32_t t : input_.fan(heights_.order()[r])) {
-      if (vertex_.lowest[t] != r) meeting_.push_back(arc_of(vertex_.lowest[t]));
+    const std::uint32_t v = heights_.order()[r];
+    for (std::uint32_t t : input_.fan(v)) {
+      if (vertex_.lowest[t] != v) meeting_.push_back(arc_of(vertex_.lowest[t]));
     }
   }
 
@@ -271,6 +278,7 @@ class JoinTreeBuilder::Work {
     }
   }
 
+  // Without a branch: how many pieces fall into a cell cannot be foreseen.
   void fill_cells(Arc& arc) {
     const std::uint32_t last = arc.last_piece - arc.first_piece, last_cell = arc.last_cell - arc.first_cell;
     const Piece* pieces = &tree_.pieces[arc.first_piece];
@@ -280,19 +288,18 @@ class JoinTreeBuilder::Work {
     const double side = span > 0 ? span / last_cell : 0;
     std::uint32_t* entry = &tree_.cells[arc.first_cell];
     double* volume = &tree_.cell_volume[arc.first_cell];
-    std::uint32_t filled = 0;
+    std::fill(entry, entry + last_cell + 2, 0);
     for (std::uint32_t i = 0; i <= last; ++i) {
-      const std::uint32_t own = JoinTree::cell(arc, pieces[i].height) - arc.first_cell;
-      const std::uint32_t before = i == 0 ? 0 : i - 1;
-      for (; filled <= own; ++filled) {
-        entry[filled] = arc.first_piece + before;
-        volume[filled] = pieces[before].volume_at(arc.bottom + filled * side);
-      }
+      entry[JoinTree::cell(arc, pieces[i].height) - arc.first_cell + 1] = i;
     }
-    for (; filled <= last_cell + 1; ++filled) {
-      entry[filled] = arc.last_piece;
-      volume[filled] = pieces[last].volume;
+    std::uint32_t before = 0;
+    for (std::uint32_t c = 0; c <= last_cell; ++c) {
+      before = std::max(before, entry[c]);
+      entry[c] = arc.first_piece + before;
+      volume[c] = pieces[before].volume_at(std::min(arc.bottom + c * side, pieces[last].height));
     }
+    entry[last_cell + 1] = arc.last_piece;
+    volume[last_cell + 1] = pieces[last].volume;
   }
 
   void check() const {

@@ -4,11 +4,15 @@
 // the section, V(t) its integral.  f_T starts at a, bends at b and ends at c with f and f' continuous, so
 //   f_T'' / 2 jumps by  1/((b-a)(c-a)),  -1/((b-a)(c-a)) - 1/((c-b)(c-a)),  1/((c-b)(c-a))  at a, b, c:
 // per vertex only the bend of A changes.  Bends of nearly level triangles are huge and must cancel exactly
-// later; they, and all running coefficients, are kept as unevaluated sums of two doubles ("hi + lo").
+// later.  Every bend is split into a multiple of a unit near v0, of which doubles hold sums exactly, and a
+// rest of at most half of that, whose sums are off by 2^-53 v0; running coefficients are kept as unevaluated
+// sums of two doubles ("hi + lo").
 #include "core/section_bends.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace affskel::core {
 namespace {
@@ -17,76 +21,122 @@ namespace {
 // of A'.  V is exact above them and off by less than p times this inside their height range.  Smaller
 // values cost accuracy too: bends reach p / kLevel^2, of which the double-double sums keep 2^-104.
 constexpr double kLevel = TreeInput::kLevelHeight;
-// Bends up to this times v0 are added in plain doubles: 2^-53 of it, integrated three times over the height
-// of the solid (at most 1.8 inner units), is less than 1e-12 v0.
-constexpr double kPlainBend = 4000;
+// Bends up to this times v0 are as a division rounds them.  A triangle that starts with one that is off by
+// 2^-53 takes as much from it b - a higher: V is off by (b - a) 2^-53 of it, and of this limit with
+// b - a < 0.02 (a bend as large takes a triangle as flat), less than 3e-12 v0.
+constexpr double kMostPlainBend = 1 << 20;
 
-struct Ranked {
-  std::uint32_t lo, mid, hi;
+using Vertex = SectionBends::Vertex;
+using Link = SectionBends::Link;
+using Pair = SectionBends::Pair;
+
+struct Corners {
+  const Vertex &lo, &mid, &hi;
+  Link &lo_link, &mid_link, &hi_link;
 };
 
-inline Ranked sort3(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::uint32_t lo = std::min(std::min(a, b), c), hi = std::max(std::max(a, b), c);
-  return {lo, a ^ b ^ c ^ lo ^ hi, hi};
+void add_steeply(SectionBends& out, Link& link, const DoubleSum& bend) {
+  if (link.steep == SectionBends::kNone) {
+    link.steep = static_cast<std::uint32_t>(out.steep_bend.size());
+    out.steep_bend.emplace_back();
+  }
+  out.steep_bend[link.steep].add(bend);
 }
 
-inline void add_level_triangle(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
-  out.jumps.push_back({r.hi, p * (c - (a + b + c) / 3), p, {}});
+DoubleSum negative(const DoubleSum& s) {
+  return {-s.hi, -s.lo};
 }
 
-inline void add_level_low_edge(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
+void add_level_triangle(const Corners& at, double p, SectionBends& out) {
+  const double a = at.lo.height, b = at.mid.height, c = at.hi.height;
+  out.jumps.push_back({at.hi.rank, p * (c - (a + b + c) / 3), p, {}});
+}
+
+void add_level_low_edge(const Corners& at, double p, SectionBends& out) {
+  const double a = at.lo.height, b = at.mid.height, c = at.hi.height;
   const DoubleSum bend = quotient(p, c - b, c - b);
-  out.bend[r.mid].add(-bend.hi, -bend.lo);
-  out.bend[r.hi].add(bend);
-  out.jumps.push_back({r.mid, p * (b - a) / 3, 0, times(bend, 2 * (c - b))});
+  add_steeply(out, at.mid_link, negative(bend));
+  add_steeply(out, at.hi_link, bend);
+  out.jumps.push_back({at.mid.rank, p * (b - a) / 3, 0, times(bend, 2 * (c - b))});
 }
 
-inline void add_level_high_edge(const Ranked& r, double a, double b, double c, double p, SectionBends& out) {
+void add_level_high_edge(const Corners& at, double p, SectionBends& out) {
+  const double a = at.lo.height, b = at.mid.height, c = at.hi.height;
   const DoubleSum bend = quotient(p, b - a, b - a);
-  out.bend[r.lo].add(bend);
-  out.bend[r.mid].add(-bend.hi, -bend.lo);
-  out.jumps.push_back({r.mid, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
+  add_steeply(out, at.lo_link, bend);
+  add_steeply(out, at.mid_link, negative(bend));
+  out.jumps.push_back({at.mid.rank, -p * (c - b) / 3, 0, times(bend, -2 * (b - a))});
 }
 
-__attribute__((always_inline)) inline void add_exactly(const Ranked& r, double a, double b, double c,
-                                                       double p, SectionBends& out) {
+void add_exactly(const Corners& at, double p, SectionBends& out) {
+  const double a = at.lo.height, b = at.mid.height, c = at.hi.height;
   const DoubleSum start = quotient(p, b - a, c - a), end = quotient(p, c - b, c - a);
-  out.bend[r.lo].add(start);
-  out.bend[r.mid].add(-start.hi, -start.lo);
-  out.bend[r.mid].add(-end.hi, -end.lo);
-  out.bend[r.hi].add(end);
+  add_steeply(out, at.lo_link, start);
+  add_steeply(out, at.mid_link, negative(start));
+  add_steeply(out, at.mid_link, negative(end));
+  add_steeply(out, at.hi_link, end);
 }
 
-void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
-                    SectionBends& out) {
-  const std::vector<Triangle>& triangles = input.solid.mesh.triangles;
-  const std::uint32_t* rank = heights.rank().data();
-  SectionBends::Vertex* vertex = out.vertices.data();
-  const double plain = kPlainBend * input.volume;
+// Few triangles of most directions, all of some.
+__attribute__((noinline)) void add_nearly_level(const Corners& at, double p, SectionBends& out) {
+  const bool low = at.mid.height - at.lo.height <= kLevel, high = at.hi.height - at.mid.height <= kLevel;
+  if (at.hi.height - at.lo.height <= kLevel || (low && high)) {
+    add_level_triangle(at, p, out);
+  } else if (low) {
+    add_level_low_edge(at, p, out);
+  } else if (high) {
+    add_level_high_edge(at, p, out);
+  } else {
+    add_exactly(at, p, out);
+  }
+}
+
+// Without a branch: which of two is the lower cannot be foreseen.
+inline void order(std::uint64_t& a, std::uint64_t& b) {
+  const std::uint64_t change = (a ^ b) & (std::uint64_t{0} - static_cast<std::uint64_t>(b < a));
+  a ^= change;
+  b ^= change;
+}
+
+// The corners in the order of their ranks.
+inline std::array<std::uint32_t, 3> by_rank(const Triangle& t, const Vertex* vertex) {
+  const auto key = [&](std::size_t i) { return std::uint64_t{vertex[t[i]].rank} << 32 | t[i]; };
+  std::uint64_t a = key(0), b = key(1), c = key(2);
+  order(a, b);
+  order(b, c);
+  order(a, b);
+  return {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
+}
+
+void pass_triangles(const TreeInput::Data& input, const Vec3& d, SectionBends& out) {
+  const std::span<const Triangle> triangles = input.solid.mesh.triangles;
+  const Vec3* area_vector = input.area_vector.data();
+  std::uint32_t* lowest = out.lowest.data();
+  Vertex* vertex = out.vertices.data();
+  Link* link = out.links.data();
+  const double most = kMostPlainBend * input.volume;
+  // Adding and taking away 1.5 * 2^52 units rounds to units.
+  const double unit = std::ldexp(1.5, 52 + std::ilogb(input.volume));
+  const Pair rounder = {unit, unit};
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Ranked r = sort3(rank[triangles[t][0]], rank[triangles[t][1]], rank[triangles[t][2]]);
-    SectionBends::Vertex &lo = vertex[r.lo], &mid = vertex[r.mid], &hi = vertex[r.hi];
-    out.lowest[t] = r.lo;
-    mid.down = r.lo;
-    hi.down = r.lo;
-    ++mid.middles;
-    const double a = lo.height, b = mid.height, c = hi.height;
-    const double p = -dot(d, input.area_vector[t]);
-    const double ba = b - a, cb = c - b, ca = c - a;
-    const double start = p / (ba * ca), end = p / (cb * ca);
-    if (std::abs(start) <= plain && std::abs(end) <= plain && ba > kLevel && cb > kLevel) {
-      lo.plain_bend += start;
-      mid.plain_bend -= start + end;
-      hi.plain_bend += end;
-    } else if (ca <= kLevel || (ba <= kLevel && cb <= kLevel)) {
-      add_level_triangle(r, a, b, c, p, out);
-    } else if (ba <= kLevel) {
-      add_level_low_edge(r, a, b, c, p, out);
-    } else if (cb <= kLevel) {
-      add_level_high_edge(r, a, b, c, p, out);
-    } else {
-      add_exactly(r, a, b, c, p, out);
+    const std::array<std::uint32_t, 3> corner = by_rank(triangles[t], vertex);
+    Vertex &lo = vertex[corner[0]], &mid = vertex[corner[1]], &hi = vertex[corner[2]];
+    lowest[t] = corner[0];
+    mid.down = corner[0];
+    hi.down = corner[0];
+    ++link[corner[1]].middles;
+    const double p = -dot(d, area_vector[t]);
+    const double ba = mid.height - lo.height, cb = hi.height - mid.height, ca = hi.height - lo.height;
+    const double flattest = std::min(ba, cb);
+    if (!(std::abs(p) <= most * (flattest * ca) && flattest > kLevel)) {
+      add_nearly_level({lo, mid, hi, link[corner[0]], link[corner[1]], link[corner[2]]}, p, out);
+      continue;
     }
+    const Pair bends = Pair{p, p} / (Pair{ba, cb} * Pair{ca, ca});  // at the start, at the end
+    const Pair coarse = (bends + rounder) - rounder, fine = bends - coarse;
+    lo.bend += Pair{coarse[0], fine[0]};
+    mid.bend -= Pair{coarse[0] + coarse[1], fine[0] + fine[1]};
+    hi.bend += Pair{coarse[1], fine[1]};
   }
 }
 
@@ -94,15 +144,16 @@ void pass_triangles(const TreeInput::Data& input, const HeightOrder& heights, co
 
 void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
                         SectionBends& out) {
-  const std::vector<double>& height = heights.height();
-  out.bend.assign(height.size(), {});
-  out.vertices.resize(height.size());
-  for (std::size_t r = 0; r < height.size(); ++r) {
-    out.vertices[r] = {height[r], 0, SectionBends::kNone, 0};
+  const std::vector<std::uint32_t>& order = heights.order();
+  out.vertices.resize(order.size());
+  for (std::uint32_t r = 0; r < order.size(); ++r) {
+    out.vertices[order[r]] = {.height = heights.height()[r], .rank = r};
   }
+  out.links.assign(order.size(), {});
   out.lowest.resize(input.solid.mesh.triangles.size());
+  out.steep_bend.clear();
   out.jumps.clear();
-  pass_triangles(input, heights, d, out);
+  pass_triangles(input, d, out);
   std::stable_sort(out.jumps.begin(), out.jumps.end(),
                    [](const Jump& a, const Jump& b) { return a.rank < b.rank; });
 }

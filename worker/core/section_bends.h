@@ -19,19 +19,25 @@ struct Jump {
 
 /// What one pass over the triangles leaves for the sweep over the vertices.
 struct SectionBends {
+  using Pair = double __attribute__((vector_size(16)));  ///< a register's worth
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
   /// In one piece, for triangles meet their vertices in any order: each is one access to memory.
-  struct Vertex {
+  struct alignas(32) Vertex {
+    Pair bend = {0, 0};          ///< change of A'' / 2: the sum of multiples of a unit near v0, and of the rest
     double height = 0;
-    double plain_bend = 0;       ///< change of A'' / 2, the moderate part
-    std::uint32_t down = kNone;  ///< rank of some lower neighbour, kNone at a minimum
-    std::uint32_t middles = 0;   ///< triangles it is the middle corner of: 2 per lower link component
+    std::uint32_t rank = 0;      ///< by height
+    std::uint32_t down = kNone;  ///< some lower neighbour, kNone at a minimum
+  };
+  struct Link {
+    std::uint32_t middles = 0;    ///< triangles it is the middle corner of: 2 per lower link component
+    std::uint32_t steep = kNone;  ///< index into steep_bend, kNone when it has none
   };
 
-  std::vector<Vertex> vertices;       ///< by rank
-  std::vector<DoubleSum> bend;        ///< by rank: the rest; huge parts would swallow moderate ones
-  std::vector<std::uint32_t> lowest;  ///< per triangle: rank of its lowest corner
+  std::vector<Vertex> vertices;
+  std::vector<Link> links;            ///< per vertex
+  std::vector<DoubleSum> steep_bend;  ///< what nearly level triangles add to the bends of their corners
+  std::vector<std::uint32_t> lowest;  ///< per triangle: its lowest corner
   std::vector<Jump> jumps;            ///< by rank
 };
 
