@@ -108,9 +108,9 @@ class JoinTreeBuilder::Work {
       : input_(input.data()),
         tolerance_(input.volume_tolerance()),
         options_(options),
-        heights_(input_.solid.mesh.points) {
-    const std::size_t vertices = input_.solid.mesh.points.size(),
-                      triangles = input_.solid.mesh.triangles.size();
+        heights_(input_.mesh.points) {
+    const std::size_t vertices = input_.mesh.points.size(),
+                      triangles = input_.mesh.triangles.size();
     topology_.vertex_arc.resize(vertices);
     tree_.triangle_arc.resize(triangles);
     tree_.pieces.resize(vertices);
@@ -127,7 +127,7 @@ class JoinTreeBuilder::Work {
     tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
     fill_cells();
     for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
-      tree_.triangle_arc[t] = topology_.vertex_arc[vertex_.lowest[t]];
+      tree_.triangle_arc[input_.original_triangle[t]] = topology_.vertex_arc[vertex_.lowest[t]];
     }
     if (options_.check_invariants) check();
     return tree_;
@@ -207,7 +207,7 @@ class JoinTreeBuilder::Work {
     if (options_.check_invariants && !undecided) {
       throw CoreError(CoreError::Code::kInternal, "direction " + in_words(d_) +
                                                       ": no surface below the inner minimum at vertex " +
-                                                      std::to_string(v));
+                                                      std::to_string(input_.original_vertex[v]));
     }
     return new_arc(r, input_.vertex_solid[v]);
   }

@@ -109,7 +109,7 @@ inline std::array<std::uint32_t, 3> by_rank(const Triangle& t, const Vertex* ver
 }
 
 void pass_triangles(const TreeInput::Data& input, const Vec3& d, SectionBends& out) {
-  const std::span<const Triangle> triangles = input.solid.mesh.triangles;
+  const std::span<const Triangle> triangles = input.mesh.triangles;
   const Vec3* area_vector = input.area_vector.data();
   std::uint32_t* lowest = out.lowest.data();
   Vertex* vertex = out.vertices.data();
@@ -150,7 +150,7 @@ void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights
     out.vertices[order[r]] = {.height = heights.height()[r], .rank = r};
   }
   out.links.assign(order.size(), {});
-  out.lowest.resize(input.solid.mesh.triangles.size());
+  out.lowest.resize(input.mesh.triangles.size());
   out.steep_bend.clear();
   out.jumps.clear();
   pass_triangles(input, d, out);

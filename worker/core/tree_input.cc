@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/locality_order.h"
 #include "core/parallel.h"
 #include "core/solid_membership.h"
 
@@ -28,16 +29,46 @@ Vec3 pseudonormal_of(const Mesh& mesh, std::uint32_t vertex, std::span<const std
   return sum;
 }
 
+std::vector<Vec3> centroids(const Mesh& mesh) {
+  std::vector<Vec3> result;
+  result.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    result.push_back((1.0 / 3) * (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]));
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  return place;
+}
+
+Mesh in_order(const Mesh& mesh, const std::vector<std::uint32_t>& vertices,
+              const std::vector<std::uint32_t>& triangles) {
+  const std::vector<std::uint32_t> place = inverse(vertices);
+  Mesh result;
+  result.points.reserve(vertices.size());
+  for (const std::uint32_t v : vertices) result.points.push_back(mesh.points[v]);
+  result.triangles.reserve(triangles.size());
+  for (const std::uint32_t t : triangles) {
+    const Triangle& c = mesh.triangles[t];
+    result.triangles.push_back({place[c[0]], place[c[1]], place[c[2]]});
+  }
+  return result;
+}
+
 }  // namespace
 
 TreeInput::Data::Data(const Solid& s, unsigned threads)
-    : solid(s),
-      pseudonormal(s.mesh.points.size()),
-      fan_begin(s.mesh.points.size() + 2, 0),
-      fan_triangles(3 * s.mesh.triangles.size()),
-      vertex_solid(s.mesh.points.size(), 0),
-      rays(s.mesh, threads) {
-  const Mesh& mesh = s.mesh;
+    : original_vertex(locality_order(s.mesh.points)),
+      original_triangle(locality_order(centroids(s.mesh))),
+      mesh(in_order(s.mesh, original_vertex, original_triangle)),
+      pseudonormal(mesh.points.size()),
+      fan_begin(mesh.points.size() + 2, 0),
+      fan_triangles(3 * mesh.triangles.size()),
+      vertex_solid(mesh.points.size(), 0),
+      rays(mesh, threads) {
   area_vector.reserve(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& c = mesh.triangles[t];
@@ -47,7 +78,7 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
     surface_area += 0.5 * norm(twice);
     for (std::uint32_t v : c) {
       ++fan_begin[v + 2];
-      vertex_solid[v] = s.shells[s.triangle_shell[t]].solid;
+      vertex_solid[v] = s.shells[s.triangle_shell[original_triangle[t]]].solid;
     }
   }
   for (std::size_t v = 2; v < fan_begin.size(); ++v) fan_begin[v] += fan_begin[v - 1];
@@ -61,7 +92,7 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
     }
   });
   if (!s.crossings.empty()) {
-    find_crossings();
+    find_crossings(s);
     find_nested(threads);
   }
   for (double v : s.solid_volume) {
@@ -70,15 +101,17 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
   }
 }
 
-void TreeInput::Data::find_crossings() {
+void TreeInput::Data::find_crossings(const Solid& solid) {
+  const std::vector<std::uint32_t> place = inverse(original_triangle);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // vertex, triangle
-  for (const auto& [i, j] : solid.crossings) {
-    for (std::uint32_t v : solid.mesh.triangles[i]) entries.emplace_back(v, j);
-    for (std::uint32_t v : solid.mesh.triangles[j]) entries.emplace_back(v, i);
+  for (const auto& [original_i, original_j] : solid.crossings) {
+    const std::uint32_t i = place[original_i], j = place[original_j];
+    for (std::uint32_t v : mesh.triangles[i]) entries.emplace_back(v, j);
+    for (std::uint32_t v : mesh.triangles[j]) entries.emplace_back(v, i);
   }
   std::sort(entries.begin(), entries.end());
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-  crossing_begin.assign(solid.mesh.points.size() + 1, 0);
+  crossing_begin.assign(mesh.points.size() + 1, 0);
   for (const auto& [vertex, triangle] : entries) {
     ++crossing_begin[vertex + 1];
     crossing_triangles.push_back(triangle);
@@ -88,13 +121,13 @@ void TreeInput::Data::find_crossings() {
 
 void TreeInput::Data::find_nested(unsigned threads) {
   constexpr double kStep = 1e-7;  // far less than the spacing of any lattice
-  const SolidMembership membership(solid.mesh);
-  nested.resize(solid.mesh.points.size());
+  const SolidMembership membership(mesh);
+  nested.resize(mesh.points.size());
   parallel_ranges(threads, nested.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const double length = norm(pseudonormal[v]);
       if (length == 0) continue;
-      nested[v] = membership.contains(solid.mesh.points[v] + (kStep / length) * pseudonormal[v]);
+      nested[v] = membership.contains(mesh.points[v] + (kStep / length) * pseudonormal[v]);
     }
   });
 }

@@ -10,7 +10,8 @@
 
 namespace affskel::core {
 
-/// What TreeInput holds; for the sources of the join tree only.
+/// What TreeInput holds; for the sources of the join tree only.  Vertices and triangles have other indices than
+/// in the solid: those of many meshes go criss-cross, and every direction looks all of them up.
 struct TreeInput::Data {
   Data(const Solid& solid, unsigned threads);
 
@@ -19,7 +20,9 @@ struct TreeInput::Data {
     return {fan_triangles.data() + fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]};
   }
 
-  const Solid& solid;
+  std::vector<std::uint32_t> original_vertex;    ///< per vertex: its index in the solid's mesh
+  std::vector<std::uint32_t> original_triangle;  ///< per triangle: its index in the solid's mesh
+  Mesh mesh;                             ///< the solid's, neighbours kept together in memory
   std::vector<Vec3> area_vector;         ///< per triangle: outward normal times area, inner units
   std::vector<Vec3> pseudonormal;        ///< per vertex: unit normals weighted by the angles they span
   std::vector<std::uint32_t> fan_begin;  ///< per vertex and one more
@@ -43,7 +46,7 @@ struct TreeInput::Data {
   RayShooter rays;
 
  private:
-  void find_crossings();
+  void find_crossings(const Solid& solid);
   void find_nested(unsigned threads);
 };
 
