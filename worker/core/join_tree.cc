@@ -27,23 +27,19 @@ constexpr double kThinRim = 1e-9;  // radians: what angle-weighted normals sum u
 // Small trees get about this many cells in all: filling them costs less than the chords they save.
 constexpr std::uint32_t kFewCells = 1024;
 
-// What a component's last piece has in common with the exact A(t) = area + slope s + bend s^2 is rounded; of
-// these two, which nearly level triangles may make huge for a while, the exact values are kept as well.
+// The exact A' and A'' / 2 of one component at its last piece, which has them rounded.  Nearly level triangles
+// make these two huge until they cancel; A and V stay moderate, and the piece's own are good enough.
 struct Running {
   DoubleSum slope, bend;
 };
 
-void add(Running& sum, const Running& other) {
-  sum.slope.add(other.slope);
-  sum.bend.add(other.bend);
-}
-
-// The component `rise` above its last piece: volume and area into `sum`.
-inline void advance(Running& running, const Piece& last, double height, Piece& sum) {
-  const double s = height - last.height;
+// Up to `height` from the last piece; adds volume, area and the exact values there to `sum` and `exact`.
+inline void advance(const Running& running, const Piece& last, double height, Piece& sum, Running& exact) {
   sum.volume += last.volume_at(height);
   sum.area += last.area_at(height);
-  running.slope.add(times(running.bend, 2 * s));
+  exact.slope.add(running.slope);
+  exact.slope.add(times(running.bend, 2 * (height - last.height)));
+  exact.bend.add(running.bend);
 }
 
 // The arcs as the topology pass finds them.
@@ -57,6 +53,7 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
+// Adds up the coefficients vertex by vertex and writes the pieces; returns the most negative step of a volume.
 double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends& bends,
                     const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
   constexpr double kThird = 1.0 / 3;
@@ -66,35 +63,32 @@ double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends&
     const SectionBends::Vertex& vertex = bends.vertices[order[r]];
     const std::uint32_t a = topology.vertex_arc[order[r]];
     Arc& arc = tree.arcs[a];
-    Running state = running[a];
     Piece piece{.height = vertex.height};
-    double before = 0;
+    Running exact;
+    double before = -kInfinity;
     if (topology.start_rank[a] == r) {
-      state = {};
       for (std::uint32_t i = topology.children_begin[a]; i < topology.children_begin[a + 1]; ++i) {
         const std::uint32_t child = topology.children[i];
-        advance(running[child], tree.pieces[tree.arcs[child].last_piece], vertex.height, piece);
-        add(state, running[child]);
+        advance(running[child], tree.pieces[tree.arcs[child].last_piece], vertex.height, piece, exact);
       }
-      before = -kInfinity;
     } else {
       const Piece& last = tree.pieces[arc.last_piece];
+      advance(running[a], last, vertex.height, piece, exact);
       before = last.volume;
-      advance(state, last, vertex.height, piece);
       arc.last_piece += last.height != vertex.height ? 1 : 0;
     }
-    state.bend.add(vertex.bend[0], vertex.bend[1]);
+    exact.bend.add(vertex.bend[0], vertex.bend[1]);
     const std::uint32_t steep = bends.links[order[r]].steep;
-    if (steep != kNone) state.bend.add(bends.steep_bend[steep]);
+    if (steep != kNone) exact.bend.add(bends.steep_bend[steep]);
     for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
       piece.volume += jump->volume;
       piece.area += jump->area;
-      state.slope.add(jump->slope);
+      exact.slope.add(jump->slope);
     }
+    piece.half_slope = 0.5 * exact.slope.value();
+    piece.sixth_bend = kThird * exact.bend.value();
     least_step = std::min(least_step, piece.volume - before);
-    piece.half_slope = 0.5 * state.slope.value();
-    piece.sixth_bend = kThird * state.bend.value();
-    running[a] = state;
+    running[a] = exact;
     tree.pieces[arc.last_piece] = piece;
   }
   return least_step;

@@ -21,9 +21,9 @@ namespace {
 // of A'.  V is exact above them and off by less than p times this inside their height range.  Smaller
 // values cost accuracy too: bends reach p / kLevel^2, of which the double-double sums keep 2^-104.
 constexpr double kLevel = TreeInput::kLevelHeight;
-// Bends up to this times v0 are as a division rounds them.  A triangle that starts with one that is off by
-// 2^-53 takes as much from it b - a higher: V is off by (b - a) 2^-53 of it, and of this limit with
-// b - a < 0.02 (a bend as large takes a triangle as flat), less than 3e-12 v0.
+// Bends up to this times v0 may be as a division rounds them.  What a triangle adds at its start it takes away
+// b - a higher, equally rounded, so that V is off by less than 2^-53 of this times b - a: were b - a the whole
+// height of the solid, 2e-10 v0; where a bend is as large, b - a is a hundredth and less.
 constexpr double kMostPlainBend = 1 << 20;
 
 using Vertex = SectionBends::Vertex;
