@@ -226,10 +226,8 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const SolidParts parts(solid, lattice);
   std::vector<ChordShock> candidates = chord_shocks(lattice, field, options.shocks);
   measure_turns(lattice, parts, field, candidates, options.turns);
-  LevelEdgeOptions level = options.level;
   ChordPruningOptions pruning = options.pruning;
-  level.least_turn = pruning.strong_turn = strong_turn(candidates, options);
-  add_level_edges(lattice, parts, field, candidates, level);
+  pruning.strong_turn = strong_turn(candidates, options);
   SignificantShocks kept = significant_shocks(lattice, parts, candidates, pruning);
   ChordSheet sheet;
   sheet.shocks = std::move(kept.shocks);

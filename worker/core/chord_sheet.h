@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/chord_level_edges.h"
 #include "core/chord_pruning.h"
 #include "core/chord_shocks.h"
 #include "core/chord_turns.h"
@@ -17,7 +16,6 @@ namespace affskel::core {
 struct ChordSheetOptions {
   ChordShockOptions shocks;     ///< the candidates
   ChordTurnOptions turns;       ///< how far the normals turn at them
-  LevelEdgeOptions level;       ///< edges that lie in the sheet; its least_turn is that of strong shocks
   ChordPruningOptions pruning;  ///< which of them stay; its `significance` is the threshold of `chords`
   /// Where hardly a turn is as wide as pruning.strong_turn, this share of the widest one takes its place, 0
   /// .. 1: a frame that makes a flat solid as thick as it is wide makes all its turns narrow...
@@ -47,12 +45,12 @@ struct ChordSheet {
   std::vector<Triangle> triangles;         ///< two per shock, in the order of the shocks
 };
 
-/// The significant shocks (their turns measured, see measure_turns; with those that lie in the sheet, see
-/// add_level_edges; pinholes closed, see pinhole_shocks) joined into a sheet by dual contouring (Ju, Losasso,
-/// Schaefer and Warren 2002): every lattice cell that has shocks on its edges has one vertex, every shock a
-/// quadrilateral through the vertices of the four cells round its edge, cut along its shorter diagonal.  All
-/// four always exist, cells partly outside the solid included, so that the sheet has holes only where shocks
-/// are missing, and ends where they end: at most half a spacing beyond the outermost.
+/// The significant shocks (their turns measured, see measure_turns; pinholes closed, see pinhole_shocks) joined
+/// into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002): every lattice cell that has shocks
+/// on its edges has one vertex, every shock a quadrilateral through the vertices of the four cells round its
+/// edge, cut along its shorter diagonal.  All four always exist, cells partly outside the solid included, so
+/// that the sheet has holes only where shocks are missing, and ends where they end: at most half a spacing
+/// beyond the outermost.
 ///
 /// A vertex is placed by least squares on the tangent planes of its cell's shocks (normal g_x - g_y), drawn
 /// towards their mean, and kept in the cell.  On the rim the mean alone would lie on the outermost shocks

@@ -13,7 +13,7 @@ namespace affskel::core {
 /// Value of the erosion field at one point.
 struct FieldValue {
   static constexpr std::uint32_t kNoDirection = 0xFFFFFFFFU;
-  double erosion = std::numeric_limits<double>::infinity();  ///< E, volume
+  double erosion = std::numeric_limits<double>::infinity();  ///< E, volume; 36 significant bits, see sweep()
   double area = 0;                                           ///< of the section at the optimum
   std::uint32_t direction = kNoDirection;                    ///< the one that attains E
 

@@ -38,7 +38,8 @@ class Sweeper {
  public:
   Sweeper(const Lattice& lattice, ErosionField& field, const SweepOptions& options);
 
-  /// Direction number `index`, unit vector d, with its tree.  Chords below -margin, which only a mesh that
+  /// Direction number `index`, unit vector d, with its tree.  Chords are offered to 36 significant bits, so that
+  /// those of mirror images, which differ by rounding alone, tie and the index decides.  Chords below -margin, which only a mesh that
   /// crosses itself gives, say nothing: the whole volume is offered for them.
   SweepCounts sweep(const JoinTree& tree, const Vec3& d, std::uint32_t index);
 

@@ -89,10 +89,16 @@ TEST(ChordSheet, HalvingTheSpacingHardlyMovesATorusSheet) {
 
 // An odd number of layers: those in the torus's plane have two equal chords at every point.
 TEST(ChordSheet, IsOneAnnulusWhenSamplePointsLieOnIt) {
-  const ErodedSolid torus(make_torus(4, 2, 1024), axes(0.15), "sphere:2000");
-  ASSERT_EQ(torus.lattice.frame.dims[2] % 2, 1U);
-  const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
-  EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0}));
+  for (const std::string directions : {"triangles", "sphere:2000"}) {
+    for (const std::uint32_t triangles : {256U, 1024U}) {
+      for (const double h : {0.14, 0.16, 0.23}) {
+        const ErodedSolid torus(make_torus(3, 1, triangles), axes(h), directions);
+        ASSERT_EQ(torus.lattice.frame.dims[2] % 2, 1U);
+        const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
+        EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0})) << directions << ", " << triangles << ", " << h;
+      }
+    }
+  }
 }
 
 constexpr double kHeight = 18000, kSpacing = 100;

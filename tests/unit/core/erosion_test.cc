@@ -208,6 +208,24 @@ TEST(Erosion, AreaIsTheGradientAlongTheNormal) {
   EXPECT_GT(tested, 20U);
 }
 
+// In the plane of a torus every direction and its mirror image have equal chords, but for rounding.
+TEST(Erosion, OfTwoMirrorImagesTheLesserIndexDecides) {
+  const Computed torus = compute(make_torus(3, 1, 256), 0.14, "triangles");
+  ASSERT_EQ(torus.lattice.frame.dims[2] % 2, 1U);
+  std::size_t in_plane = 0;
+  for (std::size_t p = 0; p < torus.place.size(); ++p) {
+    if (std::abs(torus.place[p].z) > 1e-9) continue;
+    ++in_plane;
+    const Vec3& n = torus.directions[torus.value[p].direction];
+    const auto image = std::find_if(torus.directions.begin(), torus.directions.end(), [&](const Vec3& d) {
+      return norm(d - Vec3{n.x, n.y, -n.z}) < 1e-9;
+    });
+    ASSERT_NE(image, torus.directions.end());
+    EXPECT_LE(torus.value[p].direction, static_cast<std::uint32_t>(image - torus.directions.begin()));
+  }
+  EXPECT_GT(in_plane, 1000U);
+}
+
 TEST(Erosion, PruningThreadsAndOrderDoNotChangeABit) {
   for (const Mesh& mesh : {make_torus(3, 1, 256), hollow_ball(), comb(4), make_box(3, 2, 1, 2)}) {
     const std::string set = "triangles+random:100:2";
