@@ -39,6 +39,11 @@ struct SectionBends {
   std::vector<DoubleSum> steep_bend;  ///< what nearly level triangles add to the bends of their corners
   std::vector<std::uint32_t> lowest;  ///< per triangle: its lowest corner
   std::vector<Jump> jumps;            ///< by rank
+
+  void prefetch(std::uint32_t vertex) const {
+    __builtin_prefetch(&vertices[vertex]);
+    __builtin_prefetch(&links[vertex]);
+  }
 };
 
 /// Fills `out`, whose memory is reused, for unit vector d and the order of heights along it.  O(N), and
