@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/chord_shocks.h"
@@ -10,21 +11,44 @@
 
 namespace affskel::core {
 
-/// Calls `visit(x, y, axis, place)` for every lattice edge between neighbouring sample points of one run:
-/// ranks of its lower and upper end, its axis (std::uint8_t) and the lattice indices of x.  Between two runs
-/// lies the surface, and across it E says nothing.
+/// Whether the line stays in the solid from the end of a run to the start of the next one: it has
+/// neighbouring points, and the surface between them lies within the solid, where this passes through itself.
+/// A line meets a triangle once, so that what it entered by and what it leaves by tell one passage from
+/// another.
+inline bool goes_on(const LatticeRun& run, const LatticeRun& next, std::size_t axis) {
+  std::array<std::uint32_t, 3> behind = run.start;
+  behind[axis] += run.length;
+  return next.start == behind && next.low == run.low && next.high == run.high;
+}
+
+/// Calls `visit(stretch)` for every stretch of a lattice line in the solid: a run, or several that go on from
+/// one to the next, as one LatticeRun.  Inside, the surface is no bound for E: where a fold covers a place
+/// twice its volume counts twice, and E is about as continuous as elsewhere.  Noise folds a fine mesh all
+/// over.
+template <class Visit>
+void for_each_stretch(const AxisRuns& along, std::size_t axis, Visit visit) {
+  for (auto run = along.runs.begin(); run != along.runs.end();) {
+    LatticeRun stretch = *run;
+    while (++run != along.runs.end() && goes_on(stretch, *run, axis)) stretch.length += run->length;
+    visit(stretch);
+  }
+}
+
+/// Calls `visit(x, y, axis, place)` for every lattice edge between neighbouring sample points of one stretch:
+/// ranks of its lower and upper end, its axis (std::uint8_t) and the lattice indices of x.  Between two
+/// stretches the line leaves the solid, and across its surface E says nothing.
 template <class Visit>
 void for_each_edge(const Lattice& lattice, Visit visit) {
   for (std::uint8_t axis = 0; axis < 3; ++axis) {
     const AxisRuns& along = lattice.axis[axis];
-    for (const LatticeRun& run : along.runs) {
+    for_each_stretch(along, axis, [&](const LatticeRun& run) {
       std::array<std::uint32_t, 3> place = run.start;
       for (std::uint32_t n = run.first; n + 1 < run.first + run.length; ++n, ++place[axis]) {
         const std::uint32_t x = along.order.empty() ? n : along.order[n];
         const std::uint32_t y = along.order.empty() ? n + 1 : along.order[n + 1];
         visit(x, y, axis, place);
       }
-    }
+    });
   }
 }
 

@@ -90,7 +90,7 @@ class TurnGauge {
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (shocks_[s].axis == axis) shock_from[shocks_[s].point] = s;
     }
-    for (const LatticeRun& run : along.runs) {
+    for_each_stretch(along, axis, [&](const LatticeRun& run) {
       line_.clear();
       on_line_.clear();
       for (std::uint32_t n = run.first; n < run.first + run.length; ++n) {
@@ -98,7 +98,7 @@ class TurnGauge {
         on_line_.push_back(shock_from[line_.back()]);
       }
       for (std::uint32_t n = 0; n + 1 < run.length; ++n) gauge(n);
-    }
+    });
   }
 
   void gauge(std::uint32_t n) {
@@ -136,7 +136,7 @@ class TurnGauge {
   double least_share_;
   std::vector<bool> speaks_;                   // per shock: for those round it
   std::vector<double> largest_;                // per cell, see find_largest_jumps
-  std::vector<std::uint32_t> line_, on_line_;  // of one run
+  std::vector<std::uint32_t> line_, on_line_;  // of one stretch
 };
 
 }  // namespace

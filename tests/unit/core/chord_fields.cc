@@ -54,7 +54,9 @@ Branch linear_branch(double constant, const Vec3& slope) {
   return {[=](const Vec3& u) { return constant + dot(slope, u); }, [=](const Vec3&) { return slope; }};
 }
 
-BoxLattice::BoxLattice(double a, double b, double c) : solid(make_solid(make_box(a, b, c))) {
+BoxLattice::BoxLattice(double a, double b, double c) : BoxLattice(make_box(a, b, c)) {}
+
+BoxLattice::BoxLattice(const Mesh& box) : solid(make_solid(box)) {
   LatticeOptions options;
   options.spacing = 1;
   lattice = make_lattice(solid, options);

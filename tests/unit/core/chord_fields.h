@@ -28,6 +28,8 @@ struct BoxLattice {
   Solid solid;
   Lattice lattice;
   BoxLattice(double a, double b, double c);
+  /// @param box any mesh that bounds one.
+  explicit BoxLattice(const Mesh& box);
 };
 
 /// The least of the branches at each sample point; a branch's number is its direction.

@@ -157,6 +157,33 @@ TEST(ChordShocks, NoEdgeAcrossAGap) {
             81U);
 }
 
+// Where a solid's surface passes through the solid, edges cross it without leaving the solid: the same shocks
+// as in the box that the two make up, at both surfaces, along every axis.
+TEST(ChordShocks, SurfacesInsideTheSolidAreCrossed) {
+  const BoxLattice box(9, 9, 9);
+  Mesh mesh = overlapping_boxes(9, 9, 9);
+  Vec3 up{0, 0, 1};
+  for (const std::size_t axis : {2U, 0U, 1U}) {
+    const BoxLattice two(mesh);
+    ASSERT_EQ(two.lattice.points, 729U);
+    ASSERT_EQ(two.lattice.axis[axis].runs.size(), 3 * 81U);
+    for (const double at : {2.2, 5.6}) {  // the surfaces at 2.8 and 6.2, points at 0.5, 1.5 ...
+      const std::vector<Branch> branches{linear_branch(20, up), linear_branch(20 + 2 * at, -up)};
+      const auto expected = chord_shocks(box.lattice, field_of_branches(box.lattice, branches));
+      const auto found = chord_shocks(two.lattice, field_of_branches(two.lattice, branches));
+      ASSERT_EQ(expected.size(), 81U);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t s = 0; s < found.size(); ++s) {
+        EXPECT_EQ(found[s].point, expected[s].point);
+        EXPECT_EQ(found[s].axis, axis);
+        EXPECT_NEAR(found[s].t, at - std::floor(at), 1e-12);
+      }
+    }
+    for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
+    up = {up.z, up.x, up.y};
+  }
+}
+
 // The invariance that the header claims: solid and lattice mapped together by a map of determinant 1.
 TEST(ChordShocks, AMappedLatticeGivesTheSameNumbers) {
   // Shaken: where directions tie, rounding decides.

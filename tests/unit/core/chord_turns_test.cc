@@ -6,6 +6,7 @@
 
 #include "chord_fields.h"
 #include "core/error.h"
+#include "test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -53,6 +54,20 @@ TEST(ChordTurns, TheGreatestKinkSpeaksForTheWholeTurn) {
   for (const ChordShock& shock : shocks) {
     const bool middle = shock.place[2] == 3;
     EXPECT_NEAR(shock.turn, middle ? 0.75 : shock.opening, 1e-12);  // (1 - cos 120) / 2
+  }
+}
+
+// The same on a line that passes surfaces inside the solid.
+TEST(ChordTurns, TheBandCrossesSurfacesInsideTheSolid) {
+  const BoxLattice box(overlapping_boxes(5, 5, 9));
+  ASSERT_GT(box.lattice.axis[2].runs.size(), 25U);
+  const double d = kPi / 180;
+  const FrameField field =
+      layered(box.lattice, {60 * d, 60 * d, 60 * d, 30 * d, -30 * d, -60 * d, -60 * d, -60 * d, -60 * d});
+  const std::vector<ChordShock> shocks = turned(box, field, unaveraged());
+  ASSERT_EQ(shocks.size(), 3 * 25U);
+  for (const ChordShock& shock : shocks) {
+    EXPECT_NEAR(shock.turn, shock.place[2] == 3 ? 0.75 : shock.opening, 1e-12);
   }
 }
 

@@ -58,6 +58,13 @@ Mesh joined(Mesh a, const Mesh& b) {
   return a;
 }
 
+Mesh overlapping_boxes(double a, double b, double c) {
+  constexpr double kInset = 0.01, kHalf = 1.7;
+  return joined(
+      make_box(a, b, 0.5 * c + kHalf),
+      moved(make_box(a - 2 * kInset, b - 2 * kInset, 0.5 * c + kHalf), {kInset, kInset, 0.5 * c - kHalf}));
+}
+
 Mesh shaken(Mesh mesh, double noise, std::uint64_t seed) {
   // Columns of a rotation: Gram-Schmidt from two vectors that depend on the seed.
   std::mt19937_64 random(seed);

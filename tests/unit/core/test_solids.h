@@ -15,6 +15,10 @@ Mesh reversed(Mesh mesh);
 /// Both meshes as one, without common vertices.
 Mesh joined(Mesh a, const Mesh& b);
 
+/// The box [0, a] x [0, b] x [0, c] made of two that pass through each other: between c/2 - 1.7 and c/2 + 1.7
+/// they overlap, and the upper one is narrower by 0.01 on every side.
+Mesh overlapping_boxes(double a, double b, double c);
+
 /// The mesh turned about an axis in no special position, then every coordinate moved by up to +-noise.
 Mesh shaken(Mesh mesh, double noise, std::uint64_t seed);
 
