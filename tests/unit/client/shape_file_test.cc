@@ -12,6 +12,7 @@
 #include "client/exporters/skeleton_writer.h"
 #include "core/mesh_io.h"
 #include "core/shapes.h"
+#include "core/solid.h"
 #include "sample_data.h"
 #include "temp_dir.h"
 
@@ -310,6 +311,15 @@ TEST_F(ShapeFileTest, TheBeginningDecidesWhereTheExtensionDoesNot) {
   EXPECT_EQ(read("points", "OFF\n1 0 0\n1 2 3\n").mesh().points.size(), 1u);
   expect_bad("points.txt", "hello\n", 0, ".csv");
   EXPECT_THROW(read_shape(dir_ / "missing.ply"), ClientError);
+}
+
+TEST_F(ShapeFileTest, QuadrilateralsOverTheSameTwoEdgesHoldNoTriangleTwice) {
+  // Both quadrilaterals have 1-3 for their shorter diagonal.
+  const ShapeFile roof =
+      read("roof.obj",
+           "v -1 0 0\nv 0 -3 0\nv 1 0 0\nv 0 3 0\nv 0 0 0.5\nv 0 0 -2\nf 1 2 3 5\nf 1 5 3 4\n"
+           "f 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n");
+  EXPECT_DOUBLE_EQ(core::make_solid(roof.mesh()).volume, 4.5);
 }
 
 TEST_F(ShapeFileTest, WhatIsWrittenReadsBackWithItsColumns) {
