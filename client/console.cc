@@ -1,5 +1,6 @@
 #include "client/console.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -89,6 +90,13 @@ std::string printable(std::string_view text) {
     const bool control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
     safe.push_back(control ? '?' : c);
   }
+  return safe;
+}
+
+std::string one_line(std::string_view text) {
+  std::string safe = printable(text);
+  std::replace_if(
+      safe.begin(), safe.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   return safe;
 }
 

@@ -56,4 +56,7 @@ class Console {
 /// terminal.
 std::string printable(std::string_view text);
 
+/// The same, with spaces for line ends and tabs: for comments of files, where a second line would be data.
+std::string one_line(std::string_view text);
+
 }  // namespace affskel::client

@@ -94,7 +94,7 @@ struct Flags {
 };
 
 CLI::App* declare(CLI::App& app, Flags& flags) {
-  app.set_version_flag("--version", affskel::wire::kVersion);
+  app.set_version_flag("--version", std::string("affskel-worker ") + affskel::wire::kVersion);
   app.footer(
       "Examples:\n"
       "  affskel-worker --server unix:/run/affskel/server.sock --threads 4\n"

@@ -1,5 +1,7 @@
 #include "server_link.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
@@ -15,15 +17,17 @@ constexpr auto kFirstPause = std::chrono::milliseconds(20);
 constexpr auto kLongestPause = std::chrono::milliseconds(500);
 constexpr auto kCallTimeout = std::chrono::seconds(120);
 
-std::shared_ptr<grpc::Channel> connect(const std::string& address) {
+std::shared_ptr<grpc::Channel> connect(const std::string& text) {
+  const wire::Address address = wire::parse_address(text);
   grpc::ChannelArguments arguments;
+  // A proxy elsewhere cannot reach this machine's own addresses.
+  if (address.is_local()) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetMaxReceiveMessageSize(16 << 20);
   // Come back quickly after a server restart.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
-  return grpc::CreateCustomChannel(wire::parse_address(address).target(), grpc::InsecureChannelCredentials(),
-                                   arguments);
+  return grpc::CreateCustomChannel(address.target(), grpc::InsecureChannelCredentials(), arguments);
 }
 
 }  // namespace
@@ -33,6 +37,18 @@ ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
       options_(options),
       stop_(std::move(stop)) {}
 
+// A worker that waits for its server says so, once; without it a wrong address looks like having no work.
+void ServerLink::note_answer(const grpc::Status& status) {
+  const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE;
+  if (away == away_.exchange(away)) return;
+  if (away) {
+    spdlog::warn("server={} msg=\"does not answer, trying again\" cause=\"{}\"", options_.address,
+                 status.error_message());
+  } else {
+    spdlog::info("server={} msg=\"answers again\"", options_.address);
+  }
+}
+
 template <class Call>
 void ServerLink::with_retries(const char* what, Call call) {
   Clock::time_point give_up = Clock::now() + options_.patience;
@@ -41,6 +57,7 @@ void ServerLink::with_retries(const char* what, Call call) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
     const grpc::Status status = call(context);
+    note_answer(status);
     if (status.ok()) return;
     const std::string message = std::string(what) + ": " + status.error_message();
     switch (status.error_code()) {

@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -65,10 +66,12 @@ class ServerLink {
  private:
   template <class Call>
   void with_retries(const char* what, Call call);
+  void note_answer(const grpc::Status& status);
 
   std::unique_ptr<v1::WorkerService::Stub> stub_;
   ServerLinkOptions options_;
   std::stop_token stop_;
+  std::atomic<bool> away_ = false;  // as far as the log knows
 };
 
 }  // namespace affskel::worker

@@ -47,6 +47,17 @@ std::string eroded_form(const Destination& destination) {
   return "points";
 }
 
+// The mesh is what was submitted, whatever the file is called; surfaces of that name would be something else.
+void warn_of_foreign_extension(Context& context, const Destination& destination) {
+  const std::string extension = destination.extension();
+  for (const FileFormat format : surface_formats()) {
+    if (format == FileFormat::kOff || extension != extension_of(format)) continue;
+    context.console().warning(destination.name() +
+                              ": the mesh is written as it was submitted, as OFF text, not as '" + extension +
+                              "'; affskel-client transform --scale 1 writes it in other formats");
+  }
+}
+
 // The job that the command is about, and its skeleton's parameters when they are not the job's own.
 struct Chosen {
   std::string job;
@@ -77,6 +88,7 @@ void run_fetch(Context& context, const JobOptions& options) {
     return finish(context, transfer_divergence(context, chosen.job, chosen.get(), destination));
   }
   if (options.artifact == "eroded") return run_erode(context, options);
+  warn_of_foreign_extension(context, destination);
   finish(context, transfer_mesh(context, options.job, destination));
 }
 

@@ -18,7 +18,7 @@ using Write = std::function<void(std::string_view)>;
 void write_ply(const core::Mesh& mesh, const std::vector<std::string>& comments,
                const std::vector<VertexProperty>& properties, const Write& write) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : comments) text += "comment " + printable(comment) + "\n";
+  for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
   text += "element vertex " + std::to_string(mesh.points.size()) +
           "\nproperty double x\nproperty double y\nproperty double z\n";
   for (const VertexProperty& property : properties) {
@@ -46,7 +46,7 @@ void write_ply(const core::Mesh& mesh, const std::vector<std::string>& comments,
 
 void write_obj(const core::Mesh& mesh, const std::vector<std::string>& comments, const Write& write) {
   std::string text;
-  for (const std::string& comment : comments) text += "# " + printable(comment) + "\n";
+  for (const std::string& comment : comments) text += "# " + one_line(comment) + "\n";
   write(text);
   for (const core::Vec3& p : mesh.points) {
     write("v " + shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z) + "\n");

@@ -74,7 +74,7 @@ std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored
   constexpr const char* kTypes[] = {"int", "uint", "double"};
   const std::vector<std::string> names = written_names(shape);
   std::string text = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : comments) text += "comment " + printable(comment) + "\n";
+  for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
   text += "element vertex " + std::to_string(shape.mesh().points.size()) +
           "\nproperty double x\nproperty double y\nproperty double z\n";
   for (std::size_t i = 0; i < stored.size(); ++i) {

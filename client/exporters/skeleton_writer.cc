@@ -41,7 +41,7 @@ void write_csv(const v1::SkeletonPoints& s, AtomicFile& file) {
 void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comments, AtomicFile& file) {
   const bool divergence = !s.divergence().empty() || s.point_size() == 0;
   std::string header = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : comments) header += "comment " + printable(comment) + "\n";
+  for (const std::string& comment : comments) header += "comment " + one_line(comment) + "\n";
   header += "element vertex " + std::to_string(s.point_size()) + "\n";
   for (const char* name : {"x", "y", "z", "E", "nx", "ny", "nz"}) {
     header += std::string("property double ") + name + "\n";

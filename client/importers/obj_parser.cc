@@ -37,7 +37,7 @@ ShapeFile parse_obj(std::string_view bytes) {
       for (std::size_t i = 1; i < words.size(); ++i) {
         corners.push_back(corner_of(words[i], file.off.mesh.points.size(), rows.line()));
       }
-      add_polygon(file.off.mesh, corners, "the face", rows.line());
+      add_polygon(file, corners, "the face", rows.line());
       file.off.triangle_line.resize(file.off.mesh.triangles.size(), static_cast<std::uint32_t>(rows.line()));
       ++file.off.polygons;
       if (corners.size() > 3) ++file.off.polygons_cut;

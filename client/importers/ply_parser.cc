@@ -264,7 +264,7 @@ class PlyReader {
   }
 
   void add_face(const std::vector<std::int64_t>& corners) {
-    add_polygon(file_.off.mesh, corners, values_.place(), values_.line());
+    add_polygon(file_, corners, values_.place(), values_.line());
     if (values_.line() > 0) {
       file_.off.triangle_line.resize(file_.off.mesh.triangles.size(),
                                      static_cast<std::uint32_t>(values_.line()));

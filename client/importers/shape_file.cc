@@ -13,6 +13,7 @@
 #include "client/input_file.h"
 #include "core/error.h"
 #include "core/polygon_cut.h"
+#include "core/quad_diagonals.h"
 
 namespace affskel::client {
 namespace {
@@ -74,6 +75,7 @@ ShapeFile parse_shape(const std::string& path, std::string_view bytes) {
   const Parser parser = parser_for(path, bytes);
   try {
     ShapeFile file = parser(bytes);
+    core::turn_doubled_diagonals(file.quads, file.off.mesh.triangles);
     check_finite(file);
     file.path = path;
     return file;
@@ -89,8 +91,9 @@ bool is_normal_column(std::string_view name) {
          name.find_first_of("xyz") != std::string_view::npos;
 }
 
-void add_polygon(core::Mesh& mesh, const std::vector<std::int64_t>& corners, const std::string& place,
+void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line) {
+  core::Mesh& mesh = file.off.mesh;
   if (corners.size() < 3) {
     fail_at(line, place + " has " + std::to_string(corners.size()) + " corners, needs 3");
   }
@@ -107,6 +110,7 @@ void add_polygon(core::Mesh& mesh, const std::vector<std::int64_t>& corners, con
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
     fail_at(line, place + " uses a vertex twice");
   }
+  if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
   core::cut_polygon(mesh.points, indices, mesh.triangles);
 }
 

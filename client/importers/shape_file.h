@@ -22,6 +22,7 @@ struct ShapeFile {
   std::string path;
   core::OffMesh off;  ///< triangles empty: points alone; the lines only where the format has them
   std::vector<PointColumn> columns;  ///< one value per point each
+  std::vector<std::uint32_t> quads;  ///< while it is read: first triangles of the faces with four corners
 
   const core::Mesh& mesh() const { return off.mesh; }
   bool is_surface() const { return !off.mesh.triangles.empty(); }

@@ -19,10 +19,10 @@ ShapeFile parse_stl(std::string_view bytes);
 /// Whether a column of this name belongs to a normal (nx, ny, nz and the like).
 bool is_normal_column(std::string_view name);
 
-/// Cuts a polygon into triangles of `mesh`.
+/// Cuts a polygon into triangles of `file`.
 /// @param place names it in messages, @param line of it, 0 = none.
 /// @throws CoreError kBadInput when it has less than three corners, or one twice or out of range.
-void add_polygon(core::Mesh& mesh, const std::vector<std::int64_t>& corners, const std::string& place,
+void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line);
 
 /// @throws CoreError kBadInput with the line if there is one.

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -65,8 +66,13 @@ v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
     return job;
   }
   if (job.state() != v1::JOB_STATE_QUEUED || !job.waiting_reason().empty()) return job;
-  const bool nobody = registry_.list().empty();
-  job.set_waiting_reason(nobody ? "no worker is connected" : "all workers are busy with jobs before it");
+  const std::vector<v1::WorkerInfo> workers = registry_.list();
+  const auto idle = [](const v1::WorkerInfo& worker) { return worker.task().empty(); };
+  if (workers.empty()) {
+    job.set_waiting_reason("no worker is connected");
+  } else if (std::none_of(workers.begin(), workers.end(), idle)) {
+    job.set_waiting_reason("all workers are busy with jobs before it");
+  }
   return job;
 }
 

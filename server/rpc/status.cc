@@ -60,7 +60,9 @@ grpc::Status full_status_of(const std::exception_ptr& error) {
       spdlog::error("event=internal_error message=\"{}\"", e.what());
     return {code_of(e.code()), e.what()};
   } catch (const SqliteError& e) {
-    spdlog::error("event=database_error code={} message=\"{}\"", e.extended_code(), e.what());
+    // Of a full disk the store tells, once in a while, not every call that meets it.
+    if (e.primary_code() != SQLITE_FULL)
+      spdlog::error("event=database_error code={} message=\"{}\"", e.extended_code(), e.what());
     return {code_of(e), e.what()};
   } catch (const std::bad_alloc&) {
     spdlog::error("event=out_of_memory");

@@ -11,6 +11,12 @@
 #include "store/tasks.h"
 
 namespace affskel::server {
+namespace {
+
+// The log may be on the full disk, and workers try their reports again several times a second.
+constexpr std::int64_t kTellFullDiskMs = 60000;
+
+}  // namespace
 
 Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener)
     : file_(std::move(file)),
@@ -27,6 +33,11 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
 
 /// Whoever follows one of the jobs that the change was about learns why it gets no further.
 void Store::note_full_disk(const Changes& undone) {
+  const std::int64_t now = clock_.lease_ms();
+  std::int64_t told = full_disk_told_ms_;
+  if ((told == 0 || now - told >= kTellFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
+    spdlog::error("event=disk_full file={}", file_);
+  }
   if (disk_full_.exchange(true) || listener_ == nullptr) return;
   Changes stuck;
   stuck.jobs = undone.jobs;

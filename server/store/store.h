@@ -139,6 +139,7 @@ class Store {
   Database db_;
   int schema_version_ = 0;
   std::atomic<bool> disk_full_ = false;
+  std::atomic<std::int64_t> full_disk_told_ms_ = 0;  // when the log was last told of it; 0: never
 };
 
 }  // namespace affskel::server

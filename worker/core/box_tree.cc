@@ -65,10 +65,4 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
       [&](unsigned share) { build(right_node, first + left, count - left, share); });
 }
 
-void BoxTree::find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const {
-  out.clear();
-  walk(query, above, [&](std::uint32_t index) { out.push_back(index); });
-  std::sort(out.begin(), out.end());
-}
-
 }  // namespace affskel::core

@@ -31,13 +31,16 @@ class BoxTree {
   /// O(N log N), on up to `threads` threads.
   explicit BoxTree(std::vector<Box> boxes, unsigned threads = 1);
 
-  /// Replaces `out` by the indices of the boxes that meet `query` and are > `above`, ascending.
-  void find(const Box& query, std::uint32_t above, std::vector<std::uint32_t>& out) const;
-
   /// Calls visit(index) for every box that meets `query`, in an order of the tree's own.
   template <class Visit>
   void visit(const Box& query, Visit visit) const {
     walk(query, -1, visit);
+  }
+
+  /// The same for the indices > `above`.
+  template <class Visit>
+  void visit_above(const Box& query, std::uint32_t above, Visit visit) const {
+    walk(query, above, visit);
   }
 
  private:

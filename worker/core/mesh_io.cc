@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/polygon_cut.h"
+#include "core/quad_diagonals.h"
 #include "core/text_rows.h"
 
 namespace affskel::core {
@@ -118,6 +119,7 @@ class OffReader {
       read_face(f);
     }
     result_.polygons = face_count_;
+    turn_doubled_diagonals(quads_, result_.mesh.triangles);
   }
 
   void read_face(std::uint64_t f) {
@@ -139,6 +141,7 @@ class OffReader {
     for (std::size_t i = 1 + sides; i < words.size(); ++i) parse_finite(words[i], rows_.line(), "colour");
     read_corners(f, sides);
     const std::size_t before = result_.mesh.triangles.size();
+    if (sides == 4) quads_.push_back(static_cast<std::uint32_t>(before));
     cut_polygon(result_.mesh.points, corners_, result_.mesh.triangles);
     result_.triangle_line.insert(result_.triangle_line.end(), result_.mesh.triangles.size() - before,
                                  static_cast<std::uint32_t>(rows_.line()));
@@ -182,6 +185,7 @@ class OffReader {
   bool texture_ = false, colour_ = false, normal_ = false;
   std::uint64_t vertex_count_ = 0, face_count_ = 0;
   std::vector<std::uint32_t> corners_, sorted_;
+  std::vector<std::uint32_t> quads_;  // first triangles of the faces with four sides
   OffMesh result_;
 };
 

@@ -62,15 +62,26 @@ Point point_of(const Mesh& mesh, std::uint32_t v) {
 
 class PairTest {
  public:
-  explicit PairTest(const Mesh& mesh) : mesh_(mesh) {}
+  /// `boxes` of the mesh's triangles; both must outlive this, and may be filled in later.
+  PairTest(const Mesh& mesh, const std::vector<Box>& boxes) : mesh_(mesh), boxes_(boxes) {}
 
   bool degenerate(const Triangle& t) const {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] ||
            CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
   }
 
+  /// False only where the triangles surely meet in no more than their one shared vertex.  Cheap: in a fan of
+  /// n triangles round a vertex the boxes of n^2 / 2 pairs meet, but hardly a side comes near another
+  /// triangle.
+  bool may_meet(std::uint32_t i, std::uint32_t j) const {
+    const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
+    const Turned a = shared_first(s, t);
+    return a.shared != 1 || side_box(a).meets(boxes_[j]) || side_box(shared_first(t, s)).meets(boxes_[i]);
+  }
+
   /// Whether two triangles, neither degenerate, meet beyond what they share.
-  bool operator()(const Triangle& s, const Triangle& t) const {
+  bool operator()(std::uint32_t i, std::uint32_t j) const {
+    const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
     const Turned a = shared_first(s, t), b = shared_first(t, s);
     switch (a.shared) {
       case 0:
@@ -88,6 +99,13 @@ class PairTest {
   }
 
  private:
+  /// Box of the side opposite to the one shared vertex.
+  Box side_box(const Turned& turned) const {
+    const Vec3 &p = mesh_.points[turned.corner[1]], &q = mesh_.points[turned.corner[2]];
+    return {{std::min(p.x, q.x), std::min(p.y, q.y), std::min(p.z, q.z)},
+            {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}};
+  }
+
   Point point(std::uint32_t v) const { return point_of(mesh_, v); }
   Kernel::Segment_3 segment(std::uint32_t v, std::uint32_t w) const { return {point(v), point(w)}; }
   Kernel::Triangle_3 triangle(const Triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
@@ -99,6 +117,7 @@ class PairTest {
   }
 
   const Mesh& mesh_;
+  const std::vector<Box>& boxes_;
 };
 
 std::vector<Box> boxes_of(const Mesh& mesh) {
@@ -115,7 +134,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 class Search {
  public:
   Search(const Mesh& mesh, const SelfIntersectionOptions& options)
-      : mesh_(mesh), options_(options), meet_(mesh), degenerate_(mesh.triangles.size()) {}
+      : mesh_(mesh), options_(options), meet_(mesh, boxes_), degenerate_(mesh.triangles.size()) {}
 
   Pairs run() {
     const std::size_t count = mesh_.triangles.size();
@@ -144,10 +163,14 @@ class Search {
         if (options_.degenerate_triangles) pairs.emplace_back(i, i);
         continue;
       }
-      tree.find(boxes_[i], i, candidates);
+      candidates.clear();
+      tree.visit_above(boxes_[i], i, [&](std::uint32_t j) {
+        if (meet_.may_meet(i, j)) candidates.push_back(j);
+      });
+      std::sort(candidates.begin(), candidates.end());
       for (const std::uint32_t j : candidates) {
         if (pairs.size() == options_.max_pairs) break;
-        if (degenerate_[j] == 0 && meet_(mesh_.triangles[i], mesh_.triangles[j])) pairs.emplace_back(i, j);
+        if (degenerate_[j] == 0 && meet_(i, j)) pairs.emplace_back(i, j);
       }
     }
   }

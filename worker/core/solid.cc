@@ -322,7 +322,8 @@ class SolidBuilder {
     for (std::size_t i = 0; i < sums.size(); ++i) {
       if (!(sums[i].value() > 1e-15)) {
         refuse("the mesh bounds no volume: solid " + std::to_string(i) + " of " +
-               std::to_string(sums.size()) + " has volume " + to_text(sums[i].value() * unit));
+               std::to_string(sums.size()) + " has volume " + to_text(sums[i].value() * unit) +
+               (sums[i].value() > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
       }
       solid_.solid_volume[i] = sums[i].value() * unit;
     }
@@ -331,7 +332,8 @@ class SolidBuilder {
     // E of a point goes down to 1e-20 v0 and less; keep such values away from the subnormals.
     if (!std::isfinite(solid_.volume) || solid_.volume < 1e30 * std::numeric_limits<double>::min()) {
       refuse("the mesh is too " + std::string(std::isfinite(solid_.volume) ? "small" : "large") +
-             ": its volume is not a normal double; change the unit of length");
+             ": its volume is " + to_text(solid_.volume) +
+             ", which leaves no room for that of its parts in double precision; change the unit of length");
     }
   }
 

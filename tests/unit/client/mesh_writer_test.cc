@@ -55,6 +55,13 @@ TEST(MeshWriter, ObjReadsBackExactly) {
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
+TEST(MeshWriter, ACommentNeverHasASecondLine) {
+  const std::vector<std::string> comments = {"of a\nv 9 9 9\telement\r"};
+  EXPECT_EQ(written(FileFormat::kObj, sample_mesh(), comments).substr(0, 24), "# of a v 9 9 9 element?\n");
+  EXPECT_NE(written(FileFormat::kPly, sample_mesh(), comments).find("\ncomment of a v 9 9 9 element?\n"),
+            std::string::npos);
+}
+
 TEST(MeshWriter, PlyHoldsTheMeshInBinary) {
   const core::Mesh mesh = sample_mesh();
   const std::string ply = written(FileFormat::kPly, mesh);

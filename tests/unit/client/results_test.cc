@@ -21,6 +21,14 @@ TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
   EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
 }
 
+TEST_F(ClientTest, FetchSaysWhenTheMeshIsNotWhatItsFileIsCalled) {
+  const Outcome called_stl = run({"fetch", "@last", "mesh", "-o", dir_ / "m.STL"});
+  EXPECT_EQ(called_stl.exit_code, 0);
+  EXPECT_EQ(slurp(dir_ / "m.STL"), mesh_);
+  EXPECT_NE(called_stl.err.find("warning"), std::string::npos) << called_stl.err;
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.off"}).err.find("warning"), std::string::npos);
+}
+
 TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
   EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out, "");
   const json document = json::parse(run({"--json", "fetch", "@last", "skeleton", "-o", dir_ / "s.csv"}).out);

@@ -12,6 +12,7 @@
 #include "client/exporters/skeleton_writer.h"
 #include "core/mesh_io.h"
 #include "core/shapes.h"
+#include "core/solid.h"
 #include "sample_data.h"
 #include "temp_dir.h"
 
@@ -312,6 +313,15 @@ TEST_F(ShapeFileTest, TheBeginningDecidesWhereTheExtensionDoesNot) {
   EXPECT_THROW(read_shape(dir_ / "missing.ply"), ClientError);
 }
 
+TEST_F(ShapeFileTest, QuadrilateralsOverTheSameTwoEdgesHoldNoTriangleTwice) {
+  // Both quadrilaterals have 1-3 for their shorter diagonal.
+  const ShapeFile roof =
+      read("roof.obj",
+           "v -1 0 0\nv 0 -3 0\nv 1 0 0\nv 0 3 0\nv 0 0 0.5\nv 0 0 -2\nf 1 2 3 5\nf 1 5 3 4\n"
+           "f 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n");
+  EXPECT_DOUBLE_EQ(core::make_solid(roof.mesh()).volume, 4.5);
+}
+
 TEST_F(ShapeFileTest, WhatIsWrittenReadsBackWithItsColumns) {
   ShapeFile shape;
   shape.off.mesh = core::make_tetrahedron(1);
@@ -320,7 +330,7 @@ TEST_F(ShapeFileTest, WhatIsWrittenReadsBackWithItsColumns) {
     if (!surface) shape.off.mesh.triangles.clear();
     for (const FileFormat format : shape_formats(shape)) {
       std::string bytes;
-      write_shape(format, shape, {"a\ncomment"}, [&](std::string_view piece) { bytes += piece; });
+      write_shape(format, shape, {"a\nv 7 7 7"}, [&](std::string_view piece) { bytes += piece; });
       if (format == FileFormat::kStl) continue;  // single precision
       const ShapeFile back = read("t" + std::string(extension_of(format)), bytes);
       EXPECT_EQ(back.mesh().points, shape.mesh().points);

@@ -2,10 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace affskel::core {
 namespace {
+
+std::vector<std::uint32_t> found_above(const BoxTree& tree, const Box& query, std::uint32_t above) {
+  std::vector<std::uint32_t> found;
+  tree.visit_above(query, above, [&](std::uint32_t index) { found.push_back(index); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 TEST(BoxTreeTest, FindsWhatASearchThroughAllFinds) {
   std::mt19937_64 random(3);
@@ -19,22 +27,18 @@ TEST(BoxTreeTest, FindsWhatASearchThroughAllFinds) {
       }
     }
     const BoxTree tree(boxes);
-    std::vector<std::uint32_t> found{99};
     for (std::uint32_t i = 0; i < count; ++i) {
       std::vector<std::uint32_t> expected;
       for (std::uint32_t j = i + 1; j < count; ++j) {
         if (boxes[i].meets(boxes[j])) expected.push_back(j);
       }
-      tree.find(boxes[i], i, found);
-      EXPECT_EQ(found, expected);
+      EXPECT_EQ(found_above(tree, boxes[i], i), expected);
     }
   }
 }
 
 TEST(BoxTreeTest, AnswersNothingFromAnEmptyTree) {
-  std::vector<std::uint32_t> found{99};
-  BoxTree(std::vector<Box>{}).find({{0, 0, 0}, {1, 1, 1}}, 0, found);
-  EXPECT_TRUE(found.empty());
+  EXPECT_TRUE(found_above(BoxTree(std::vector<Box>{}), {{0, 0, 0}, {1, 1, 1}}, 0).empty());
 }
 
 TEST(BoxTreeTest, BoxOfATriangleIsTight) {

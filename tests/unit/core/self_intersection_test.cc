@@ -91,6 +91,25 @@ TEST(SelfIntersectionTest, AllowsWhatASharedVertexExplains) {
   EXPECT_EQ(all_pairs(mesh), (Pairs{{0, 1}}));
 }
 
+TEST(SelfIntersectionTest, TellsTheCrossingsInAFanFromItsSharedVertex) {
+  Mesh cone = make_cone(3, 6, 2000);  // 2000 triangles round the tip, 2000 round the middle of the base
+  EXPECT_TRUE(all_pairs(cone).empty());
+  // The rim's first point beyond its third one: what leads to it crosses what lies between, tip and middle
+  // alike.
+  const std::uint32_t moved_point = 0, beyond = 2;
+  const Vec3 step = cone.points[beyond] - cone.points[moved_point];
+  cone.points[moved_point] = cone.points[beyond] + 0.25 * step;
+  const Pairs pairs = all_pairs(cone);
+  EXPECT_FALSE(pairs.empty());
+  for (const auto& [i, j] : pairs) {
+    const auto leads_there = [&](std::uint32_t t) {
+      const Triangle& c = cone.triangles[t];
+      return std::find(c.begin(), c.end(), moved_point) != c.end();
+    };
+    EXPECT_TRUE(leads_there(i) || leads_there(j)) << i << " " << j;
+  }
+}
+
 TEST(SelfIntersectionTest, SeesTrianglesFoldedOntoEachOther) {
   Mesh mesh{{{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {2, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}};
   EXPECT_TRUE(all_pairs(mesh).empty());  // flat

@@ -1,9 +1,12 @@
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <list>
+#include <sstream>
 
 #include "service_fixture.h"
 
@@ -76,6 +79,36 @@ TEST_F(ClientServiceTest, AFullDiskIsTheReasonWhyAJobGetsNoFurther) {
   EXPECT_EQ(job(id).directions_done(), 4U);
   context.TryCancel();
   reader->Finish();
+}
+
+TEST_F(ClientServiceTest, AFullDiskIsLoggedOnceAndNotForEveryCallThatMeetsIt) {
+  std::ostringstream lines;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines)));
+  {
+    const FullDisk full;
+    v1::SubmitJobResponse response;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(submit_mesh(*client_, submit_header("OFF 1"), "OFF 1", &response).error_code(),
+                grpc::StatusCode::RESOURCE_EXHAUSTED);
+    }
+  }
+  spdlog::set_default_logger(before);
+  const std::string log = lines.str();
+  const std::size_t first = log.find("event=disk_full");
+  EXPECT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("full", first + 15), std::string::npos) << log;
+}
+
+TEST_F(ClientServiceTest, AJobThatAnIdleWorkerIsAboutToTakeDoesNotWaitForBusyOnes) {
+  EXPECT_FALSE(poll(0, "worker-a").has_lease());
+  const std::string id = submit();
+  EXPECT_EQ(job(id).state(), v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(job(id).waiting_reason(), "");
+  ASSERT_TRUE(poll(0, "worker-a").has_lease());
+  const std::string other = submit("OFF 2", "other");
+  EXPECT_EQ(job(other).waiting_reason(), "all workers are busy with jobs before it");
 }
 
 TEST_F(ClientServiceTest, WholePathWithTwoWorkers) {

@@ -16,6 +16,7 @@ FakeServer::FakeServer() {
   dir_ = pattern;
   grpc::ServerBuilder builder;
   builder.AddListeningPort(address(), grpc::InsecureServerCredentials());
+  builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
   builder.RegisterService(this);
   server_ = builder.BuildAndStart();
 }
@@ -28,6 +29,10 @@ FakeServer::~FakeServer() {
 
 std::string FakeServer::address() const {
   return "unix:" + dir_ + "/s";
+}
+
+std::string FakeServer::tcp_address() const {
+  return "127.0.0.1:" + std::to_string(port_);
 }
 
 void FakeServer::offer(const v1::Lease& lease) {

@@ -21,6 +21,8 @@ class FakeServer final : public v1::WorkerService::Service {
   ~FakeServer() override;
 
   std::string address() const;
+  /// The same service on a loopback address.
+  std::string tcp_address() const;
 
   /// To be handed out, in this order; nothing when they are used up.
   void offer(const v1::Lease& lease);
@@ -68,6 +70,7 @@ class FakeServer final : public v1::WorkerService::Service {
   grpc::Status begin(const std::string& method);
 
   std::string dir_;
+  int port_ = 0;
   std::unique_ptr<grpc::Server> server_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
