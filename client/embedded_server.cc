@@ -116,26 +116,33 @@ pid_t start_server(const EmbeddedPaths& paths, const fs::path& program) {
                                        "60"});
 }
 
-// How the child ended, if it did.
-std::optional<std::string> ended(pid_t pid) {
+// How the child ended, and with which code the client does.
+struct End {
+  std::string how;
+  ExitCode code = ExitCode::kUnreachable;
+};
+
+std::optional<End> ended(pid_t pid) {
   int status = 0;
   if (waitpid(pid, &status, WNOHANG) != pid) return std::nullopt;
-  if (WIFSIGNALED(status)) return "was killed by signal " + std::to_string(WTERMSIG(status));
-  return "exited with code " + std::to_string(WEXITSTATUS(status));
+  if (WIFSIGNALED(status)) return End{"was killed by signal " + std::to_string(WTERMSIG(status))};
+  const int code = WEXITSTATUS(status);
+  // Of a full disk both programs have the same code.
+  const bool full = code == static_cast<int>(ExitCode::kLimit);
+  return End{"exited with code " + std::to_string(code), full ? ExitCode::kLimit : ExitCode::kUnreachable};
 }
 
-[[noreturn]] void give_up(const EmbeddedPaths& paths, const std::string& cause) {
-  throw ClientError(ExitCode::kUnreachable,
-                    "the private server " + cause + "; the end of its log:" + tail_of(paths.log, 8),
-                    paths.log);
+[[noreturn]] void give_up(const EmbeddedPaths& paths, const End& end) {
+  throw ClientError(
+      end.code, "the private server " + end.how + "; the end of its log:" + tail_of(paths.log, 8), paths.log);
 }
 
 void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options, pid_t pid) {
   Clock::time_point deadline = Clock::now() + options.patience;
-  std::optional<std::string> end;
+  std::optional<End> end;
   while (!socket_answers(paths.socket)) {
     if (!end && (end = ended(pid))) deadline = std::min(deadline, Clock::now() + options.grace);
-    if (Clock::now() >= deadline) give_up(paths, end.value_or("does not answer on its socket"));
+    if (Clock::now() >= deadline) give_up(paths, end.value_or(End{"does not answer on its socket"}));
     std::this_thread::sleep_for(options.poll);
   }
 }

@@ -7,13 +7,16 @@
 
 namespace affskel::core {
 
-/// Rows of a text file: lines (LF or CRLF) without `#` comments, blank ones skipped, cut into words.  The
-/// bytes must outlive the rows.
+/// Rows of a text file: lines (LF or CRLF) without `#` comments, blank ones skipped, cut into words.  A byte
+/// order mark of UTF-8, which some editors and spreadsheets put first, is passed over.  The bytes must outlive
+/// the rows.
 class TextRows {
  public:
   /// @param lines_before lines of the file in front of `bytes`, counted by `line` too.
   explicit TextRows(std::string_view bytes, std::uint64_t lines_before = 0)
-      : rest_(bytes), line_(lines_before) {}
+      : rest_(bytes), line_(lines_before) {
+    if (lines_before == 0 && rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+  }
 
   /// Moves on to the next row that holds words; false at the end of the file.
   /// @throws CoreError kBadInput with the line for a NUL byte or a carriage return inside the line.

@@ -129,6 +129,17 @@ TEST_F(EnsureEmbeddedServer, TwoClientsAtOnceShareOne) {
   EXPECT_EQ(good, 4);
 }
 
+TEST_F(EnsureEmbeddedServer, TellsAFullDiskByItsExitCode) {
+  spit(dir_ / "home/full", "");
+  options_.grace = std::chrono::milliseconds(50);
+  try {
+    ensure_embedded_server(paths_, options_, environment_, console_);
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
+  }
+}
+
 TEST_F(EnsureEmbeddedServer, ReportsTheLogOfAServerThatCannotStart) {
   spit(dir_ / "home/refuse", "");
   options_.grace = std::chrono::milliseconds(50);

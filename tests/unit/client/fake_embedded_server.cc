@@ -25,6 +25,10 @@ int main(int argc, char** argv) {
     std::cerr << "the data directory is in use" << std::endl;
     return 4;
   }
+  if (access((data_dir + "/full").c_str(), F_OK) == 0) {
+    std::cerr << "database or disk is full" << std::endl;
+    return 8;
+  }
   if (access((data_dir + "/refuse").c_str(), F_OK) == 0) {
     std::cerr << "cannot open the database: it is refused" << std::endl;
     return 3;

@@ -51,6 +51,11 @@ TEST(ReadOff, AcceptsCarriageReturnsBeforeLineFeeds) {
   expect_tetrahedron(text);
 }
 
+TEST(ReadOff, PassesOverAByteOrderMarkAtTheStartAlone) {
+  expect_tetrahedron("\xEF\xBB\xBF" + kTetrahedron);
+  EXPECT_EQ(line_refused("\n\xEF\xBB\xBF" + kTetrahedron), 2U);
+}
+
 TEST(ReadOff, SkipsTheAttributesThatTheHeaderPromises) {
   const auto with = [](const std::string& header, const std::string& extra) {
     return header + "\n4 4 6\n0 0 0" + extra + "\n1 0 0" + extra + "\n0 1 0" + extra + "\n0 0 1" + extra +
