@@ -6,6 +6,7 @@
 
 #include "core/box_tree.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/plain_math.h"
 #include "core/same_place.h"
 #include "core/split_mix64.h"
@@ -56,7 +57,8 @@ double box_diagonal(const Mesh& mesh) {
 
 Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
   if (!(options.sigma >= 0) || !std::isfinite(options.sigma)) {
-    throw CoreError(CoreError::Code::kBadInput, "the noise must be a finite number >= 0");
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the noise must be a finite number >= 0, not " + to_text(options.sigma));
   }
   const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
   Gaussian gaussian(options.seed);
