@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
+
+#include "core/same_place.h"
 
 namespace affskel::client {
 namespace {
@@ -16,24 +17,6 @@ struct Edge {
   std::uint32_t low, high;  // welded vertices
   std::uint32_t triangle;
 };
-
-// For every vertex, the first one at the same place.
-std::vector<std::uint32_t> weld(const core::Mesh& mesh) {
-  const auto key = [&](std::uint32_t v) {
-    const core::Vec3& p = mesh.points[v];
-    return std::tuple(p.x + 0.0, p.y + 0.0, p.z + 0.0);  // -0 and 0 are one place
-  };
-  std::vector<std::uint32_t> order(mesh.points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-  std::vector<std::uint32_t> first(mesh.points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
 
 // Collects places of one kind of defect.
 class Collector {
@@ -74,7 +57,7 @@ std::vector<std::pair<Corners, std::uint32_t>> proper_triangles(const core::OffM
                                                                 std::vector<MeshDefect>& defects) {
   Collector degenerate("degenerate-triangles", "triangle has two corners at one place",
                        "triangles have two corners at one place", off);
-  const std::vector<std::uint32_t> first = weld(off.mesh);
+  const std::vector<std::uint32_t> first = core::first_at_same_place(off.mesh.points);
   std::vector<std::pair<Corners, std::uint32_t>> proper;
   for (std::uint32_t t = 0; t < off.mesh.triangles.size(); ++t) {
     Corners corners{};

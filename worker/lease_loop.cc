@@ -8,7 +8,6 @@
 #include <exception>
 #include <new>
 #include <optional>
-#include <random>
 #include <set>
 #include <utility>
 
@@ -22,6 +21,7 @@
 #include "result_bytes.h"
 #include "server_link.h"
 #include "wire/direction_order.h"
+#include "wire/identity.h"
 
 namespace affskel::worker {
 namespace {
@@ -30,23 +30,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kLeaseWaitMs = 2000;
 constexpr int kExitServerGone = 5;
 
-std::string random_id() {
-  std::random_device device;
-  std::string id;
-  for (int i = 0; i < 4; ++i) {
-    std::array<char, 9> digits{};
-    std::snprintf(digits.data(), digits.size(), "%08x", device());
-    id += digits.data();
-  }
-  return id;
-}
-
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   v1::WorkerIdentity identity;
   identity.set_id(id);
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  identity.set_host(host.data());
+  identity.set_host(wire::host_name());
   identity.set_pid(static_cast<std::uint32_t>(getpid()));
   identity.set_threads(threads);
   identity.set_core_version(core::kCoreVersion);
@@ -118,7 +105,7 @@ class LeaseLoop {
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
       : options_(options),
         stop_(stop),
-        id_(random_id()),
+        id_(wire::random_id()),
         link_({options.server, options.patience, id_}, stop),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited

@@ -11,8 +11,8 @@ struct LeaseLoopOptions {
   std::string server;                 ///< unix:PATH or HOST:PORT
   unsigned threads = 1;               ///< computing threads
   std::chrono::seconds idle_exit{0};  ///< leave after this long without work; 0 = never
-  std::uint64_t max_jobs =
-      0;  ///< leave when work on another job than the first max_jobs is offered; 0 = never
+  /// Leave when work on another job than the first max_jobs is offered; 0 = never.
+  std::uint64_t max_jobs = 0;
   std::chrono::seconds patience{60};  ///< leave when the server does not answer for this long
 };
 

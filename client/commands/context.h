@@ -20,6 +20,8 @@ class Context {
 
   Console& console() { return console_; }
   const Environment& environment() const { return environment_; }
+
+  /// @throws ClientError as choose_server.
   Session& session();
 
  private:

@@ -1,7 +1,5 @@
 #include "client/commands/follow.h"
 
-#include <unistd.h>
-
 #include "client/exporters/numbers.h"
 #include "client/interrupt.h"
 #include "client/job_json.h"
@@ -10,12 +8,6 @@
 #include "client/skeleton_text.h"
 
 namespace affskel::client {
-
-Session& Context::session() {
-  if (!session_)
-    session_.emplace(choose_server(global_.server, environment_), environment_, console_, policy_);
-  return *session_;
-}
 
 v1::Job follow(Context& context, const std::string& job, bool stream) {
   ProgressView view(context.console());

@@ -10,6 +10,7 @@
 #include "client/exporters/shape_writer.h"
 #include "client/number_list.h"
 #include "core/error.h"
+#include "core/same_place.h"
 #include "core/self_intersection.h"
 
 namespace affskel::client {

@@ -3,13 +3,11 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/destination.h"
+#include "client/commands/fetch.h"
 #include "client/commands/follow.h"
-#include "client/commands/sheet.h"
-#include "client/commands/transfer.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/skeleton_writer.h"
-#include "client/input_file.h"
 #include "client/render/scene.h"
 #include "client/skeleton_text.h"
 
@@ -74,9 +72,7 @@ void run_render(Context& context, const JobOptions& options) {
   RenderInput input;
   const double applied = fetch_skeleton(context, job, params, !options.skeleton.given(), input);
   if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
-  input.mesh = parse_mesh(context.session().fetch_bytes(request_for(job.id(), v1::ARTIFACT_KIND_MESH)),
-                          "mesh of job " + job.id())
-                   .mesh;
+  input.mesh = fetch_mesh(context, job.id());
   input.cell = lattice_cell(job.prepared());
   input.volume = job.prepared().volume();
   input.title = title_of(input, job, params);

@@ -1,11 +1,9 @@
 #include "client/commands/transfer.h"
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "client/commands/fetch.h"
 #include "client/commands/follow.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/divergence_writer.h"
@@ -21,36 +19,6 @@ namespace affskel::client {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::chrono::seconds kWaitBeforeNote{2};
-
-// Says that a computation is being waited for, unless it is over soon.
-class WaitingNote {
- public:
-  WaitingNote(Console& console, const std::string& what)
-      : thread_([this, &console, what] {
-          std::unique_lock lock(mutex_);
-          if (!over_.wait_for(lock, kWaitBeforeNote, [this] { return done_; })) {
-            console.note("waiting for a worker to compute the " + what);
-          }
-        }) {}
-  ~WaitingNote() {
-    {
-      const std::lock_guard lock(mutex_);
-      done_ = true;
-    }
-    over_.notify_all();
-    thread_.join();
-  }
-  WaitingNote(const WaitingNote&) = delete;
-  WaitingNote& operator=(const WaitingNote&) = delete;
-
- private:
-  std::mutex mutex_;
-  std::condition_variable over_;
-  bool done_ = false;  // guarded by mutex_
-  std::thread thread_;
-};
 
 // A field on its way into a file; a transfer that breaks off leaves nothing behind.
 class FieldSink : public ArtifactSink {
@@ -133,20 +101,6 @@ std::string volume_text(const Written& written) {
 
 }  // namespace
 
-v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
-  v1::FetchArtifactRequest request;
-  request.set_job(job);
-  request.set_kind(kind);
-  return request;
-}
-
-std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
-                            v1::ArtifactHeader& header, const std::string& what) {
-  context.session();  // an embedded server is announced before anything is waited for
-  const WaitingNote note(context.console(), what);
-  return context.session().fetch_bytes(request, &header);
-}
-
 Written transfer_field(Context& context, const std::string& job, const Destination& destination) {
   const FileFormat format = choose_format(destination, field_formats(), "field");
   const v1::Job now = context.session().get_job(job);
@@ -217,10 +171,12 @@ Written transfer_divergence(Context& context, const std::string& job, const v1::
   request.set_job(context.session().get_job(job).id());
   const LatticePoints points(
       fetch_message<v1::Lattice>(context, request.job(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
-  const WaitingNote note(context.console(), "divergence");
-  const v1::ArtifactHeader header = context.session().fetch(request, [&]() -> std::unique_ptr<ArtifactSink> {
-    return std::make_unique<DivergenceSink>(format, destination.file, points);
-  });
+  const v1::ArtifactHeader header = fetch_patiently(
+      context, request,
+      [&]() -> std::unique_ptr<ArtifactSink> {
+        return std::make_unique<DivergenceSink>(format, destination.file, points);
+      },
+      "divergence");
   return {destination, "divergence", "points", points.count(), header.job()};
 }
 

@@ -24,8 +24,8 @@ struct Written {
 };
 
 /// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
-/// parameters.  Those that have to be computed first are waited for,
-/// after the file was opened: a place that cannot be written is known before the work is done.
+/// parameters.  Those that have to be computed first are waited for, after the file was opened: a place that
+/// cannot be written is known before the work is done.
 Written transfer_field(Context& context, const std::string& job, const Destination& destination);
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
                           const Destination& destination);
@@ -38,23 +38,6 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
 Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
                                 const Destination& destination);
 Written transfer_mesh(Context& context, const std::string& job, const Destination& destination);
-
-v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind);
-
-/// An artefact that is there as soon as the job is prepared. @param what names it in an error.
-/// @throws ClientError kInternal when it is no such message.
-template <typename Message>
-Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
-  Message message;
-  if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
-    throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);
-  }
-  return message;
-}
-
-/// Runs a fetch that may have to wait for a worker; says so after a moment.
-std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
-                            v1::ArtifactHeader& header, const std::string& what);
 
 /// Tells people and scripts what was written.
 nlohmann::ordered_json written_json(const Written& written);

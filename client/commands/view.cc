@@ -5,12 +5,10 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/destination.h"
+#include "client/commands/fetch.h"
 #include "client/commands/follow.h"
-#include "client/commands/sheet.h"
-#include "client/commands/transfer.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/numbers.h"
-#include "client/input_file.h"
 #include "client/job_json.h"
 #include "client/view/page.h"
 #include "core/chord_pruning.h"
@@ -103,9 +101,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
       request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
         return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), input);
       });
-  input.mesh = parse_mesh(context.session().fetch_bytes(request_for(job.id(), v1::ARTIFACT_KIND_MESH)),
-                          "mesh of job " + job.id())
-                   .mesh;
+  input.mesh = fetch_mesh(context, job.id());
   return input;
 }
 

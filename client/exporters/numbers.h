@@ -7,6 +7,8 @@
 #include <cstring>
 #include <string>
 
+#include "core/number_text.h"
+
 namespace affskel::client {
 
 /// Appends the number with 17 significant digits: reads back exactly.
@@ -27,12 +29,7 @@ inline std::string shortest(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-/// Rounded to `digits` significant digits, for people.
-inline std::string rounded(double value, int digits) {
-  char buffer[32];
-  return {buffer,
-          std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr};
-}
+using core::rounded;
 
 /// With so many decimals, for columns.
 inline std::string with_decimals(double value, int decimals) {

@@ -26,6 +26,7 @@ struct ShapeFile {
 
   const core::Mesh& mesh() const { return off.mesh; }
   bool is_surface() const { return !off.mesh.triangles.empty(); }
+  /// The column of this name, nullptr when there is none.
   const PointColumn* column(std::string_view name) const;
 };
 

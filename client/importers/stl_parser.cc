@@ -3,7 +3,7 @@
 #include <string>
 
 #include "client/importers/shape_parsers.h"
-#include "core/perturb.h"
+#include "core/same_place.h"
 #include "core/text_rows.h"
 
 namespace affskel::client {

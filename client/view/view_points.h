@@ -13,7 +13,7 @@ namespace affskel::client {
 /// A sample point as a page holds it.  The two numbers that sliders compare are rounded to float so that a
 /// comparison with any float gives what it would have given before: |H| up, E / v0 down.
 struct ViewPoint {
-  std::array<std::uint16_t, 3> step{};  ///< place in ViewPoints' grid
+  std::array<std::uint16_t, 3> step{};  ///< place in the ViewGrid
   float share = 0;                      ///< E / v0
   float divergence = 0;                 ///< |H|, 0 without an operator that gives it
   core::Vec3 inward;                    ///< the optimal direction, unit

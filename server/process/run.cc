@@ -19,6 +19,7 @@
 #include "process/supervisor.h"
 #include "rpc/server.h"
 #include "store/errors.h"
+#include "wire/identity.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -137,7 +138,7 @@ void run_server(const Options& options) {
       [&](pid_t pid) {
         server.registry().remove_supervised(static_cast<std::uint32_t>(pid));
         try {
-          server.store().release_worker(host_name(), pid);
+          server.store().release_worker(wire::host_name(), pid);
         } catch (const std::exception& error) {
           // The leases end at their deadline instead.
           spdlog::error("event=release_failed pid={} message=\"{}\"", pid, error.what());

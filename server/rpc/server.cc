@@ -14,6 +14,7 @@
 
 #include "rpc/listen.h"
 #include "rpc/status.h"
+#include "wire/identity.h"
 
 namespace affskel::server {
 namespace {
@@ -50,7 +51,7 @@ void hold_grpc() {
 void release_dead_workers(Store& store) {
   for (const Store::Holder& holder : store.supervised_holders()) {
     const bool dead = kill(static_cast<pid_t>(holder.pid), 0) != 0 && errno == ESRCH;
-    if (holder.host == host_name() && dead) store.release_worker(holder.host, holder.pid);
+    if (holder.host == wire::host_name() && dead) store.release_worker(holder.host, holder.pid);
   }
 }
 

@@ -1,10 +1,7 @@
 #include "rpc/worker_registry.h"
 
-#include <unistd.h>
-
-#include <array>
-
 #include "store/tasks.h"
+#include "wire/identity.h"
 
 namespace affskel::server {
 namespace {
@@ -28,7 +25,7 @@ void WorkerRegistry::remove_supervised(std::uint32_t pid) {
 
 bool WorkerRegistry::is_supervised(const v1::WorkerIdentity& worker) const {
   const std::lock_guard lock(mutex_);
-  return supervised_.contains(worker.pid()) && worker.host() == host_name();
+  return supervised_.contains(worker.pid()) && worker.host() == wire::host_name();
 }
 
 void WorkerRegistry::seen(const v1::WorkerIdentity& worker) {
@@ -91,12 +88,6 @@ std::vector<v1::WorkerInfo> WorkerRegistry::list() const {
     if (!entry.tasks.empty()) infos.back().set_task(entry.tasks.rbegin()->second);
   }
   return infos;
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
-  return name.data();
 }
 
 }  // namespace affskel::server

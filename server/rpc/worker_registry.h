@@ -49,7 +49,4 @@ class WorkerRegistry {
   std::set<std::uint32_t> supervised_;
 };
 
-/// Name of this machine, as workers report theirs.
-std::string host_name();
-
 }  // namespace affskel::server

@@ -42,13 +42,11 @@ auto value_of(const Table& table, const std::string& name) {
 }
 
 constexpr const char* kJobColumns =
-    "SELECT j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton, e.mesh_sha256, "
-    "m.bytes,"
-    " e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms, j.finished_ms, j.error_code,"
-    " j.error_message, j.error_line, j.directions_reported, j.directions_repeated, j.reports, "
-    "j.leases_granted,"
-    " j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested, j.skeleton_points, e.stride,"
-    " j.erosion_id, j.quality"
+    "SELECT j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton, e.mesh_sha256,"
+    " m.bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms, j.finished_ms,"
+    " j.error_code, j.error_message, j.error_line, j.directions_reported, j.directions_repeated, j.reports,"
+    " j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
+    " j.skeleton_points, e.stride, j.erosion_id, j.quality"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -112,15 +110,6 @@ void require_hex(const std::string& reference) {
   }
 }
 
-}  // namespace
-
-const char* state_name(v1::JobState state) {
-  return name_of(kStates, state);
-}
-const char* stage_name(v1::JobStage stage) {
-  return name_of(kStages, stage);
-}
-
 std::optional<JobRow> find_job(Database& db, const std::string& id) {
   Statement row = db.query(
       "SELECT j.state, j.stage, j.cancel_requested, j.erosion_id, j.skeleton, j.skeleton_key, e.mesh_sha256,"
@@ -146,6 +135,30 @@ std::optional<JobRow> find_job(Database& db, const std::string& id) {
   return job;
 }
 
+// Fields of different core versions are never mixed, so a job begun by one version waits for it.
+std::string missing_core(Database& db, const std::string& id) {
+  Statement row = db.query(
+      "SELECT e.core_version FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
+      " WHERE j.id = ? AND j.stage = 'erode' AND j.state IN ('queued', 'running')"
+      " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased')",
+      id);
+  if (!row.step()) return {};
+  const std::string needed = row.text(0);
+  const std::string current = current_core_version(db);
+  if (current.empty() || current == needed) return {};
+  return "begun with core version " + needed + ", the workers now have version " + current +
+         "; connect such a worker, or cancel the job and submit it anew";
+}
+
+}  // namespace
+
+const char* state_name(v1::JobState state) {
+  return name_of(kStates, state);
+}
+const char* stage_name(v1::JobStage stage) {
+  return name_of(kStages, stage);
+}
+
 JobRow get_job(Database& db, const std::string& id) {
   std::optional<JobRow> job = find_job(db, id);
   if (!job) throw StoreError(StoreError::Code::kNotFound, "no job " + id);
@@ -168,21 +181,6 @@ std::string resolve_job(Database& db, const std::string& reference) {
     throw StoreError(StoreError::Code::kInvalid, "job '" + reference + "': more than one job's id begins so");
   }
   return id;
-}
-
-/// Fields of different core versions are never mixed, so a job begun by one version waits for it.
-std::string missing_core(Database& db, const std::string& id) {
-  Statement row = db.query(
-      "SELECT e.core_version FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
-      " WHERE j.id = ? AND j.stage = 'erode' AND j.state IN ('queued', 'running')"
-      " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased')",
-      id);
-  if (!row.step()) return {};
-  const std::string needed = row.text(0);
-  const std::string current = current_core_version(db);
-  if (current.empty() || current == needed) return {};
-  return "begun with core version " + needed + ", the workers now have version " + current +
-         "; connect such a worker, or cancel the job and submit it anew";
 }
 
 v1::Job job_message(Database& db, const std::string& id) {

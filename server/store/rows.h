@@ -41,9 +41,6 @@ struct JobRow {
 const char* state_name(v1::JobState state);
 const char* stage_name(v1::JobStage stage);
 
-/// Reads one job; nothing when there is none of this id.
-std::optional<JobRow> find_job(Database& db, const std::string& id);
-
 /// Reads a job that must exist.  @throws StoreError kNotFound.
 JobRow get_job(Database& db, const std::string& id);
 

@@ -1,8 +1,5 @@
 #include "store/store.h"
 
-#include <openssl/rand.h>
-
-#include <array>
 #include <utility>
 
 #include "store/errors.h"
@@ -50,20 +47,6 @@ v1::ReportResponse Store::reply(bool cancelled) const {
   response.set_lease_ms(static_cast<std::uint32_t>(options_.lease_ms));
   response.set_report_interval_ms(static_cast<std::uint32_t>(options_.report_interval_ms));
   return response;
-}
-
-std::string random_id() {
-  std::array<unsigned char, 16> bytes{};
-  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
-    throw std::runtime_error("the system's random generator failed");
-  }
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string hex;
-  for (unsigned char byte : bytes) {
-    hex.push_back(kDigits[byte >> 4]);
-    hex.push_back(kDigits[byte & 15]);
-  }
-  return hex;
 }
 
 std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& mesh_sha256,

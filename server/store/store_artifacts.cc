@@ -76,9 +76,8 @@ void require_finished(const JobRow& job) {
 /// The task that will bring the artefact: one that is queued already, or a new one.
 std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   if (const std::optional<std::int64_t> task = tx.db.integer(
-          "SELECT id FROM tasks WHERE job_id = ? AND kind = ? AND params_key = ? AND state IN ('pending', "
-          "'leased')"
-          " AND (on_request = 1 OR ?) LIMIT 1",
+          "SELECT id FROM tasks WHERE job_id = ? AND kind = ? AND params_key = ?"
+          " AND state IN ('pending', 'leased') AND (on_request = 1 OR ?) LIMIT 1",
           job.id, wanted.key.kind, wanted.key.params_key, job.active() && !job.cancel_requested)) {
     return *task;
   }

@@ -117,8 +117,8 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
   }
   const std::string bytes = summary.SerializeAsString();
   tx.db.run(
-      "UPDATE erosions SET core_version = ?, prepared = ?, points = ?, directions = ?, stride = ? WHERE id = "
-      "?",
+      "UPDATE erosions SET core_version = ?, prepared = ?, points = ?, directions = ?, stride = ?"
+      " WHERE id = ?",
       task.core_version, Blob{bytes}, summary.points(), summary.directions(), header.order_stride(),
       job.erosion_id);
   put_artifact(tx, {job.erosion_id, "lattice", ""}, parts.lattice, 0);

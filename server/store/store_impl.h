@@ -39,9 +39,6 @@ auto Store::read(Body&& body) {
   return body(db_);
 }
 
-/// 128 random bits in hexadecimal.
-std::string random_id();
-
 /// Points a job at another, finished erosion and drops its own; the job goes on in the derive stage.
 void adopt_erosion(Tx& tx, const std::string& job_id, std::int64_t finished_erosion);
 

@@ -58,9 +58,8 @@ v1::Job Store::resume(const std::string& job_ref) {
     }
     if (job.active() && !job.cancel_requested) return;
     tx.db.run(
-        "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0, finished_ms = "
-        "0,"
-        " error_code = NULL, error_message = '', error_line = 0 WHERE id = ?",
+        "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
+        " finished_ms = 0, error_code = NULL, error_message = '', error_line = 0 WHERE id = ?",
         job.id);
     tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
     tx.changes.work = true;

@@ -3,6 +3,7 @@
 #include "store/errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/identity.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -55,9 +56,9 @@ bool adopt_instead(Tx& tx, const TaskRow& task, const std::string& core_version)
 void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool supervised,
            const std::string& token) {
   tx.db.run(
-      "UPDATE tasks SET state = 'leased', token = ?, worker = ?, host = ?, pid = ?, supervised = ?, "
-      "core_version = ?,"
-      " granted_ms = ?, reported_ms = NULL, deadline_ms = ?, lease_directions = 0 WHERE id = ?",
+      "UPDATE tasks SET state = 'leased', token = ?, worker = ?, host = ?, pid = ?, supervised = ?,"
+      " core_version = ?, granted_ms = ?, reported_ms = NULL, deadline_ms = ?, lease_directions = 0"
+      " WHERE id = ?",
       token, worker.id(), worker.host(), worker.pid(), supervised, worker.core_version(), tx.lease_ms,
       tx.lease_ms + tx.options.lease_ms, task.id);
   tx.db.run(
@@ -132,7 +133,7 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
     while (const std::optional<std::int64_t> id = choose_task(tx.db, worker, preferred_job)) {
       const TaskRow task = *find_task(tx.db, *id);
       if (adopt_instead(tx, task, worker.core_version())) continue;
-      const std::string token = random_id();
+      const std::string token = wire::random_id();
       grant(tx, task, worker, supervised, token);
       return lease_message(tx, task, token);
     }

@@ -62,9 +62,8 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
       " directions_repeated = directions_repeated + ?, longest_gap_ms = max(longest_gap_ms, ?) WHERE id = ?",
       progress.reported, progress.reported - progress.added, gap, task.job_id);
   tx.db.run(
-      "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?, losses = iif(? > 0, 0, "
-      "losses)"
-      " WHERE id = ?",
+      "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?,"
+      " losses = iif(? > 0, 0, losses) WHERE id = ?",
       tx.lease_ms, progress.reported, progress.added, task.id);
 }
 

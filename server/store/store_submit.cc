@@ -3,6 +3,7 @@
 #include "store/errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/identity.h"
 #include "wire/params.h"
 #include "wire/sha256.h"
 
@@ -109,10 +110,10 @@ std::string insert_job(Tx& tx, const Submission& submission) {
   const std::string skeleton = submission.skeleton.SerializeAsString();
   tx.db.run("INSERT INTO erosions (mesh_sha256, params, params_key) VALUES (?, ?, ?)", header.mesh_sha256(),
             Blob{params}, submission.params_key);
-  std::string id = random_id();
+  std::string id = wire::random_id();
   tx.db.run(
-      "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
-      "created_ms)"
+      "INSERT INTO jobs"
+      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms)"
       " VALUES (?, ?, ?, ?, 'queued', 'prepare', ?, ?, ?, ?)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
       submission.skeleton_key, tx.wall_ms);

@@ -29,9 +29,8 @@ v1::TaskKind kind_of(const std::string& name) {
 }
 
 constexpr const char* kTaskColumns =
-    "SELECT id, job_id, kind, state, on_request, first_position, end_position, params, params_key, losses, "
-    "worker,"
-    " core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
+    "SELECT id, job_id, kind, state, on_request, first_position, end_position, params, params_key, losses,"
+    " worker, core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
 
 TaskRow read_task(const Statement& row) {
   TaskRow task;
@@ -163,8 +162,8 @@ std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind) {
 
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
   tx.db.run(
-      "INSERT INTO tasks (job_id, kind, state, first_position, end_position) VALUES (?, 'erode', 'pending', "
-      "?, ?)",
+      "INSERT INTO tasks (job_id, kind, state, first_position, end_position)"
+      " VALUES (?, 'erode', 'pending', ?, ?)",
       job_id, block.begin, block.end);
   tx.changes.work = true;
   return tx.db.last_insert_rowid();
@@ -173,8 +172,8 @@ std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request) {
   tx.db.run(
-      "INSERT INTO tasks (job_id, kind, state, on_request, params, params_key) VALUES (?, ?, 'pending', ?, "
-      "?, ?)",
+      "INSERT INTO tasks (job_id, kind, state, on_request, params, params_key)"
+      " VALUES (?, ?, 'pending', ?, ?, ?)",
       job_id, kind_name(kind), on_request, Blob{params}, params_key);
   tx.changes.work = true;
   return tx.db.last_insert_rowid();
@@ -240,9 +239,8 @@ void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error) {
   const JobRow job = get_job(tx.db, job_id);
   if (!job.active()) return;
   tx.db.run(
-      "UPDATE jobs SET state = 'failed', finished_ms = ?, cancel_requested = 0, error_code = ?, "
-      "error_message = ?,"
-      " error_line = ? WHERE id = ?",
+      "UPDATE jobs SET state = 'failed', finished_ms = ?, cancel_requested = 0, error_code = ?,"
+      " error_message = ?, error_line = ? WHERE id = ?",
       tx.wall_ms, error.code(), error.message(), error.line(), job_id);
   tx.changes.jobs.insert(job_id);
   log_state(tx, job, v1::JOB_STATE_FAILED, job.stage,

@@ -13,8 +13,16 @@ namespace affskel::core {
 /// Of the largest: what counts as equal, or as 0.
 inline constexpr double kAxisTie = 1e-6;
 
+/// v / |v|; v is not 0.
 inline Vec3 unit(const Vec3& v) {
   return (1 / norm(v)) * v;
+}
+
+/// Gram and Schmidt's: the first column keeps its direction, the second its plane with the first, and the
+/// third makes them right-handed.  The first two are not parallel.
+inline Matrix3 orthonormal(const Matrix3& axes) {
+  const Vec3 first = unit(axes[0]), second = unit(axes[1] - dot(axes[1], first) * first);
+  return {first, second, cross(first, second)};
 }
 
 /// Orthonormal axes of the plane across `normal` (a unit vector): the first is the projection of the

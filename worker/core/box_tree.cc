@@ -31,6 +31,13 @@ Box box_of(const Mesh& mesh, const Triangle& triangle) {
   return box;
 }
 
+std::vector<Box> boxes_of(const Mesh& mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) boxes.push_back(box_of(mesh, t));
+  return boxes;
+}
+
 BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
   std::iota(items_.begin(), items_.end(), 0u);
   const auto count = static_cast<std::uint32_t>(items_.size());

@@ -24,6 +24,9 @@ struct Box {
 /// Tightest box round a triangle.
 Box box_of(const Mesh& mesh, const Triangle& triangle);
 
+/// The boxes of all triangles of a mesh.
+std::vector<Box> boxes_of(const Mesh& mesh);
+
 /// A balanced tree over boxes for overlap queries.  Immutable after construction; queries from several
 /// threads are safe.
 class BoxTree {

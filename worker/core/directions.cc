@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/icosahedron.h"
 #include "core/split_mix64.h"
 
 namespace affskel::core {
@@ -106,17 +107,11 @@ std::uint64_t sphere_frequency(std::uint64_t count) {
 }
 
 void add_sphere(std::uint64_t count, DirectionSet& set) {
-  const double g = (1 + std::sqrt(5.0)) / 2;
-  const std::array<Vec3, 12> v = {Vec3{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
-                                  {0, -1, g},     {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                                  {g, 0, -1},     {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  static constexpr std::array<std::array<std::size_t, 3>, 20> kFaces = {{
-      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
-  }};
   const std::uint64_t f = sphere_frequency(count);
-  for (const auto& face : kFaces) add_face(v[face[0]], v[face[1]], v[face[2]], f, set);
+  const Mesh coarse = icosahedron();
+  for (const Triangle& t : coarse.triangles) {
+    add_face(coarse.points[t[0]], coarse.points[t[1]], coarse.points[t[2]], f, set);
+  }
 }
 
 void add_random(std::uint64_t count, std::uint64_t seed, DirectionSet& set) {

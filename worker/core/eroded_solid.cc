@@ -16,12 +16,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/eroded_places.h"
 #include "core/error.h"
 #include "core/lattice_cuts.h"
 #include "core/level_crossing.h"
@@ -46,20 +46,21 @@ constexpr double kMargin = 1e-3;
 class Marcher {
  public:
   Marcher(const Solid& solid, const Lattice& lattice, const FrameField& field, double level)
-      : lattice_(lattice), field_(field), level_(level), cuts_(solid, lattice), ranks_(lattice) {
+      : field_(field),
+        level_(level),
+        cuts_(solid, lattice),
+        places_(lattice, field, cuts_, level),
+        ranks_(lattice) {
     for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.frame.dims[a];
-    for (Layer& layer : layers_) {
-      const auto size = static_cast<std::size_t>((dims_[1] + 2) * (dims_[2] + 2));
-      layer.full.assign(size, 0);
-      layer.gaps.assign(size, 0);
-      layer.rows.resize(static_cast<std::size_t>(dims_[1] + 2));
-    }
   }
 
   /// In lattice coordinates.
   Mesh run() {
     for (at_[0] = -1; at_[0] < dims_[0]; ++at_[0]) {
-      fill_layer(at_[0] + 1);
+      places_.move_to(at_[0]);
+      if (at_[0] + 1 < dims_[0]) ranks_.move_to(static_cast<std::uint32_t>(at_[0] + 1));
+      // clear() would touch all the buckets that the fullest layer needed.
+      layers_[slot(at_[0] + 1)] = {};
       for (at_[1] = -1; at_[1] < dims_[1]; ++at_[1]) march_row();
     }
     constexpr int kRounds = 40;  // enough for steps of a few voxels
@@ -70,104 +71,34 @@ class Marcher {
  private:
   using Names = std::unordered_map<std::uint64_t, std::uint32_t>;
 
-  /// From the first to the last full place of a row; empty when first > last.
-  struct Extent {
-    std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = -1;
-
-    void take(std::int64_t low, std::int64_t high) {
-      first = std::min(first, low);
-      last = std::max(last, high);
-    }
-  };
-
-  /// Places (i, *, *) and what begins there.
+  /// The vertices of the edges and sides that begin in a layer (i, *, *).
   struct Layer {
-    std::vector<std::uint8_t> full;
-    std::vector<std::uint8_t> gaps;       // bit `step`: the edge from here by that step has a gap
-    std::vector<Extent> rows;             // by j + 1
-    std::vector<std::size_t> gap_places;  // where gaps are not 0
-    Names stops, rims;                    // vertices by edge and end, by side and edge
+    Names stops, rims;  // by edge and end, by side and edge
   };
 
   struct Join {
     std::uint32_t from = 0, to = 0;
   };
 
-  Layer& layer(std::int64_t i) { return layers_[static_cast<std::size_t>(i + 1) % 2]; }
+  static std::size_t slot(std::int64_t i) { return static_cast<std::size_t>(i + 1) % 2; }
 
-  std::size_t in_layer(std::int64_t j, std::int64_t k) const {
-    return static_cast<std::size_t>((j + 1) * (dims_[2] + 2) + (k + 1));
-  }
-
-  /// Prepares layer i; the one before it stays.  Layers -1 and dims are empty but for edges that begin there.
-  void fill_layer(std::int64_t i) {
-    clear(layer(i));
-    if (i >= dims_[0]) return;
-    ranks_.move_to(static_cast<std::uint32_t>(i));
-    fill_places(i, layer(i));
-    fill_gaps(i, layer(i));
-  }
-
-  /// Touches only what was filled: most of the box may be empty.
-  void clear(Layer& filled) const {
-    for (std::int64_t j = -1; j <= dims_[1]; ++j) {
-      Extent& row = filled.rows[static_cast<std::size_t>(j + 1)];
-      if (row.first > row.last) continue;
-      const auto begin = filled.full.begin() + static_cast<std::ptrdiff_t>(in_layer(j, row.first));
-      std::fill_n(begin, row.last - row.first + 1, std::uint8_t{0});
-      row = {};
-    }
-    for (std::size_t n : filled.gap_places) filled.gaps[n] = 0;
-    filled.gap_places.clear();
-    filled.stops = {};  // clear() would touch all the buckets that the fullest layer needed
-    filled.rims = {};
-  }
-
-  void fill_places(std::int64_t i, Layer& filled) {
-    const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
-    for (; next_run_ < runs.size() && runs[next_run_].start[0] == i; ++next_run_) {
-      const LatticeRun& run = runs[next_run_];
-      const std::int64_t j = run.start[1];
-      for (std::uint32_t n = 0; n < run.length; ++n) {
-        if (!(field_.erosion[run.first + n] >= level_)) continue;
-        const std::int64_t k = std::int64_t{run.start[2]} + n;
-        filled.full[in_layer(j, k)] = 1;
-        filled.rows[static_cast<std::size_t>(j + 1)].take(k, k);
-      }
-    }
-  }
-
-  void fill_gaps(std::int64_t i, Layer& filled) {
-    const std::uint64_t first = cuts_.edge(i, -1, -1, 0), end = cuts_.edge(i + 1, -1, -1, 0);
-    const std::vector<LatticeCut>& all = cuts_.all();
-    for (; next_cut_ < all.size() && all[next_cut_].edge < end; ++next_cut_) {
-      const LatticeCut& cut = all[next_cut_];
-      if (!cut.gap || cut.edge < first) continue;
-      const auto n = static_cast<std::size_t>((cut.edge - first) / 8);
-      if (filled.gaps[n] == 0) filled.gap_places.push_back(n);
-      filled.gaps[n] |= static_cast<std::uint8_t>(1U << (cut.edge % 8));
-    }
-  }
+  Layer& layer(std::int64_t i) { return layers_[slot(i)]; }
 
   /// The cubes from places (at_[0], at_[1], *) with a full corner.
   void march_row() {
-    std::array<const std::uint8_t*, 4> full{}, gaps{};  // of the cubes' edges along axis 2, by 2a + b
-    Extent reach;
+    std::array<ErodedPlaces::Row, 4> rows{};  // of the cubes' edges along axis 2, by 2a + b
+    ErodedPlaces::Extent reach;
     for (unsigned r = 0; r < 4; ++r) {
-      const Layer& l = layer(at_[0] + (r >> 1));
-      const std::int64_t j = at_[1] + (r & 1);
-      full[r] = l.full.data() + in_layer(j, 0);
-      gaps[r] = l.gaps.data() + in_layer(j, 0);
-      const Extent& row = l.rows[static_cast<std::size_t>(j + 1)];
-      reach.take(row.first, row.last);
+      rows[r] = places_.row(at_[0] + (r >> 1), at_[1] + (r & 1));
+      reach.take(rows[r].extent.first, rows[r].extent.last);
     }
     for (std::int64_t k = reach.first - 1; k <= reach.last; ++k) {
       unsigned any_gaps = 0;
       corner_full_ = 0;
       for (unsigned corner = 0; corner < 8; ++corner) {
         const std::int64_t n = k + (corner & 1);
-        corner_full_ |= static_cast<unsigned>(full[corner >> 1][n]) << corner;
-        corner_gaps_[corner] = gaps[corner >> 1][n];
+        corner_full_ |= static_cast<unsigned>(rows[corner >> 1].full[n]) << corner;
+        corner_gaps_[corner] = rows[corner >> 1].gaps[n];
         any_gaps |= corner_gaps_[corner];
       }
       if (corner_full_ == 0 || (corner_full_ == 0xFF && any_gaps == 0)) continue;
@@ -333,14 +264,13 @@ class Marcher {
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
   }
 
-  const Lattice& lattice_;
   const FrameField& field_;
   double level_;
   LatticeCuts cuts_;
-  SlabIndex ranks_;  // of the layer filled last and the two beside it
+  ErodedPlaces places_;
+  SlabIndex ranks_;  // of layer at_[0] + 1 and the two beside it
   Place dims_{};
   std::array<Layer, 2> layers_;
-  std::size_t next_run_ = 0, next_cut_ = 0;  // of the layer to be filled next
   // The cube in hand.
   Place at_{};
   unsigned corner_full_ = 0;

@@ -15,8 +15,8 @@ std::vector<std::uint32_t> eroded_points(const FrameField& field, double level);
 
 struct ErodedSurfaceOptions {
   double level = 0;  ///< E of the surface, mesh units cubed, >= 0
-  double shortest_edge =
-      0.4;  ///< shorter ones are collapsed where the shape allows it; spacings, < 1; 0 = none
+  /// Shorter ones are collapsed where the shape allows it; spacings, < 1; 0 = none.
+  double shortest_edge = 0.4;
 };
 
 struct ErodedSurface {
@@ -54,8 +54,7 @@ struct ErodedSurface {
 /// along axis 2 and of the triangles' lengths in steps; and a few nanoseconds for every place between the
 /// outermost eroded points of four neighbouring lines along axis 2.
 /// @throws CoreError kBadInput when the level is not a finite number >= 0, the shortest edge not in [0, 1),
-/// or
-///   the field is not one of this lattice.
+///   or the field is not one of this lattice.
 ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const FrameField& field,
                              const ErodedSurfaceOptions& options);
 

@@ -3,30 +3,21 @@
 #include <cmath>
 
 #include "core/cube_root.h"
-#include "core/matrix3.h"
 
 namespace affskel::core {
-namespace {
-
-bool is_identity(const std::array<Vec3, 3>& f) {
-  return f == std::array{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-}
-
-}  // namespace
-
-std::array<Vec3, 3> frame_matrix(const Lattice& lattice) {
-  const std::array<Vec3, 3>& axes = lattice.frame.axes;
+Matrix3 frame_matrix(const Lattice& lattice) {
+  const Matrix3& axes = lattice.frame.axes;
   const bool parallel = axes[0].y == 0 && axes[0].z == 0 && axes[1].x == 0 && axes[1].z == 0 &&
                         axes[2].x == 0 && axes[2].y == 0 && axes[0].x > 0 && axes[0].x == axes[1].y &&
                         axes[0].x == axes[2].z;
-  if (parallel) return {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  const double step = cube_root(std::abs(dot(axes[0], cross(axes[1], axes[2]))));
-  return {(1 / step) * axes[0], (1 / step) * axes[1], (1 / step) * axes[2]};
+  if (parallel) return kIdentity3;
+  const double step = cube_root(std::abs(determinant(axes)));
+  return (1 / step) * axes;
 }
 
 DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& directions) {
-  const std::array<Vec3, 3> f = frame_matrix(lattice);
-  if (is_identity(f)) return directions;
+  const Matrix3 f = frame_matrix(lattice);
+  if (f == kIdentity3) return directions;
   DirectionSet result;
   result.reserve(directions.size());
   for (const Vec3& d : directions) {
@@ -39,7 +30,7 @@ DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& direct
 
 FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,
                        std::span<const FieldValue> values) {
-  const std::array<Vec3, 3> f = frame_matrix(lattice);
+  const Matrix3 f = frame_matrix(lattice);
   FrameField result;
   result.spacing = lattice.spacing;
   result.erosion.reserve(values.size());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "core/directions.h"
 #include "core/field.h"
 #include "core/lattice.h"
+#include "core/matrix3.h"
 
 namespace affskel::core {
 
@@ -17,7 +17,7 @@ namespace affskel::core {
 // with normal n in mesh coordinates has the normal F^T n / |F^T n| in the frame, and grad_u E = F^T grad E.
 
 /// F, column by column; exactly the identity for a lattice parallel to the axes.
-std::array<Vec3, 3> frame_matrix(const Lattice& lattice);
+Matrix3 frame_matrix(const Lattice& lattice);
 
 /// The directions as unit normals in the frame: F^T d / |F^T d|; those of zero length stay so.  Exactly the
 /// given ones when F is the identity.

@@ -42,10 +42,6 @@ Matrix3 rotation(const Quaternion& q) {
           Vec3{2 * (x * z + s * y), 2 * (y * z - s * x), 1 - 2 * (x * x + y * y)}};
 }
 
-Matrix3 plus(const Matrix3& a, const Matrix3& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
 // a b^T.
 Matrix3 outer(const Vec3& a, const Vec3& b) {
   return {b.x * a, b.y * a, b.z * a};
@@ -85,7 +81,7 @@ class Ascent {
     Matrix3 m{};
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {
-        m = plus(m, (u[static_cast<int>(a)] * u[static_cast<int>(b)]) * moments_[a][b]);
+        m = m + (u[static_cast<int>(a)] * u[static_cast<int>(b)]) * moments_[a][b];
       }
     }
     return m;
@@ -96,7 +92,7 @@ class Ascent {
     const Vec3 t = m * u;
     const double k = dot(t, u), excess = k - kGaussian;
     const Vec3 slope = 4 * cross(u, t);
-    Matrix3 bend = plus(2 * plus(outer(t, u), outer(u, t)), -4 * k * kIdentity3);
+    Matrix3 bend = 2 * (outer(t, u) + outer(u, t)) + -4 * k * kIdentity3;
     for (std::size_t b = 0; b < 3; ++b) {
       const Vec3 moved = m * cross(kIdentity3[b], u);
       bend[b] = bend[b] + 12 * cross(u, moved);  // (e_a x u).v = e_a.(u x v)
@@ -104,7 +100,7 @@ class Ascent {
     sum.kurtosis[i] = k;
     sum.value += excess * excess;
     sum.gradient = sum.gradient + 2 * excess * slope;
-    sum.hessian = plus(sum.hessian, plus(2 * outer(slope, slope), 2 * excess * bend));
+    sum.hessian = sum.hessian + (2 * outer(slope, slope) + 2 * excess * bend);
   }
 
   Vec3 step(const Matrix3& axes) const {
@@ -185,11 +181,6 @@ Matrix3 turned_about(const Vec3& line, const Matrix3& axes) {
     result[i] = along + (cosine * (axes[i] - along) + sine * cross(line, axes[i]));
   }
   return result;
-}
-
-Matrix3 orthonormal(const Matrix3& axes) {
-  const Vec3 first = unit(axes[0]), second = unit(axes[1] - dot(axes[1], first) * first);
-  return {first, second, cross(first, second)};
 }
 
 }  // namespace

@@ -57,13 +57,6 @@ class TurnedSolid {
     return mesh;
   }
 
-  static std::vector<Box> boxes_of(const Mesh& mesh) {
-    std::vector<Box> boxes;
-    boxes.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) boxes.push_back(box_of(mesh, t));
-    return boxes;
-  }
-
   static Box box_round(const Mesh& mesh) {
     Box box = box_of(mesh, mesh.triangles.front());
     for (const Triangle& t : mesh.triangles) box.include(box_of(mesh, t));

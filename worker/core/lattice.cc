@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "core/cube_root.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/point_spacing.h"
 #include "core/scan_conversion.h"
@@ -16,12 +16,6 @@ namespace {
 
 // Lines beyond this would fill the memory before any point is found (16 bytes of bookkeeping each).
 constexpr double kMaxLines = 4e8;
-
-std::string in_words(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
 
 class LatticeBuilder {
  public:
@@ -183,7 +177,8 @@ double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
     return cube_root(solid.volume / static_cast<double>(options.target_points));
   }
   if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
-    throw CoreError(CoreError::Code::kBadInput, "the spacing must be a finite number > 0");
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the spacing must be a finite number > 0, not " + to_text(options.spacing));
   }
   return options.spacing;
 }
@@ -257,17 +252,17 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
   const Plan plan = plan_lattice(solid, box, options, spacing);
   if (!plan.fits) {
     throw CoreError(CoreError::Code::kLimit,
-                    "spacing " + in_words(spacing) + " would give about " + in_words(plan.estimate) +
-                        " sample points on " + in_words(plan.lines) + " lattice lines; at most " +
-                        in_words(static_cast<double>(options.max_points)) + " points on " +
-                        in_words(kMaxLines) + " lines are supported");
+                    "spacing " + rounded(spacing, 3) + " would give about " + rounded(plan.estimate, 3) +
+                        " sample points on " + rounded(plan.lines, 3) + " lattice lines; at most " +
+                        rounded(static_cast<double>(options.max_points), 3) + " points on " +
+                        rounded(kMaxLines, 3) + " lines are supported");
   }
   Lattice lattice = make_lattice(solid, plan.frame, options.threads);
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
-                                                    in_words(spacing) + " is too coarse for a volume of " +
-                                                    in_words(solid.volume));
+                                                    rounded(spacing, 3) + " is too coarse for a volume of " +
+                                                    rounded(solid.volume, 3));
   }
   return lattice;
 }

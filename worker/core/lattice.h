@@ -20,8 +20,8 @@ struct LatticeFrame {
 
 /// Consecutive sample points of a lattice line with no surface crossing between them.
 struct LatticeRun {
-  std::uint32_t first =
-      0;  ///< place of its first point in AxisRuns::order (the point itself if that is empty)
+  /// Place of its first point in AxisRuns::order (the point itself if that is empty).
+  std::uint32_t first = 0;
   std::uint32_t length = 0;              ///< number of points, >= 1
   std::uint32_t low = 0;                 ///< the nearest triangle below where the line enters the solid
   std::uint32_t high = 0;                ///< the nearest triangle above where it leaves

@@ -17,6 +17,9 @@ inline Vec3 operator*(const Matrix3& m, const Vec3& v) {
 inline Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
   return {a * b[0], a * b[1], a * b[2]};
 }
+inline Matrix3 operator+(const Matrix3& a, const Matrix3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 inline Matrix3 operator*(double s, const Matrix3& m) {
   return {s * m[0], s * m[1], s * m[2]};
 }

@@ -1,7 +1,7 @@
 // Notation.  A tetrahedron has the corners 0, p, q, r (the point that all share is moved to 0), the volume
-// V = p.(q x r) / 6 and s = p + q + r.  The mean of a product of linear forms over
-// a simplex is a sum over the permutations of the factors: 3! / (n + 3)! times the sum over all permutations
-// of n of the product over its cycles of the sum over the corners of the cycle's factors' product.
+// V = p.(q x r) / 6 and s = p + q + r.  The mean of a product of n linear forms over a simplex is 3! / (n +
+// 3)! times a sum over the permutations of the factors: of the product, over the permutation's cycles, of the
+// sum over the corners of the product of the cycle's factors.
 #include "core/moments.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Matrix3 matrix(const Symmetric& sum, double divisor) {
   return {Vec3{m[0], m[1], m[2]}, Vec3{m[1], m[3], m[4]}, Vec3{m[2], m[4], m[5]}};
 }
 
-// The mesh's tetrahedra with `centre` at 0, mapped.
+// The mesh's tetrahedra with `centre` at 0.
 template <class Visit>
 void for_each_tetrahedron(const Mesh& mesh, const Vec3& centre, Visit visit) {
   for (const Triangle& t : mesh.triangles) {

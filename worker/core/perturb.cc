@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
-#include <tuple>
 
 #include "core/box_tree.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/plain_math.h"
+#include "core/same_place.h"
 #include "core/split_mix64.h"
 
 namespace affskel::core {
@@ -55,23 +55,10 @@ double box_diagonal(const Mesh& mesh) {
   return norm({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
 }
 
-std::vector<std::uint32_t> first_at_same_place(const std::vector<Vec3>& points) {
-  std::vector<std::uint32_t> order(points.size()), first(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t i) { return std::tie(points[i].x, points[i].y, points[i].z); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return place(a) != place(b) ? place(a) < place(b) : a < b;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool known = i > 0 && points[order[i]] == points[order[i - 1]];
-    first[order[i]] = known ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
-
 Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
   if (!(options.sigma >= 0) || !std::isfinite(options.sigma)) {
-    throw CoreError(CoreError::Code::kBadInput, "the noise must be a finite number >= 0");
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the noise must be a finite number >= 0, not " + to_text(options.sigma));
   }
   const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
   Gaussian gaussian(options.seed);

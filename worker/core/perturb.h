@@ -16,10 +16,6 @@ struct PerturbOptions {
 /// points when there are no triangles), mesh units.
 double box_diagonal(const Mesh& mesh);
 
-/// Per vertex the first vertex at the same place (0 and -0 are the same place), its own index if there is
-/// none before it.
-std::vector<std::uint32_t> first_at_same_place(const std::vector<Vec3>& points);
-
 /// The mesh with Gaussian noise: every place that is a vertex moves by sigma N(0, 1) in x, y and z,
 /// independently.  Vertices at the same place move together, so that a closed surface stays closed; places
 /// draw their numbers in the order of their first vertex.  Marsaglia's polar method on SplitMix64, the

@@ -14,9 +14,9 @@ struct Crossing {
   std::int32_t exits = 0;  ///< +1: the line leaves the solid here (upward), -1: it enters
 };
 
-/// Crossings of all lattice lines along one axis, each line's sorted by (depth, exits before
-/// entries, triangle).  With
-/// u = (axis + 1) % 3 and v = (axis + 2) % 3 the line through (u, v) = (m, n) is number m * dims[v] + n.
+/// Crossings of all lattice lines along one axis, each line's sorted by (depth, exits before entries,
+/// triangle).  With u = (axis + 1) % 3 and v = (axis + 2) % 3 the line through (u, v) = (m, n) is number
+/// m * dims[v] + n.
 struct LineCrossings {
   std::vector<std::uint64_t> begin;  ///< per line, and one past the end
   std::vector<Crossing> crossings;

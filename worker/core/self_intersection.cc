@@ -120,13 +120,6 @@ class PairTest {
   const std::vector<Box>& boxes_;
 };
 
-std::vector<Box> boxes_of(const Mesh& mesh) {
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) boxes.push_back(box_of(mesh, t));
-  return boxes;
-}
-
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 // Goes through the triangles in blocks, several at a time.  Blocks are begun in ascending order and ended

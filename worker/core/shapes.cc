@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/icosahedron.h"
 #include "core/number_text.h"
 
 namespace affskel::core {
@@ -138,17 +139,6 @@ class GeodesicVertices {
   Mesh& out_;
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
 };
-
-Mesh icosahedron() {
-  const double g = std::numbers::phi;
-  Mesh mesh;
-  mesh.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  return mesh;
-}
 
 /// Unit geodesic sphere.
 Mesh unit_sphere(const char* shape, std::uint32_t at_least_triangles) {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/axis_choice.h"
+
 namespace affskel::core {
 namespace {
 
@@ -73,12 +75,6 @@ Vec2 best_side(const std::vector<Vec2>& hull) {
     best = e;
   }
   return best;
-}
-
-Matrix3 orthonormal(const Matrix3& m) {
-  const Vec3 a = (1 / norm(m[0])) * m[0], b = m[1] - dot(m[1], a) * a;
-  const Vec3 second = (1 / norm(b)) * b;
-  return {a, second, cross(a, second)};
 }
 
 // Turns the box about axis k; false when that gains nothing.

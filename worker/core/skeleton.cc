@@ -3,13 +3,15 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/number_text.h"
 
 namespace affskel::core {
 
 std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence,
                                            const SkeletonOptions& options) {
   if (!(options.threshold > 0) || !std::isfinite(options.threshold)) {
-    throw CoreError(CoreError::Code::kBadInput, "the threshold must be a finite number > 0");
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the threshold must be a finite number > 0, not " + to_text(options.threshold));
   }
   std::vector<SkeletonPoint> kept;
   for (std::size_t p = 0; p < divergence.size(); ++p) {

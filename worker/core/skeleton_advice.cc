@@ -10,6 +10,7 @@
 #include "core/field.h"
 #include "core/frame_field.h"
 #include "core/matrix3.h"
+#include "core/number_text.h"
 
 namespace affskel::core {
 namespace {
@@ -19,12 +20,6 @@ constexpr std::size_t kFewNormals = 60;
 
 // Fewer sample points than this are less than 10 across a cube.
 constexpr std::uint32_t kFewPoints = 1000;
-
-std::string in_words(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
 
 // Points of a sheet through a cube of so many points: their number to the power 2/3, rounded up.
 std::size_t points_of_a_sheet(std::size_t points) {
@@ -50,23 +45,23 @@ std::size_t distinct_normals(const OptimalDirections& optimal) {
 
 std::string on_threshold(std::vector<double> size, double threshold) {
   const double largest = *std::max_element(size.begin(), size.end());
-  const std::string found = "no sample point has |H| above the threshold " + in_words(threshold);
+  const std::string found = "no sample point has |H| above the threshold " + rounded(threshold, 3);
   if (largest == 0) return found + ": the optimal normals do not change anywhere.";
   const auto wanted = size.begin() + static_cast<std::ptrdiff_t>(points_of_a_sheet(size.size()) - 1);
   std::nth_element(size.begin(), wanted, size.end(), std::greater<>());
   // Below the wanted point's |H| by more than writing it in three digits can raise it.
   const double least = *wanted > 0 ? *wanted : largest;
-  const std::string lower = in_words(0.99 * least);
+  const std::string lower = rounded(0.99 * least, 3);
   const double bound = std::strtod(lower.c_str(), nullptr);
   const auto kept = std::count_if(size.begin(), size.end(), [&](double h) { return h > bound; });
-  return found + "; the largest is " + in_words(largest) + ". --threshold " + lower + " would keep " +
+  return found + "; the largest is " + rounded(largest, 3) + ". --threshold " + lower + " would keep " +
          std::to_string(kept) + " of the " + std::to_string(size.size()) + " points.";
 }
 
 std::string on_few_points(const Lattice& lattice) {
   if (lattice.points >= kFewPoints) return "";
   return " The lattice has only " + std::to_string(lattice.points) +
-         " sample points: submit with a smaller spacing than " + in_words(lattice.spacing) +
+         " sample points: submit with a smaller spacing than " + rounded(lattice.spacing, 3) +
          ", or --points 100000.";
 }
 
@@ -104,9 +99,9 @@ std::string on_turn(const Lattice& lattice, const ShockCensus& census, const Cho
 }
 
 std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
-  const std::string lower = in_words(0.99 * census.heaviest_piece);
+  const std::string lower = rounded(0.99 * census.heaviest_piece, 3);
   return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
-         in_words(pruning.significance) + "; the heaviest weighs " + in_words(census.heaviest_piece) +
+         rounded(pruning.significance, 3) + "; the heaviest weighs " + rounded(census.heaviest_piece, 3) +
          " of its sheet. --threshold " + lower + " would keep it, --threshold 1e-9 all.";
 }
 
@@ -133,7 +128,7 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
   std::string advice;
   if (census.wide > 0) {
     advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-             " where equal chords clearly differ is E " + in_words(pruning.least_erosion) +
+             " where equal chords clearly differ is E " + rounded(pruning.least_erosion, 3) +
              " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
     advice = on_turn(lattice, census, pruning);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "core/chance_level.h"
 #include "core/lattice_coordinates.h"
@@ -11,6 +12,7 @@
 #include "core/skeleton.h"
 #include "core/skeleton_advice.h"
 #include "core/solid_membership.h"
+#include "core/unused_points.h"
 #include "core/voxel_thickness.h"
 #include "core/voxel_topology.h"
 
@@ -73,16 +75,9 @@ void add_distances(const Lattice& lattice, const std::vector<LatticePlace>& plac
 }
 
 // The vertices that triangles use.
-std::vector<Vec3> used_vertices(const Mesh& mesh) {
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) used[v] = true;
-  }
-  std::vector<Vec3> result;
-  for (std::size_t v = 0; v < used.size(); ++v) {
-    if (used[v]) result.push_back(mesh.points[v]);
-  }
-  return result;
+std::vector<Vec3> used_vertices(Mesh mesh) {
+  drop_unused_points(mesh);
+  return std::move(mesh.points);
 }
 
 }  // namespace

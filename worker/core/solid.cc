@@ -8,8 +8,10 @@
 #include "core/error.h"
 #include "core/mesh_topology.h"
 #include "core/number_text.h"
+#include "core/same_place.h"
 #include "core/self_intersection.h"
 #include "core/shell_nesting.h"
+#include "core/unused_points.h"
 
 namespace affskel::core {
 namespace {
@@ -101,56 +103,30 @@ class SolidBuilder {
   }
 
   void drop_unused_vertices() {
-    Mesh& mesh = solid_.mesh;
-    std::vector<std::uint32_t> name(mesh.points.size(), 0);
-    for (const Triangle& t : mesh.triangles) {
-      for (std::uint32_t v : t) name[v] = 1;
-    }
-    std::uint32_t kept = 0, first_unused = 0, unused = 0;
-    for (std::uint32_t v = 0; v < name.size(); ++v) {
-      if (name[v] == 0 && unused++ == 0) first_unused = v;
-      if (name[v] == 0) continue;
-      mesh.points[kept] = mesh.points[v];
-      name[v] = kept++;
-    }
-    if (unused == 0) return;
-    mesh.points.resize(kept);
-    for (Triangle& t : mesh.triangles) {
-      for (std::uint32_t& v : t) v = name[v];
-    }
-    std::string message = std::to_string(unused) +
+    const std::vector<std::uint32_t> unused = drop_unused_points(solid_.mesh);
+    if (unused.empty()) return;
+    std::string message = std::to_string(unused.size()) +
                           " vertices that no face uses were left out, the first: vertex " +
-                          std::to_string(first_unused);
-    if (first_unused < vertex_line_.size())
-      message += " (line " + std::to_string(vertex_line_[first_unused]) + ")";
+                          std::to_string(unused.front());
+    if (unused.front() < vertex_line_.size()) {
+      message += " (line " + std::to_string(vertex_line_[unused.front()]) + ")";
+    }
     repaired("unused-vertices", message);
   }
 
   void weld() {
     Mesh& mesh = solid_.mesh;
-    std::vector<std::uint32_t> order(mesh.points.size()), name(mesh.points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto less = [&](std::uint32_t a, std::uint32_t b) {
-      const Vec3 &p = mesh.points[a], &q = mesh.points[b];
-      if (p.x != q.x) return p.x < q.x;
-      if (p.y != q.y) return p.y < q.y;
-      return p.z != q.z ? p.z < q.z : a < b;
-    };
-    std::sort(order.begin(), order.end(), less);
+    const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
     std::uint64_t merged = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const bool same = i > 0 && mesh.points[order[i]] == mesh.points[order[i - 1]];
-      name[order[i]] = same ? name[order[i - 1]] : order[i];
-      merged += same;
-    }
+    for (std::size_t v = 0; v < first.size(); ++v) merged += first[v] != v;
     if (merged == 0) return;
     repaired("welded",
              std::to_string(merged) + " vertices had the same place as another and were joined with it");
     for (Triangle& t : mesh.triangles) {
-      for (std::uint32_t& v : t) v = name[v];
+      for (std::uint32_t& v : t) v = first[v];
     }
     drop_collapsed();
-    compact_points();
+    drop_unused_points(mesh);
   }
 
   void drop_collapsed() {
@@ -169,24 +145,6 @@ class SolidBuilder {
     if (dropped != 0) {
       note(MeshNote::Severity::kRepaired, "degenerate-triangles",
            std::to_string(dropped) + " triangles had two corners in one place and were left out");
-    }
-  }
-
-  void compact_points() {
-    Mesh& mesh = solid_.mesh;
-    std::vector<std::uint32_t> name(mesh.points.size(), 0);
-    for (const Triangle& t : mesh.triangles) {
-      for (std::uint32_t v : t) name[v] = 1;
-    }
-    std::uint32_t kept = 0;
-    for (std::size_t v = 0; v < name.size(); ++v) {
-      if (name[v] == 0) continue;
-      mesh.points[kept] = mesh.points[v];
-      name[v] = kept++;
-    }
-    mesh.points.resize(kept);
-    for (Triangle& t : mesh.triangles) {
-      for (std::uint32_t& v : t) v = name[v];
     }
   }
 

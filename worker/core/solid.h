@@ -19,8 +19,8 @@ struct SolidOptions {
 struct MeshNote {
   enum class Severity { kRepaired, kWarning };
   Severity severity = Severity::kWarning;
-  std::string code;  ///< stable: "welded", "unused-vertices", "reoriented", "turned-out", "split-vertices",
-                     ///< "polygons-cut", "degenerate-triangles", "self-intersecting"
+  std::string code;     ///< stable: "unused-vertices", "welded", "degenerate-triangles", "reoriented",
+                        ///< "split-vertices", "turned-out", "self-intersecting"
   std::string message;  ///< counts and the first place
 };
 

@@ -85,8 +85,8 @@ class Frame {
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::sqrt(eigen.values[k]);
       const Vec3& e = eigen.vectors[k];
-      root = sum(root, {length * e.x * e, length * e.y * e, length * e.z * e});
-      whitening = sum(whitening, {e.x / length * e, e.y / length * e, e.z / length * e});
+      root = root + Matrix3{length * e.x * e, length * e.y * e, length * e.z * e};
+      whitening = whitening + Matrix3{e.x / length * e, e.y / length * e, e.z / length * e};
     }
     const IndependentAxes found =
         independent_axes(fourth_moments(mesh_, moments_.volume, moments_.centroid, whitening));
@@ -103,12 +103,10 @@ class Frame {
     Matrix3 covariance{};
     for (const Vec3& p : mesh_.points) {
       const Vec3 q = p - mean;
-      covariance = sum(covariance, {share * q.x * q, share * q.y * q, share * q.z * q});
+      covariance = covariance + Matrix3{share * q.x * q, share * q.y * q, share * q.z * q};
     }
     return covariance;
   }
-
-  static Matrix3 sum(const Matrix3& a, const Matrix3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
   OrderedAxes with_sides(const Matrix3& axes) const {
     return {{side(axes[0]), side(axes[1]), side(axes[2])}, axes};

@@ -1,22 +1,10 @@
 #include "core/solid_membership.h"
 
 #include <limits>
-#include <vector>
 
 #include "core/ray_crossing.h"
 
 namespace affskel::core {
-namespace {
-
-std::vector<Box> boxes_of(const Mesh& mesh) {
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) boxes.push_back(box_of(mesh, t));
-  return boxes;
-}
-
-}  // namespace
-
 SolidMembership::SolidMembership(const Mesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
 
 bool SolidMembership::contains(const Vec3& q, double tolerance) const {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -19,6 +18,7 @@
 
 #include "core/error.h"
 #include "core/number_text.h"
+#include "core/unused_points.h"
 
 namespace affskel::core {
 namespace {
@@ -208,23 +208,9 @@ class AlphaShape {
   Delaunay delaunay_;
 };
 
-/// Keeps the points that a triangle uses.
-Mesh compact(std::span<const Vec3> points, std::vector<Triangle> triangles) {
-  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> index(points.size(), kUnused);
-  for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) index[v] = 0;
-  }
-  Mesh mesh;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (index[i] == kUnused) continue;
-    index[i] = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.push_back(points[i]);
-  }
-  for (Triangle& t : triangles) {
-    for (std::uint32_t& v : t) v = index[v];
-  }
-  mesh.triangles = std::move(triangles);
+Mesh with_used_points(std::span<const Vec3> points, std::vector<Triangle> triangles) {
+  Mesh mesh{{points.begin(), points.end()}, std::move(triangles)};
+  drop_unused_points(mesh);
   return mesh;
 }
 
@@ -236,9 +222,9 @@ Mesh alpha_surface(std::span<const Vec3> points, const AlphaSurfaceOptions& opti
   if (points.size() < 3) return {};
   if (const auto snapped = lattice_coordinates(points, options.spacing)) {
     const double steps = std::sqrt(alpha) / options.spacing;
-    return compact(points, AlphaShape(*snapped, steps * steps).triangles());
+    return with_used_points(points, AlphaShape(*snapped, steps * steps).triangles());
   }
-  return compact(points, AlphaShape(points, alpha).triangles());
+  return with_used_points(points, AlphaShape(points, alpha).triangles());
 }
 
 }  // namespace affskel::core

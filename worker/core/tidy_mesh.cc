@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/unused_points.h"
+
 namespace affskel::core {
 namespace {
 
@@ -35,7 +37,7 @@ class Tidier {
   Mesh run(int most_rounds) {
     for (int round = 0; round < most_rounds && change(); ++round) {
     }
-    drop_unused();
+    drop_unused_points(mesh_);
     return std::move(mesh_);
   }
 
@@ -219,22 +221,6 @@ class Tidier {
   double quality(const Triangle& t) const {
     const double square = longest_square(t);
     return square > 0 ? norm(twice_area(t)) / square : 0;
-  }
-
-  void drop_unused() {
-    constexpr Index kNone = 0xFFFFFFFFU;
-    std::vector<Index> name(mesh_.points.size(), kNone);
-    std::vector<Vec3> kept;
-    for (const Triangle& t : mesh_.triangles) {
-      for (Index v : t) name[v] = 0;
-    }
-    for (std::size_t v = 0; v < name.size(); ++v) {
-      if (name[v] == kNone) continue;
-      name[v] = static_cast<Index>(kept.size());
-      kept.push_back(mesh_.points[v]);
-    }
-    for (Triangle& t : mesh_.triangles) t = {name[t[0]], name[t[1]], name[t[2]]};
-    mesh_.points = std::move(kept);
   }
 
   Mesh mesh_;

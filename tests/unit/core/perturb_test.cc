@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/same_place.h"
 #include "core/shapes.h"
 #include "core/solid.h"
 

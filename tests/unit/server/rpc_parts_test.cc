@@ -8,6 +8,7 @@
 #include "rpc/worker_registry.h"
 #include "store/errors.h"
 #include "store_fixture.h"
+#include "wire/identity.h"
 
 namespace affskel::server {
 namespace {
@@ -192,13 +193,13 @@ TEST(WorkerRegistryTest, KnowsTheSupervised) {
   const TestClock clock;
   WorkerRegistry registry(clock);
   v1::WorkerIdentity worker = worker_identity();
-  worker.set_host(host_name());
+  worker.set_host(wire::host_name());
   EXPECT_FALSE(registry.is_supervised(worker));
   registry.add_supervised(worker.pid());
   EXPECT_TRUE(registry.is_supervised(worker));
   worker.set_host("another-host");
   EXPECT_FALSE(registry.is_supervised(worker));
-  worker.set_host(host_name());
+  worker.set_host(wire::host_name());
   registry.seen(worker);
   registry.remove_supervised(worker.pid());
   EXPECT_TRUE(registry.list().empty());

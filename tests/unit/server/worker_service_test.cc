@@ -5,6 +5,7 @@
 #include <list>
 
 #include "service_fixture.h"
+#include "wire/identity.h"
 
 namespace affskel::server {
 namespace {
@@ -178,7 +179,7 @@ TEST_F(WorkerServiceTest, DeadProcessOfAPredecessorIsNoticed) {
   if (child == 0) _exit(0);
   ASSERT_GT(child, 0);
   v1::WorkerIdentity worker = worker_identity();
-  worker.set_host(host_name());
+  worker.set_host(wire::host_name());
   worker.set_pid(static_cast<std::uint32_t>(child));
   options_.store.lease_ms = 3'600'000;  // nobody waits for this deadline
   start();

@@ -82,11 +82,6 @@ int FakeServer::calls(const std::string& method) const {
   return static_cast<int>(std::count(calls_.begin(), calls_.end(), method));
 }
 
-void FakeServer::wait_for_calls(const std::string& method, int times) const {
-  std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [&] { return std::count(calls_.begin(), calls_.end(), method) >= times; });
-}
-
 void FakeServer::wait_for_idle() const {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [&] { return idle_; });

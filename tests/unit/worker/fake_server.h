@@ -49,8 +49,6 @@ class FakeServer final : public v1::WorkerService::Service {
   std::vector<v1::LeaseTaskRequest> lease_requests() const;
   /// How often a method was called, failed calls included.
   int calls(const std::string& method) const;
-  /// Waits until a method was called that often.
-  void wait_for_calls(const std::string& method, int times) const;
   /// Waits until a worker that has nothing else to do is told that there is no work.
   void wait_for_idle() const;
 

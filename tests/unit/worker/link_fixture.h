@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "fake_server.h"
+#include "last_report.h"
+#include "prepared_job.h"
+#include "sample_job.h"
+#include "server_link.h"
+
+namespace affskel::worker {
+
+/// A fake server and the sample job, prepared, for what talks to a server about it.
+class LinkTest : public testing::Test {
+ protected:
+  ServerLink link(std::chrono::seconds patience = std::chrono::seconds(20)) {
+    return ServerLink({server_.address(), patience}, stop_.get_token());
+  }
+
+  FakeServer server_;
+  std::stop_source stop_;
+  PreparedJob prepared_{sample_mesh(), sample_params()};
+  LastReport last_{[](const std::string&, const std::exception_ptr&) { ADD_FAILURE() << "a report failed"; }};
+};
+
+/// The field's bytes after the reports, merged as the server does; expects every report to count its records.
+std::string merged(const PreparedJob& prepared, const std::vector<FakeServer::Report>& reports);
+
+/// All positions that the reports call done, ascending, repeats included.
+std::vector<std::uint64_t> positions(const std::vector<FakeServer::Report>& reports);
+
+}  // namespace affskel::worker

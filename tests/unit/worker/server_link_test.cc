@@ -1,0 +1,87 @@
+#include "server_link.h"
+
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "link_fixture.h"
+
+namespace affskel::worker {
+namespace {
+
+/// Sets the proxy of the environment, and no exceptions from it, while it lives.
+class ProxyEnvironment {
+ public:
+  explicit ProxyEnvironment(const char* proxy) {
+    for (const char* name : {"http_proxy", "grpc_proxy", "https_proxy", "no_proxy", "no_grpc_proxy"}) {
+      const char* value = std::getenv(name);
+      before_.emplace_back(name, value == nullptr ? std::nullopt : std::optional<std::string>(value));
+      unsetenv(name);
+    }
+    setenv("http_proxy", proxy, 1);
+  }
+  ProxyEnvironment(const ProxyEnvironment&) = delete;
+  ProxyEnvironment& operator=(const ProxyEnvironment&) = delete;
+  ~ProxyEnvironment() {
+    for (const auto& [name, value] : before_) {
+      value ? setenv(name, value->c_str(), 1) : unsetenv(name);
+    }
+  }
+
+ private:
+  std::vector<std::pair<const char*, std::optional<std::string>>> before_;
+};
+
+TEST_F(LinkTest, TriesAgainWhileTheServerIsAway) {
+  server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 3);
+  server_.fail_next("RenewLease", {grpc::StatusCode::RESOURCE_EXHAUSTED, "disk full"}, 1);
+  link().renew("t");
+  EXPECT_EQ(server_.calls("RenewLease"), 5);
+}
+
+TEST_F(LinkTest, ReachesAServerOfThisMachineWithoutTheProxyOfTheEnvironment) {
+  const ProxyEnvironment nobody_there("http://127.0.0.1:9");
+  ServerLink({server_.tcp_address(), std::chrono::seconds(1)}, stop_.get_token()).renew("t");
+  EXPECT_EQ(server_.calls("RenewLease"), 1);
+}
+
+TEST_F(LinkTest, SaysOnceThatTheServerIsAway) {
+  std::ostringstream lines;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines)));
+  server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 3);
+  ServerLink to_server = link();
+  to_server.renew("t");
+  to_server.renew("t");
+  spdlog::set_default_logger(before);
+  const std::string log = lines.str();
+  const std::size_t first = log.find("does not answer");
+  EXPECT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("does not answer", first + 1), std::string::npos) << log;
+}
+
+TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {
+  server_.fail_next("RenewLease", {grpc::StatusCode::ABORTED, "fenced"});
+  EXPECT_THROW(link().renew("t"), LeaseLost);
+  server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 100);
+  EXPECT_THROW(link(std::chrono::seconds(0)).renew("t"), ServerGone);
+}
+
+TEST_F(LinkTest, FetchesAgainWhatArrivedDamaged) {
+  const std::string mesh = sample_mesh();
+  server_.set_input(v1::ARTIFACT_KIND_MESH, mesh);
+  server_.damage_next_fetch();
+  EXPECT_TRUE(link().fetch("t", v1::ARTIFACT_KIND_MESH) == mesh);
+  EXPECT_EQ(server_.calls("FetchInput1"), 2);
+}
+
+}  // namespace
+}  // namespace affskel::worker
