@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/affine_map.h"
+#include "core/base/affine_map.h"
 
 namespace affskel::client {
 

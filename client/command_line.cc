@@ -4,8 +4,8 @@
 
 #include "client/command_parts.h"
 #include "client/help_format.h"
-#include "core/directions.h"
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/erosion/directions.h"
 #include "wire/version.h"
 
 namespace affskel::client {

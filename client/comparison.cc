@@ -9,9 +9,9 @@
 #include "client/importers/shape_file.h"
 #include "client/input_file.h"
 #include "client/number_list.h"
-#include "core/error.h"
-#include "core/inner_points.h"
-#include "core/surface_samples.h"
+#include "core/base/error.h"
+#include "core/solid/inner_points.h"
+#include "core/solid/surface_samples.h"
 
 namespace affskel::client {
 namespace {

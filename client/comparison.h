@@ -8,7 +8,7 @@
 #include "client/console.h"
 #include "client/options.h"
 #include "client/render/curve_plot.h"
-#include "core/similarity.h"
+#include "core/quality/similarity.h"
 
 namespace affskel::client {
 

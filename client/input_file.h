@@ -5,8 +5,8 @@
 
 #include "client/console.h"
 #include "client/error.h"
-#include "core/mesh_io.h"
-#include "core/solid.h"
+#include "core/mesh/mesh_io.h"
+#include "core/solid/solid.h"
 
 namespace affskel::client {
 

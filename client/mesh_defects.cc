@@ -4,7 +4,7 @@
 #include <array>
 #include <tuple>
 
-#include "core/same_place.h"
+#include "core/mesh/same_place.h"
 
 namespace affskel::client {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh_io.h"
+#include "core/mesh/mesh_io.h"
 
 namespace affskel::client {
 

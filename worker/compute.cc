@@ -11,14 +11,14 @@
 #include <system_error>
 #include <vector>
 
-#include "core/directions.h"
-#include "core/erosion.h"
-#include "core/error.h"
-#include "core/lattice.h"
-#include "core/mesh_io.h"
-#include "core/solid.h"
-#include "core/solid_frame.h"
-#include "core/stopwatch.h"
+#include "core/base/error.h"
+#include "core/base/stopwatch.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/erosion.h"
+#include "core/lattice/lattice.h"
+#include "core/mesh/mesh_io.h"
+#include "core/solid/solid.h"
+#include "core/solid/solid_frame.h"
 #include "field_file.h"
 #include "wire/direction_order.h"
 

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "core/directions.h"
-#include "core/field.h"
-#include "core/lattice.h"
-#include "core/solid.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/field.h"
+#include "core/lattice/lattice.h"
+#include "core/solid/solid.h"
 
 namespace affskel::worker {
 

@@ -11,8 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "core/error.h"
-#include "core/version.h"
+#include "core/base/error.h"
+#include "core/base/version.h"
 #include "derive/derive.h"
 #include "erode_task.h"
 #include "last_report.h"

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "compute.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "lease_loop.h"
 #include "stop_signal.h"
 #include "wire/address.h"

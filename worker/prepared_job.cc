@@ -7,9 +7,9 @@
 #include <cstring>
 #include <set>
 
-#include "core/error.h"
-#include "core/mesh_io.h"
-#include "core/solid_frame.h"
+#include "core/base/error.h"
+#include "core/mesh/mesh_io.h"
+#include "core/solid/solid_frame.h"
 #include "wire/address.h"
 
 namespace affskel::worker {

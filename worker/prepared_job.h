@@ -5,11 +5,11 @@
 #include <string_view>
 
 #include "affskel/v1/types.pb.h"
-#include "core/directions.h"
-#include "core/erosion.h"
-#include "core/lattice.h"
-#include "core/matrix3.h"
-#include "core/solid.h"
+#include "core/base/matrix3.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/erosion.h"
+#include "core/lattice/lattice.h"
+#include "core/solid/solid.h"
 
 namespace affskel::worker {
 

@@ -1,6 +1,6 @@
 #include "result_bytes.h"
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace affskel::worker {
 

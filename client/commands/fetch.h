@@ -6,7 +6,7 @@
 
 #include "client/commands/context.h"
 #include "client/error.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::client {
 

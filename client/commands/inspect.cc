@@ -5,7 +5,7 @@
 #include "client/input_file.h"
 #include "client/job_text.h"
 #include "client/mesh_defects.h"
-#include "core/solid.h"
+#include "core/solid/solid.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {

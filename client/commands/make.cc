@@ -5,8 +5,8 @@
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
 #include "client/exporters/mesh_writer.h"
-#include "core/body.h"
-#include "core/shapes.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::client {
 namespace {

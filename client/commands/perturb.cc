@@ -1,4 +1,4 @@
-#include "core/perturb.h"
+#include "core/mesh/perturb.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,9 +9,9 @@
 #include "client/exporters/numbers.h"
 #include "client/exporters/shape_writer.h"
 #include "client/number_list.h"
-#include "core/error.h"
-#include "core/same_place.h"
-#include "core/self_intersection.h"
+#include "core/base/error.h"
+#include "core/mesh/same_place.h"
+#include "core/mesh/self_intersection.h"
 
 namespace affskel::client {
 namespace {

@@ -8,7 +8,7 @@
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/shape_writer.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace affskel::client {
 namespace {

@@ -11,8 +11,8 @@
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
 #include "client/view/page.h"
-#include "core/chord_pruning.h"
-#include "core/shock_operator.h"
+#include "core/chords/chord_pruning.h"
+#include "core/shocks/shock_operator.h"
 
 namespace affskel::client {
 namespace {

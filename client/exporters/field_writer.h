@@ -7,7 +7,7 @@
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
 #include "client/exporters/lattice_points.h"
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 namespace affskel::client {
 

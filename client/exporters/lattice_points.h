@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 namespace affskel::client {
 

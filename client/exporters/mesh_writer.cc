@@ -8,7 +8,7 @@
 #include "client/error.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/single_precision.h"
-#include "core/mesh_io.h"
+#include "core/mesh/mesh_io.h"
 
 namespace affskel::client {
 namespace {

@@ -7,7 +7,7 @@
 #include "affskel/v1/types.pb.h"
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::client {
 

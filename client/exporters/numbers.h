@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "core/number_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 

@@ -18,7 +18,7 @@
 #include <cmath>
 
 #include "client/error.h"
-#include "core/matrix3.h"
+#include "core/base/matrix3.h"
 
 namespace affskel::client {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "client/importers/ply_header.h"
 #include "client/importers/shape_parsers.h"
-#include "core/error.h"
-#include "core/number_text.h"
-#include "core/text_rows.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/mesh/text_rows.h"
 
 namespace affskel::client {
 namespace {

@@ -11,9 +11,9 @@
 #include "client/exporters/format.h"
 #include "client/importers/shape_parsers.h"
 #include "client/input_file.h"
-#include "core/error.h"
-#include "core/polygon_cut.h"
-#include "core/quad_diagonals.h"
+#include "core/base/error.h"
+#include "core/mesh/polygon_cut.h"
+#include "core/mesh/quad_diagonals.h"
 
 namespace affskel::client {
 namespace {

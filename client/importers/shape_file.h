@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/mesh.h"
-#include "core/mesh_io.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/mesh_io.h"
 
 namespace affskel::client {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "client/importers/shape_parsers.h"
-#include "core/same_place.h"
-#include "core/text_rows.h"
+#include "core/mesh/same_place.h"
+#include "core/mesh/text_rows.h"
 
 namespace affskel::client {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/render/image.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::client {
 

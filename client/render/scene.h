@@ -5,7 +5,7 @@
 
 #include "affskel/v1/types.pb.h"
 #include "client/render/image.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::client {
 

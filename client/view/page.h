@@ -5,7 +5,7 @@
 
 #include "affskel/v1/types.pb.h"
 #include "client/view/view_points.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::client {
 

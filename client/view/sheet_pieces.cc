@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/disjoint_sets.h"
-#include "core/vec3.h"
+#include "core/base/disjoint_sets.h"
+#include "core/base/vec3.h"
 
 namespace affskel::client {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "client/exporters/field_writer.h"
 #include "client/exporters/lattice_points.h"
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 namespace affskel::client {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "clocks.h"
-#include "core/execution_context.h"
-#include "core/mesh_io.h"
+#include "core/base/execution_context.h"
+#include "core/mesh/mesh_io.h"
 #include "wire/direction_order.h"
 
 namespace affskel::bench {

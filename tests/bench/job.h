@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/directions.h"
-#include "core/erosion.h"
-#include "core/lattice.h"
-#include "core/solid.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/erosion.h"
+#include "core/lattice/lattice.h"
+#include "core/solid/solid.h"
 #include "rows.h"
 
 namespace affskel::bench {

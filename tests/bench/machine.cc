@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/version.h"
+#include "core/base/version.h"
 
 namespace affskel::bench {
 namespace {

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/body.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
 #include "forked.h"
 
 namespace affskel::bench {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "core/directions.h"
-#include "core/mesh.h"
+#include "core/erosion/directions.h"
+#include "core/mesh/mesh.h"
 #include "rows.h"
 
 namespace affskel::bench {

@@ -17,7 +17,7 @@
 
 #include "client/exporters/atomic_file.h"
 #include "client/view/page.h"
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 
 namespace {
 

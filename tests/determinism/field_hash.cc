@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/erosion.h"
-#include "core/shapes.h"
-#include "core/solid_frame.h"
-#include "core/zucker_hummel.h"
+#include "core/erosion/erosion.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
+#include "core/shocks/zucker_hummel.h"
+#include "core/solid/solid_frame.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/affine_map.h"
-#include "core/inner_points.h"
+#include "core/base/affine_map.h"
+#include "core/solid/inner_points.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"

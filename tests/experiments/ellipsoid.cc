@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/frame_field.h"
-#include "core/matrix3.h"
-#include "core/shapes.h"
+#include "core/base/matrix3.h"
+#include "core/erosion/frame_field.h"
+#include "core/shapes/shapes.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 #include "report.h"
 
 namespace affskel::experiments {

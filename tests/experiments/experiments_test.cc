@@ -10,7 +10,7 @@
 #include <string>
 
 #include "chart.h"
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 #include "gallery.h"
 #include "job.h"
 #include "report.h"

@@ -5,7 +5,7 @@
 
 #include "client/render/image.h"
 #include "client/render/panel.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::experiments {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <functional>
 
-#include "core/disjoint_sets.h"
-#include "core/erosion.h"
-#include "core/frame_field.h"
-#include "core/lattice_coordinates.h"
-#include "core/skeleton.h"
-#include "core/voxel_topology.h"
+#include "core/base/disjoint_sets.h"
+#include "core/erosion/erosion.h"
+#include "core/erosion/frame_field.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/quality/voxel_topology.h"
+#include "core/shocks/skeleton.h"
 #include "wire/direction_order.h"
 
 namespace affskel::experiments {

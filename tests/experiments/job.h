@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "core/betti_numbers.h"
-#include "core/directions.h"
-#include "core/field.h"
-#include "core/lattice.h"
-#include "core/shock_operator.h"
-#include "core/solid.h"
-#include "core/solid_frame.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/field.h"
+#include "core/lattice/lattice.h"
+#include "core/shocks/shock_operator.h"
+#include "core/solid/betti_numbers.h"
+#include "core/solid/solid.h"
+#include "core/solid/solid_frame.h"
 
 namespace affskel::experiments {
 

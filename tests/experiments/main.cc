@@ -6,8 +6,8 @@
 #include <string>
 #include <thread>
 
-#include "core/stopwatch.h"
-#include "core/version.h"
+#include "core/base/stopwatch.h"
+#include "core/base/version.h"
 #include "experiments.h"
 #include "report.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "core/inner_points.h"
-#include "core/perturb.h"
+#include "core/mesh/perturb.h"
+#include "core/solid/inner_points.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "chart.h"
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 #include "experiments.h"
 #include "job.h"
 

@@ -1,4 +1,4 @@
-#include "core/body.h"
+#include "core/shapes/body.h"
 #include "experiments.h"
 
 namespace affskel::experiments {

@@ -1,8 +1,8 @@
 #include "sheet.h"
 
-#include "core/chord_sheet.h"
-#include "core/frame_field.h"
-#include "core/sheet_topology.h"
+#include "core/chords/chord_sheet.h"
+#include "core/erosion/frame_field.h"
+#include "core/quality/sheet_topology.h"
 
 namespace affskel::experiments {
 

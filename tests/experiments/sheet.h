@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/betti_numbers.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
+#include "core/solid/betti_numbers.h"
 #include "job.h"
 
 namespace affskel::experiments {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chart.h"
-#include "core/similarity.h"
+#include "core/quality/similarity.h"
 #include "job.h"
 #include "report.h"
 

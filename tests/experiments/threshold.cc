@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "core/surface.h"
-#include "core/surface_samples.h"
+#include "core/solid/surface_samples.h"
+#include "core/surface/surface.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"

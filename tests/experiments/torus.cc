@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/body.h"
-#include "core/shapes.h"
-#include "core/solid_frame.h"
-#include "test_solids.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid_frame.h"
+#include "core/test_solids.h"
 
 namespace affskel::property {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/erosion.h"
-#include "core/lattice.h"
-#include "core/mesh.h"
-#include "core/solid.h"
+#include "core/erosion/erosion.h"
+#include "core/lattice/lattice.h"
+#include "core/mesh/mesh.h"
+#include "core/solid/solid.h"
 
 namespace affskel::property {
 

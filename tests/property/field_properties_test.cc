@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "core/test_solids.h"
 #include "drawn_solids.h"
-#include "test_solids.h"
 
 namespace affskel::property {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::reference {
 

@@ -12,15 +12,15 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/directions.h"
-#include "core/erosion.h"
-#include "core/error.h"
-#include "core/lattice.h"
-#include "core/shapes.h"
-#include "core/solid.h"
+#include "core/base/error.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/erosion.h"
+#include "core/lattice/lattice.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
+#include "core/test_solids.h"
 #include "hard_solids.h"
-#include "test_solids.h"
 
 namespace affskel::reference {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/shapes.h"
-#include "test_solids.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
 
 namespace affskel::reference {
 namespace {

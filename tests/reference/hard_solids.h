@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::reference {
 

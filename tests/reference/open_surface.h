@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::reference {
 

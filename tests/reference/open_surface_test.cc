@@ -6,8 +6,8 @@
 #include <array>
 #include <random>
 
-#include "core/shapes.h"
-#include "test_solids.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
 
 namespace affskel::reference {
 namespace {

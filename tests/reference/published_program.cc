@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/stopwatch.h"
+#include "core/base/stopwatch.h"
 #include "open_surface.h"
 
 namespace affskel::reference {

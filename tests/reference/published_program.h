@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::reference {
 

@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/body.h"
-#include "core/directions.h"
-#include "core/join_tree.h"
-#include "core/lattice.h"
-#include "core/shapes.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/join_tree.h"
+#include "core/lattice/lattice.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
 #include "open_surface.h"
-#include "test_solids.h"
 
 namespace affskel::reference {
 namespace {

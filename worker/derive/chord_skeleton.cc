@@ -1,9 +1,9 @@
 #include "derive/chord_skeleton.h"
 
-#include "core/chord_sheet.h"
-#include "core/shock_operator.h"
-#include "core/skeleton_advice.h"
-#include "core/skeleton_quality.h"
+#include "core/chords/chord_sheet.h"
+#include "core/quality/skeleton_advice.h"
+#include "core/quality/skeleton_quality.h"
+#include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
 
 namespace affskel::worker {

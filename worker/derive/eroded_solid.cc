@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/eroded_solid.h"
-#include "core/number_text.h"
+#include "core/base/number_text.h"
+#include "core/surface/eroded_solid.h"
 #include "derive/messages.h"
 #include "wire/params.h"
 

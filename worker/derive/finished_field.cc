@@ -1,6 +1,6 @@
 #include "derive/finished_field.h"
 
-#include "core/matrix3.h"
+#include "core/base/matrix3.h"
 
 namespace affskel::worker {
 

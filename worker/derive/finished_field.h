@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/frame_field.h"
-#include "core/lattice_coordinates.h"
+#include "core/erosion/frame_field.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "prepared_job.h"
 
 namespace affskel::worker {

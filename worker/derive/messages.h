@@ -1,8 +1,8 @@
 #pragma once
 
 #include "affskel/v1/types.pb.h"
-#include "core/mesh.h"
-#include "core/skeleton_quality.h"
+#include "core/mesh/mesh.h"
+#include "core/quality/skeleton_quality.h"
 #include "derive/finished_field.h"
 
 namespace affskel::worker {

@@ -2,11 +2,11 @@
 
 #include <bit>
 
-#include "core/error.h"
-#include "core/shock_operator.h"
-#include "core/skeleton.h"
-#include "core/skeleton_quality.h"
-#include "core/surface.h"
+#include "core/base/error.h"
+#include "core/quality/skeleton_quality.h"
+#include "core/shocks/shock_operator.h"
+#include "core/shocks/skeleton.h"
+#include "core/surface/surface.h"
 #include "derive/messages.h"
 #include "result_bytes.h"
 

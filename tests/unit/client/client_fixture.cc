@@ -2,8 +2,8 @@
 
 #include <sstream>
 
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
 #include "sample_data.h"
 #include "test_environment.h"
 

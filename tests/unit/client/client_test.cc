@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "client_fixture.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
 #include "test_environment.h"
 #include "wire/sha256.h"
 

@@ -7,10 +7,10 @@
 
 #include "client/client.h"
 #include "client/importers/shape_file.h"
-#include "core/affine_map.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
-#include "core/solid.h"
+#include "core/base/affine_map.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
 #include "temp_dir.h"
 #include "test_environment.h"
 

@@ -11,7 +11,7 @@
 
 #include "client/error.h"
 #include "client/exporters/mesh_writer.h"
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 #include "temp_dir.h"
 #include "wire/sha256.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::client {
 namespace {

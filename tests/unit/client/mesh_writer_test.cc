@@ -7,8 +7,8 @@
 
 #include "affskel/v1/types.pb.h"
 #include "client/error.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
 #include "temp_dir.h"
 
 namespace affskel::client {

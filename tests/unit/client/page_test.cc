@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "client/error.h"
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::client {
 namespace {

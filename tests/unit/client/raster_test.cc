@@ -11,7 +11,7 @@
 #include "client/render/panel.h"
 #include "client/render/scene.h"
 #include "client/render/text.h"
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 #include "sample_data.h"
 
 namespace affskel::client {

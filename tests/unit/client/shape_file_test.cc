@@ -10,9 +10,9 @@
 #include "client/exporters/numbers.h"
 #include "client/exporters/shape_writer.h"
 #include "client/exporters/skeleton_writer.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
-#include "core/solid.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
 #include "sample_data.h"
 #include "temp_dir.h"
 

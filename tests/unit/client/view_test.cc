@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "client/client.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
 #include "fake_service.h"
 #include "sample_data.h"
 #include "test_environment.h"

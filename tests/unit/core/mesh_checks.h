@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace affskel::core {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/directions.h"
-#include "core/lattice.h"
-#include "core/shapes.h"
+#include "core/erosion/directions.h"
+#include "core/lattice/lattice.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::core {
 

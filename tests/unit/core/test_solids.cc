@@ -1,11 +1,11 @@
-#include "test_solids.h"
+#include "core/test_solids.h"
 
 #include <cmath>
 #include <map>
 #include <random>
 #include <utility>
 
-#include "core/shapes.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::core {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <system_error>
 
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::worker {
 namespace {

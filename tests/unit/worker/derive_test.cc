@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/affine_map.h"
-#include "core/mesh_io.h"
-#include "core/shapes.h"
-#include "core/solid.h"
+#include "core/base/affine_map.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
 #include "sample_job.h"
 
 namespace affskel::worker {

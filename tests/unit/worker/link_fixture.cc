@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/field.h"
+#include "core/erosion/field.h"
 
 namespace affskel::worker {
 

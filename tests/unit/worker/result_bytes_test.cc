@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "affskel/v1/types.pb.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace affskel::worker {
 namespace {

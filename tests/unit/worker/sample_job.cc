@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "core/mesh_io.h"
-#include "core/shapes.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
 #include "wire/address.h"
 #include "wire/direction_order.h"
 

@@ -1,0 +1,40 @@
+#include "core/base/plain_math.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace affskel::core {
+namespace {
+
+TEST(PlainMathTest, LogarithmAgreesWithTheLibrarys) {
+  for (double x = 1e-300; x < 1e300; x *= 1.37) {
+    EXPECT_NEAR(plain_log(x), std::log(x), 1e-15 * (1 + std::abs(std::log(x)))) << x;
+  }
+  EXPECT_EQ(plain_log(1), 0);
+  for (double x = 0.5; x < 2; x += 1e-3) EXPECT_NEAR(plain_log(x), std::log(x), 4e-16) << x;
+}
+
+TEST(PlainMathTest, SineAndCosineAgreeWithTheLibrarys) {
+  for (double degrees = -725; degrees <= 725; degrees += 0.37) {
+    const auto [sine, cosine] = plain_sin_cos_degrees(degrees);
+    const double x = std::fmod(degrees, 360) * std::numbers::pi / 180;
+    EXPECT_NEAR(sine, std::sin(x), 2e-15) << degrees;
+    EXPECT_NEAR(cosine, std::cos(x), 2e-15) << degrees;
+    EXPECT_NEAR(sine * sine + cosine * cosine, 1, 5e-16) << degrees;
+  }
+}
+
+TEST(PlainMathTest, RightAnglesAreExact) {
+  using Pair = std::pair<double, double>;
+  EXPECT_EQ(plain_sin_cos_degrees(0), Pair(0, 1));
+  EXPECT_EQ(plain_sin_cos_degrees(90), Pair(1, 0));
+  EXPECT_EQ(plain_sin_cos_degrees(-90), Pair(-1, 0));
+  EXPECT_EQ(plain_sin_cos_degrees(180), Pair(0, -1));
+  EXPECT_EQ(plain_sin_cos_degrees(270 + 3600), Pair(-1, 0));
+}
+
+}  // namespace
+}  // namespace affskel::core

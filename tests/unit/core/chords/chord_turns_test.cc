@@ -1,0 +1,129 @@
+#include "core/chords/chord_turns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/chords/chord_fields.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// E falls in slope from layer to layer of z: normals at angles to the x axis that the layers are given.
+FrameField layered(const Lattice& lattice, const std::vector<double>& angle) {
+  FrameField field = field_of_branches(lattice, {linear_branch(1, {0, 0, 1})});
+  const auto layers = static_cast<std::uint32_t>(angle.size());
+  for (std::uint32_t p = 0; p < lattice.points; ++p) {
+    const double a = angle[p % layers];
+    field.direction[p] = p % layers;
+    field.gradient[p] = {std::cos(a), 0, std::sin(a)};
+    double erosion = 10;
+    for (std::uint32_t k = 0; k < p % layers; ++k)
+      erosion += 0.5 * (std::sin(angle[k]) + std::sin(angle[k + 1]));
+    field.erosion[p] = erosion;
+  }
+  return field;
+}
+
+std::vector<ChordShock> turned(const BoxLattice& box, const FrameField& field,
+                               const ChordTurnOptions& options) {
+  std::vector<ChordShock> shocks = chord_shocks(box.lattice, field);
+  std::erase_if(shocks, [](const ChordShock& s) { return s.axis != 2; });
+  measure_turns(box.lattice, SolidParts(box.solid, box.lattice), field, shocks, options);
+  return shocks;
+}
+
+ChordTurnOptions unaveraged() {
+  ChordTurnOptions options;
+  options.rounds = 0;
+  return options;
+}
+
+// A jump from +60 to -60 degrees in three steps of 30, 60 and 30: the middle one speaks for 120 degrees.
+TEST(ChordTurns, TheGreatestKinkSpeaksForTheWholeTurn) {
+  const BoxLattice box(5, 5, 9);
+  const double d = kPi / 180;
+  const FrameField field =
+      layered(box.lattice, {60 * d, 60 * d, 60 * d, 30 * d, -30 * d, -60 * d, -60 * d, -60 * d, -60 * d});
+  const std::vector<ChordShock> shocks = turned(box, field, unaveraged());
+  ASSERT_EQ(shocks.size(), 3 * 25U);
+  for (const ChordShock& shock : shocks) {
+    const bool middle = shock.place[2] == 3;
+    EXPECT_NEAR(shock.turn, middle ? 0.75 : shock.opening, 1e-12);  // (1 - cos 120) / 2
+  }
+}
+
+// The same on a line that passes surfaces inside the solid.
+TEST(ChordTurns, TheBandCrossesSurfacesInsideTheSolid) {
+  const BoxLattice box(overlapping_boxes(5, 5, 9));
+  ASSERT_GT(box.lattice.axis[2].runs.size(), 25U);
+  const double d = kPi / 180;
+  const FrameField field =
+      layered(box.lattice, {60 * d, 60 * d, 60 * d, 30 * d, -30 * d, -60 * d, -60 * d, -60 * d, -60 * d});
+  const std::vector<ChordShock> shocks = turned(box, field, unaveraged());
+  ASSERT_EQ(shocks.size(), 3 * 25U);
+  for (const ChordShock& shock : shocks) {
+    EXPECT_NEAR(shock.turn, shock.place[2] == 3 ? 0.75 : shock.opening, 1e-12);
+  }
+}
+
+TEST(ChordTurns, WithoutReachATurnIsTheOpening) {
+  const BoxLattice box(5, 5, 9);
+  const FrameField field = layered(box.lattice, {0.9, 0.9, 0.9, 0.5, -0.5, -0.9, -0.9, -0.9, -0.9});
+  ChordTurnOptions options = unaveraged();
+  options.reach = 0;
+  for (const ChordShock& shock : turned(box, field, options)) EXPECT_EQ(shock.turn, shock.opening);
+}
+
+// A gap of one in a sheet of opposite normals: its cells' means raise it, and lower those beside it.
+TEST(ChordTurns, AveragingCarriesTheTurnAlongTheSheet) {
+  const BoxLattice box(7, 7, 6);
+  FrameField field = layered(box.lattice, {1.5, 1.5, 1.5, -1.5, -1.5, -1.5});
+  std::vector<ChordShock> shocks = turned(box, field, unaveraged());
+  ASSERT_EQ(shocks.size(), 49U);
+  const std::vector<ChordShock> even = turned(box, field, {});
+  for (std::size_t s = 0; s < 49; ++s) EXPECT_NEAR(even[s].turn, shocks[s].turn, 1e-12);
+  // The lower side of the middle column leans: 1.5 -> 0.5 against -1.5.
+  for (std::uint32_t p = 0; p < box.lattice.points; ++p) {
+    if (p / 6 == 24 && p % 6 < 3) field.gradient[p] = {std::cos(0.5), 0, std::sin(0.5)};
+  }
+  const std::vector<ChordShock> own = turned(box, field, unaveraged()), mean = turned(box, field, {});
+  EXPECT_GT(mean[24].turn, own[24].turn + 0.05);
+  EXPECT_LT(mean[23].turn, own[23].turn - 0.005);
+  EXPECT_NEAR(mean[0].turn, own[0].turn, 1e-12);
+}
+
+// What jumps much less than its neighbours keeps its own opening.
+TEST(ChordTurns, ASmallJumpBesideALargeOneDoesNotSpeak) {
+  const BoxLattice box(9, 5, 9);
+  FrameField field = layered(box.lattice, {0.9, 0.9, 0.9, 0.5, -0.5, -0.9, -0.9, -0.9, -0.9});
+  for (std::uint32_t p = 0; p < box.lattice.points; ++p) {
+    if (p / 45 >= 5) continue;  // i < 5: the same normals, areas ten times as large
+    field.gradient[p] = 10 * field.gradient[p];
+    field.erosion[p] *= 10;
+  }
+  for (const ChordShock& shock : turned(box, field, unaveraged())) {
+    if (shock.place[2] != 3) continue;
+    const bool beside = shock.place[0] >= 5 && shock.place[0] <= 7;
+    EXPECT_EQ(shock.turn == shock.opening, beside) << shock.place[0];
+  }
+}
+
+TEST(ChordTurns, RefusesOptionsOutOfRange) {
+  const BoxLattice box(3, 3, 3);
+  const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
+  std::vector<ChordShock> none;
+  for (const ChordTurnOptions& options :
+       {ChordTurnOptions{17, 0.4, 1}, ChordTurnOptions{2, 1.1, 1}, ChordTurnOptions{2, std::nan(""), 1},
+        ChordTurnOptions{2, 0.4, 17}}) {
+    EXPECT_THROW(measure_turns(box.lattice, SolidParts(box.solid, box.lattice), field, none, options),
+                 CoreError);
+  }
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,39 @@
+#include "core/lattice/lattice_coordinates.h"
+
+#include <gtest/gtest.h>
+
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+TEST(LatticePlaces, AreWhereTheWalkOverAllPointsFindsThem) {
+  const Solid solid = make_solid(hollow_ball());
+  LatticeOptions options;
+  options.spacing = 0.4;
+  const Lattice lattice = make_lattice(solid, options);
+  std::vector<std::uint32_t> some;
+  std::vector<LatticePlace> expected;
+  for (const LatticeRun& run : lattice.axis[2].runs) {
+    for (std::uint32_t n = 0; n < run.length; ++n) {
+      if ((run.first + n) % 7 > 1) continue;
+      some.push_back(run.first + n);
+      expected.push_back({run.start[0], run.start[1], run.start[2] + n});
+    }
+  }
+  EXPECT_EQ(lattice_places(lattice, some), expected);
+  EXPECT_TRUE(lattice_places(lattice, {}).empty());
+}
+
+TEST(InnerPlace, IsThePlaceOfTheSamplePoint) {
+  const Solid solid = make_solid(hollow_ball());
+  LatticeOptions options;
+  options.spacing = 0.4;
+  const Lattice lattice = make_lattice(solid, options);
+  const Vec3 expected = SamplePlaces(solid, lattice).at(3, 4, 5);
+  const Vec3 found = solid.centre + solid.scale() * inner_place(lattice, {3, 4, 5});
+  EXPECT_NEAR(norm(found - expected), 0, 1e-14);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,101 @@
+#include "core/quality/sheet_topology.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+// A band of `n` squares, closed to a ring, with a twist or without.
+Mesh band(std::uint32_t n, bool twisted) {
+  Mesh mesh;
+  mesh.points.resize(2 * n);
+  for (std::uint32_t s = 0; s < n; ++s) {
+    const bool cross = twisted && s + 1 == n;
+    const std::uint32_t a = 2 * s, b = a + 1, c = 2 * ((s + 1) % n) + (cross ? 1 : 0),
+                        d = 2 * ((s + 1) % n) + (cross ? 0 : 1);
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({b, c, d});
+  }
+  return mesh;
+}
+
+// The faces of a cube over 8 vertices, and if wanted a wall through two opposite edges.
+Mesh cube(bool with_lid, bool with_wall) {
+  Mesh mesh;
+  mesh.points.resize(8);
+  const auto square = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  square(0, 1, 2, 3);
+  for (std::uint32_t s = 0; s < 4; ++s) square(s, (s + 1) % 4, 4 + (s + 1) % 4, 4 + s);
+  if (with_lid) square(4, 5, 6, 7);
+  if (with_wall) square(0, 2, 6, 4);
+  return mesh;
+}
+
+void expect_topology(const Mesh& sheet, const BettiNumbers& betti, std::uint64_t loops,
+                     std::uint64_t branches) {
+  const SheetTopology found = sheet_topology(sheet);
+  EXPECT_EQ(found.betti.components, betti.components);
+  EXPECT_EQ(found.betti.holes, betti.holes);
+  EXPECT_EQ(found.betti.cavities, betti.cavities);
+  EXPECT_EQ(found.boundary_loops, loops);
+  EXPECT_EQ(found.branch_edges, branches);
+}
+
+TEST(SheetTopology, OfNothingAndOfATriangle) {
+  expect_topology({}, {0, 0, 0}, 0, 0);
+  Mesh lone;
+  lone.points.resize(5);  // two of them unused
+  lone.triangles = {{1, 2, 4}};
+  expect_topology(lone, {1, 0, 0}, 1, 0);
+}
+
+TEST(SheetTopology, OfBands) {
+  expect_topology(band(6, false), {1, 1, 0}, 2, 0);
+  expect_topology(band(7, true), {1, 1, 0}, 1, 0);
+  Mesh two = joined(band(6, false), band(7, true));
+  expect_topology(two, {2, 2, 0}, 3, 0);
+}
+
+TEST(SheetTopology, OfClosedSurfaces) {
+  expect_topology(make_sphere(1, 80), {1, 0, 1}, 0, 0);
+  expect_topology(make_torus(3, 1, 128), {1, 2, 1}, 0, 0);
+  expect_topology(hollow_ball(), {2, 0, 2}, 0, 0);
+}
+
+TEST(SheetTopology, OfSheetsThatBranch) {
+  // Three wings on a common edge.
+  Mesh wings;
+  wings.points.resize(5);
+  wings.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  expect_topology(wings, {1, 0, 0}, 1, 1);
+  // Two triangles that meet at a vertex only.
+  Mesh tie;
+  tie.points.resize(5);
+  tie.triangles = {{0, 1, 2}, {0, 3, 4}};
+  expect_topology(tie, {1, 0, 0}, 1, 0);
+}
+
+// The wall shares the diagonals of floor and lid and two upright edges, where three triangles meet or four.
+TEST(SheetTopology, CountsChambers) {
+  expect_topology(cube(true, false), {1, 0, 1}, 0, 0);
+  expect_topology(cube(false, false), {1, 0, 0}, 1, 0);
+  expect_topology(cube(true, true), {1, 0, 2}, 0, 4);
+  // Without the lid no chamber is closed.
+  EXPECT_EQ(sheet_topology(cube(false, true)).betti, (BettiNumbers{1, 0, 0}));
+  // A fin on a closed surface changes nothing.
+  Mesh finned = cube(true, false);
+  finned.points.resize(9);
+  finned.triangles.push_back({0, 1, 8});
+  expect_topology(finned, {1, 0, 1}, 1, 1);
+}
+
+}  // namespace
+}  // namespace affskel::core

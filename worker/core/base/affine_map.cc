@@ -1,0 +1,168 @@
+#include "core/base/affine_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/plain_math.h"
+
+namespace affskel::core {
+namespace {
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Of magnitude about 1 whatever the unit, so that products of three do not overflow.
+std::array<Vec3, 3> scaled_rows(const AffineMap& map, double& unit) {
+  unit = 0;
+  for (const Vec3& row : map.rows) {
+    unit = std::max({unit, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
+  }
+  int exponent = 0;
+  std::frexp(unit, &exponent);
+  unit = std::ldexp(1.0, exponent);
+  std::array<Vec3, 3> rows = map.rows;
+  for (Vec3& row : rows) row = {row.x / unit, row.y / unit, row.z / unit};
+  return rows;
+}
+
+double triple(const std::array<Vec3, 3>& rows) {
+  return dot(rows[0], cross(rows[1], rows[2]));
+}
+
+std::array<Vec3, 3> cofactors(const std::array<Vec3, 3>& rows) {
+  return {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
+}
+
+void check_regular(const AffineMap& map) {
+  if (is_singular(map)) {
+    throw CoreError(CoreError::Code::kBadInput, "the map is singular or out of range: it has no inverse");
+  }
+}
+
+}  // namespace
+
+AffineMap scaling(double x, double y, double z) {
+  AffineMap map;
+  map.rows = {Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
+  return map;
+}
+
+AffineMap translation(const Vec3& shift) {
+  AffineMap map;
+  map.shift = shift;
+  return map;
+}
+
+AffineMap rotation(int axis, double degrees) {
+  const auto [sine, cosine] = plain_sin_cos_degrees(degrees);
+  AffineMap map;
+  switch (axis) {
+    case 0:
+      map.rows = {Vec3{1, 0, 0}, Vec3{0, cosine, -sine}, Vec3{0, sine, cosine}};
+      break;
+    case 1:
+      map.rows = {Vec3{cosine, 0, sine}, Vec3{0, 1, 0}, Vec3{-sine, 0, cosine}};
+      break;
+    default:
+      map.rows = {Vec3{cosine, -sine, 0}, Vec3{sine, cosine, 0}, Vec3{0, 0, 1}};
+  }
+  return map;
+}
+
+AffineMap shear(int to, int from, double factor) {
+  const auto entry = [&](int row, int column) {
+    return row == column ? 1.0 : row == to && column == from ? factor : 0.0;
+  };
+  AffineMap map;
+  for (int row = 0; row < 3; ++row) {
+    map.rows[static_cast<std::size_t>(row)] = {entry(row, 0), entry(row, 1), entry(row, 2)};
+  }
+  return map;
+}
+
+AffineMap then(const AffineMap& first, const AffineMap& second) {
+  AffineMap both;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& row = second.rows[i];
+    both.rows[i] = row.x * first.rows[0] + row.y * first.rows[1] + row.z * first.rows[2];
+  }
+  both.shift = second(first.shift);
+  return both;
+}
+
+double determinant(const AffineMap& map) {
+  double unit = 0;
+  const double scaled = triple(scaled_rows(map, unit));
+  return ((scaled * unit) * unit) * unit;
+}
+
+bool is_singular(const AffineMap& map) {
+  for (const Vec3& row : map.rows) {
+    if (!is_finite(row)) return true;
+  }
+  if (!is_finite(map.shift)) return true;
+  const double det = determinant(map);
+  if (!std::isnormal(det)) return true;
+  double unit = 0;
+  const std::array<Vec3, 3> rows = scaled_rows(map, unit);
+  return std::abs(triple(rows)) < 1e-12 * norm(rows[0]) * norm(rows[1]) * norm(rows[2]);
+}
+
+AffineMap inverse(const AffineMap& map) {
+  check_regular(map);
+  double unit = 0;
+  const std::array<Vec3, 3> rows = scaled_rows(map, unit);
+  const std::array<Vec3, 3> c = cofactors(rows);
+  const double det = dot(rows[0], c[0]);
+  AffineMap result;
+  for (int i = 0; i < 3; ++i) {
+    // The cofactors, transposed; adding 0 turns a negative zero into a plain one.
+    result.rows[static_cast<std::size_t>(i)] =
+        Vec3{c[0][i] / det / unit, c[1][i] / det / unit, c[2][i] / det / unit} + Vec3{};
+  }
+  result.shift = Vec3{} - result(map.shift);  // the shift is 0 up to here
+  return result;
+}
+
+NormalMap::NormalMap(const AffineMap& map) {
+  check_regular(map);
+  double unit = 0;
+  const std::array<Vec3, 3> rows = scaled_rows(map, unit);
+  cofactors_ = cofactors(rows);
+  turned_ = triple(rows) < 0;
+  identity_ = map.rows == AffineMap{}.rows;
+}
+
+Vec3 NormalMap::operator()(const Vec3& n) const {
+  if (identity_) return n;
+  const Vec3 mapped = {dot(cofactors_[0], n), dot(cofactors_[1], n), dot(cofactors_[2], n)};
+  // Scaled first: squares of tiny or huge vectors would leave the range.
+  const double big = std::max({std::abs(mapped.x), std::abs(mapped.y), std::abs(mapped.z)});
+  if (!(big > 0)) return {};
+  const Vec3 w = {mapped.x / big, mapped.y / big, mapped.z / big};
+  const double length = turned_ ? -norm(w) : norm(w);
+  // Adding 0 turns a negative zero into a plain one.
+  return Vec3{w.x / length, w.y / length, w.z / length} + Vec3{};
+}
+
+Mesh map_mesh(const AffineMap& map, const Mesh& mesh) {
+  check_regular(map);
+  Mesh result = mesh;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    result.points[v] = map(mesh.points[v]);
+    if (!is_finite(result.points[v])) {
+      throw CoreError(CoreError::Code::kBadInput,
+                      "the map takes vertex " + std::to_string(v) + " out of the range of a double");
+    }
+  }
+  if (determinant(map) < 0) {
+    for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
+  }
+  return result;
+}
+
+}  // namespace affskel::core

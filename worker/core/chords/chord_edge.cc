@@ -1,0 +1,51 @@
+#include "core/chords/chord_edge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/near_one.h"
+#include "core/chords/edge_value.h"
+
+namespace affskel::core {
+namespace {
+
+EdgeValue end_value(const FrameField& field, std::uint32_t point, int axis) {
+  return {field.erosion[point], field.gradient[point][axis] * field.spacing};
+}
+
+}  // namespace
+
+double opening_of(const Vec3& a, const Vec3& b) {
+  const Vec3 m = near_one(a), n = near_one(b);
+  return 0.5 * (1 - dot(m, n) / (norm(m) * norm(n)));
+}
+
+ChordShock tangents_on_edge(const FrameField& field, std::uint32_t x, std::uint32_t y, std::uint8_t axis,
+                            const std::array<std::uint32_t, 3>& place) {
+  const EdgeValue at_x = end_value(field, x, axis), at_y = end_value(field, y, axis);
+  ChordShock shock;
+  shock.point = x;
+  shock.upper = y;
+  shock.axis = axis;
+  shock.place = place;
+  shock.t = tangents_crossing(at_x, at_y);
+  shock.strength = tangents_kink(at_x, at_y) / (std::abs(at_x.slope) + std::abs(at_y.slope));
+  shock.opening = opening_of(field.gradient[x], field.gradient[y]);
+  shock.gradient_low = field.gradient[x];
+  shock.gradient_high = field.gradient[y];
+  shock.direction_low = field.direction[x];
+  shock.direction_high = field.direction[y];
+  return shock;
+}
+
+void settle_on_edge(const FrameField& field, ChordShock& shock) {
+  const EdgeValue at_x = end_value(field, shock.point, shock.axis);
+  shock.t = shock.strength > 0 ? std::clamp(shock.t, 0.0, 1.0) : 0.5;
+  shock.erosion = shock.t < 1 ? at_x.erosion + shock.t * at_x.slope : field.erosion[shock.upper];
+  std::array<double, 3> u{};
+  for (std::size_t k = 0; k < 3; ++k) u[k] = shock.place[k];
+  u[shock.axis] += shock.t;
+  shock.position = field.spacing * Vec3{u[0], u[1], u[2]};
+}
+
+}  // namespace affskel::core

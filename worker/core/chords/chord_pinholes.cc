@@ -1,0 +1,55 @@
+#include "core/chords/chord_pinholes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+#include "core/chords/chord_edge.h"
+#include "core/chords/chord_squares.h"
+
+namespace affskel::core {
+namespace {
+
+// The edges without a shock that most of the squares round them ask for one; ascending.
+std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const ChordShock> shocks) {
+  std::vector<std::uint32_t> all(shocks.size());
+  std::iota(all.begin(), all.end(), 0U);
+  std::vector<LatticeElement> asked;  // once by each square on the rim
+  for (const auto& [square, s] : rim_squares(parts, shocks, all)) {
+    const LatticeElement only = edge_of(shocks[s], parts);
+    for (const LatticeElement& edge : edges_of(square)) {
+      if (edge != only) asked.push_back(edge);
+    }
+  }
+  std::sort(asked.begin(), asked.end());
+  std::vector<LatticeElement> result;
+  for (std::size_t first = 0, last; first < asked.size(); first = last) {
+    for (last = first + 1; last < asked.size() && asked[last] == asked[first];) ++last;
+    if (last - first >= kMostOfFour) result.push_back(asked[first]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<ChordShock> pinhole_shocks(const Lattice& lattice, const SolidParts& parts,
+                                       const FrameField& field, std::span<const ChordShock> shocks) {
+  const std::vector<LatticeElement> holes = pinholes(parts, shocks);
+  std::vector<ChordShock> result;
+  if (holes.empty()) return result;
+  for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
+    if (field.direction[x] == field.direction[y]) return;
+    const LatticeElement edge{{place[0], place[1], place[2]}, axis, parts.of_point(x)};
+    if (!std::binary_search(holes.begin(), holes.end(), edge)) return;
+    ChordShock shock = tangents_on_edge(field, x, y, axis, place);
+    if (!(shock.strength > 0)) shock.strength = 0;
+    settle_on_edge(field, shock);
+    shock.turn = shock.opening;
+    result.push_back(shock);
+  });
+  std::sort(result.begin(), result.end(), by_edge);
+  return result;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,73 @@
+#include "core/chords/chord_shocks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/near_one.h"
+#include "core/chords/chord_edge.h"
+#include "core/erosion/field.h"
+
+namespace affskel::core {
+namespace {
+
+void check(double value, double low, double high, const char* message) {
+  if (!(value >= low && value <= high)) throw CoreError(CoreError::Code::kBadInput, message);
+}
+
+class ShockFinder {
+ public:
+  ShockFinder(const Lattice& lattice, const FrameField& field, const ChordShockOptions& options)
+      : lattice_(lattice), field_(field), options_(options) {}
+
+  std::vector<ChordShock> run() {
+    for_each_edge(lattice_, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
+      if (const std::optional<ChordShock> shock = between(x, y, axis, place)) shocks_.push_back(*shock);
+    });
+    std::sort(shocks_.begin(), shocks_.end(), by_edge);
+    return std::move(shocks_);
+  }
+
+ private:
+  std::optional<ChordShock> between(std::uint32_t x, std::uint32_t y, std::uint8_t axis,
+                                    const std::array<std::uint32_t, 3>& place) const {
+    const std::uint32_t none = FieldValue::kNoDirection;
+    if (field_.direction[x] == field_.direction[y] || field_.direction[x] == none ||
+        field_.direction[y] == none) {
+      return {};
+    }
+    ChordShock shock = tangents_on_edge(field_, x, y, axis, place);
+    if (!(shock.strength > 0)) return {};
+    if (!(shock.strength >= options_.least_strength && shock.opening >= options_.least_opening)) return {};
+    if (!(shock.t >= -options_.slack && shock.t <= 1 + options_.slack)) return {};
+    settle_on_edge(field_, shock);
+    shock.turn = shock.opening;
+    return shock;
+  }
+
+  const Lattice& lattice_;
+  const FrameField& field_;
+  const ChordShockOptions& options_;
+  std::vector<ChordShock> shocks_;
+};
+
+}  // namespace
+
+std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
+                                     const ChordShockOptions& options) {
+  check(options.least_strength, 0, 1, "the least strength of a shock must lie between 0 and 1");
+  check(options.least_opening, 0, 1, "the least opening of a shock must lie between 0 and 1");
+  check(options.slack, 0, std::numeric_limits<double>::max(),
+        "the slack of a crossing must be a finite number >= 0");
+  return ShockFinder(lattice, field, options).run();
+}
+
+double squares_of(const ChordShock& shock) {
+  const Vec3 normal = near_one(shock.gradient_low - shock.gradient_high);
+  return std::abs(normal[shock.axis]) / norm(normal);
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,186 @@
+#include "core/erosion/directions.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/split_mix64.h"
+#include "core/shapes/icosahedron.h"
+
+namespace affskel::core {
+namespace {
+
+struct Part {
+  enum class Kind { kTriangles, kSphere, kRandom };
+  Kind kind = Kind::kTriangles;
+  std::uint64_t count = 0;
+  std::uint64_t seed = 0;
+};
+
+[[noreturn]] void fail(std::string_view spec, const std::string& why) {
+  throw CoreError(CoreError::Code::kBadInput,
+                  "directions '" + std::string(spec.substr(0, 100)) + "': " + why +
+                      "; expected triangles, sphere:N or random:N:SEED, joined by +");
+}
+
+std::uint64_t parse_whole(std::string_view digits, std::string_view spec, const char* what) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size()) {
+    fail(spec, std::string(what) + " must be a whole number");
+  }
+  return value;
+}
+
+Part parse_part(std::string_view part, std::string_view spec) {
+  if (part == "triangles") return {};
+  const std::size_t colon = part.find(':');
+  const std::string_view name = part.substr(0, colon);
+  if (colon == std::string_view::npos || (name != "sphere" && name != "random")) {
+    fail(spec, "'" + std::string(part.substr(0, 40)) + "' is not a direction set");
+  }
+  std::string_view rest = part.substr(colon + 1);
+  Part result;
+  if (name == "sphere") {
+    result.kind = Part::Kind::kSphere;
+  } else {
+    result.kind = Part::Kind::kRandom;
+    const std::size_t second = rest.find(':');
+    if (second == std::string_view::npos) fail(spec, "random needs a seed");
+    result.seed = parse_whole(rest.substr(second + 1), spec, "the seed");
+    rest = rest.substr(0, second);
+  }
+  result.count = parse_whole(rest, spec, "the number of directions");
+  if (result.count == 0) fail(spec, "the number of directions must be at least 1");
+  return result;
+}
+
+std::vector<Part> parse(std::string_view spec) {
+  std::vector<Part> parts;
+  for (std::size_t at = 0;;) {
+    const std::size_t plus = spec.find('+', at);
+    parts.push_back(parse_part(spec.substr(at, plus - at), spec));
+    if (plus == std::string_view::npos) return parts;
+    at = plus + 1;
+  }
+}
+
+Vec3 unit(const Vec3& v) {
+  // Scaled first: squares of tiny normals would underflow.
+  const double big = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (big == 0) return {};
+  const Vec3 w{v.x / big, v.y / big, v.z / big};
+  const double length = norm(w);
+  return {w.x / length, w.y / length, w.z / length};
+}
+
+void add_triangles(const Solid& solid, DirectionSet& set) {
+  for (const Triangle& t : solid.mesh.triangles) {
+    const Vec3 &a = solid.mesh.points[t[0]], &b = solid.mesh.points[t[1]], &c = solid.mesh.points[t[2]];
+    set.push_back(-unit(cross(b - a, c - a)));
+  }
+}
+
+void add_face(const Vec3& a, const Vec3& b, const Vec3& c, std::uint64_t f, DirectionSet& set) {
+  const auto n = static_cast<double>(f);
+  const auto at = [&](std::uint64_t i, std::uint64_t j) {
+    const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
+    return unit(((1 - u - v) * a) + ((u * b) + (v * c)));
+  };
+  for (std::uint64_t i = 0; i < f; ++i) {
+    for (std::uint64_t j = 0; i + j < f; ++j) {
+      const Vec3 p = at(i, j), q = at(i + 1, j), r = at(i, j + 1);
+      set.push_back(-unit(cross(q - p, r - p)));
+      if (i + j + 1 == f) continue;
+      const Vec3 s = at(i + 1, j + 1);
+      set.push_back(-unit(cross(s - q, r - q)));
+    }
+  }
+}
+
+std::uint64_t sphere_frequency(std::uint64_t count) {
+  std::uint64_t f = 1;
+  while (20 * f * f < count) ++f;
+  return f;
+}
+
+void add_sphere(std::uint64_t count, DirectionSet& set) {
+  const std::uint64_t f = sphere_frequency(count);
+  const Mesh coarse = icosahedron();
+  for (const Triangle& t : coarse.triangles) {
+    add_face(coarse.points[t[0]], coarse.points[t[1]], coarse.points[t[2]], f, set);
+  }
+}
+
+void add_random(std::uint64_t count, std::uint64_t seed, DirectionSet& set) {
+  SplitMix64 random(seed);
+  for (std::uint64_t i = 0; i < count;) {
+    const Vec3 v{random.symmetric(), random.symmetric(), random.symmetric()};
+    const double square = dot(v, v);
+    if (square > 1 || square < 1e-4) continue;
+    set.push_back(unit(v));
+    ++i;
+  }
+}
+
+// Normals from `first` on: from the frame's coordinates to the mesh's.
+void map_from_frame(const Matrix3& frame, std::size_t first, DirectionSet& set) {
+  if (frame == kIdentity3) return;  // not a bit may change
+  const Matrix3 map = inverse_transposed(frame);
+  for (std::size_t i = first; i < set.size(); ++i) set[i] = unit(map * set[i]);
+}
+
+}  // namespace
+
+DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options) {
+  const std::vector<Part> parts = parse(spec);
+  double total = 0;
+  for (const Part& part : parts) {
+    total += part.kind == Part::Kind::kTriangles ? static_cast<double>(solid.mesh.triangles.size())
+                                                 : static_cast<double>(part.count);
+  }
+  if (total > static_cast<double>(options.max_directions)) {
+    throw CoreError(CoreError::Code::kLimit, "directions '" + std::string(spec.substr(0, 100)) +
+                                                 "': more than " + std::to_string(options.max_directions));
+  }
+  DirectionSet set;
+  for (const Part& part : parts) {
+    const std::size_t before = set.size();
+    switch (part.kind) {
+      case Part::Kind::kTriangles:
+        add_triangles(solid, set);
+        break;
+      case Part::Kind::kSphere:
+        add_sphere(part.count, set);
+        break;
+      case Part::Kind::kRandom:
+        add_random(part.count, part.seed, set);
+        break;
+    }
+    if (part.kind != Part::Kind::kTriangles) map_from_frame(options.frame, before, set);
+  }
+  return set;
+}
+
+std::string canonical_directions(std::string_view spec) {
+  std::string text;
+  for (const Part& part : parse(spec)) {
+    if (!text.empty()) text += "+";
+    switch (part.kind) {
+      case Part::Kind::kTriangles:
+        text += "triangles";
+        break;
+      case Part::Kind::kSphere:
+        text += "sphere:" + std::to_string(part.count);
+        break;
+      case Part::Kind::kRandom:
+        text += "random:" + std::to_string(part.count) + ":" + std::to_string(part.seed);
+        break;
+    }
+  }
+  return text;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,63 @@
+#include "core/erosion/field.h"
+
+#include <bit>
+#include <mutex>
+
+namespace affskel::core {
+namespace {
+
+using Mask = std::atomic_ref<std::uint16_t>;
+
+}  // namespace
+
+ErosionField::ErosionField(std::uint32_t points, bool track_changes)
+    : erosion_(points, std::numeric_limits<double>::infinity()),
+      area_(points, 0),
+      direction_(points, FieldValue::kNoDirection),
+      changed_(track_changes ? points / kGroup + 1 : 0, 0) {}
+
+void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
+  const std::lock_guard<SpinLock> guard(lock_of(point));
+  if (!offered.improves({erosion_[point], area_[point], direction_[point]})) return;
+  std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
+  area_[point] = offered.area;
+  direction_[point] = offered.direction;
+  if (changed_.empty()) return;
+  // Only ever written under the lock; take_changes() looks at it without.
+  const Mask mask(changed_[point / kGroup]);
+  const auto bit = static_cast<std::uint16_t>(1U << (point % kGroup));
+  mask.store(mask.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
+}
+
+void ErosionField::bound(std::uint32_t point, double most) {
+  if (!(most < erosion(point))) return;
+  const std::lock_guard<SpinLock> guard(lock_of(point));
+  if (!(most < erosion_[point])) return;
+  std::atomic_ref<double>(erosion_[point]).store(most, std::memory_order_relaxed);
+  area_[point] = 0;
+  direction_[point] = FieldValue::kNoDirection;
+  if (changed_.empty()) return;
+  const Mask mask(changed_[point / kGroup]);
+  const auto bit = static_cast<std::uint16_t>(1U << (point % kGroup));
+  mask.store(mask.load(std::memory_order_relaxed) & static_cast<std::uint16_t>(~bit),
+             std::memory_order_relaxed);
+}
+
+FieldValue ErosionField::value(std::uint32_t point) const {
+  const std::lock_guard<SpinLock> guard(lock_of(point));
+  return {erosion_[point], area_[point], direction_[point]};
+}
+
+void ErosionField::take_group(std::uint32_t group, ChangedGroup& taken) {
+  taken.count = 0;
+  const std::lock_guard<SpinLock> guard(lock_of(group * kGroup));
+  const Mask mask(changed_[group]);
+  for (unsigned bits = mask.load(std::memory_order_relaxed); bits != 0; bits &= bits - 1) {
+    const std::uint32_t point = group * kGroup + static_cast<std::uint32_t>(std::countr_zero(bits));
+    taken.point[taken.count] = point;
+    taken.value[taken.count++] = {erosion_[point], area_[point], direction_[point]};
+  }
+  mask.store(0, std::memory_order_relaxed);
+}
+
+}  // namespace affskel::core

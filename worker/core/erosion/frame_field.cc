@@ -1,0 +1,48 @@
+#include "core/erosion/frame_field.h"
+
+#include <cmath>
+
+#include "core/base/cube_root.h"
+
+namespace affskel::core {
+Matrix3 frame_matrix(const Lattice& lattice) {
+  const Matrix3& axes = lattice.frame.axes;
+  const bool parallel = axes[0].y == 0 && axes[0].z == 0 && axes[1].x == 0 && axes[1].z == 0 &&
+                        axes[2].x == 0 && axes[2].y == 0 && axes[0].x > 0 && axes[0].x == axes[1].y &&
+                        axes[0].x == axes[2].z;
+  if (parallel) return kIdentity3;
+  const double step = cube_root(std::abs(determinant(axes)));
+  return (1 / step) * axes;
+}
+
+DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& directions) {
+  const Matrix3 f = frame_matrix(lattice);
+  if (f == kIdentity3) return directions;
+  DirectionSet result;
+  result.reserve(directions.size());
+  for (const Vec3& d : directions) {
+    const Vec3 n = transposed_times(f, d);
+    const double length = norm(n);
+    result.push_back(length > 0 ? (1 / length) * n : Vec3{});
+  }
+  return result;
+}
+
+FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,
+                       std::span<const FieldValue> values) {
+  const Matrix3 f = frame_matrix(lattice);
+  FrameField result;
+  result.spacing = lattice.spacing;
+  result.erosion.reserve(values.size());
+  result.gradient.reserve(values.size());
+  result.direction.reserve(values.size());
+  for (const FieldValue& value : values) {
+    const bool known = value.direction != FieldValue::kNoDirection;
+    result.erosion.push_back(value.erosion);
+    result.gradient.push_back(known ? value.area * transposed_times(f, directions[value.direction]) : Vec3{});
+    result.direction.push_back(value.direction);
+  }
+  return result;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/matrix3.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/field.h"
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+// Notation.  A lattice defines a frame: coordinates u in which it is parallel to the axes with the step
+// `spacing`, lattice point (i, j, k) at u = spacing (i, j, k).  A mesh place is x = o + F u with det F = 1
+// (or -1), F's columns the lattice's axes divided by the spacing.  Volumes are the same in both.  A plane
+// with normal n in mesh coordinates has the normal F^T n / |F^T n| in the frame, and grad_u E = F^T grad E.
+
+/// F, column by column; exactly the identity for a lattice parallel to the axes.
+Matrix3 frame_matrix(const Lattice& lattice);
+
+/// The directions as unit normals in the frame: F^T d / |F^T d|; those of zero length stay so.  Exactly the
+/// given ones when F is the identity.
+DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& directions);
+
+/// A finished erosion field in the frame of its lattice: what shock operators and level surfaces work on.
+struct FrameField {
+  double spacing = 0;                    ///< of the lattice
+  std::vector<double> erosion;           ///< per sample point: E, volume
+  std::vector<Vec3> gradient;            ///< per sample point: grad_u E = A F^T n, exact (envelope theorem)
+  std::vector<std::uint32_t> direction;  ///< per sample point: index of the optimal direction
+};
+
+/// @param values E (mesh units cubed), area (mesh units squared) and direction per sample point; a point
+///   without a direction gets E = +infinity and gradient 0.
+FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,
+                       std::span<const FieldValue> values);
+
+}  // namespace affskel::core

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+/// Sorts the vertices of a mesh by height d.y, direction after direction.
+///
+/// Heights are rounded to multiples of 2^-44 (coordinates are at most 1/2 in size), so that the vertices of
+/// a level face tie although their products round differently.  Ties are broken as by an infinitely
+/// small tilt of d, then by index: a level face then has one lowest vertex, not a scatter of false minima.
+class HeightOrder {
+ public:
+  explicit HeightOrder(const std::vector<Vec3>& points);
+
+  /// Fills order and height for unit vector d.  O(V).
+  void sort(const Vec3& d);
+
+  const std::vector<std::uint32_t>& order() const { return order_; }  ///< vertex, by rank
+  const std::vector<double>& height() const { return height_; }       ///< rounded height, by rank
+
+ private:
+  struct Entry {
+    std::uint32_t key;
+    std::uint32_t vertex;
+  };
+
+  void compute_keys(const Vec3& d, int key_bits);
+  void comparison_sort();
+  template <int bits, int passes>
+  void radix_sort();
+  void settle_equal_keys();
+  bool below(std::uint32_t a, std::uint32_t b) const;
+
+  std::vector<double> x_, y_, z_;
+  std::vector<double> tilt_;             // by vertex: height along the tilt
+  std::vector<double> rounded_;          // by vertex
+  std::vector<Entry> entries_, buffer_;  // key: height scaled to so many bits
+  std::vector<std::uint32_t> order_;
+  std::vector<double> height_;
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,361 @@
+// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A(t) is
+// the area of a component's section at height t, V(t) its integral, the component's volume below t.  A is
+// quadratic between vertices; what changes at them is prepared by section_bends.
+//
+// A surface that crosses itself bounds the region that it winds round at least once, with overlaps counted
+// twice in volumes.  Components of that region are those of the surface's parts, joined where parts cross
+// (at_crossing) and where one is born inside another (nested minima, treated as inner ones).
+#include "core/erosion/join_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/erosion/height_order.h"
+#include "core/erosion/section_bends.h"
+#include "core/erosion/tree_input.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kNone = SectionBends::kNone;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kThinRim = 1e-9;  // radians: what angle-weighted normals sum up to
+// Small trees get about this many cells in all: filling them costs less than the chords they save.
+constexpr std::uint32_t kFewCells = 1024;
+// Vertices in the order of their heights lie all over the memory of a large mesh; asking for them this many
+// ahead hides the wait.
+constexpr std::uint32_t kAhead = 16;
+
+// The exact A' and A'' / 2 of one component at its last piece, which has them rounded.  Nearly level
+// triangles make these two huge until they cancel; A and V stay moderate, and the piece's own are good
+// enough.
+struct Running {
+  DoubleSum slope, bend;
+};
+
+// Up to `height` from the last piece; adds volume, area and the exact values there to `sum` and `exact`.
+inline void advance(const Running& running, const Piece& last, double height, Piece& sum, Running& exact) {
+  sum.volume += last.volume_at(height);
+  sum.area += last.area_at(height);
+  exact.slope.add(running.slope);
+  exact.slope.add(times(running.bend, 2 * (height - last.height)));
+  exact.bend.add(running.bend);
+}
+
+// The arcs as the topology pass finds them.
+struct Topology {
+  std::vector<std::uint32_t> vertex_arc;      // per vertex
+  std::vector<std::uint32_t> start_rank;      // per arc: the vertex it starts at
+  std::vector<std::uint32_t> piece_count;     // per arc
+  std::vector<std::uint32_t> arc_solid;       // per arc
+  std::vector<std::uint32_t> children_begin;  // per arc and one more
+  std::vector<std::uint32_t> children;
+  std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
+};
+
+// Adds up the coefficients vertex by vertex and writes the pieces; returns the most negative step of a
+// volume.
+double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends& bends,
+                    const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
+  constexpr double kThird = 1.0 / 3;
+  double least_step = 0;
+  auto jump = bends.jumps.begin();
+  for (std::uint32_t r = 0; r < order.size(); ++r) {
+    if (r + kAhead < order.size()) {
+      bends.prefetch(order[r + kAhead]);
+      __builtin_prefetch(&topology.vertex_arc[order[r + kAhead]]);
+    }
+    const SectionBends::Vertex& vertex = bends.vertices[order[r]];
+    const std::uint32_t a = topology.vertex_arc[order[r]];
+    Arc& arc = tree.arcs[a];
+    Piece piece{.height = vertex.height};
+    Running exact;
+    double before = -kInfinity;
+    if (topology.start_rank[a] == r) {
+      for (std::uint32_t i = topology.children_begin[a]; i < topology.children_begin[a + 1]; ++i) {
+        const std::uint32_t child = topology.children[i];
+        advance(running[child], tree.pieces[tree.arcs[child].last_piece], vertex.height, piece, exact);
+      }
+    } else {
+      const Piece& last = tree.pieces[arc.last_piece];
+      advance(running[a], last, vertex.height, piece, exact);
+      before = last.volume;
+      arc.last_piece += last.height != vertex.height ? 1 : 0;
+    }
+    exact.bend.add(vertex.bend[0], vertex.bend[1]);
+    const std::uint32_t steep = bends.links[order[r]].steep;
+    if (steep != kNone) exact.bend.add(bends.steep_bend[steep]);
+    for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
+      piece.volume += jump->volume;
+      piece.area += jump->area;
+      exact.slope.add(jump->slope);
+    }
+    piece.half_slope = 0.5 * exact.slope.value();
+    piece.sixth_bend = kThird * exact.bend.value();
+    least_step = std::min(least_step, piece.volume - before);
+    running[a] = exact;
+    tree.pieces[arc.last_piece] = piece;
+  }
+  return least_step;
+}
+
+}  // namespace
+
+class JoinTreeBuilder::Work {
+ public:
+  Work(const TreeInput& input, const JoinTreeOptions& options)
+      : input_(input.data()),
+        tolerance_(input.volume_tolerance()),
+        options_(options),
+        heights_(input_.mesh.points) {
+    const std::size_t vertices = input_.mesh.points.size(), triangles = input_.mesh.triangles.size();
+    topology_.vertex_arc.resize(vertices);
+    tree_.triangle_arc.resize(triangles);
+    tree_.pieces.resize(vertices);
+  }
+
+  const JoinTree& run(const Vec3& d) {
+    d_ = d;
+    heights_.sort(d);
+    reset();
+    find_section_bends(input_, heights_, d, vertex_);
+    find_arcs();
+    lay_out_pieces();
+    running_.resize(tree_.arcs.size());
+    tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
+    fill_cells();
+    for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
+      tree_.triangle_arc[input_.original_triangle[t]] = topology_.vertex_arc[vertex_.lowest[t]];
+    }
+    if (options_.check_invariants) check();
+    return tree_;
+  }
+
+ private:
+  void reset() {
+    tree_.arcs.clear();
+    topology_.start_rank.clear();
+    topology_.piece_count.clear();
+    topology_.arc_solid.clear();
+    topology_.children.clear();
+    topology_.children_begin.assign(1, 0);
+    topology_.current.clear();
+  }
+
+  std::uint32_t find(std::uint32_t arc) {
+    std::vector<std::uint32_t>& current = topology_.current;
+    while (current[arc] != arc) {
+      current[arc] = current[current[arc]];
+      arc = current[arc];
+    }
+    return arc;
+  }
+
+  std::uint32_t arc_of(std::uint32_t vertex) { return find(topology_.vertex_arc[vertex]); }
+
+  // Whether the triangle begins below rank r.
+  bool begins_below(std::uint32_t triangle, std::uint32_t r) const {
+    return vertex_.vertices[vertex_.lowest[triangle]].rank < r;
+  }
+
+  void find_arcs() {
+    const std::vector<std::uint32_t>& order = heights_.order();
+    for (std::uint32_t r = 0; r < order.size(); ++r) {
+      if (r + kAhead < order.size()) {
+        vertex_.prefetch(order[r + kAhead]);
+        __builtin_prefetch(&topology_.vertex_arc[order[r + kAhead]], 1);
+      }
+      const std::uint32_t v = order[r];
+      const SectionBends::Vertex& vertex = vertex_.vertices[v];
+      std::uint32_t arc = 0;
+      if (!input_.crossing(v).empty()) {
+        arc = at_crossing(r);
+      } else if (vertex.down == kNone) {
+        arc = at_minimum(r);
+      } else if (vertex_.links[v].middles <= 2) {
+        arc = arc_of(vertex.down);
+      } else {
+        arc = at_saddle(r);
+      }
+      topology_.vertex_arc[v] = arc;
+      ++topology_.piece_count[arc];
+    }
+  }
+
+  std::uint32_t new_arc(std::uint32_t rank, std::uint32_t solid) {
+    const auto arc = static_cast<std::uint32_t>(tree_.arcs.size());
+    tree_.arcs.emplace_back();
+    tree_.arcs.back().top = kInfinity;
+    topology_.start_rank.push_back(rank);
+    topology_.piece_count.push_back(0);
+    topology_.arc_solid.push_back(solid);
+    topology_.current.push_back(arc);
+    topology_.children_begin.push_back(static_cast<std::uint32_t>(topology_.children.size()));
+    return arc;
+  }
+
+  // The star of v lies above it, so v is the point of the star closest to v - s d, and the
+  // angle-weighted pseudonormal tells whether that is outside (Baerentzen & Aanaes 2005, theorem 1): then
+  // the solid lies above and a component is born.
+  std::uint32_t at_minimum(std::uint32_t r) {
+    const std::uint32_t v = heights_.order()[r];
+    const bool nested = !input_.nested.empty() && input_.nested[v] != 0;
+    const double up = -dot(input_.pseudonormal[v], d_);
+    if (up > 0 && !nested) return new_arc(r, input_.vertex_solid[v]);
+    const std::uint32_t below =
+        input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return begins_below(t, r); });
+    if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
+    // At the rim of a thin plate the normals of its two sides cancel but for rounding.
+    const bool undecided = up > -kThinRim;
+    if (options_.check_invariants && !undecided) {
+      throw CoreError(CoreError::Code::kInternal, "direction " + in_words(d_) +
+                                                      ": no surface below the inner minimum at vertex " +
+                                                      std::to_string(input_.original_vertex[v]));
+    }
+    return new_arc(r, input_.vertex_solid[v]);
+  }
+
+  std::uint32_t at_saddle(std::uint32_t r) {
+    meeting_.clear();
+    gather_fan(r);
+    return join_meeting(r);
+  }
+
+  // Where the surface crosses itself the parts of the solid on both sides overlap and are one.  Joined at
+  // the lower ends of the two triangles, at most their height too early: that makes single chords too large,
+  // which other directions put right, and none too small, which nothing would.
+  std::uint32_t at_crossing(std::uint32_t r) {
+    meeting_.clear();
+    gather_fan(r);
+    for (std::uint32_t t : input_.crossing(heights_.order()[r])) {
+      if (begins_below(t, r)) meeting_.push_back(arc_of(vertex_.lowest[t]));
+    }
+    return meeting_.empty() ? at_minimum(r) : join_meeting(r);
+  }
+
+  void gather_fan(std::uint32_t r) {
+    const std::uint32_t v = heights_.order()[r];
+    for (std::uint32_t t : input_.fan(v)) {
+      if (vertex_.lowest[t] != v) meeting_.push_back(arc_of(vertex_.lowest[t]));
+    }
+  }
+
+  std::uint32_t join_meeting(std::uint32_t r) {
+    std::sort(meeting_.begin(), meeting_.end());
+    meeting_.erase(std::unique(meeting_.begin(), meeting_.end()), meeting_.end());
+    if (meeting_.size() == 1) return meeting_[0];
+    topology_.children.insert(topology_.children.end(), meeting_.begin(), meeting_.end());
+    const std::uint32_t arc = new_arc(r, topology_.arc_solid[meeting_[0]]);
+    for (std::uint32_t child : meeting_) {
+      tree_.arcs[child].top = heights_.height()[r];
+      tree_.arcs[child].parent = arc;
+      topology_.current[child] = arc;
+    }
+    return arc;
+  }
+
+  void lay_out_pieces() {
+    std::uint32_t next = 0;
+    tree_.roots = 0;
+    for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
+      tree_.arcs[a].first_piece = tree_.arcs[a].last_piece = next;
+      next += topology_.piece_count[a];
+      tree_.roots += tree_.arcs[a].parent == Arc::kNone;
+    }
+  }
+
+  // Cells of equal height, as many as pieces or, in small trees, a multiple of that.  Entry c: the last piece
+  // in a cell before c, else the first piece, which therefore reaches up to where cell c begins; one entry
+  // more after the last cell: the last piece.
+  void fill_cells() {
+    const auto pieces = static_cast<std::uint32_t>(tree_.pieces.size());
+    const std::uint32_t cells_per_piece = pieces < kFewCells ? kFewCells / pieces : 1;
+    tree_.cells.resize(std::size_t{pieces} * cells_per_piece + 2 * tree_.arcs.size());
+    tree_.cell_volume.resize(tree_.cells.size());
+    std::uint32_t next = 0;
+    for (Arc& arc : tree_.arcs) {
+      arc.first_cell = next;
+      arc.last_cell = next + (arc.last_piece - arc.first_piece) * cells_per_piece;
+      fill_cells(arc);
+      next = arc.last_cell + 2;
+    }
+  }
+
+  // Without a branch: how many pieces fall into a cell cannot be foreseen.
+  void fill_cells(Arc& arc) {
+    const std::uint32_t last = arc.last_piece - arc.first_piece, last_cell = arc.last_cell - arc.first_cell;
+    const Piece* pieces = &tree_.pieces[arc.first_piece];
+    const double span = pieces[last].height - pieces[0].height;
+    arc.bottom = pieces[0].height;
+    arc.cell_scale = span > 0 ? last_cell / span : 0;
+    const double side = span > 0 ? span / last_cell : 0;
+    std::uint32_t* entry = &tree_.cells[arc.first_cell];
+    double* volume = &tree_.cell_volume[arc.first_cell];
+    std::fill(entry, entry + last_cell + 2, 0);
+    for (std::uint32_t i = 0; i <= last; ++i) {
+      entry[JoinTree::cell(arc, pieces[i].height) - arc.first_cell + 1] = i;
+    }
+    std::uint32_t before = 0;
+    for (std::uint32_t c = 0; c <= last_cell; ++c) {
+      before = std::max(before, entry[c]);
+      entry[c] = arc.first_piece + before;
+      volume[c] = pieces[before].volume_at(std::min(arc.bottom + c * side, pieces[last].height));
+    }
+    entry[last_cell + 1] = arc.last_piece;
+    volume[last_cell + 1] = pieces[last].volume;
+  }
+
+  void check() const {
+    if (tree_.roots != input_.solid_volume.size()) {
+      throw_invariant(std::to_string(tree_.roots) + " roots for " +
+                      std::to_string(input_.solid_volume.size()) + " solids");
+    }
+    if (tree_.least_step < -tolerance_) {
+      throw_invariant("the volume falls by " + std::to_string(-tree_.least_step / input_.volume) +
+                      " v0 along an arc");
+    }
+    for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
+      if (tree_.arcs[a].parent != Arc::kNone) continue;
+      const double volume = tree_.pieces[tree_.arcs[a].last_piece].volume;
+      const double expected = input_.solid_volume[topology_.arc_solid[a]];
+      if (!(std::abs(volume - expected) <= tolerance_)) {
+        throw_invariant("the tree of solid " + std::to_string(topology_.arc_solid[a]) + " holds 1 + " +
+                        to_text(volume / expected - 1) + " of its volume");
+      }
+    }
+  }
+
+  static std::string in_words(const Vec3& d) {
+    return "(" + to_text(d.x) + ", " + to_text(d.y) + ", " + to_text(d.z) + ")";
+  }
+
+  [[noreturn]] void throw_invariant(const std::string& what) const {
+    throw CoreError(CoreError::Code::kInternal,
+                    "join tree invariant broken for direction " + in_words(d_) + ": " + what);
+  }
+
+  const TreeInput::Data& input_;
+  double tolerance_;
+  JoinTreeOptions options_;
+  Vec3 d_;
+  HeightOrder heights_;
+  SectionBends vertex_;
+  Topology topology_;
+  std::vector<Running> running_;
+  std::vector<std::uint32_t> meeting_;
+  JoinTree tree_;
+};
+
+JoinTreeBuilder::JoinTreeBuilder(const TreeInput& input, const JoinTreeOptions& options)
+    : work_(std::make_unique<Work>(input, options)) {}
+JoinTreeBuilder::~JoinTreeBuilder() = default;
+
+const JoinTree& JoinTreeBuilder::build(const Vec3& d) {
+  return work_->run(d);
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+/// V(h) along one arc from one vertex height to the next, inner units:
+///   volume(h) = V + s (A + s (b + s c)),  area(h) = A + s (2 b + 3 s c),  s = h - height.
+struct Piece {
+  double height = 0;
+  double volume = 0;      ///< V, volume of the component below `height`
+  double area = 0;        ///< A, area of its section
+  double half_slope = 0;  ///< b = A' / 2
+  double sixth_bend = 0;  ///< c = A'' / 6
+
+  double volume_at(double h) const {
+    const double s = h - height;
+    return volume + s * (area + s * (half_slope + s * sixth_bend));
+  }
+  double area_at(double h) const {
+    const double s = h - height;
+    return area + s * (2 * half_slope + 3 * s * sixth_bend);
+  }
+};
+
+/// An arc of the tree: one component from the height where it is born or where others merge into it up
+/// to `top`, where it merges into `parent`.
+struct Arc {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  double top = 0;                 ///< +infinity for a root
+  double bottom = 0;              ///< height of the first piece
+  std::uint32_t parent = kNone;   ///< kNone for a root
+  std::uint32_t first_piece = 0;  ///< pieces [first_piece, last_piece], by height; at least one
+  std::uint32_t last_piece = 0;
+  std::uint32_t first_cell = 0;  ///< of the look-up table, see JoinTree::cell()
+  std::uint32_t last_cell = 0;
+  double cell_scale = 0;  ///< cells per unit of height
+};
+
+/// The sublevel join tree of a solid for one direction d: the components of {y in V : d.y <= t} as t
+/// rises, with their exact volumes (design section 2).
+struct JoinTree {
+  std::vector<Arc> arcs;
+  std::vector<Piece> pieces;
+  /// Per cell, and one more per arc: the least piece of the cell's heights.
+  std::vector<std::uint32_t> cells;
+  std::vector<double> cell_volume;          ///< parallel to cells: V at the least height of the cell
+  std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
+  std::uint32_t roots = 0;
+  double least_step = 0;  ///< the most negative change of volume between neighbouring pieces, inner units
+
+  /// The arc at height h of the component that holds the lowest vertex of `triangle`.
+  std::uint32_t climb(std::uint32_t triangle, double h) const {
+    std::uint32_t arc = triangle_arc[triangle];
+    while (h >= arcs[arc].top) arc = arcs[arc].parent;
+    return arc;
+  }
+
+  /// The look-up table's cell for height h of the arc.  Grows with h.
+  static std::uint32_t cell(const Arc& arc, double h) {
+    const double c = (h - arc.bottom) * arc.cell_scale;
+    const std::uint32_t last = arc.last_cell - arc.first_cell;
+    return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
+  }
+
+  /// A volume that V(h) is not below, but for twice TreeInput::volume_tolerance(): V at or shortly under h.
+  /// One look-up.
+  double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
+
+  /// The piece of `arc` that holds height h: the last one that starts at or below h, else the first.
+  const Piece& locate(const Arc& arc, double h) const {
+    // It lies between the entries of h's cell and of the next one.
+    const std::uint32_t* entry = &cells[cell(arc, h)];
+    const Piece* first = &pieces[entry[0]];
+    const Piece* last = &pieces[entry[1]];
+    while (last - first > 8) {
+      const Piece* middle = first + (last - first) / 2;
+      (middle->height <= h ? first : last) = middle->height <= h ? middle : middle - 1;
+    }
+    while (first != last && first[1].height <= h) ++first;
+    return *first;
+  }
+};
+
+/// What all directions of a solid share: area vectors, fans, the ray hierarchy.  Immutable; threads share
+/// it.  Keeps a reference to the solid.
+class TreeInput {
+ public:
+  /// Computed on up to `threads` threads.
+  explicit TreeInput(const Solid& solid, unsigned threads = 1);
+  ~TreeInput();
+  TreeInput(TreeInput&&) noexcept;
+
+  struct Data;
+  const Data& data() const { return *data_; }
+
+  /// Triangles and edges that rise less than this (inner units) count as level.
+  static constexpr double kLevelHeight = 1e-11;
+
+  /// By how much a computed volume may be off or fall along a run, inner units: 1e-9 v0 and kLevelHeight
+  /// times the surface (which includes what the rounding of heights to 2^-44 moves it).
+  double volume_tolerance() const;
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+struct JoinTreeOptions {
+  /// Check that the roots are as many as the solids and that every root's volume at its top is its
+  /// solid's, and that volumes never fall, both within TreeInput::volume_tolerance(); off for meshes that
+  /// cross themselves, where it need not hold.
+  bool check_invariants = true;
+};
+
+/// Builds trees for one direction after another, reusing its memory.  One per thread.
+class JoinTreeBuilder {
+ public:
+  explicit JoinTreeBuilder(const TreeInput& input, const JoinTreeOptions& options = {});
+  ~JoinTreeBuilder();
+
+  /// The tree for unit vector d; valid until the next call.  O(N log N).
+  /// @throws CoreError kInternal when an invariant fails.
+  const JoinTree& build(const Vec3& d);
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace affskel::core

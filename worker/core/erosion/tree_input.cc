@@ -1,0 +1,144 @@
+#include "core/erosion/tree_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/mesh/locality_order.h"
+#include "core/solid/solid_membership.h"
+
+namespace affskel::core {
+namespace {
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+Vec3 pseudonormal_of(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> fan) {
+  Vec3 sum;
+  for (std::uint32_t t : fan) {
+    const Triangle& c = mesh.triangles[t];
+    const std::size_t i = c[0] == vertex ? 0 : c[1] == vertex ? 1 : 2;
+    const Vec3 &p = mesh.points[vertex], &q = mesh.points[c[(i + 1) % 3]], &r = mesh.points[c[(i + 2) % 3]];
+    const Vec3 twice = cross(q - p, r - p);
+    const double length = norm(twice);
+    if (length != 0) sum = sum + (angle_between(q - p, r - p) / length) * twice;
+  }
+  return sum;
+}
+
+std::vector<Vec3> centroids(const Mesh& mesh) {
+  std::vector<Vec3> result;
+  result.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    result.push_back((1.0 / 3) * (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]));
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  return place;
+}
+
+Mesh in_order(const Mesh& mesh, const std::vector<std::uint32_t>& vertices,
+              const std::vector<std::uint32_t>& triangles) {
+  const std::vector<std::uint32_t> place = inverse(vertices);
+  Mesh result;
+  result.points.reserve(vertices.size());
+  for (const std::uint32_t v : vertices) result.points.push_back(mesh.points[v]);
+  result.triangles.reserve(triangles.size());
+  for (const std::uint32_t t : triangles) {
+    const Triangle& c = mesh.triangles[t];
+    result.triangles.push_back({place[c[0]], place[c[1]], place[c[2]]});
+  }
+  return result;
+}
+
+}  // namespace
+
+TreeInput::Data::Data(const Solid& s, unsigned threads)
+    : original_vertex(locality_order(s.mesh.points)),
+      original_triangle(locality_order(centroids(s.mesh))),
+      mesh(in_order(s.mesh, original_vertex, original_triangle)),
+      pseudonormal(mesh.points.size()),
+      fan_begin(mesh.points.size() + 2, 0),
+      fan_triangles(3 * mesh.triangles.size()),
+      vertex_solid(mesh.points.size(), 0),
+      rays(mesh, threads) {
+  area_vector.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& c = mesh.triangles[t];
+    const std::array<Vec3, 3> p = {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
+    const Vec3 twice = cross(p[1] - p[0], p[2] - p[0]);
+    area_vector.push_back(0.5 * twice);
+    surface_area += 0.5 * norm(twice);
+    for (std::uint32_t v : c) {
+      ++fan_begin[v + 2];
+      vertex_solid[v] = s.shells[s.triangle_shell[original_triangle[t]]].solid;
+    }
+  }
+  for (std::size_t v = 2; v < fan_begin.size(); ++v) fan_begin[v] += fan_begin[v - 1];
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t v : mesh.triangles[t]) fan_triangles[fan_begin[v + 1]++] = t;
+  }
+  parallel_ranges(threads, mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      pseudonormal[v] =
+          pseudonormal_of(mesh, static_cast<std::uint32_t>(v), fan(static_cast<std::uint32_t>(v)));
+    }
+  });
+  if (!s.crossings.empty()) {
+    find_crossings(s);
+    find_nested(threads);
+  }
+  for (double v : s.solid_volume) {
+    solid_volume.push_back(std::ldexp(v, -3 * s.exponent));
+    volume += solid_volume.back();
+  }
+}
+
+void TreeInput::Data::find_crossings(const Solid& solid) {
+  const std::vector<std::uint32_t> place = inverse(original_triangle);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // vertex, triangle
+  for (const auto& [original_i, original_j] : solid.crossings) {
+    const std::uint32_t i = place[original_i], j = place[original_j];
+    for (std::uint32_t v : mesh.triangles[i]) entries.emplace_back(v, j);
+    for (std::uint32_t v : mesh.triangles[j]) entries.emplace_back(v, i);
+  }
+  std::sort(entries.begin(), entries.end());
+  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+  crossing_begin.assign(mesh.points.size() + 1, 0);
+  for (const auto& [vertex, triangle] : entries) {
+    ++crossing_begin[vertex + 1];
+    crossing_triangles.push_back(triangle);
+  }
+  for (std::size_t v = 1; v < crossing_begin.size(); ++v) crossing_begin[v] += crossing_begin[v - 1];
+}
+
+void TreeInput::Data::find_nested(unsigned threads) {
+  constexpr double kStep = 1e-7;  // far less than the spacing of any lattice
+  const SolidMembership membership(mesh);
+  nested.resize(mesh.points.size());
+  parallel_ranges(threads, nested.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const double length = norm(pseudonormal[v]);
+      if (length == 0) continue;
+      nested[v] = membership.contains(mesh.points[v] + (kStep / length) * pseudonormal[v]);
+    }
+  });
+}
+
+TreeInput::TreeInput(const Solid& solid, unsigned threads) : data_(std::make_unique<Data>(solid, threads)) {}
+TreeInput::~TreeInput() = default;
+
+double TreeInput::volume_tolerance() const {
+  return 1e-9 * data_->volume + kLevelHeight * data_->surface_area;
+}
+
+TreeInput::TreeInput(TreeInput&&) noexcept = default;
+
+}  // namespace affskel::core

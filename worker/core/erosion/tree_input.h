@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/erosion/join_tree.h"
+#include "core/mesh/ray_shooter.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+/// What TreeInput holds; for the sources of the join tree only.  Vertices and triangles have other indices
+/// than in the solid: those of many meshes go criss-cross, and every direction looks all of them up.
+struct TreeInput::Data {
+  Data(const Solid& solid, unsigned threads);
+
+  /// Triangles round a vertex.
+  std::span<const std::uint32_t> fan(std::uint32_t vertex) const {
+    return {fan_triangles.data() + fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]};
+  }
+
+  std::vector<std::uint32_t> original_vertex;    ///< per vertex: its index in the solid's mesh
+  std::vector<std::uint32_t> original_triangle;  ///< per triangle: its index in the solid's mesh
+  Mesh mesh;                                     ///< the solid's, neighbours kept together in memory
+  std::vector<Vec3> area_vector;                 ///< per triangle: outward normal times area, inner units
+  std::vector<Vec3> pseudonormal;        ///< per vertex: unit normals weighted by the angles they span
+  std::vector<std::uint32_t> fan_begin;  ///< per vertex and one more
+  std::vector<std::uint32_t> fan_triangles;
+  /// Triangles that cross one of those round a vertex; none unless the surface crosses itself.
+  std::span<const std::uint32_t> crossing(std::uint32_t vertex) const {
+    if (crossing_begin.empty()) return {};
+    return {crossing_triangles.data() + crossing_begin[vertex],
+            crossing_begin[vertex + 1] - crossing_begin[vertex]};
+  }
+
+  std::vector<std::uint32_t> vertex_solid;    ///< per vertex: the solid its surface bounds
+  std::vector<std::uint32_t> crossing_begin;  ///< per vertex and one more; empty unless it crosses itself
+  std::vector<std::uint32_t> crossing_triangles;
+  /// Per vertex: whether other parts of the surface wind round its outer side, so that the solid is there
+  /// too; empty unless the surface crosses itself.
+  std::vector<std::uint8_t> nested;
+  std::vector<double> solid_volume;  ///< inner units
+  double volume = 0;                 ///< all solids, inner units
+  double surface_area = 0;           ///< inner units
+  RayShooter rays;
+
+ private:
+  void find_crossings(const Solid& solid);
+  void find_nested(unsigned threads);
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,294 @@
+#include "core/lattice/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/cube_root.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/parallel.h"
+#include "core/lattice/point_spacing.h"
+#include "core/lattice/scan_conversion.h"
+
+namespace affskel::core {
+namespace {
+
+// Lines beyond this would fill the memory before any point is found (16 bytes of bookkeeping each).
+constexpr double kMaxLines = 4e8;
+
+class LatticeBuilder {
+ public:
+  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, unsigned threads)
+      : mesh_(solid.mesh), threads_(threads) {
+    lattice_.frame = frame;
+  }
+
+  std::uint32_t count() {
+    fill_axis_2();
+    return lattice_.points;
+  }
+
+  Lattice run() {
+    fill_axis_2();
+    parallel_for(threads_, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
+    return std::move(lattice_);
+  }
+
+ private:
+  // Follows a line through its crossings.  Where the surface crosses itself the line may enter twice before
+  // it leaves: `entered` is the crossing at which it came in from outside.
+  struct Passage {
+    std::int32_t winding = 0;
+    std::uint32_t entered = 0;
+
+    void pass(const Crossing& crossing) {
+      const bool outside = winding <= 0;
+      winding -= crossing.exits;
+      if (outside && winding > 0) entered = crossing.triangle;
+    }
+  };
+
+  // The triangle from crossing `c` upward where a line, within the solid so far, leaves it.
+  static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end,
+                                 Passage passage) {
+    for (std::uint64_t e = c; e < end; ++e) {
+      passage.pass(lines.crossings[e]);
+      if (passage.winding <= 0) return lines.crossings[e].triangle;
+    }
+    return lines.crossings[c].triangle;
+  }
+
+  // Axis 2 decides what is inside and numbers the points.
+  void fill_axis_2() {
+    const LatticeFrame& frame = lattice_.frame;
+    const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_);
+    std::uint64_t points = 0;
+    for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
+      for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
+        const std::size_t line = std::size_t{i} * frame.dims[1] + j;
+        const std::uint64_t last = lines.begin[line + 1];
+        Passage passage;
+        for (std::uint64_t c = lines.begin[line]; c + 1 < last; ++c) {
+          const Crossing &low = lines.crossings[c], &high = lines.crossings[c + 1];
+          passage.pass(low);
+          if (passage.winding <= 0) continue;
+          const std::uint32_t k = clip(low.depth), end = clip(high.depth);
+          if (k >= end) continue;
+          lattice_.axis[2].runs.push_back({static_cast<std::uint32_t>(points),
+                                           end - k,
+                                           passage.entered,
+                                           exit_from(lines, c + 1, last, passage),
+                                           {i, j, k}});
+          points += end - k;
+          if (points > 0xFFFFFFFEU) {
+            throw CoreError(CoreError::Code::kLimit,
+                            "the lattice has more than 2^32 points inside the solid");
+          }
+        }
+      }
+    }
+    lattice_.points = static_cast<std::uint32_t>(points);
+  }
+
+  std::uint32_t clip(double depth) const {
+    return static_cast<std::uint32_t>(
+        std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.frame.dims[2]))));
+  }
+
+  // Sorts the points into the lines of another axis and cuts these into runs.
+  void fill_axis(int axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const LineCrossings lines = scan_convert(mesh_, lattice_.frame, axis);
+    const std::size_t line_count = lines.begin.size() - 1;
+    std::vector<std::uint32_t> begin(line_count + 1, 0), run_of(lattice_.points);
+    for_each_point([&](std::uint32_t, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
+      static_cast<void>(run);
+      ++begin[line_of(axis, at) + 1];
+    });
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::uint32_t> order(lattice_.points), cursor(begin.begin(), begin.end() - 1);
+    const LatticeRun* first_run = lattice_.axis[2].runs.data();
+    for_each_point([&](std::uint32_t point, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
+      order[cursor[line_of(axis, at)]++] = point;
+      run_of[point] = static_cast<std::uint32_t>(&run - first_run);
+    });
+    std::vector<std::uint32_t>& kept = lattice_.axis[a].order;
+    kept.reserve(lattice_.points);
+    for (std::size_t line = 0; line < line_count; ++line) {
+      cut_line(a, lines, line, order, begin[line], begin[line + 1], run_of);
+    }
+  }
+
+  // Lines are numbered as in LineCrossings.
+  std::size_t line_of(int axis, const std::array<std::uint32_t, 3>& at) const {
+    const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
+    return std::size_t{at[u]} * lattice_.frame.dims[v] + at[v];
+  }
+
+  template <class Visit>
+  void for_each_point(Visit visit) const {
+    for (const LatticeRun& run : lattice_.axis[2].runs) {
+      std::array<std::uint32_t, 3> at = run.start;
+      for (std::uint32_t p = run.first; p < run.first + run.length; ++p, ++at[2]) visit(p, run, at);
+    }
+  }
+
+  // Points come in lattice order, so each line's are ascending along the axis.
+  void cut_line(std::size_t a, const LineCrossings& lines, std::size_t line,
+                const std::vector<std::uint32_t>& order, std::uint32_t from, std::uint32_t to,
+                const std::vector<std::uint32_t>& run_of) {
+    std::uint64_t next = lines.begin[line];
+    const std::uint64_t end = lines.begin[line + 1];
+    Passage passage;
+    LatticeRun* open = nullptr;
+    for (std::uint32_t o = from; o < to; ++o) {
+      const std::uint32_t point = order[o];
+      const LatticeRun& column = lattice_.axis[2].runs[run_of[point]];
+      std::array<std::uint32_t, 3> at = column.start;
+      at[2] += point - column.first;
+      for (; next < end && lines.crossings[next].depth <= at[a]; ++next) {
+        passage.pass(lines.crossings[next]);
+        open = nullptr;
+      }
+      AxisRuns& axis = lattice_.axis[a];
+      if (passage.winding <= 0 || next == end) {
+        axis.strays.push_back({point, 1, column.low, column.high, at});
+        open = nullptr;
+        continue;
+      }
+      if (open == nullptr) {
+        axis.runs.push_back({static_cast<std::uint32_t>(axis.order.size()), 0, passage.entered,
+                             exit_from(lines, next, end, passage), at});
+        open = &axis.runs.back();
+      }
+      ++open->length;
+      axis.order.push_back(point);
+    }
+  }
+
+  const Mesh& mesh_;
+  unsigned threads_;
+  Lattice lattice_;
+};
+
+double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
+  if (options.spacing == 0 && options.target_points > 0) {
+    return cube_root(solid.volume / static_cast<double>(options.target_points));
+  }
+  if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the spacing must be a finite number > 0, not " + to_text(options.spacing));
+  }
+  return options.spacing;
+}
+
+// The solid's bounding box in a frame's coordinates.
+struct FrameBox {
+  Vec3 sides;         // mesh units
+  Vec3 centre;        // inner coordinates
+  double shrunk = 1;  // what sides are to be multiplied by before they are counted in steps
+};
+
+FrameBox box_in(const Solid& solid, const Matrix3& f) {
+  if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}, 1};
+  const Matrix3 inverse = inverse_transposed(f);
+  const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
+  Vec3 low = in_frame(solid.mesh.points.front()), high = low;
+  for (const Vec3& p : solid.mesh.points) {
+    const Vec3 u = in_frame(p);
+    low = {std::min(low.x, u.x), std::min(low.y, u.y), std::min(low.z, u.z)};
+    high = {std::max(high.x, u.x), std::max(high.y, u.y), std::max(high.z, u.z)};
+  }
+  return {solid.scale() * (high - low), f * (0.5 * (low + high)), 1 - 1e-9};
+}
+
+// The lattice of a spacing before it is filled.
+struct Plan {
+  LatticeFrame frame;
+  double lines = 0;
+  double estimate = 0;  // of the points
+  bool fits = false;    // within the limits; only then there is a frame
+};
+
+Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
+  const Vec3& sides = box.sides;
+  Plan plan;
+  plan.lines = (sides.x / spacing + 1) * (sides.y / spacing + 1) +
+               (sides.y / spacing + 1) * (sides.z / spacing + 1) +
+               (sides.z / spacing + 1) * (sides.x / spacing + 1);
+  plan.estimate = solid.volume / spacing / spacing / spacing;
+  plan.fits = plan.estimate <= static_cast<double>(options.max_points) && plan.lines <= kMaxLines;
+  if (!plan.fits) return plan;
+  const double step = std::ldexp(spacing, -solid.exponent);
+  plan.frame.axes = step * options.frame;
+  std::array<double, 3> origin{};
+  for (int k = 0; k < 3; ++k) {
+    const double count = std::max(1.0, std::ceil(sides[k] / spacing * box.shrunk));
+    plan.frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
+    origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
+  }
+  const Vec3 corner{origin[0], origin[1], origin[2]};
+  plan.frame.origin = box.centre + options.frame * corner;
+  return plan;
+}
+
+}  // namespace
+
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads) {
+  for (std::uint32_t n : frame.dims) {
+    if (n == 0 || n > (1U << 30))
+      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
+  }
+  Lattice lattice = LatticeBuilder(solid, frame, threads).run();
+  const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
+  lattice.spacing = solid.scale() * cube_root(std::abs(cell));
+  return lattice;
+}
+
+namespace {
+
+Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
+  const Plan plan = plan_lattice(solid, box, options, spacing);
+  if (!plan.fits) {
+    throw CoreError(CoreError::Code::kLimit,
+                    "spacing " + rounded(spacing, 3) + " would give about " + rounded(plan.estimate, 3) +
+                        " sample points on " + rounded(plan.lines, 3) + " lattice lines; at most " +
+                        rounded(static_cast<double>(options.max_points), 3) + " points on " +
+                        rounded(kMaxLines, 3) + " lines are supported");
+  }
+  Lattice lattice = make_lattice(solid, plan.frame, options.threads);
+  lattice.spacing = spacing;
+  if (lattice.points == 0) {
+    throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
+                                                    rounded(spacing, 3) + " is too coarse for a volume of " +
+                                                    rounded(solid.volume, 3));
+  }
+  return lattice;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
+  const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);
+  if (!plan.fits) return std::nullopt;
+  return LatticeBuilder(solid, plan.frame, options.threads).count();
+}
+
+Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
+  const double spacing = wanted_spacing(solid, options);
+  const FrameBox box = box_in(solid, options.frame);
+  const Plan plan = plan_lattice(solid, box, options, spacing);
+  // Too many points by their volume are refused; lines that a thin solid would not need are not.
+  if (options.spacing == 0 && plan.estimate <= static_cast<double>(options.max_points)) {
+    if (plan.fits) {
+      Lattice lattice = make_lattice(solid, plan.frame, options.threads);
+      lattice.spacing = spacing;
+      if (is_near(lattice.points, options.target_points)) return lattice;
+    }
+    return lattice_at(solid, box, options, spacing_for_points(solid, options, spacing));
+  }
+  return lattice_at(solid, box, options, spacing);
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/matrix3.h"
+#include "core/base/vec3.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+/// Lattice point (i, j, k) lies at origin + i axes[0] + j axes[1] + k axes[2], 0 <= i < dims[0] etc.
+struct LatticeFrame {
+  Vec3 origin;
+  std::array<Vec3, 3> axes;
+  std::array<std::uint32_t, 3> dims{};
+};
+
+/// Consecutive sample points of a lattice line with no surface crossing between them.
+struct LatticeRun {
+  /// Place of its first point in AxisRuns::order (the point itself if that is empty).
+  std::uint32_t first = 0;
+  std::uint32_t length = 0;              ///< number of points, >= 1
+  std::uint32_t low = 0;                 ///< the nearest triangle below where the line enters the solid
+  std::uint32_t high = 0;                ///< the nearest triangle above where it leaves
+  std::array<std::uint32_t, 3> start{};  ///< lattice indices of the first point
+};
+
+/// All sample points, in runs along one axis.
+struct AxisRuns {
+  std::vector<LatticeRun> runs;
+  std::vector<std::uint32_t> order;  ///< sample points run by run; empty for axis 2, where it is 0, 1, 2, ...
+  /// Points within rounding of the surface whose line along this axis says "outside": runs of one point
+  /// along axis 2 (low and high belong to that axis; `first` is the point).
+  std::vector<LatticeRun> strays;
+};
+
+/// The sample points of a solid: lattice points inside it, numbered in lattice order (axis 2 fastest).
+struct Lattice {
+  LatticeFrame frame;  ///< inner coordinates of the solid
+  /// dT, mesh units: the cube root of the volume of the frame's cell.
+  double spacing = 0;
+  std::uint32_t points = 0;
+  std::array<AxisRuns, 3> axis;
+};
+
+/// Places of the sample points in mesh units: o + (i a + (j b + k c)), the vectors rounded once.
+class SamplePlaces {
+ public:
+  SamplePlaces(const Solid& solid, const Lattice& lattice)
+      : origin_(solid.centre + solid.scale() * lattice.frame.origin),
+        axes_{solid.scale() * lattice.frame.axes[0], solid.scale() * lattice.frame.axes[1],
+              solid.scale() * lattice.frame.axes[2]} {}
+
+  const Vec3& origin() const { return origin_; }
+  const std::array<Vec3, 3>& axes() const { return axes_; }
+
+  Vec3 at(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+    return origin_ + (i * axes_[0] + (j * axes_[1] + k * axes_[2]));
+  }
+
+ private:
+  Vec3 origin_;
+  std::array<Vec3, 3> axes_;
+};
+
+struct LatticeOptions {
+  double spacing = 0;                                 ///< dT, mesh units; > 0, or 0 to use target_points
+  std::uint64_t target_points = 0;                    ///< sets dT, see spacing_for_points
+  Matrix3 frame = kIdentity3;                         ///< F of det 1, see solid_frame
+  std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
+  unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
+};
+
+/// Lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
+/// bounding box in the frame's coordinates u = F^-1 (x - centre), ceil(side / dT) points per side, and the
+/// watertight scan conversion of the solid in it: a point is inside when the surfaces below it along
+/// axis 2 enter more often than they leave (half-open, decided the same way from both triangles of every
+/// edge, so that the count of crossings of a line is always even).
+/// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
+///   more than max_points would.
+///
+/// Sides that are whole multiples of dT to 1e-9 count as such in any frame but the mesh's own, where rounding
+/// in F would decide otherwise.
+Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
+
+/// How many sample points make_lattice would give for options.spacing, by one scan conversion; nothing when
+/// it would refuse them as too many, or too many lines.
+std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
+
+/// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1);
+
+}  // namespace affskel::core

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+/// Lattice indices (i, j, k).
+using LatticePlace = std::array<std::uint32_t, 3>;
+
+/// Where sample points stand, found in one walk over the runs.
+/// @param points ranks of sample points, ascending.
+std::vector<LatticePlace> lattice_places(const Lattice& lattice, std::span<const std::uint32_t> points);
+
+/// Inner coordinates of the solid for real lattice indices.
+inline Vec3 inner_place(const Lattice& lattice, const Vec3& indices) {
+  const LatticeFrame& frame = lattice.frame;
+  return frame.origin + (indices.x * frame.axes[0] + (indices.y * frame.axes[1] + indices.z * frame.axes[2]));
+}
+
+}  // namespace affskel::core

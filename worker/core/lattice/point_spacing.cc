@@ -1,0 +1,69 @@
+#include "core/lattice/point_spacing.h"
+
+#include <cmath>
+#include <limits>
+
+namespace affskel::core {
+namespace {
+
+constexpr int kMostDoublings = 60;
+constexpr int kMostHalvings = 24;  // of the bracket in the logarithm: to a part in 10^7
+
+class SpacingSearch {
+ public:
+  SpacingSearch(const Solid& solid, const LatticeOptions& options, double first)
+      : solid_(solid), options_(options), best_(first) {}
+
+  double run() {
+    double low = best_, high = best_;  // with too many points, and with too few
+    const bool many = too_many(best_);
+    const double factor = many ? 2 : 0.5;
+    for (int i = 0; i < kMostDoublings && !found_; ++i) {
+      (many ? high : low) *= factor;
+      if (too_many(many ? high : low) != many) break;
+      (many ? low : high) *= factor;
+    }
+    for (int i = 0; i < kMostHalvings && !found_; ++i) {
+      const double middle = std::sqrt(low * high);
+      (too_many(middle) ? low : high) = middle;
+    }
+    return best_;
+  }
+
+ private:
+  // A lattice beyond the limits has too many.
+  bool too_many(double spacing) {
+    options_.spacing = spacing;
+    const std::optional<std::uint32_t> points = lattice_points(solid_, options_);
+    if (points && *points > 0) consider(spacing, *points);
+    return !points || *points > options_.target_points;
+  }
+
+  void consider(double spacing, std::uint32_t points) {
+    const double ratio = static_cast<double>(points) / static_cast<double>(options_.target_points);
+    const double miss = ratio > 1 ? ratio : 1 / ratio;
+    if (miss >= least_miss_) return;
+    least_miss_ = miss;
+    best_ = spacing;
+    found_ = is_near(points, options_.target_points);
+  }
+
+  const Solid& solid_;
+  LatticeOptions options_;
+  double best_;
+  double least_miss_ = std::numeric_limits<double>::infinity();
+  bool found_ = false;
+};
+
+}  // namespace
+
+bool is_near(std::uint64_t points, std::uint64_t target) {
+  const std::uint64_t miss = points > target ? points - target : target - points;
+  return miss <= target / 10;
+}
+
+double spacing_for_points(const Solid& solid, const LatticeOptions& options, double first) {
+  return SpacingSearch(solid, options, first).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,75 @@
+#include "core/mesh/box_tree.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/base/parallel.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kLeaf = 4;
+
+}  // namespace
+
+void Box::include(const Box& other) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], other.low[k]);
+    high[k] = std::max(high[k], other.high[k]);
+  }
+}
+
+Box box_of(const Mesh& mesh, const Triangle& triangle) {
+  const auto at = [&](std::size_t corner) {
+    const Vec3& p = mesh.points[triangle[corner]];
+    return Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}};
+  };
+  Box box = at(0);
+  box.include(at(1));
+  box.include(at(2));
+  return box;
+}
+
+std::vector<Box> boxes_of(const Mesh& mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) boxes.push_back(box_of(mesh, t));
+  return boxes;
+}
+
+BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
+  std::iota(items_.begin(), items_.end(), 0u);
+  const auto count = static_cast<std::uint32_t>(items_.size());
+  if (count == 0) return;
+  nodes_.resize(halving_nodes(count, kLeaf));
+  build(0, 0, count, threads);
+}
+
+void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads) {
+  Box box = boxes_[items_[first]];
+  std::uint32_t greatest = items_[first];
+  for (std::uint32_t i = first + 1; i < first + count; ++i) {
+    box.include(boxes_[items_[i]]);
+    greatest = std::max(greatest, items_[i]);
+  }
+  nodes_[index] = {box, first, count, 0, greatest};
+  if (count <= kLeaf) return;
+
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
+  }
+  const auto centre = [&](std::uint32_t i) { return boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2; };
+  const auto begin = items_.begin() + first;
+  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t i, std::uint32_t j) {
+    return std::pair(centre(i), i) < std::pair(centre(j), j);
+  });
+  const std::uint32_t left = count / 2, right_node = index + 1 + halving_nodes(left, kLeaf);
+  nodes_[index].right = right_node;
+  parallel_halves(
+      threads, [&](unsigned share) { build(index + 1, first, left, share); },
+      [&](unsigned share) { build(right_node, first + left, count - left, share); });
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+/// Axis-parallel box, closed.
+struct Box {
+  std::array<double, 3> low, high;
+
+  bool meets(const Box& other) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (low[k] > other.high[k] || other.low[k] > high[k]) return false;
+    }
+    return true;
+  }
+  void include(const Box& other);
+};
+
+/// Tightest box round a triangle.
+Box box_of(const Mesh& mesh, const Triangle& triangle);
+
+/// The boxes of all triangles of a mesh.
+std::vector<Box> boxes_of(const Mesh& mesh);
+
+/// A balanced tree over boxes for overlap queries.  Immutable after construction; queries from several
+/// threads are safe.
+class BoxTree {
+ public:
+  /// O(N log N), on up to `threads` threads.
+  explicit BoxTree(std::vector<Box> boxes, unsigned threads = 1);
+
+  /// Calls visit(index) for every box that meets `query`, in an order of the tree's own.
+  template <class Visit>
+  void visit(const Box& query, Visit visit) const {
+    walk(query, -1, visit);
+  }
+
+  /// The same for the indices > `above`.
+  template <class Visit>
+  void visit_above(const Box& query, std::uint32_t above, Visit visit) const {
+    walk(query, above, visit);
+  }
+
+ private:
+  /// A node covers items_[first, first + count); its left half is the next node, its right half `right`.
+  struct Node {
+    Box box;
+    std::uint32_t first, count;
+    std::uint32_t right;     // 0: a leaf
+    std::uint32_t greatest;  // of the indices below
+  };
+
+  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
+
+  template <class Visit>
+  void walk(const Box& query, std::int64_t above, Visit visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t index = stack[--depth];
+      const Node& node = nodes_[index];
+      if (node.greatest <= above || !node.box.meets(query)) continue;
+      if (node.right != 0) {
+        stack[depth++] = node.right;
+        stack[depth++] = index + 1;
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        if (items_[i] > above && boxes_[items_[i]].meets(query)) visit(items_[i]);
+      }
+    }
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> items_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/vec3.h"
+
+namespace affskel::core {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// A triangle soup with shared vertices: plain data, no promise of being closed or manifold.
+struct Mesh {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;  ///< indices into points; counter-clockwise seen from outside
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+struct ReadOffOptions {
+  /// Refuse announced counts above this before anything is allocated.
+  std::uint64_t max_elements = std::uint64_t{1} << 28;
+};
+
+/// A mesh with the lines it came from, so that later messages can name the place.
+struct OffMesh {
+  Mesh mesh;
+  std::vector<std::uint32_t> vertex_line;    ///< per vertex, counted from 1
+  std::vector<std::uint32_t> triangle_line;  ///< per triangle: the line of its polygon
+  std::uint64_t polygons = 0;                ///< faces in the file, of any number of sides >= 3
+  std::uint64_t polygons_cut = 0;            ///< faces with more than three sides, cut into triangles
+};
+
+/// Reads a Geomview OFF file in text form, strictly: header [ST][C][N]OFF, counts on the same or on the
+/// next line (the edge count may be absent), `#` comments, LF or CRLF; per vertex three finite numbers
+/// plus what the header promises; per face its size, indices and optional colours.  Polygons are cut
+/// into fans (the shorter diagonal for quadrilaterals).  The file must end after the last face.
+/// @throws CoreError kBadInput with line and cause for everything else (binary, 4OFF, nOFF, decimal
+///   commas, NUL bytes, lone CR, trailing rows, indices out of range or not integral, NaN, infinity);
+///   kLimit when a count exceeds the options.
+OffMesh read_off(std::string_view bytes, const ReadOffOptions& options = {});
+
+/// Text of an OFF file with the shortest decimals that read back exactly.
+std::string write_off(const Mesh& mesh);
+
+}  // namespace affskel::core

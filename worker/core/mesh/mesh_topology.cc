@@ -1,0 +1,263 @@
+#include "core/mesh/mesh_topology.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+std::uint32_t next_corner(std::uint32_t h) {
+  return h % 3 == 2 ? h - 2 : h + 1;
+}
+std::uint32_t previous_corner(std::uint32_t h) {
+  return h % 3 == 0 ? h + 2 : h - 1;
+}
+
+std::uint32_t from(const Mesh& mesh, std::uint32_t h) {
+  return mesh.triangles[h / 3][h % 3];
+}
+std::uint32_t to(const Mesh& mesh, std::uint32_t h) {
+  return from(mesh, next_corner(h));
+}
+
+struct EdgeEnd {
+  std::uint32_t high;  // the larger vertex of the edge
+  std::uint32_t half_edge;
+  friend bool operator<(const EdgeEnd& a, const EdgeEnd& b) {
+    return a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
+  }
+};
+
+// Calls visit(first, last) once per undirected edge with its half-edges, by smaller vertex; from several
+// threads at once when there are more than one.
+template <class Visit>
+void for_each_edge(const Mesh& mesh, unsigned threads, const Visit& visit) {
+  const auto half_edges = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+  std::vector<std::uint32_t> begin(mesh.points.size() + 2, 0);
+  for (std::uint32_t h = 0; h < half_edges; ++h) ++begin[std::min(from(mesh, h), to(mesh, h)) + 2];
+  for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  std::vector<EdgeEnd> ends(half_edges);
+  for (std::uint32_t h = 0; h < half_edges; ++h) {
+    const std::uint32_t a = from(mesh, h), b = to(mesh, h);
+    ends[begin[std::min(a, b) + 1]++] = {std::max(a, b), h};
+  }
+  parallel_ranges(threads, mesh.points.size(), [&](std::size_t from_vertex, std::size_t to_vertex) {
+    for (std::size_t v = from_vertex; v < to_vertex; ++v) {
+      EdgeEnd* const bucket_end = ends.data() + begin[v + 1];
+      std::sort(ends.data() + begin[v], bucket_end);
+      for (EdgeEnd* first = ends.data() + begin[v]; first != bucket_end;) {
+        EdgeEnd* const last =
+            std::find_if(first, bucket_end, [&](const EdgeEnd& e) { return e.high != first->high; });
+        visit(first, last);
+        first = last;
+      }
+    }
+  });
+}
+
+bool same_triangle(const Mesh& mesh, std::uint32_t s, std::uint32_t t) {
+  Triangle a = mesh.triangles[s], b = mesh.triangles[t];
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
+// The worst of an edge census, for one message.
+class EdgeDefects {
+ public:
+  EdgeDefects(const Mesh& mesh, const TrianglePlace& place) : mesh_(mesh), place_(place) {}
+
+  void see(const EdgeEnd* first, const EdgeEnd* last) {
+    const auto count = last - first;
+    const bool twin = count == 2 && same_triangle(mesh_, first[0].half_edge / 3, first[1].half_edge / 3);
+    if (count == 2 && !twin) return;
+    note(count == 1 ? open_ : crowded_, first, last);
+    for (const EdgeEnd* a = first; a != last && repeated_.empty(); ++a) {
+      for (const EdgeEnd* b = a + 1; b != last && repeated_.empty(); ++b) {
+        if (same_triangle(mesh_, a->half_edge / 3, b->half_edge / 3)) {
+          repeated_ = place_(a->half_edge / 3) + " and " + place_(b->half_edge / 3) + " are the same";
+        }
+      }
+    }
+  }
+
+  void throw_if_any() const {
+    if (open_.count == 0 && crowded_.count == 0) return;
+    std::string message = "the mesh does not bound a solid: ";
+    if (!repeated_.empty()) message += repeated_ + "; ";
+    if (open_.count != 0) message += tell(open_, "open edges (one triangle only)");
+    if (open_.count != 0 && crowded_.count != 0) message += "; ";
+    if (crowded_.count != 0) message += tell(crowded_, "edges where more than two triangles meet");
+    throw CoreError(CoreError::Code::kBadInput, message);
+  }
+
+ private:
+  struct Kind {
+    std::uint64_t count = 0;
+    std::string first;
+  };
+
+  void note(Kind& kind, const EdgeEnd* first, const EdgeEnd* last) {
+    if (kind.count++ != 0) return;
+    const std::uint32_t h = first->half_edge;
+    kind.first = "vertices " + std::to_string(std::min(from(mesh_, h), to(mesh_, h))) + " and " +
+                 std::to_string(first->high) + ", " + place_(h / 3);
+    if (last - first > 2) kind.first += " and " + place_((last - 1)->half_edge / 3);
+  }
+
+  static std::string tell(const Kind& kind, const char* what) {
+    return std::to_string(kind.count) + " " + what + ", the first between " + kind.first;
+  }
+
+  const Mesh& mesh_;
+  const TrianglePlace& place_;
+  Kind open_, crowded_;
+  std::string repeated_;
+};
+
+bool agree(const Mesh& mesh, std::uint32_t h, std::uint32_t mate) {
+  return from(mesh, h) == to(mesh, mate) && to(mesh, h) == from(mesh, mate);
+}
+
+bool all_agree(const Mesh& mesh, const HalfEdges& mates) {
+  for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    if (mates[h] > h && !agree(mesh, h, mates[h])) return false;
+  }
+  return true;
+}
+
+// Reverses triangle t; its half-edges 0,1,2 (ab, bc, ca) become (ac, cb, ba): edge i moves to 2 - i.
+void turn_over(Mesh& mesh, HalfEdges& mates, std::uint32_t t) {
+  std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  std::swap(mates[3 * t], mates[3 * t + 2]);
+  for (std::uint32_t i = 0; i < 3; ++i) mates[mates[3 * t + i]] = 3 * t + i;
+}
+
+}  // namespace
+
+HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place) {
+  HalfEdges mates(3 * mesh.triangles.size(), kNone);
+  EdgeDefects defects(mesh, place);
+  for_each_edge(mesh, 1, [&](const EdgeEnd* first, const EdgeEnd* last) {
+    defects.see(first, last);
+    if (last - first != 2) return;
+    mates[first[0].half_edge] = first[1].half_edge;
+    mates[first[1].half_edge] = first[0].half_edge;
+  });
+  defects.throw_if_any();
+  return mates;
+}
+
+bool find_mates_if_closed(const Mesh& mesh, unsigned threads, HalfEdges& mates) {
+  mates.assign(3 * mesh.triangles.size(), kNone);
+  std::atomic<bool> closed{true};
+  for_each_edge(mesh, threads, [&](const EdgeEnd* first, const EdgeEnd* last) {
+    const std::uint32_t a = first[0].half_edge;
+    const std::uint32_t b = last - first == 2 ? first[1].half_edge : a;
+    // Over a common edge triangles are the same when their third corners are.
+    if (b == a || from(mesh, previous_corner(a)) == from(mesh, previous_corner(b))) {
+      closed = false;
+    } else {
+      mates[a] = b;
+      mates[b] = a;
+    }
+  });
+  return closed;
+}
+
+bool every_edge_is_shared(const Mesh& mesh) {
+  bool shared = true;
+  for_each_edge(mesh, 1,
+                [&](const EdgeEnd* first, const EdgeEnd* last) { shared = shared && last - first != 1; });
+  return shared;
+}
+
+std::vector<std::uint32_t> orient_consistently(Mesh& mesh, HalfEdges& mates, const TrianglePlace& place) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (all_agree(mesh, mates)) return {};
+  // Per triangle: 0 = not reached, 1 = as it is, 2 = to be turned over (relative to the first reached).
+  std::vector<std::uint8_t> side(count, 0);
+  std::vector<std::uint32_t> surface, turned;
+  for (std::uint32_t seed = 0; seed < count; ++seed) {
+    if (side[seed] != 0) continue;
+    side[seed] = 1;
+    surface.assign(1, seed);
+    std::size_t wrong = 0;
+    for (std::size_t at = 0; at < surface.size(); ++at) {
+      const std::uint32_t t = surface[at];
+      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::uint32_t other = mates[h] / 3;
+        const auto wanted = static_cast<std::uint8_t>(agree(mesh, h, mates[h]) ? side[t] : 3 - side[t]);
+        if (side[other] == 0) {
+          side[other] = wanted;
+          wrong += wanted == 2;
+          surface.push_back(other);
+        } else if (side[other] != wanted) {
+          throw CoreError(CoreError::Code::kBadInput,
+                          "the mesh does not bound a solid: the surface through " + place(other) +
+                              " has only one side (not orientable)");
+        }
+      }
+    }
+    const std::uint8_t minority = 2 * wrong <= surface.size() ? 2 : 1;
+    for (std::uint32_t t : surface) {
+      if (side[t] == minority) turned.push_back(t);
+    }
+  }
+  std::sort(turned.begin(), turned.end());
+  for (std::uint32_t t : turned) turn_over(mesh, mates, t);
+  return turned;
+}
+
+std::uint32_t split_pinched_vertices(Mesh& mesh, const HalfEdges& mates) {
+  std::vector<std::uint8_t> corner_seen(mates.size(), 0), vertex_seen(mesh.points.size(), 0);
+  std::uint32_t added = 0;
+  for (std::uint32_t start = 0; start < mates.size(); ++start) {
+    if (corner_seen[start] != 0) continue;
+    std::uint32_t vertex = from(mesh, start);
+    if (vertex_seen[vertex] != 0) {
+      const Vec3 twin = mesh.points[vertex];
+      mesh.points.push_back(twin);
+      vertex = static_cast<std::uint32_t>(mesh.points.size() - 1);
+      ++added;
+    } else {
+      vertex_seen[vertex] = 1;
+    }
+    // Walk the fan: the half-edge arriving at this corner, seen from its other side, leaves it again.
+    std::uint32_t h = start;
+    do {
+      corner_seen[h] = 1;
+      mesh.triangles[h / 3][h % 3] = vertex;
+      h = mates[previous_corner(h)];
+    } while (h != start);
+  }
+  return added;
+}
+
+std::vector<std::uint32_t> connected_surfaces(const HalfEdges& mates, std::uint32_t& count) {
+  std::vector<std::uint32_t> surface(mates.size() / 3, kNone), queue;
+  count = 0;
+  for (std::uint32_t seed = 0; seed < surface.size(); ++seed) {
+    if (surface[seed] != kNone) continue;
+    surface[seed] = count;
+    queue.assign(1, seed);
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+      for (std::uint32_t h = 3 * queue[at]; h < 3 * queue[at] + 3; ++h) {
+        std::uint32_t& other = surface[mates[h] / 3];
+        if (other == kNone) {
+          other = count;
+          queue.push_back(mates[h] / 3);
+        }
+      }
+    }
+    ++count;
+  }
+  return surface;
+}
+
+}  // namespace affskel::core

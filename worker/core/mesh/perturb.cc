@@ -1,0 +1,82 @@
+#include "core/mesh/perturb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/base/plain_math.h"
+#include "core/base/split_mix64.h"
+#include "core/mesh/box_tree.h"
+#include "core/mesh/same_place.h"
+
+namespace affskel::core {
+namespace {
+
+// Independent numbers of mean 0 and variance 1.
+class Gaussian {
+ public:
+  explicit Gaussian(std::uint64_t seed) : random_(seed) {}
+
+  double next() {
+    if (has_spare_) {
+      has_spare_ = false;
+      return spare_;
+    }
+    double u = 0, v = 0, square = 0;
+    do {
+      u = random_.symmetric();
+      v = random_.symmetric();
+      square = u * u + v * v;
+    } while (square >= 1 || square == 0);
+    const double factor = std::sqrt(-2 * plain_log(square) / square);
+    spare_ = factor * v;
+    has_spare_ = true;
+    return factor * u;
+  }
+
+ private:
+  SplitMix64 random_;
+  double spare_ = 0;
+  bool has_spare_ = false;
+};
+
+}  // namespace
+
+double box_diagonal(const Mesh& mesh) {
+  if (mesh.points.empty()) return 0;
+  const auto at = [](const Vec3& p) { return Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}}; };
+  Box box = mesh.triangles.empty() ? at(mesh.points[0]) : box_of(mesh, mesh.triangles[0]);
+  if (mesh.triangles.empty()) {
+    for (const Vec3& p : mesh.points) box.include(at(p));
+  }
+  for (const Triangle& t : mesh.triangles) box.include(box_of(mesh, t));
+  return norm({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+}
+
+Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
+  if (!(options.sigma >= 0) || !std::isfinite(options.sigma)) {
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the noise must be a finite number >= 0, not " + to_text(options.sigma));
+  }
+  const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
+  Gaussian gaussian(options.seed);
+  Mesh result = mesh;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (first[v] < v) {
+      result.points[v] = result.points[first[v]];
+      continue;
+    }
+    const double x = gaussian.next(), y = gaussian.next(), z = gaussian.next();
+    const Vec3 moved = mesh.points[v] + options.sigma * Vec3{x, y, z};
+    if (!std::isfinite(moved.x) || !std::isfinite(moved.y) || !std::isfinite(moved.z)) {
+      throw CoreError(CoreError::Code::kBadInput,
+                      "the noise takes vertex " + std::to_string(v) + " out of the range of a double");
+    }
+    result.points[v] = moved;
+  }
+  return result;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,75 @@
+#include "core/mesh/quad_diagonals.h"
+
+#include <algorithm>
+#include <map>
+
+namespace affskel::core {
+namespace {
+
+// Both ends of an edge, the smaller first.
+std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
+  return (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w);
+}
+
+/// A quadrilateral tip, from, far, to (in this sense), cut along from-to.
+struct Quad {
+  std::uint32_t tip, from, far, to;
+};
+
+bool has(const Triangle& t, std::uint32_t v) {
+  return t[0] == v || t[1] == v || t[2] == v;
+}
+
+Quad quad_of(const Triangle& first, const Triangle& second) {
+  std::size_t tip = 0;
+  while (tip < 2 && has(second, first[tip])) ++tip;
+  std::size_t far = 0;
+  while (far < 2 && has(first, second[far])) ++far;
+  return {first[tip], first[(tip + 1) % 3], second[far], first[(tip + 2) % 3]};
+}
+
+/// How many triangles have an edge, as diagonals are turned.
+class EdgeUse {
+ public:
+  explicit EdgeUse(std::span<const Triangle> triangles) {
+    keys_.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles) {
+      for (std::size_t k = 0; k < 3; ++k) keys_.push_back(edge_key(t[k], t[(k + 1) % 3]));
+    }
+    std::sort(keys_.begin(), keys_.end());
+  }
+
+  std::ptrdiff_t of(std::uint64_t key) const {
+    const auto [first, last] = std::equal_range(keys_.begin(), keys_.end(), key);
+    const auto change = changes_.find(key);
+    return last - first + (change == changes_.end() ? 0 : change->second);
+  }
+  void move(std::uint64_t from, std::uint64_t to) {
+    changes_[from] -= 2;
+    changes_[to] += 2;
+  }
+
+ private:
+  std::vector<std::uint64_t> keys_;
+  std::map<std::uint64_t, std::ptrdiff_t> changes_;
+};
+
+}  // namespace
+
+std::size_t turn_doubled_diagonals(std::span<const std::uint32_t> quads, std::vector<Triangle>& triangles) {
+  if (quads.empty()) return 0;
+  EdgeUse use(triangles);
+  std::size_t turned = 0;
+  for (const std::uint32_t i : quads) {
+    const Quad q = quad_of(triangles[i], triangles[i + 1]);
+    const std::uint64_t diagonal = edge_key(q.from, q.to), other = edge_key(q.tip, q.far);
+    if (use.of(diagonal) <= 2 || use.of(other) != 0) continue;
+    triangles[i] = {q.tip, q.from, q.far};
+    triangles[i + 1] = {q.far, q.to, q.tip};
+    use.move(diagonal, other);
+    ++turned;
+  }
+  return turned;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/vec3.h"
+#include "core/lattice/lattice.h"
+#include "core/solid/solid_membership.h"
+
+namespace affskel::core {
+
+struct ChanceLevelOptions {
+  double radius = 0.86602540378443864676;  ///< in units of the spacing; sqrt(3)/2, half a voxel's diagonal
+  std::uint32_t draws = 20000;             ///< standard error of the result at most 0.36 %
+  std::uint64_t seed = 1;
+};
+
+/// The share of random inner points within a radius of the skeleton: what a set of points that knows nothing
+/// of the skeleton would score.  Points are drawn uniformly from the voxels of the sample points (equally
+/// many from each, to one; a seeded generator), those outside the solid dropped.  Sample points themselves
+/// would not do: no two of them are that near.
+/// @param skeleton in coordinates of the lattice's frame (see frame_field.h), mesh units; not empty.
+/// @param solid of the lattice, in inner coordinates.
+/// 0 when no draw falls inside.
+double chance_level(const Lattice& lattice, const SolidMembership& solid, std::span<const Vec3> skeleton,
+                    const ChanceLevelOptions& options = {});
+
+}  // namespace affskel::core

@@ -1,0 +1,154 @@
+#include "core/quality/sheet_topology.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+
+namespace affskel::core {
+namespace {
+
+struct EdgeSide {
+  std::uint32_t low, high;  // vertices
+  std::uint32_t triangle;
+  friend auto operator<=>(const EdgeSide&, const EdgeSide&) = default;
+};
+
+std::vector<EdgeSide> sorted_edge_sides(const Mesh& sheet) {
+  std::vector<EdgeSide> sides;
+  sides.reserve(3 * sheet.triangles.size());
+  for (std::uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+    const Triangle& corner = sheet.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = corner[i], b = corner[(i + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), t});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+// A set of patches, ascending; sums are modulo 2.
+using PatchSet = std::vector<std::uint32_t>;
+
+PatchSet sum(const PatchSet& a, const PatchSet& b) {
+  PatchSet result;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  return result;
+}
+
+std::uint64_t rank(std::vector<PatchSet> rows) {
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  std::map<std::uint32_t, PatchSet> reduced;  // by first member
+  for (PatchSet& row : rows) {
+    while (!row.empty()) {
+      const auto [place, is_new] = reduced.try_emplace(row.front(), row);
+      if (is_new) break;
+      row = sum(row, place->second);
+    }
+  }
+  return reduced.size();
+}
+
+class Sheet {
+ public:
+  explicit Sheet(const Mesh& sheet)
+      : sheet_(sheet),
+        sides_(sorted_edge_sides(sheet)),
+        joined_(sheet.points.size()),
+        rim_(sheet.points.size()),
+        patches_(sheet.triangles.size()) {}
+
+  SheetTopology run() {
+    std::int64_t edges = 0;
+    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
+      ++edges;
+      joined_.unite(first->low, first->high);
+      if (last - first == 1) rim_.unite(first->low, first->high);
+      if (last - first == 2) patches_.unite(first[0].triangle, first[1].triangle);
+      result_.branch_edges += last - first > 2;
+    });
+    count_vertices();
+    result_.boundary_loops = count_rim_pieces();
+    result_.betti.cavities = count_closed_surfaces();
+    const std::int64_t euler = vertices_ - edges + static_cast<std::int64_t>(sheet_.triangles.size());
+    result_.betti.holes =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(result_.betti.components) +
+                                   static_cast<std::int64_t>(result_.betti.cavities) - euler);
+    return result_;
+  }
+
+ private:
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    const EdgeSide* const end = sides_.data() + sides_.size();
+    for (const EdgeSide* first = sides_.data(); first != end;) {
+      const EdgeSide* last = first;
+      while (last != end && last->low == first->low && last->high == first->high) ++last;
+      visit(first, last);
+      first = last;
+    }
+  }
+
+  void count_vertices() {
+    std::vector<bool> used(sheet_.points.size(), false);
+    for (const Triangle& t : sheet_.triangles) {
+      for (const std::uint32_t v : t) used[v] = true;
+    }
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) continue;
+      ++vertices_;
+      result_.betti.components += joined_.find(v) == v;  // joined only to vertices in use
+    }
+  }
+
+  std::uint64_t count_rim_pieces() {
+    std::vector<bool> on_rim(sheet_.points.size(), false);
+    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
+      if (last - first == 1) on_rim[first->low] = on_rim[first->high] = true;
+    });
+    std::uint64_t pieces = 0;
+    for (std::uint32_t v = 0; v < on_rim.size(); ++v) pieces += on_rim[v] && rim_.find(v) == v;
+    return pieces;
+  }
+
+  // A closed surface is a set of patches that every edge meets an even number of times: none with a rim, and
+  // one condition per branch edge.
+  std::uint64_t count_closed_surfaces() {
+    std::vector<bool> open(sheet_.triangles.size(), false);
+    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
+      if (last - first == 1) open[patches_.find(first->triangle)] = true;
+    });
+    std::uint64_t closed = 0;
+    for (std::uint32_t t = 0; t < open.size(); ++t) closed += patches_.find(t) == t && !open[t];
+    std::vector<PatchSet> conditions;
+    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
+      if (last - first <= 2) return;
+      PatchSet condition;
+      for (const EdgeSide* side = first; side != last; ++side) {
+        const std::uint32_t patch = patches_.find(side->triangle);
+        if (!open[patch]) condition = sum(condition, {patch});
+      }
+      if (!condition.empty()) conditions.push_back(std::move(condition));
+    });
+    return closed - rank(std::move(conditions));
+  }
+
+  const Mesh& sheet_;
+  std::vector<EdgeSide> sides_;
+  DisjointSets joined_, rim_, patches_;
+  std::int64_t vertices_ = 0;
+  SheetTopology result_;
+};
+
+}  // namespace
+
+SheetTopology sheet_topology(const Mesh& sheet) {
+  return Sheet(sheet).run();
+}
+
+}  // namespace affskel::core

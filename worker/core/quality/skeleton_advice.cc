@@ -1,0 +1,143 @@
+#include "core/quality/skeleton_advice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include "core/base/matrix3.h"
+#include "core/base/number_text.h"
+#include "core/erosion/field.h"
+#include "core/erosion/frame_field.h"
+
+namespace affskel::core {
+namespace {
+
+// Fewer distinct optimal normals than this cannot follow a curved level surface.
+constexpr std::size_t kFewNormals = 60;
+
+// Fewer sample points than this are less than 10 across a cube.
+constexpr std::uint32_t kFewPoints = 1000;
+
+// Points of a sheet through a cube of so many points: their number to the power 2/3, rounded up.
+std::size_t points_of_a_sheet(std::size_t points) {
+  const double square = static_cast<double>(points) * static_cast<double>(points);
+  double n = 1;
+  while (n * n * n < square) ++n;
+  return static_cast<std::size_t>(n);
+}
+
+std::vector<double> magnitudes(const std::vector<double>& divergence) {
+  std::vector<double> result;
+  result.reserve(divergence.size());
+  for (const double h : divergence) result.push_back(std::abs(h));
+  return result;
+}
+
+std::size_t distinct_normals(const OptimalDirections& optimal) {
+  OptimalDirections used = optimal;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used.size() - (!used.empty() && used.back() == FieldValue::kNoDirection);
+}
+
+std::string on_threshold(std::vector<double> size, double threshold) {
+  const double largest = *std::max_element(size.begin(), size.end());
+  const std::string found = "no sample point has |H| above the threshold " + rounded(threshold, 3);
+  if (largest == 0) return found + ": the optimal normals do not change anywhere.";
+  const auto wanted = size.begin() + static_cast<std::ptrdiff_t>(points_of_a_sheet(size.size()) - 1);
+  std::nth_element(size.begin(), wanted, size.end(), std::greater<>());
+  // Below the wanted point's |H| by more than writing it in three digits can raise it.
+  const double least = *wanted > 0 ? *wanted : largest;
+  const std::string lower = rounded(0.99 * least, 3);
+  const double bound = std::strtod(lower.c_str(), nullptr);
+  const auto kept = std::count_if(size.begin(), size.end(), [&](double h) { return h > bound; });
+  return found + "; the largest is " + rounded(largest, 3) + ". --threshold " + lower + " would keep " +
+         std::to_string(kept) + " of the " + std::to_string(size.size()) + " points.";
+}
+
+std::string on_few_points(const Lattice& lattice) {
+  if (lattice.points >= kFewPoints) return "";
+  return " The lattice has only " + std::to_string(lattice.points) +
+         " sample points: submit with a smaller spacing than " + rounded(lattice.spacing, 3) +
+         ", or --points 100000.";
+}
+
+// The angle between two normals, from their opening (see ChordShock), in whole degrees.
+std::string degrees(double opening) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f", 2 * std::asin(std::sqrt(std::clamp(opening, 0.0, 1.0))) / kDegree);
+  return text;
+}
+
+// Whether lengths in the lattice's frame are not those of the mesh.
+bool is_stretched(const Lattice& lattice) {
+  constexpr double kSame = 1e-6;
+  const Matrix3 f = frame_matrix(lattice);
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b) {
+      if (std::abs(dot(f[a], f[b]) - (a == b ? 1 : 0)) > kSame) return true;
+    }
+  }
+  return false;
+}
+
+std::string on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
+  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.widest_turn) +
+                       " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".";
+  if (is_stretched(lattice)) {
+    advice +=
+        " The lattice's frame is stretched, which makes a flat solid as thick as it is wide: submit with "
+        "--frame axis or --frame pca.";
+  }
+  return advice +
+         " The solid may have no other skeleton than its centre, as a ball has; else submit with more "
+         "directions (--directions triangles+sphere:2000) or a smaller spacing.";
+}
+
+std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
+  const std::string lower = rounded(0.99 * census.heaviest_piece, 3);
+  return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
+         rounded(pruning.significance, 3) + "; the heaviest weighs " + rounded(census.heaviest_piece, 3) +
+         " of its sheet. --threshold " + lower + " would keep it, --threshold 1e-9 all.";
+}
+
+}  // namespace
+
+std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
+                                  const std::vector<double>& divergence, ShockOperator shock_operator,
+                                  double threshold) {
+  if (divergence.empty()) return "there are no sample points.";
+  std::string advice =
+      std::string(name_of(shock_operator)) + ": " + on_threshold(magnitudes(divergence), threshold);
+  const std::size_t normals = distinct_normals(optimal);
+  if (normals < kFewNormals) {
+    advice += " Only " + std::to_string(normals) +
+              " directions are the optimum of some point, too few to show shocks well: submit with "
+              "--directions triangles+sphere:1000.";
+  }
+  return advice + on_few_points(lattice);
+}
+
+std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
+                               const ChordPruningOptions& pruning) {
+  if (census.strong > 0) return on_significance(census, pruning);
+  std::string advice;
+  if (census.wide > 0) {
+    advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
+             " where equal chords clearly differ is E " + rounded(pruning.least_erosion, 3) +
+             " of the volume. Submit with a smaller spacing.";
+  } else if (census.candidates > 0) {
+    advice = on_turn(lattice, census, pruning);
+  } else {
+    advice =
+        "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "
+        "directions (--directions triangles+sphere:2000).";
+  }
+  return advice + on_few_points(lattice);
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/chords/chord_pruning.h"
+#include "core/erosion/directions.h"
+#include "core/lattice/lattice.h"
+#include "core/shocks/shock_operator.h"
+
+namespace affskel::core {
+
+/// Why a thresholded skeleton is empty and what to try, one or more sentences for people: the largest |H|
+/// there is and a threshold that would keep about as many points as a sheet through the lattice has; few
+/// distinct optimal normals (a box has six: too few for shocks to show); too few sample points.
+/// @param divergence H per sample point, none with |H| > threshold.
+std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
+                                  const std::vector<double>& divergence, ShockOperator shock_operator,
+                                  double threshold);
+
+/// The same for the operator `chords`: no two chords alike at all; none of clearly different directions, with
+/// the widest angle there is, and other axes when those of the lattice are stretched (a flat solid becomes as
+/// thick as it is wide in the `affine` frame, and its chords no longer oppose each other); only where E is
+/// small; or only in pieces below the significance, with one that keeps the heaviest.
+/// @param census of a sheet without shocks.
+/// @param pruning the options that it was made with.
+std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
+                               const ChordPruningOptions& pruning);
+
+}  // namespace affskel::core

@@ -1,0 +1,33 @@
+#include "core/shocks/average_outward_flux.h"
+
+#include "core/shocks/neighbourhood.h"
+
+namespace affskel::core {
+namespace {
+
+// 1 / |s| by the number of axes that s leaves along, 1 to 3.
+constexpr std::array<double, 4> kInverseLength{0, 1, 0.70710678118654752440, 0.57735026918962576451};
+
+// Opposite neighbours together, so that equal normals give exactly 0.
+double mean_flux(const Neighbourhood& normals) {
+  double sum = 0;
+  for (int i = 0; i <= 1; ++i) {
+    for (int j = i == 0 ? 0 : -1; j <= 1; ++j) {
+      for (int k = i == 0 && j == 0 ? 1 : -1; k <= 1; ++k) {
+        const auto squared_length = static_cast<std::size_t>(i * i + j * j + k * k);
+        const Vec3 n = normals.at({i, j, k}) - normals.at({-i, -j, -k});
+        sum += kInverseLength[squared_length] * ((i * n.x + j * n.y) + k * n.z);
+      }
+    }
+  }
+  return sum / 26;
+}
+
+}  // namespace
+
+std::vector<double> average_outward_flux(const Lattice& lattice, const DirectionSet& directions,
+                                         const OptimalDirections& optimal) {
+  return at_every_point(lattice, directions, optimal, mean_flux);
+}
+
+}  // namespace affskel::core

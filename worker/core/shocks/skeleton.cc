@@ -1,0 +1,24 @@
+#include "core/shocks/skeleton.h"
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+
+namespace affskel::core {
+
+std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence,
+                                           const SkeletonOptions& options) {
+  if (!(options.threshold > 0) || !std::isfinite(options.threshold)) {
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the threshold must be a finite number > 0, not " + to_text(options.threshold));
+  }
+  std::vector<SkeletonPoint> kept;
+  for (std::size_t p = 0; p < divergence.size(); ++p) {
+    if (std::abs(divergence[p]) > options.threshold)
+      kept.push_back({static_cast<std::uint32_t>(p), divergence[p]});
+  }
+  return kept;
+}
+
+}  // namespace affskel::core

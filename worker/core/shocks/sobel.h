@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/erosion/directions.h"
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+/// Threshold for |H|, without unit and whatever the spacing: that of Zucker-Hummel for the same jump.  At a
+/// sheet parallel to two axes where the normal component across jumps by J, a point beside the sheet gets
+/// |H| = J times the weights of a plane: 1 + 2 sqrt(2) + 4 sqrt(3)/3 there, 16 here, and
+/// 7 * 16 / (1 + 2 sqrt(2) + 4 sqrt(3)/3) = 18.247.
+constexpr double kSobelThreshold = 18.25;
+
+struct SobelOptions {
+  double face_weight = 4;    ///< for the pair of neighbours across a face: 2 x 2
+  double edge_weight = 2;    ///< for the 4 pairs across edges: 1 x 2
+  double corner_weight = 1;  ///< for the 4 pairs across corners: 1 x 1
+};
+
+/// H = div n of the optimal normals at every sample point, by the 3D Sobel operator (masks: Zografos 2003,
+/// appendix B.2): the derivative along a lattice axis is the sum of the differences of the 9 pairs of
+/// neighbours in the planes before and behind, weighted 1 2 1 across 1 2 1, without the published factor
+/// 1/32 and not divided by the spacing.  A neighbour outside the solid counts as the centre itself.
+/// @param directions unit normals in the lattice's frame (see frame_directions).
+/// Returns one value per point; |H| <= 3 * 2 * 16.
+std::vector<double> sobel_divergence(const Lattice& lattice, const DirectionSet& directions,
+                                     const OptimalDirections& optimal, const SobelOptions& options = {});
+
+}  // namespace affskel::core

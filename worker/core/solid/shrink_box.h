@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "core/base/matrix3.h"
+
+namespace affskel::core {
+
+/// A box about points: orthonormal axes and their volume.
+struct OrientedBox {
+  Matrix3 axes = kIdentity3;
+  double volume = 0;  ///< the product of the sides along the axes
+};
+
+/// Turns a box about one of its axes after the other until no such turn makes it smaller: a local minimum of
+/// the volume, in which every projection of the points along an axis has its rectangle of least area, one
+/// side of which lies on an edge of the projection's hull (Freeman & Shapira 1975).  The points' edges decide
+/// the axes, so small errors of the start are forgotten.  Uses +, -, *, / and sqrt only.
+/// @param points at least one.
+/// @param start nearly orthonormal axes.
+OrientedBox shrink_box(std::span<const Vec3> points, const Matrix3& start);
+
+}  // namespace affskel::core

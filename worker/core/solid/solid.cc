@@ -1,0 +1,335 @@
+#include "core/solid/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/mesh/mesh_topology.h"
+#include "core/mesh/same_place.h"
+#include "core/mesh/self_intersection.h"
+#include "core/mesh/unused_points.h"
+#include "core/solid/shell_nesting.h"
+
+namespace affskel::core {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message, std::uint64_t line = 0) {
+  throw CoreError(CoreError::Code::kBadInput, message, line);
+}
+
+// Sum with the rounding errors carried along (Neumaier 1974).
+class CompensatedSum {
+ public:
+  void add(double value) {
+    const double sum = sum_ + value;
+    error_ += std::abs(sum_) >= std::abs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
+    sum_ = sum;
+  }
+  double value() const { return sum_ + error_; }
+
+ private:
+  double sum_ = 0;
+  double error_ = 0;
+};
+
+class SolidBuilder {
+ public:
+  SolidBuilder(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
+               const std::vector<std::uint32_t>& triangle_line)
+      : options_(options), vertex_line_(vertex_line), triangle_line_(triangle_line) {
+    solid_.mesh = mesh;
+    triangle_source_.resize(mesh.triangles.size());
+    std::iota(triangle_source_.begin(), triangle_source_.end(), 0U);
+  }
+
+  Solid run() {
+    if (solid_.mesh.triangles.empty()) refuse("the mesh has no triangles");
+    check_points();
+    drop_unused_vertices();
+    const TrianglePlace where = [this](std::uint32_t t) { return place(t); };
+    HalfEdges mates;
+    if (!find_mates_if_closed(solid_.mesh, options_.threads, mates)) {
+      if (!every_edge_is_shared(solid_.mesh)) weld();
+      mates = find_mates(solid_.mesh, where);
+    }
+    make_orientation_agree(mates, where);
+    note_split(split_pinched_vertices(solid_.mesh, mates));
+    normalise();
+    count_degenerate();
+    find_shells(mates);
+    face_outward();
+    sum_volumes();
+    if (options_.check_self_intersections) look_for_self_intersections();
+    return std::move(solid_);
+  }
+
+ private:
+  std::string place(std::uint32_t t) const {
+    const std::uint32_t source = triangle_source_[t];
+    std::string text = "triangle " + std::to_string(source);
+    if (source < triangle_line_.size()) text += " (line " + std::to_string(triangle_line_[source]) + ")";
+    return text;
+  }
+
+  void note(MeshNote::Severity severity, const char* code, const std::string& message) {
+    solid_.notes.push_back({severity, code, message});
+  }
+
+  // For changes that only repair mode may make.
+  void repaired(const char* code, const std::string& message) {
+    if (!options_.repair) refuse(message + " (repair is off)");
+    note(MeshNote::Severity::kRepaired, code, message);
+  }
+
+  void check_points() const {
+    const Mesh& mesh = solid_.mesh;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      const Vec3& p = mesh.points[v];
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      refuse("vertex " + std::to_string(v) + " has a coordinate that is not finite",
+             v < vertex_line_.size() ? vertex_line_[v] : 0);
+    }
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& c = mesh.triangles[t];
+      for (std::uint32_t v : c) {
+        if (v >= mesh.points.size())
+          refuse(place(t) + " uses vertex " + std::to_string(v) + ", which is missing");
+      }
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) refuse(place(t) + " uses a vertex twice");
+    }
+  }
+
+  void drop_unused_vertices() {
+    const std::vector<std::uint32_t> unused = drop_unused_points(solid_.mesh);
+    if (unused.empty()) return;
+    std::string message = std::to_string(unused.size()) +
+                          " vertices that no face uses were left out, the first: vertex " +
+                          std::to_string(unused.front());
+    if (unused.front() < vertex_line_.size()) {
+      message += " (line " + std::to_string(vertex_line_[unused.front()]) + ")";
+    }
+    repaired("unused-vertices", message);
+  }
+
+  void weld() {
+    Mesh& mesh = solid_.mesh;
+    const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
+    std::uint64_t merged = 0;
+    for (std::size_t v = 0; v < first.size(); ++v) merged += first[v] != v;
+    if (merged == 0) return;
+    repaired("welded",
+             std::to_string(merged) + " vertices had the same place as another and were joined with it");
+    for (Triangle& t : mesh.triangles) {
+      for (std::uint32_t& v : t) v = first[v];
+    }
+    drop_collapsed();
+    drop_unused_points(mesh);
+  }
+
+  void drop_collapsed() {
+    Mesh& mesh = solid_.mesh;
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& c = mesh.triangles[t];
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+      triangle_source_[kept] = triangle_source_[t];
+      mesh.triangles[kept++] = c;
+    }
+    const std::size_t dropped = mesh.triangles.size() - kept;
+    mesh.triangles.resize(kept);
+    triangle_source_.resize(kept);
+    if (kept == 0) refuse("the mesh bounds no volume: all its triangles collapse to points or lines");
+    if (dropped != 0) {
+      note(MeshNote::Severity::kRepaired, "degenerate-triangles",
+           std::to_string(dropped) + " triangles had two corners in one place and were left out");
+    }
+  }
+
+  void make_orientation_agree(HalfEdges& mates, const TrianglePlace& where) {
+    const std::vector<std::uint32_t> turned = orient_consistently(solid_.mesh, mates, where);
+    if (turned.empty()) return;
+    repaired("reoriented",
+             std::to_string(turned.size()) +
+                 " triangles faced another way than their neighbours and were turned over, the first: " +
+                 place(turned[0]));
+  }
+
+  void note_split(std::uint32_t added) {
+    if (added == 0) return;
+    repaired("split-vertices",
+             std::to_string(added) +
+                 " vertices where surfaces merely touch were doubled, so that each has its own");
+  }
+
+  void normalise() {
+    Mesh& mesh = solid_.mesh;
+    Vec3 low = mesh.points[0], high = low;
+    for (const Vec3& p : mesh.points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (side == 0) refuse("the mesh bounds no volume: all its vertices are in one place");
+    if (!std::isfinite(side)) refuse("the mesh is too large: its extent is not a double");
+    int exponent = 0;
+    if (std::frexp(side, &exponent) == 0.5) --exponent;
+    solid_.exponent = exponent;
+    solid_.bbox_min = low;
+    solid_.bbox_max = high;
+    solid_.centre = low + 0.5 * (high - low);
+    for (Vec3& p : mesh.points) {
+      p = p - solid_.centre;
+      p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};
+    }
+  }
+
+  void count_degenerate() {
+    const Mesh& mesh = solid_.mesh;
+    std::uint64_t count = 0;
+    std::uint32_t first = 0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& c = mesh.triangles[t];
+      const Vec3 n = cross(mesh.points[c[1]] - mesh.points[c[0]], mesh.points[c[2]] - mesh.points[c[0]]);
+      if (n == Vec3{} && count++ == 0) first = t;
+    }
+    if (count == 0) return;
+    note(MeshNote::Severity::kWarning, "degenerate-triangles",
+         std::to_string(count) + " triangles have no area and give no direction, the first: " + place(first));
+  }
+
+  void find_shells(const HalfEdges& mates) {
+    std::uint32_t count = 0;
+    solid_.triangle_shell = connected_surfaces(mates, count);
+    solid_.shells.resize(count);
+    const Mesh& mesh = solid_.mesh;
+    std::vector<CompensatedSum> volume(count);
+    std::vector<std::uint32_t> vertex_shell(mesh.points.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& c = mesh.triangles[t];
+      const std::uint32_t shell = solid_.triangle_shell[t];
+      volume[shell].add(dot(mesh.points[c[0]], cross(mesh.points[c[1]], mesh.points[c[2]])) / 6);
+      ++solid_.shells[shell].triangles;
+      for (std::uint32_t v : c) vertex_shell[v] = shell;
+    }
+    for (std::uint32_t shell : vertex_shell) ++solid_.shells[shell].vertices;
+    for (std::uint32_t s = 0; s < count; ++s) {
+      Shell& shell = solid_.shells[s];
+      shell.volume = volume[s].value();
+      // Euler: V - E + F = 2 - 2 g with E = 3 F / 2.
+      shell.genus =
+          1 -
+          (static_cast<std::int64_t>(shell.vertices) - static_cast<std::int64_t>(shell.triangles / 2)) / 2;
+    }
+  }
+
+  // Turns shells so that those at even depth have positive volume, the cavities in them negative.
+  void face_outward() {
+    const auto count = static_cast<std::uint32_t>(solid_.shells.size());
+    const ShellNesting nesting = nest_shells(solid_.mesh, solid_.triangle_shell, count);
+    std::vector<std::uint8_t> wrong(count, 0);
+    std::uint32_t number = 0;
+    for (std::uint32_t s = 0; s < count; ++s) {
+      Shell& shell = solid_.shells[s];
+      shell.cavity = nesting.depth[s] % 2 == 1;
+      wrong[s] = (shell.volume < 0) != shell.cavity;
+      number += wrong[s];
+    }
+    if (number != 0) turn_shells(wrong, number);
+    assign_solids(nesting);
+  }
+
+  void turn_shells(const std::vector<std::uint8_t>& wrong, std::uint32_t number) {
+    std::uint32_t first = 0;
+    bool found = false;
+    for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
+      if (wrong[solid_.triangle_shell[t]] == 0) continue;
+      std::swap(solid_.mesh.triangles[t][1], solid_.mesh.triangles[t][2]);
+      if (!found) first = t;
+      found = true;
+    }
+    for (std::size_t s = 0; s < wrong.size(); ++s) {
+      if (wrong[s] != 0) solid_.shells[s].volume = -solid_.shells[s].volume;
+    }
+    repaired("turned-out", std::to_string(number) + " of " + std::to_string(wrong.size()) +
+                               " surfaces faced inward and were turned, the first at " + place(first));
+  }
+
+  void assign_solids(const ShellNesting& nesting) {
+    std::uint32_t solids = 0;
+    for (Shell& shell : solid_.shells) {
+      if (!shell.cavity) shell.solid = solids++;
+    }
+    solid_.solid_volume.assign(solids, 0);
+    for (std::size_t s = 0; s < solid_.shells.size(); ++s) {
+      Shell& shell = solid_.shells[s];
+      if (shell.cavity) shell.solid = solid_.shells[nesting.parent[s]].solid;
+    }
+  }
+
+  void sum_volumes() {
+    const double unit = std::ldexp(1.0, 3 * solid_.exponent);
+    std::vector<CompensatedSum> sums(solid_.solid_volume.size());
+    CompensatedSum total;
+    for (Shell& shell : solid_.shells) {
+      sums[shell.solid].add(shell.volume);
+      total.add(shell.volume);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (!(sums[i].value() > 1e-15)) {
+        refuse("the mesh bounds no volume: solid " + std::to_string(i) + " of " +
+               std::to_string(sums.size()) + " has volume " + to_text(sums[i].value() * unit) +
+               (sums[i].value() > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
+      }
+      solid_.solid_volume[i] = sums[i].value() * unit;
+    }
+    for (Shell& shell : solid_.shells) shell.volume *= unit;
+    solid_.volume = total.value() * unit;
+    // E of a point goes down to 1e-20 v0 and less; keep such values away from the subnormals.
+    if (!std::isfinite(solid_.volume) || solid_.volume < 1e30 * std::numeric_limits<double>::min()) {
+      refuse("the mesh is too " + std::string(std::isfinite(solid_.volume) ? "small" : "large") +
+             ": its volume is " + to_text(solid_.volume) +
+             ", which leaves no room for that of its parts in double precision; change the unit of length");
+    }
+  }
+
+  void look_for_self_intersections() {
+    SelfIntersectionOptions options;
+    // Folded noise has a few per triangle.  More could fill the memory, and would say nothing new.
+    options.max_pairs = 32 * solid_.mesh.triangles.size();
+    options.threads = options_.threads;
+    const auto pairs = self_intersections(solid_.mesh, options);
+    if (pairs.empty()) return;
+    solid_.self_intersecting = true;
+    for (const auto& [i, j] : pairs) {
+      if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
+    }
+    const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
+                                                               : "at least " + std::to_string(pairs.size());
+    note(MeshNote::Severity::kWarning, "self-intersecting",
+         count + " pairs of triangles cross or touch each other, the first: " + place(pairs[0].first) +
+             " and " + place(pairs[0].second) +
+             "; overlaps count twice in volumes, and E is only approximate near them");
+  }
+
+  SolidOptions options_;
+  const std::vector<std::uint32_t>& vertex_line_;
+  const std::vector<std::uint32_t>& triangle_line_;
+  std::vector<std::uint32_t> triangle_source_;  // index in the input, per triangle kept
+  Solid solid_;
+};
+
+}  // namespace
+
+double Solid::scale() const {
+  return std::ldexp(1.0, exponent);
+}
+
+Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
+                 const std::vector<std::uint32_t>& triangle_line) {
+  return SolidBuilder(mesh, options, vertex_line, triangle_line).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+struct SolidOptions {
+  bool repair = true;  ///< weld equal vertices, turn faces to agree, drop what nothing uses; false: refuse
+  bool check_self_intersections = true;
+  unsigned threads = 1;  ///< >= 1; the solid does not depend on it
+};
+
+/// One thing worth telling about a mesh.
+struct MeshNote {
+  enum class Severity { kRepaired, kWarning };
+  Severity severity = Severity::kWarning;
+  std::string code;     ///< stable: "unused-vertices", "welded", "degenerate-triangles", "reoriented",
+                        ///< "split-vertices", "turned-out", "self-intersecting"
+  std::string message;  ///< counts and the first place
+};
+
+/// One closed surface of a solid's boundary.
+struct Shell {
+  std::uint64_t triangles = 0;
+  std::uint64_t vertices = 0;
+  std::int64_t genus = 0;
+  double volume = 0;        ///< signed, mesh units cubed: < 0 for a cavity's wall
+  std::uint32_t solid = 0;  ///< index of the solid it bounds
+  bool cavity = false;
+};
+
+/// A solid V bounded by closed outward-oriented triangle meshes, ready for the erosion.
+///
+/// Inner coordinates: y = (x - centre) * 2^-exponent, so that the bounding box is centred at 0 and its
+/// longest side lies in (1/2, 1].  The scaling is exact, the shift rounds once; all further stages work in
+/// inner coordinates and give volumes times 2^(3 exponent), areas times 2^(2 exponent).
+struct Solid {
+  Mesh mesh;                                  ///< inner coordinates
+  Vec3 centre;                                ///< of the bounding box, mesh units
+  int exponent = 0;                           ///< see above
+  Vec3 bbox_min, bbox_max;                    ///< mesh units
+  std::vector<Shell> shells;                  ///< by first triangle
+  std::vector<std::uint32_t> triangle_shell;  ///< per triangle
+  std::vector<double> solid_volume;           ///< per connected solid, mesh units cubed, > 0
+  double volume = 0;                          ///< v0: all solids, mesh units cubed
+  bool self_intersecting = false;             ///< triangles cross or touch that are not neighbours
+  /// Those that pass through each other, (i, j) with i < j ascending: there parts of the solid overlap.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
+  std::vector<MeshNote> notes;
+
+  /// Mesh units per inner unit, 2^exponent.
+  double scale() const;
+};
+
+/// Checks that the mesh bounds a solid and normalises it.
+/// @param vertex_line, triangle_line lines for messages (see OffMesh); may be empty.
+/// @throws CoreError kBadInput with the first place and cause: no triangles, open edges, edges with more
+///   than two triangles, repeated triangles, not orientable, zero volume, coordinates so large or small
+///   that the volume is not a normal double.
+Solid make_solid(const Mesh& mesh, const SolidOptions& options = {},
+                 const std::vector<std::uint32_t>& vertex_line = {},
+                 const std::vector<std::uint32_t>& triangle_line = {});
+
+}  // namespace affskel::core

@@ -1,0 +1,188 @@
+#include "core/solid/solid_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/base/axis_choice.h"
+#include "core/base/cube_root.h"
+#include "core/base/error.h"
+#include "core/base/symmetric_eigen.h"
+#include "core/solid/independent_axes.h"
+#include "core/solid/least_box.h"
+#include "core/solid/moments.h"
+
+namespace affskel::core {
+namespace {
+
+// Orthonormal axes with what they are ordered by.
+struct OrderedAxes {
+  std::array<double, 3> size{};
+  Matrix3 axes{};
+};
+
+// A plane of equal eigenvalues determines no axes in it.
+Matrix3 with_ties_resolved(const OrderedAxes& ordered) {
+  const std::array<double, 3>& s = ordered.size;
+  const bool first = s[0] - s[1] <= kAxisTie * s[0], last = s[1] - s[2] <= kAxisTie * s[0];
+  if (first && last) return kIdentity3;
+  if (!first && !last) return ordered.axes;
+  const Vec3& alone = ordered.axes[first ? 2 : 0];
+  const auto [a, b] = plane_axes(alone);
+  if (first) return {a, b, alone};
+  return {alone, a, b};
+}
+
+// Whether the first of the largest components is < 0.
+bool points_back(const Vec3& axis) {
+  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(axis[k]) >= (1 - kAxisTie) * largest) return axis[k] < 0;
+  }
+  return false;
+}
+
+bool is_before(const Vec3& a, const Vec3& b) {
+  const double x = std::abs(a.x) - std::abs(b.x), y = std::abs(a.y) - std::abs(b.y);
+  return std::abs(x) > kAxisTie ? x > 0 : y > kAxisTie;
+}
+
+// Of equal ones the one nearer to x comes first, then the one nearer to y.
+OrderedAxes descending(OrderedAxes a) {
+  const double tie = kAxisTie * *std::max_element(a.size.begin(), a.size.end());
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{0}}) {
+    const double larger = a.size[k + 1] - a.size[k];
+    if (larger > tie || (larger >= -tie && is_before(a.axes[k + 1], a.axes[k]))) {
+      std::swap(a.size[k], a.size[k + 1]);
+      std::swap(a.axes[k], a.axes[k + 1]);
+    }
+  }
+  return a;
+}
+
+class Frame {
+ public:
+  explicit Frame(const Mesh& mesh) : mesh_(mesh), moments_(solid_moments(mesh)) {}
+
+  Matrix3 principal() const {
+    const SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
+    return oriented(with_ties_resolved({eigen.values, eigen.vectors}));
+  }
+
+  Matrix3 least_box() const { return oriented(descending(with_sides(least_box_axes(mesh_))).axes); }
+
+  Matrix3 affine() const {
+    SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
+    // Parts that are turned inside out count negatively, and badly folded noise has many of them.  The
+    // vertices' covariance is as covariant, and never negative.
+    if (!(eigen.values[2] > 0)) eigen = symmetric_eigen(vertex_covariance());
+    if (!(eigen.values[2] > 0)) {
+      throw CoreError(CoreError::Code::kBadInput, "the solid is too flat for an affine frame");
+    }
+    Matrix3 root{}, whitening{};  // C^(1/2) and C^(-1/2)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = std::sqrt(eigen.values[k]);
+      const Vec3& e = eigen.vectors[k];
+      root = root + Matrix3{length * e.x * e, length * e.y * e, length * e.z * e};
+      whitening = whitening + Matrix3{e.x / length * e, e.y / length * e, e.z / length * e};
+    }
+    const IndependentAxes found =
+        independent_axes(fourth_moments(mesh_, moments_.volume, moments_.centroid, whitening));
+    const Matrix3 axes = unmirrored(descending({found.kurtosis, found.axes}), whitening);
+    const Matrix3 frame = root * axes;
+    return (1 / cube_root(determinant(frame))) * frame;
+  }
+
+ private:
+  Matrix3 vertex_covariance() const {
+    const double share = 1 / static_cast<double>(mesh_.points.size());
+    Vec3 mean;
+    for (const Vec3& p : mesh_.points) mean = mean + share * p;
+    Matrix3 covariance{};
+    for (const Vec3& p : mesh_.points) {
+      const Vec3 q = p - mean;
+      covariance = covariance + Matrix3{share * q.x * q, share * q.y * q, share * q.z * q};
+    }
+    return covariance;
+  }
+
+  OrderedAxes with_sides(const Matrix3& axes) const {
+    return {{side(axes[0]), side(axes[1]), side(axes[2])}, axes};
+  }
+
+  double side(const Vec3& axis) const {
+    double low = dot(axis, mesh_.points.front()), high = low;
+    for (const Vec3& p : mesh_.points) {
+      low = std::min(low, dot(axis, p));
+      high = std::max(high, dot(axis, p));
+    }
+    return high - low;
+  }
+
+  // Turns the axis to where the third moment of w = whitening (x - centroid), whitening symmetric, is > 0.
+  // Returns false when it vanishes.
+  bool orient(Vec3& axis, const Matrix3& whitening) const {
+    const Vec3 along = whitening * axis;
+    const double third = third_moment(mesh_, moments_.volume, moments_.centroid, along);
+    const double variance = dot(along, moments_.covariance * along);
+    const bool vanishes = std::abs(third) <= kAxisTie * variance * std::sqrt(variance);
+    if (vanishes ? points_back(axis) : third < 0) axis = -axis;
+    return !vanishes;
+  }
+
+  // The signs of the first two by third moments; the third axis makes them right-handed.
+  Matrix3 oriented(Matrix3 axes) const {
+    for (std::size_t k = 0; k < 2; ++k) orient(axes[k], kIdentity3);
+    axes[2] = unit(cross(axes[0], axes[1]));
+    return axes;
+  }
+
+  // All signs by third moments.  What is left-handed then is put right by the last axis whose third moment
+  // vanishes; if none does, by the order of the two axes that it decides the least.
+  Matrix3 unmirrored(OrderedAxes a, const Matrix3& whitening) const {
+    std::size_t loose = 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!orient(a.axes[k], whitening)) loose = k;
+    }
+    if (determinant(a.axes) > 0) return a.axes;
+    const std::size_t closest = a.size[0] - a.size[1] < a.size[1] - a.size[2] ? 0 : 1;
+    if (loose < 3) {
+      a.axes[loose] = -a.axes[loose];
+    } else {
+      std::swap(a.axes[closest], a.axes[closest + 1]);
+    }
+    return a.axes;
+  }
+
+  const Mesh& mesh_;
+  Moments moments_;
+};
+
+}  // namespace
+
+FrameKind parse_frame(std::string_view name) {
+  if (name == "axis") return FrameKind::kAxis;
+  if (name == "pca") return FrameKind::kPca;
+  if (name == "obb") return FrameKind::kObb;
+  if (name == "affine") return FrameKind::kAffine;
+  throw CoreError(CoreError::Code::kBadInput,
+                  "frame '" + std::string(name.substr(0, 40)) + "': expected axis, pca, obb or affine");
+}
+
+Matrix3 solid_frame(const Solid& solid, FrameKind kind) {
+  switch (kind) {
+    case FrameKind::kAxis:
+      break;
+    case FrameKind::kPca:
+      return Frame(solid.mesh).principal();
+    case FrameKind::kObb:
+      return Frame(solid.mesh).least_box();
+    case FrameKind::kAffine:
+      return Frame(solid.mesh).affine();
+  }
+  return kIdentity3;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/mesh/box_tree.h"
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+/// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by
+/// a ray along +x through a tree of the triangles' boxes.  Shares nothing with the scan conversion that
+/// chooses the sample points (which goes along the lattice's axes), and so can check it.  Keeps a reference
+/// to the mesh. Immutable after construction; queries from several threads are safe.
+class SolidMembership {
+ public:
+  /// @param mesh closed, outward-oriented.
+  explicit SolidMembership(const Mesh& mesh);
+
+  /// Whether the surface winds round q at least once, or does so round one of the eight points at
+  /// +-`tolerance` from q along each axis: a sample point on the surface belongs to the solid.
+  bool contains(const Vec3& q, double tolerance = 0) const;
+
+ private:
+  int winding_number(const Vec3& q) const;
+
+  const Mesh& mesh_;
+  BoxTree tree_;
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,58 @@
+#include "core/solid/surface_samples.h"
+
+#include <cmath>
+
+#include "core/base/error.h"
+
+namespace affskel::core {
+namespace {
+
+double area_of(const Mesh& mesh, const Triangle& t) {
+  const Vec3& a = mesh.points[t[0]];
+  return 0.5 * norm(cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a));
+}
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+// Point number i of the R2 sequence, in the triangle.
+Vec3 point_in(const Mesh& mesh, const Triangle& t, double i) {
+  // 1/g and 1/g^2 with g^3 = g + 1.
+  double u = fraction(0.5 + i * 0.75487766624669276), v = fraction(0.5 + i * 0.56984029099805327);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const Vec3& a = mesh.points[t[0]];
+  return a + (u * (mesh.points[t[1]] - a) + v * (mesh.points[t[2]] - a));
+}
+
+}  // namespace
+
+double surface_area(const Mesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) area += area_of(mesh, t);
+  return area;
+}
+
+std::vector<Vec3> surface_samples(const Mesh& mesh, const SurfaceSamplesOptions& options) {
+  const double total = surface_area(mesh);
+  if (!(total > 0) || !std::isfinite(total)) {
+    throw CoreError(CoreError::Code::kBadInput, "the surface has no area to take points from");
+  }
+  const double per_area = static_cast<double>(options.count) / total;
+  std::vector<Vec3> points;
+  points.reserve(options.count);
+  double swept = 0;
+  for (const Triangle& t : mesh.triangles) {
+    swept += area_of(mesh, t);
+    // Point i stands for the areas from i to i + 1 and lies where half of that is swept.
+    while (points.size() < options.count && static_cast<double>(points.size()) + 0.5 <= swept * per_area) {
+      points.push_back(point_in(mesh, t, static_cast<double>(points.size())));
+    }
+  }
+  return points;
+}
+
+}  // namespace affskel::core

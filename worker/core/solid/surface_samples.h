@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+struct SurfaceSamplesOptions {
+  std::size_t count = 50000;  ///< points in all; > 0
+};
+
+/// Points spread evenly over the triangles: every triangle gets its share of the area, to one point; within a
+/// triangle they follow the R2 sequence (Roberts 2018: two-dimensional golden ratio), folded over the
+/// diagonal.  No randomness; only + - * / and sqrt.  A triangle's points lie on it to rounding.
+/// @throws CoreError kBadInput when no triangle has an area.
+std::vector<Vec3> surface_samples(const Mesh& mesh, const SurfaceSamplesOptions& options = {});
+
+/// Area of all triangles, mesh units squared.
+double surface_area(const Mesh& mesh);
+
+}  // namespace affskel::core
