@@ -185,7 +185,7 @@ void add_make(CLI::App& app, Options& options) {
 
 void add_other_commands(CLI::App& app, Options& options) {
   command(app, options, "server-info", Command::kServerInfo, "Version, workers and queue of the server",
-          "  affskel-client server-info\n  affskel-client --server 127.0.0.1:7340 server-info");
+          "  affskel-client server-info\n  affskel-client --server 127.0.0.1:7060 server-info");
   CLI::App* completions = command(
       app, options, "completions", Command::kCompletions, "Completion script for a shell",
       "  affskel-client completions bash > ~/.local/share/bash-completion/completions/affskel-client\n"
