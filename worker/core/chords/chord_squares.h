@@ -33,7 +33,7 @@ inline LatticeElement edge_of(const ChordShock& shock, const SolidParts& parts) 
   return {{shock.place[0], shock.place[1], shock.place[2]}, shock.axis, parts.of_point(shock.point)};
 }
 
-/// The squares round an edge; the first two lie on opposite sides of it, and so do the last two.
+/// The squares round an edge.
 inline std::array<LatticeElement, 4> squares_round(const LatticeElement& edge) {
   const std::uint32_t u = (edge.axis + 1) % 3, v = (edge.axis + 2) % 3;
   const LatticeElement across_u{edge.place, u, edge.part}, across_v{edge.place, v, edge.part};

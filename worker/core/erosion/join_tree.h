@@ -87,14 +87,13 @@ struct JoinTree {
   }
 };
 
-/// What all directions of a solid share: area vectors, fans, the ray hierarchy.  Immutable; threads share
-/// it.  Keeps a reference to the solid.
+/// What all directions of a solid share: area vectors, fans, the ray hierarchy, and a copy of its mesh.
+/// Immutable; threads share it.
 class TreeInput {
  public:
   /// Computed on up to `threads` threads.
   explicit TreeInput(const Solid& solid, unsigned threads = 1);
   ~TreeInput();
-  TreeInput(TreeInput&&) noexcept;
 
   struct Data;
   const Data& data() const { return *data_; }

@@ -92,7 +92,7 @@ __attribute__((noinline)) void add_nearly_level(const Corners& at, double p, Sec
 }
 
 // Without a branch: which of two is the lower cannot be foreseen.
-inline void order(std::uint64_t& a, std::uint64_t& b) {
+inline void put_in_order(std::uint64_t& a, std::uint64_t& b) {
   const std::uint64_t change = (a ^ b) & (std::uint64_t{0} - static_cast<std::uint64_t>(b < a));
   a ^= change;
   b ^= change;
@@ -102,9 +102,9 @@ inline void order(std::uint64_t& a, std::uint64_t& b) {
 inline std::array<std::uint32_t, 3> by_rank(const Triangle& t, const Vertex* vertex) {
   const auto key = [&](std::size_t i) { return std::uint64_t{vertex[t[i]].rank} << 32 | t[i]; };
   std::uint64_t a = key(0), b = key(1), c = key(2);
-  order(a, b);
-  order(b, c);
-  order(a, b);
+  put_in_order(a, b);
+  put_in_order(b, c);
+  put_in_order(a, b);
   return {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
 }
 

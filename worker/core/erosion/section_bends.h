@@ -29,17 +29,20 @@ struct SectionBends {
     std::uint32_t rank = 0;      ///< by height
     std::uint32_t down = kNone;  ///< some lower neighbour, kNone at a minimum
   };
+  /// What only middle corners and those of nearly level triangles change, apart so that the above stays
+  /// small.
   struct Link {
     std::uint32_t middles = 0;    ///< triangles it is the middle corner of: 2 per lower link component
     std::uint32_t steep = kNone;  ///< index into steep_bend, kNone when it has none
   };
 
-  std::vector<Vertex> vertices;
+  std::vector<Vertex> vertices;       ///< per vertex
   std::vector<Link> links;            ///< per vertex
   std::vector<DoubleSum> steep_bend;  ///< what nearly level triangles add to the bends of their corners
   std::vector<std::uint32_t> lowest;  ///< per triangle: its lowest corner
   std::vector<Jump> jumps;            ///< by rank
 
+  /// Asks the memory for what is known of a vertex.
   void prefetch(std::uint32_t vertex) const {
     __builtin_prefetch(&vertices[vertex]);
     __builtin_prefetch(&links[vertex]);

@@ -139,6 +139,4 @@ double TreeInput::volume_tolerance() const {
   return 1e-9 * data_->volume + kLevelHeight * data_->surface_area;
 }
 
-TreeInput::TreeInput(TreeInput&&) noexcept = default;
-
 }  // namespace affskel::core
