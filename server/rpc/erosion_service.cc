@@ -161,12 +161,8 @@ Store::ArtifactState ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& 
         signal->changed.notify_all();
       });
   for (std::int64_t task = 0;;) {
-    // A request that failed stays failed; asking again would only start it anew.
-    if (task != 0) {
-      if (const std::optional<v1::JobError> error = store_.task_error(task))
-        throw CallEnded(status_of_failure(*error));
-    }
-    Store::ArtifactState state = store_.open_artifact(request);
+    Store::ArtifactState state = store_.open_artifact(request, task);
+    if (state.error) throw CallEnded(status_of_failure(*state.error));
     if (state.reader != nullptr) return state;
     task = state.task;
     std::unique_lock lock(signal->mutex);

@@ -73,16 +73,19 @@ class Store {
 
   // Artefacts: store_artifacts.cc
 
-  /// Either an artefact is there to be read, or a task that will bring it.
+  /// An artefact that is there to be read, or a task that will bring it, or why the one asked for did not.
   struct ArtifactState {
-    std::unique_ptr<BlobReader> reader;  ///< null = wait for `task`
+    std::unique_ptr<BlobReader> reader;  ///< null = wait for `task`, unless `error` is set
     std::int64_t task = 0;
+    std::optional<v1::JobError> error;
   };
   /// Opens a stored artefact; queues a task for a derived one that is not there yet.
-  ArtifactState open_artifact(const v1::FetchArtifactRequest& request);
-  /// Error of a task that failed; nothing while it may still succeed or when it has.
-  /// @throws StoreError kNotFound when the task was deleted with its job.
-  std::optional<v1::JobError> task_error(std::int64_t task);
+  /// @param asked the task that an earlier call answered this request with, or 0.  When it has failed, the
+  ///   answer is its error, and nothing is queued anew.
+  /// @throws StoreError kNotFound when job or task were deleted; kPrecondition when the job is not as far
+  /// yet;
+  ///   kInvalid for parameters out of range.
+  ArtifactState open_artifact(const v1::FetchArtifactRequest& request, std::int64_t asked = 0);
 
   // For workers: store_leases.cc, store_reports.cc, store_complete.cc
 

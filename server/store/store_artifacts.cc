@@ -86,9 +86,31 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   return add_derive_task(tx, job.id, wanted.kind, wanted.params, wanted.key.params_key, true);
 }
 
+/// Error of a task that failed; nothing while it may still succeed or when it has.
+std::optional<v1::JobError> task_error(Database& db, std::int64_t task) {
+  Statement row = db.query(
+      "SELECT t.state, t.error_code, t.error_message, t.on_request, j.state, j.error_code, j.error_message"
+      " FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE t.id = ?",
+      task);
+  v1::JobError error;
+  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "the job was deleted meanwhile");
+  if (row.text(0) == "failed") {
+    error.set_code(row.text(1));
+    error.set_message(row.text(2));
+    return error;
+  }
+  // The job's own skeleton comes with the job, or fails with it.
+  if (!row.flag(3) && row.text(4) == "failed") {
+    error.set_code(row.text(5));
+    error.set_message(row.text(6));
+    return error;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& request) {
+Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& request, std::int64_t asked) {
   std::string mesh;
   std::int64_t field = 0;
   std::int64_t artifact = 0;
@@ -115,35 +137,14 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
     const Derived wanted = checked_derived(job, request);
     require_finished(job);
     artifact = find_artifact(tx.db, wanted.key).value_or(0);
-    return artifact != 0 ? 0 : request_derived(tx, job, wanted);
+    if (artifact != 0) return 0;
+    if (asked != 0) state.error = task_error(tx.db, asked);
+    return state.error ? asked : request_derived(tx, job, wanted);
   });
   if (!mesh.empty()) state.reader = read_mesh(file_, mesh);
   if (field != 0) state.reader = read_field(file_, field);
   if (artifact != 0) state.reader = read_artifact(file_, artifact);
   return state;
-}
-
-std::optional<v1::JobError> Store::task_error(std::int64_t task) {
-  return read([&](Database& db) -> std::optional<v1::JobError> {
-    Statement row = db.query(
-        "SELECT t.state, t.error_code, t.error_message, t.on_request, j.state, j.error_code, j.error_message"
-        " FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE t.id = ?",
-        task);
-    v1::JobError error;
-    if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "the job was deleted meanwhile");
-    if (row.text(0) == "failed") {
-      error.set_code(row.text(1));
-      error.set_message(row.text(2));
-      return error;
-    }
-    // The job's own skeleton comes with the job, or fails with it.
-    if (!row.flag(3) && row.text(4) == "failed") {
-      error.set_code(row.text(5));
-      error.set_message(row.text(6));
-      return error;
-    }
-    return std::nullopt;
-  });
 }
 
 std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::ArtifactKind kind) {

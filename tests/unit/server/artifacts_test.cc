@@ -132,13 +132,16 @@ TEST_F(ArtifactTest, RequestsComeBeforeJobs) {
 TEST_F(ArtifactTest, FailedRequestLeavesTheJobAlone) {
   const v1::Job job = complete_job(10, 20);
   const std::int64_t task = store_->open_artifact(skeleton(job.id(), 3)).task;
-  EXPECT_FALSE(store_->task_error(task));
+  EXPECT_FALSE(store_->open_artifact(skeleton(job.id(), 3), task).error);
   v1::JobError error;
   error.set_code("LIMIT");
   error.set_message("too many points");
   store_->fail(lease().token(), error, false);
-  ASSERT_TRUE(store_->task_error(task));
-  EXPECT_EQ(store_->task_error(task)->message(), "too many points");
+  const Store::ArtifactState failed = store_->open_artifact(skeleton(job.id(), 3), task);
+  ASSERT_TRUE(failed.error);
+  EXPECT_EQ(failed.error->message(), "too many points");
+  EXPECT_EQ(failed.task, task);
+  EXPECT_FALSE(has_work()) << "whoever waits for it does not start it anew";
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
   EXPECT_NE(store_->open_artifact(skeleton(job.id(), 3)).task, task) << "asking again tries again";
 }
@@ -151,8 +154,9 @@ TEST_F(ArtifactTest, RequestIsGivenUpAfterTooManyLosses) {
     clock_.advance(options_.lease_ms + 1);
     store_->expire_leases();
   }
-  ASSERT_TRUE(store_->task_error(task));
-  EXPECT_EQ(store_->task_error(task)->code(), "WORKER_LOST");
+  const Store::ArtifactState lost = store_->open_artifact(skeleton(job.id(), 3), task);
+  ASSERT_TRUE(lost.error);
+  EXPECT_EQ(lost.error->code(), "WORKER_LOST");
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
   EXPECT_FALSE(has_work());
 }
