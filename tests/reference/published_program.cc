@@ -71,7 +71,10 @@ class Program {
  private:
   void generate_points() {
     const Vec3 side = bounds_.high - bounds_.low, centre = 0.5 * (bounds_.low + bounds_.high);
-    const auto count = [&](double length) { return std::max(1.0, std::ceil(length / options_.spacing)); };
+    const auto count = [&](double length) {
+      const double steps = length / options_.spacing * (1 - 1e-9);
+      return steps > 1 ? 2 * std::ceil((steps - 1) / 2) : 1;
+    };
     const double nx = count(side.x), ny = count(side.y), nz = count(side.z);
     const auto at = [&](double middle, double i, double n) {
       return middle + options_.spacing * (i - (n - 1) / 2);

@@ -42,11 +42,11 @@ struct PublishedField {
 /// v0/2 or when x_i has left the solid for the last time; while it is outside they are skipped up to its next
 /// entry.  Points between the last plane before an exit and the exit get nothing from this triangle.
 ///
-/// Where the text is silent: points are a lattice centred on the bounding box, ceil(side / dT) per side, as
-/// the core's.  Planes at x_i or at an entry are put 1e-9 of the solid's size further in, where the component
-/// is defined.  A ray from x_i that grazes a side is moved aside within the triangle.  An inner surface (of a
-/// cavity or of a dent seen from within) is given to the component that holds it, without which volumes
-/// would be wrong.
+/// Where the text is silent: points are a lattice centred on the bounding box, none in its middle planes,
+/// as the core's.  Planes at x_i or at an entry are put 1e-9 of the solid's size further in, where the
+/// component is defined.  A ray from x_i that grazes a side is moved aside within the triangle.  An inner
+/// surface (of a cavity or of a dent seen from within) is given to the component that holds it, without which
+/// volumes would be wrong.
 ///
 /// @param mesh closed, manifold, outward-oriented, not crossing itself; triangles without area are skipped.
 /// @throws std::invalid_argument when spacing or step is not finite and > 0 or a triangle is out of range.

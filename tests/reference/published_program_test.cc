@@ -236,7 +236,7 @@ TEST(PublishedProgram, EqualsTheCoreBesideACavity) {
 // Limbs merge: within a step of a merge the interpolation is off by a whole limb, and the share of such
 // points falls with the step.
 TEST(PublishedProgram, ApproachesTheCoreOnABody) {
-  const auto steps = convergence("body", core::make_body({200, 1800}), 50, 60, 5);
+  const auto steps = convergence("body", core::make_body({200, 1800}), 40, 60, 5);
   expect_falling(steps, 0.8);
   EXPECT_LT(steps.back().mean, steps.front().mean / 8);
   EXPECT_LT(steps.back().far, steps.front().far / 8);

@@ -18,9 +18,13 @@ class NormalBlock {
 
   explicit NormalBlock(const Place& dims, double spacing = 1)
       : solid(make_solid(make_box(spacing * dims[0], spacing * dims[1], spacing * dims[2]))), dims_(dims) {
-    LatticeOptions options;
-    options.spacing = spacing;
-    lattice = make_lattice(solid, options);
+    const double step = spacing / solid.scale();
+    LatticeFrame frame;
+    frame.axes = {Vec3{step, 0, 0}, {0, step, 0}, {0, 0, step}};
+    frame.origin = -0.5 * step * Vec3{dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0};
+    frame.dims = dims;
+    lattice = make_lattice(solid, frame);
+    lattice.spacing = spacing;
   }
 
   std::uint32_t at(const Place& p) const { return (p[0] * dims_[1] + p[1]) * dims_[2] + p[2]; }

@@ -185,13 +185,12 @@ double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
 
 // The solid's bounding box in a frame's coordinates.
 struct FrameBox {
-  Vec3 sides;         // mesh units
-  Vec3 centre;        // inner coordinates
-  double shrunk = 1;  // what sides are to be multiplied by before they are counted in steps
+  Vec3 sides;   // mesh units
+  Vec3 centre;  // inner coordinates
 };
 
 FrameBox box_in(const Solid& solid, const Matrix3& f) {
-  if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}, 1};
+  if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}};
   const Matrix3 inverse = inverse_transposed(f);
   const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
   Vec3 low = in_frame(solid.mesh.points.front()), high = low;
@@ -200,7 +199,7 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
     low = {std::min(low.x, u.x), std::min(low.y, u.y), std::min(low.z, u.z)};
     high = {std::max(high.x, u.x), std::max(high.y, u.y), std::max(high.z, u.z)};
   }
-  return {solid.scale() * (high - low), f * (0.5 * (low + high)), 1 - 1e-9};
+  return {solid.scale() * (high - low), f * (0.5 * (low + high))};
 }
 
 // The lattice of a spacing before it is filled.
@@ -210,6 +209,15 @@ struct Plan {
   double estimate = 0;  // of the points
   bool fits = false;    // within the limits; only then there is a frame
 };
+
+// An even number: the middle planes of the box, where solids that are their own mirror images have their
+// skeletons, lie half-way between sample points.  At a point in the skeleton two chords are equal, and which
+// of them rounding takes for the lesser one would be chance.  None on the box itself, nor within rounding of
+// it.
+double points_per_side(double steps) {
+  constexpr double kShrunk = 1 - 1e-9;
+  return steps * kShrunk > 1 ? 2 * std::ceil((steps * kShrunk - 1) / 2) : 1;
+}
 
 Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
   const Vec3& sides = box.sides;
@@ -224,7 +232,7 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
   plan.frame.axes = step * options.frame;
   std::array<double, 3> origin{};
   for (int k = 0; k < 3; ++k) {
-    const double count = std::max(1.0, std::ceil(sides[k] / spacing * box.shrunk));
+    const double count = points_per_side(sides[k] / spacing);
     plan.frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
     origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
   }

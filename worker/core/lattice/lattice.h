@@ -75,15 +75,16 @@ struct LatticeOptions {
 };
 
 /// Lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
-/// bounding box in the frame's coordinates u = F^-1 (x - centre), ceil(side / dT) points per side, and the
-/// watertight scan conversion of the solid in it: a point is inside when the surfaces below it along
-/// axis 2 enter more often than they leave (half-open, decided the same way from both triangles of every
-/// edge, so that the count of crossings of a line is always even).
+/// bounding box in the frame's coordinates u = F^-1 (x - centre), and the watertight scan conversion of the
+/// solid in it: a point is inside when the surfaces below it along axis 2 enter more often than they leave
+/// (half-open, decided the same way from both triangles of every edge, so that the count of crossings of a
+/// line is always even).
+///
+/// Points lie half a dT, 3/2 dT, ... to either side of the box's middle planes as long as they are inside the
+/// box by more than 1e-9 of its side; where a side is at most dT, in its middle plane.  So no point lies in
+/// the middle planes of other solids: there a symmetric one has its skeleton.
 /// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
 ///   more than max_points would.
-///
-/// Sides that are whole multiples of dT to 1e-9 count as such in any frame but the mesh's own, where rounding
-/// in F would decide otherwise.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
 /// How many sample points make_lattice would give for options.spacing, by one scan conversion; nothing when

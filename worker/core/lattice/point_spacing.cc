@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kMostDoublings = 60;
 constexpr int kMostHalvings = 24;  // of the bracket in the logarithm: to a part in 10^7
+constexpr int kSteps = 24;         // to either side of the spacing for single layers ...
+constexpr double kStep = 0.004;    // ... in the logarithm: 10 %
 
 class SpacingSearch {
  public:
@@ -27,10 +29,27 @@ class SpacingSearch {
       const double middle = std::sqrt(low * high);
       (too_many(middle) ? low : high) = middle;
     }
+    try_single_layers();
     return best_;
   }
 
  private:
+  void try_single_layers() {
+    const double middle =
+        solid_.scale() * std::sqrt(area() / 2 / static_cast<double>(options_.target_points));
+    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * std::exp(i * kStep));
+  }
+
+  // Of the surface, inner coordinates.
+  double area() const {
+    const std::vector<Vec3>& p = solid_.mesh.points;
+    double sum = 0;
+    for (const Triangle& t : solid_.mesh.triangles) {
+      sum += 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+    }
+    return sum;
+  }
+
   // A lattice beyond the limits has too many.
   bool too_many(double spacing) {
     options_.spacing = spacing;

@@ -56,11 +56,9 @@ Branch linear_branch(double constant, const Vec3& slope) {
 
 BoxLattice::BoxLattice(double a, double b, double c) : BoxLattice(make_box(a, b, c)) {}
 
-BoxLattice::BoxLattice(const Mesh& box) : solid(make_solid(box)) {
-  LatticeOptions options;
-  options.spacing = 1;
-  lattice = make_lattice(solid, options);
-}
+BoxLattice::BoxLattice(const Mesh& box)
+    : solid(make_solid(box)),
+      lattice(make_lattice(solid, frame_round(solid, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}))) {}
 
 FrameField field_of_branches(const Lattice& lattice, const std::vector<Branch>& branches) {
   FrameField field;

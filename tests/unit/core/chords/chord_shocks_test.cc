@@ -143,10 +143,8 @@ TEST(ChordShocks, BoundsOnStrengthAndOpeningHold) {
 
 // Two slabs 0.2 apart between two layers of points: E jumps over the gap, and no segment lies in the solid.
 TEST(ChordShocks, NoEdgeAcrossAGap) {
-  const Solid solid = make_solid(joined(make_box(9, 9, 4.1), moved(make_box(9, 9, 4.7), {0, 0, 4.3})));
-  LatticeOptions options;
-  options.spacing = 1;
-  const Lattice lattice = make_lattice(solid, options);
+  const BoxLattice slabs(joined(make_box(9, 9, 4.1), moved(make_box(9, 9, 4.7), {0, 0, 4.3})));
+  const Lattice& lattice = slabs.lattice;
   ASSERT_EQ(lattice.points, 729U);
   EXPECT_TRUE(chord_shocks(lattice, field_of_branches(
                                         lattice, {linear_branch(1, {0, 0, 1}), linear_branch(8, {0, 0, -1})}))

@@ -133,7 +133,7 @@ TEST(LatticeCutsTest, DependOnTheSolidNotOnTheLengthOfTheLattice) {
 TEST(LatticeCutsTest, OfABoxAreAsManyAlongEachStepInEveryOrderOfTheAxes) {
   // Every place of the lattice lies in the box, those at its ends half a step from the faces.
   for (const std::array<std::int64_t, 3>& n : std::vector<std::array<std::int64_t, 3>>{
-           {200, 3, 4}, {3, 200, 4}, {3, 4, 200}, {40, 50, 2}, {40, 2, 50}, {2, 40, 50}}) {
+           {200, 6, 4}, {6, 200, 4}, {6, 4, 200}, {40, 50, 2}, {40, 2, 50}, {2, 40, 50}}) {
     const Solid solid =
         make_solid(make_box(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])));
     const LatticeCuts cuts(solid, lattice_of(solid, 1));
