@@ -80,6 +80,21 @@ class Desktop(WithPage):
             self.assertGreater(colours(self.page.canvas_picture())[0], 1, layer)
             self.page.click("show-" + layer)
 
+    def test_a_new_size_is_drawn_before_it_is_seen(self):
+        """Observers run in the order of their making: this one reads what the page leaves to be painted."""
+        pixel = self.driver.execute_async_script("""
+            const done = arguments[0], canvas = document.getElementById('canvas'), width = canvas.width;
+            const gl = canvas.getContext('webgl2') || canvas.getContext('webgl');
+            new ResizeObserver(() => {
+              if (canvas.width === width) return;
+              const pixel = new Uint8Array(4);
+              gl.readPixels(1, 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+              done(Array.from(pixel));
+            }).observe(canvas.parentElement);
+            document.body.style.width = '800px';""")
+        self.page.script("document.body.style.width = ''")
+        self.assertGreater(sum(pixel[:3]), 0, "black: the canvas was cleared and not drawn")
+
     def test_the_threshold_chooses_the_skeleton(self):
         self.assertEqual(self.page.state()["threshold"], 7)
         self.assertEqual(self.page.state()["skeletonShown"], job.skeleton_points(7))

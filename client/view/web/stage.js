@@ -36,7 +36,11 @@ export class Stage {
     this.controls.addEventListener('start', () => (this.view = ''));
     canvas.addEventListener('wheel', () => (this.view = ''));
     canvas.addEventListener('keydown', (event) => this.pressKey(event));
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    // A new size clears the canvas: drawn at once, before anybody sees it black.
+    new ResizeObserver(() => {
+      this.resize();
+      this.draw();
+    }).observe(canvas.parentElement);
     this.resize();
     this.show('start');
   }
