@@ -117,7 +117,20 @@ void Server::maintain() {
       release_dead_workers(*store_);
       store_->expire_leases();
     });
+    tidy();
     lock.lock();
+  }
+}
+
+/// Whoever waits for the store gets his turn between two steps: they take half of the time.
+void Server::tidy() {
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  for (bool more = true; more;) {
+    more = false;
+    const auto begin = now();
+    guarded([&] { more = store_->tidy(); });
+    std::unique_lock lock(mutex_);
+    if (stopped_.wait_for(lock, now() - begin, [this] { return stopping_; })) return;
   }
 }
 

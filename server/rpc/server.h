@@ -61,6 +61,7 @@ class Server {
  private:
   void listen(const std::vector<wire::Address>& addresses);
   void maintain();
+  void tidy();
 
   SystemClock clock_;
   EventHub hub_;
