@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/solid/solid_frame.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 
 namespace affskel::worker {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "store/errors.h"
 #include "store/field.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::server {
