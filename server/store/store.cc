@@ -28,6 +28,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
       db_(file_, Database::Mode::kReadWrite),
       schema_version_(migrate(db_)),
       disk_full_(!reserve_.whole()) {
+  if (disk_full_) live_on_reserve();
   let_pages_go(db_, options_.free_bytes(directory_of(file_)));
   write([](Tx& tx) {
     return tx.db.run("UPDATE tasks SET deadline_ms = ? WHERE state = 'leased'",

@@ -135,6 +135,7 @@ class Store {
 
   bool make_room(const Changes& undone);
   bool has_room();
+  void live_on_reserve();
   void tell_room();
   bool tidy_step();
   bool shorten_log();

@@ -117,6 +117,11 @@ bool Store::has_room() {
   return true;
 }
 
+void Store::live_on_reserve() {
+  reserve_.release();
+  db_.set_log_limit(kFullDiskLogBytes);
+}
+
 /// A write found the disk full: gives the reserve away.  False when it was given away before.  Whoever
 /// follows one of the jobs that the change was about learns why it gets no further.
 bool Store::make_room(const Changes& undone) {
@@ -129,8 +134,7 @@ bool Store::make_room(const Changes& undone) {
     const std::lock_guard lock(mutex_);
     if (disk_full_.exchange(true)) return false;
     full_disk_ms_ = now;
-    reserve_.release();
-    db_.set_log_limit(kFullDiskLogBytes);
+    live_on_reserve();
     try {
       db_.unclaim_pages();
     } catch (const SqliteError&) {
