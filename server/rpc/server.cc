@@ -58,7 +58,8 @@ void release_dead_workers(Store& store) {
 }  // namespace
 
 Server::Server(const ServerOptions& options)
-    : uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
+    : registry_(clock_, options.store.lease_ms),
+      uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
   hold_grpc();
   prepare_addresses(options.listen);
   store_ = std::make_unique<Store>(options.data_dir + "/affskel.db", options.store, clock_, &hub_);

@@ -65,7 +65,7 @@ class Server {
 
   SystemClock clock_;
   EventHub hub_;
-  WorkerRegistry registry_{clock_};
+  WorkerRegistry registry_;
   Activity activity_;
   UploadBudget uploads_;
   std::unique_ptr<Store> store_;

@@ -29,6 +29,7 @@ grpc::Status with_lease(WorkerRegistry& registry, const std::string& token, Body
   registry.used(token);
   bool ended = false;
   const grpc::Status status = guarded([&] { ended = body(); });
+  registry.used(token);  // a long report takes a while to arrive
   if (ended || status.error_code() == grpc::StatusCode::ABORTED) registry.ended(token);
   return status;
 }
