@@ -9,6 +9,7 @@
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
 #include "client/skeleton_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -200,7 +201,7 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
   text += key_line("workers", std::to_string(info.workers_size() - silent) +
                                   (silent == 0 ? "" : " and " + std::to_string(silent) + " silent"));
   for (const v1::WorkerInfo& w : info.workers()) {
-    const std::string threads = std::to_string(w.threads()) + (w.threads() == 1 ? " thread" : " threads");
+    const std::string threads = core::counted(w.threads(), "thread");
     text +=
         key_line("worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) +
                                ", " + threads + (w.supervised() ? ", supervised" : "") + ", core " +
