@@ -10,6 +10,7 @@
 #include "client/input_file.h"
 #include "client/number_list.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/solid/inner_points.h"
 #include "core/solid/surface_samples.h"
 
@@ -61,8 +62,8 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Conso
     }
     const double spacing =
         std::sqrt(core::surface_area(shape.mesh()) / static_cast<double>(result.points.size()));
-    console.note(path + ": a surface, compared by " + std::to_string(result.points.size()) +
-                 " points spread over it, about " + rounded(spacing, 3) + " apart");
+    console.note(path + ": a surface, compared by " + core::counted(result.points.size(), "point") +
+                 " spread over it, about " + rounded(spacing, 3) + " apart");
   }
   if (result.points.empty()) {
     throw ClientError(ExitCode::kBadInput,

@@ -6,6 +6,7 @@
 #include "client/comparison.h"
 #include "client/exporters/numbers.h"
 #include "client/job_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -64,8 +65,8 @@ std::string table_text(const Comparison& c) {
 }
 
 std::string side_text(const ComparedPoints& side) {
-  return side.file + " (" + std::to_string(side.points.size()) +
-         (side.from_surface ? " points spread over its surface)" : " points)");
+  return side.file + " (" + core::counted(side.points.size(), "point") +
+         (side.from_surface ? " spread over its surface)" : ")");
 }
 
 std::string there_and_back(const std::string& a_in_b, const std::string& b_in_a, const char* unit) {

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <sys/wait.h>
@@ -140,7 +139,7 @@ std::optional<End> ended(pid_t pid) {
 void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options, pid_t pid) {
   Clock::time_point deadline = Clock::now() + options.patience;
   std::optional<End> end;
-  while (!socket_answers(paths.socket)) {
+  while (!wire::socket_answers(paths.socket)) {
     if (!end && (end = ended(pid))) deadline = std::min(deadline, Clock::now() + options.grace);
     if (Clock::now() >= deadline) give_up(paths, end.value_or(End{"does not answer on its socket"}));
     std::this_thread::sleep_for(options.poll);
@@ -199,23 +198,11 @@ fs::path find_server_program(const fs::path& beside, const Environment& environm
                                                 " nor in $PATH; name a server with --server ADDR");
 }
 
-bool socket_answers(const fs::path& socket_path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (socket_path.native().size() > kMaxSocketPath) return false;
-  std::memcpy(address.sun_path, socket_path.c_str(), socket_path.native().size() + 1);
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return false;
-  const bool answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  close(fd);
-  return answers;
-}
-
 wire::Address ensure_embedded_server(const EmbeddedPaths& paths, const EmbeddedOptions& options,
                                      const Environment& environment, Console& console) {
   make_private_directory(paths.home, false);
   if (!paths.socket_dir.empty()) make_private_directory(paths.socket_dir, true);
-  if (!socket_answers(paths.socket)) {
+  if (!wire::socket_answers(paths.socket)) {
     const fs::path program =
         options.program.empty() ? find_server_program(own_directory(), environment) : options.program;
     console.note("starting a private server; its data is in " + paths.home.string() +

@@ -48,7 +48,4 @@ struct EmbeddedOptions {
 wire::Address ensure_embedded_server(const EmbeddedPaths& paths, const EmbeddedOptions& options,
                                      const Environment& environment, Console& console);
 
-/// Whether somebody accepts connections on the Unix socket.
-bool socket_answers(const std::filesystem::path& socket);
-
 }  // namespace affskel::client

@@ -9,6 +9,7 @@
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
 #include "client/skeleton_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -195,13 +196,19 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
   text += key_line("jobs_queued", std::to_string(info.jobs_queued()));
   text += key_line("jobs_running", std::to_string(info.jobs_running()));
   text += key_line("jobs_total", std::to_string(info.jobs_total()));
-  text += key_line("workers", std::to_string(info.workers_size()));
+  const auto silent = std::count_if(info.workers().begin(), info.workers().end(),
+                                    [](const v1::WorkerInfo& w) { return w.silent(); });
+  text += key_line("workers", std::to_string(info.workers_size() - silent) +
+                                  (silent == 0 ? "" : " and " + std::to_string(silent) + " silent"));
   for (const v1::WorkerInfo& w : info.workers()) {
-    const std::string threads = std::to_string(w.threads()) + (w.threads() == 1 ? " thread" : " threads");
-    text += key_line("worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) +
-                                   ", " + threads + (w.supervised() ? ", supervised" : "") + ", core " +
-                                   w.core_version() + ", seen " + age_text(w.last_seen_ms(), now_ms) +
-                                   " ago, " + (w.task().empty() ? "idle" : w.task()));
+    const std::string threads = core::counted(w.threads(), "thread");
+    text +=
+        key_line("worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) +
+                               ", " + threads + (w.supervised() ? ", supervised" : "") + ", core " +
+                               w.core_version() + ", seen " + age_text(w.last_seen_ms(), now_ms) + " ago, " +
+                               (w.silent()         ? "silent: dead, stopped or cut off"
+                                : w.task().empty() ? "idle"
+                                                   : w.task()));
   }
   return text;
 }

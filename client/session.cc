@@ -9,6 +9,7 @@
 
 #include "client/embedded_server.h"
 #include "wire/address.h"
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "lease_keeper.h"
-#include "wire/address.h"
 #include "wire/direction_order.h"
 #include "wire/erosion_bound.h"
+#include "wire/limits.h"
 
 namespace affskel::worker {
 namespace {

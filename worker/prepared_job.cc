@@ -8,9 +8,10 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/mesh_io.h"
 #include "core/solid/solid_frame.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 
 namespace affskel::worker {
 namespace {
@@ -114,8 +115,8 @@ v1::PreparedSummary PreparedJob::summary() const {
     v1::MeshNote* note = summary.add_notes();
     note->set_severity("repaired");
     note->set_code("polygons-cut");
-    note->set_message(std::to_string(polygons_cut_) +
-                      " faces with more than three sides were cut into triangles");
+    note->set_message(core::counted(polygons_cut_, "face") + " with more than three sides " +
+                      (polygons_cut_ == 1 ? "was" : "were") + " cut into triangles");
   }
   for (const core::MeshNote& found : solid_.notes) {
     v1::MeshNote* note = summary.add_notes();

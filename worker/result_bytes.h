@@ -5,15 +5,14 @@
 #include <cstdint>
 #include <string>
 
-namespace affskel::worker {
+#include "wire/limits.h"
 
-/// What the server takes as the result of one task, and what Protobuf can serialize: 2^31 - 1 bytes.
-inline constexpr std::uint64_t kMaxResultBytes = (std::uint64_t{1} << 31) - 1;
+namespace affskel::worker {
 
 /// Appends the serialized message to a result.
 /// @param what names the message for people, with a hint: "the directions; take fewer of them".
 /// @throws core::CoreError kLimit when the result would have more than `limit` bytes.
 void append_result(std::string& result, const google::protobuf::MessageLite& message, const std::string& what,
-                   std::uint64_t limit = kMaxResultBytes);
+                   std::uint64_t limit = wire::kMaxResultBytes);
 
 }  // namespace affskel::worker

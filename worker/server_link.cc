@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "wire/address.h"
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::worker {

@@ -6,6 +6,7 @@
 #include "client/job_text.h"
 #include "client/progress.h"
 #include "client/skeleton_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 
@@ -46,8 +47,8 @@ void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::Sk
   const std::uint64_t points = job.prepared().points();
   const bool coarse = points < kCoarse;
   console.warning("the skeleton is empty: no |H| is above the threshold" +
-                  (coarse ? ", and the lattice has only " + std::to_string(points) +
-                                " points in the solid; submit again with a smaller --spacing than " +
+                  (coarse ? ", and the lattice has only " + core::counted(points, "point") +
+                                " in the solid; submit again with a smaller --spacing than " +
                                 shortest(job.prepared().spacing())
                           : "; try: affskel-client skeleton " + job.id() + " --threshold 3 -o FILE"));
 }

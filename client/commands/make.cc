@@ -5,6 +5,7 @@
 #include "client/exporters/atomic_file.h"
 #include "client/exporters/format.h"
 #include "client/exporters/mesh_writer.h"
+#include "core/base/number_text.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 
@@ -47,7 +48,7 @@ void run_make(Console& console, const MakeOptions& options) {
   AtomicFile file(destination.file);
   write_mesh(format, mesh, {}, file);
   file.commit();
-  console.note("wrote " + destination.name() + " (" + std::to_string(mesh.triangles.size()) + " triangles)");
+  console.note("wrote " + destination.name() + " (" + core::counted(mesh.triangles.size(), "triangle") + ")");
   console.document(
       {{"file", options.output}, {"vertices", mesh.points.size()}, {"triangles", mesh.triangles.size()}});
 }

@@ -10,6 +10,7 @@
 #include "client/exporters/skeleton_writer.h"
 #include "client/render/scene.h"
 #include "client/skeleton_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -27,12 +28,11 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
 }
 
 std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
-  const std::string skeleton =
-      params.operator_() == v1::OPERATOR_CHORDS
-          ? "sheet of " + std::to_string(input.sheet.corners_size() / 3) + " triangles"
-          : std::to_string(input.skeleton.point_size()) + " skeleton points";
+  const std::string skeleton = params.operator_() == v1::OPERATOR_CHORDS
+                                   ? "sheet of " + core::counted(input.sheet.corners_size() / 3, "triangle")
+                                   : core::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
-         std::to_string(job.prepared().points()) + " sample points at spacing " +
+         core::counted(job.prepared().points(), "sample point") + " at spacing " +
          rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) + ")";
 }
 

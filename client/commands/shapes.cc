@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/exporters/shape_writer.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -20,8 +21,8 @@ void tell_renamed(Console& console, const ShapeFile& shape, const std::string& o
 }  // namespace
 
 std::string counts_text(const ShapeFile& shape) {
-  std::string text = std::to_string(shape.mesh().points.size()) + " points";
-  if (shape.is_surface()) text += ", " + std::to_string(shape.mesh().triangles.size()) + " triangles";
+  std::string text = core::counted(shape.mesh().points.size(), "point");
+  if (shape.is_surface()) text += ", " + core::counted(shape.mesh().triangles.size(), "triangle");
   return text;
 }
 
@@ -34,8 +35,9 @@ void tell_what_is_lost(Console& console, const ShapeFile& shape, FileFormat form
   }
   if (holds_columns(format)) tell_renamed(console, shape, output);
   if (shape.off.polygons_cut > 0) {
-    console.note(shape.path + ": " + std::to_string(shape.off.polygons_cut) +
-                 " faces of more than three sides were cut into triangles");
+    console.note(shape.path + ": " + core::counted(shape.off.polygons_cut, "face") +
+                 " of more than three sides " + (shape.off.polygons_cut == 1 ? "was" : "were") +
+                 " cut into triangles");
   }
 }
 

@@ -14,6 +14,7 @@
 #include "client/job_json.h"
 #include "client/job_text.h"
 #include "client/skeleton_text.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -75,8 +76,9 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
       what + " of " + job.name(),
       "job " + job.id(),
       "mesh sha256 " + job.mesh_sha256(),
-      "spacing " + shortest(job.prepared().spacing()) + ", " + std::to_string(job.prepared().points()) +
-          " sample points, v0 " + shortest(job.prepared().volume()),
+      "spacing " + shortest(job.prepared().spacing()) + ", " +
+          core::counted(job.prepared().points(), "sample point") + ", v0 " +
+          shortest(job.prepared().volume()),
       "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) + " (" +
           std::to_string(job.prepared().directions()) + "), frame " + frame_word(job.params().frame()),
       how};

@@ -11,6 +11,7 @@
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
 #include "client/view/page.h"
+#include "core/base/number_text.h"
 #include "core/chords/chord_pruning.h"
 #include "core/shocks/shock_operator.h"
 
@@ -116,8 +117,9 @@ void run_view(Context& context, const JobOptions& options) {
   const std::string page = view_page(input);
   file.write(page);
   file.commit();
-  context.console().note("wrote " + destination.name() + " (page, " + std::to_string(input.points.size()) +
-                         " points, " + std::to_string(page.size()) + " bytes): open it in a browser");
+  context.console().note("wrote " + destination.name() + " (page, " +
+                         core::counted(input.points.size(), "point") + ", " + std::to_string(page.size()) +
+                         " bytes): open it in a browser");
   context.console().document({{"job", job.id()},
                               {"artefact", "page"},
                               {"file", options.output},

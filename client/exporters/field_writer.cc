@@ -4,7 +4,7 @@
 
 #include "client/error.h"
 #include "client/exporters/numbers.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 
 namespace affskel::client {
 namespace {

@@ -12,6 +12,7 @@
 #include "client/importers/shape_parsers.h"
 #include "client/input_file.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 
@@ -95,7 +96,7 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
                  std::uint64_t line) {
   core::Mesh& mesh = file.off.mesh;
   if (corners.size() < 3) {
-    fail_at(line, place + " has " + std::to_string(corners.size()) + " corners, needs 3");
+    fail_at(line, place + " has " + core::counted(corners.size(), "corner") + ", needs 3");
   }
   std::vector<std::uint32_t> indices;
   for (const std::int64_t corner : corners) {

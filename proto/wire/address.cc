@@ -1,8 +1,13 @@
 #include "wire/address.h"
 
 #include <arpa/inet.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <stdexcept>
 
 namespace affskel::wire {
@@ -59,6 +64,20 @@ Address parse_address(std::string_view text) {
   }
   address.host = std::string(host);
   return address;
+}
+
+bool socket_answers(const std::string& path) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  if (path.size() >= sizeof name.sun_path) return false;
+  std::memcpy(name.sun_path, path.data(), path.size());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (fd < 0) throw std::runtime_error(std::string("socket: ") + std::strerror(errno));
+  const int result = connect(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name);
+  // EAGAIN: a live server whose queue is full.
+  const bool answers = result == 0 || errno == EAGAIN || errno == EINPROGRESS;
+  close(fd);
+  return answers;
 }
 
 }  // namespace affskel::wire

@@ -1,19 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace affskel::wire {
-
-/// Largest piece of bytes in one message of a stream.
-inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
-
-/// Largest number of field records in one message of a stream.
-inline constexpr int kRecordsPerMessage = 32768;
-
-/// Bytes of one record of a stored field: double E, double area, uint32 direction, little-endian.
-inline constexpr std::size_t kFieldRecordBytes = 20;
 
 /// Where a server listens: `unix:PATH` or `HOST:PORT`.
 struct Address {
@@ -31,5 +21,9 @@ struct Address {
 /// Parses `unix:PATH` (at most 107 bytes of path) or `HOST:PORT`, `[V6]:PORT`.
 /// @throws std::invalid_argument with a message for people.
 Address parse_address(std::string_view text);
+
+/// Whether somebody accepts connections on the Unix socket at `path`; does not wait.
+/// @throws std::runtime_error when this process can make no socket.
+bool socket_answers(const std::string& path);
 
 }  // namespace affskel::wire

@@ -65,7 +65,9 @@ DataDir::DataDir(const std::string& path, std::chrono::milliseconds patience) : 
   }
   // For people and for the message above only; the lock itself is what counts.
   const std::string pid = std::to_string(getpid()) + "\n";
-  if (ftruncate(lock_, 0) != 0 || pwrite(lock_, pid.data(), pid.size(), 0) < 0) {
+  const bool told = ftruncate(lock_, 0) == 0 && pwrite(lock_, pid.data(), pid.size(), 0) >= 0;
+  // On a full disk this must not keep the server from starting: it is what jobs are deleted with.
+  if (!told && errno != ENOSPC && errno != EDQUOT) {
     const std::string why = std::strerror(errno);
     close(lock_);
     refuse(path_, "server.lock: " + why);

@@ -22,6 +22,7 @@ Examples:
 
 SIGTERM and SIGINT drain: nothing more is leased, workers report and give their leases back, exit 0.
 DATA_DIR/server.json names process, version and the addresses actually bound while the server runs.
+DATA_DIR/reserve is room kept for a full disk: there jobs wait, and can still be cancelled and deleted.
 Exit codes: 0 stopped; 2 usage, address or data directory; 8 disk full; 70 internal error.)";
 
 unsigned worker_count(const std::string& text) {

@@ -66,7 +66,8 @@ v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
     return job;
   }
   if (job.state() != v1::JOB_STATE_QUEUED || !job.waiting_reason().empty()) return job;
-  const std::vector<v1::WorkerInfo> workers = registry_.list();
+  std::vector<v1::WorkerInfo> workers = registry_.list();
+  std::erase_if(workers, [](const v1::WorkerInfo& worker) { return worker.silent(); });
   const auto idle = [](const v1::WorkerInfo& worker) { return worker.task().empty(); };
   if (workers.empty()) {
     job.set_waiting_reason("no worker is connected");

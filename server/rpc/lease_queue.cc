@@ -91,7 +91,7 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
   // Before the registry: whoever does not say who it is must not fill the list of workers.
   grpc::Status status = guarded([&] { check_worker(request->worker()); });
   if (status.ok()) {
-    registry_.seen(request->worker());
+    registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));
     const std::lock_guard lock(mutex_);
     if (stopping_) {
       status = shutting_down();

@@ -13,7 +13,4 @@ namespace affskel::server {
 /// @throws std::runtime_error naming the address and the cause.
 void prepare_addresses(const std::vector<wire::Address>& addresses);
 
-/// Whether somebody accepts connections on this Unix socket.
-bool socket_answers(const std::string& path);
-
 }  // namespace affskel::server

@@ -58,7 +58,8 @@ void release_dead_workers(Store& store) {
 }  // namespace
 
 Server::Server(const ServerOptions& options)
-    : uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
+    : registry_(clock_, options.store.lease_ms),
+      uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
   hold_grpc();
   prepare_addresses(options.listen);
   store_ = std::make_unique<Store>(options.data_dir + "/affskel.db", options.store, clock_, &hub_);
@@ -117,7 +118,20 @@ void Server::maintain() {
       release_dead_workers(*store_);
       store_->expire_leases();
     });
+    tidy();
     lock.lock();
+  }
+}
+
+/// Whoever waits for the store gets his turn between two steps: they take half of the time.
+void Server::tidy() {
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  for (bool more = true; more;) {
+    more = false;
+    const auto begin = now();
+    guarded([&] { more = store_->tidy(); });
+    std::unique_lock lock(mutex_);
+    if (stopped_.wait_for(lock, now() - begin, [this] { return stopping_; })) return;
   }
 }
 

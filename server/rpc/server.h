@@ -61,10 +61,11 @@ class Server {
  private:
   void listen(const std::vector<wire::Address>& addresses);
   void maintain();
+  void tidy();
 
   SystemClock clock_;
   EventHub hub_;
-  WorkerRegistry registry_{clock_};
+  WorkerRegistry registry_;
   Activity activity_;
   UploadBudget uploads_;
   std::unique_ptr<Store> store_;

@@ -28,10 +28,12 @@ bool WorkerRegistry::is_supervised(const v1::WorkerIdentity& worker) const {
   return supervised_.contains(worker.pid()) && worker.host() == wire::host_name();
 }
 
-void WorkerRegistry::seen(const v1::WorkerIdentity& worker) {
+void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_ms) {
   const bool supervised = is_supervised(worker);
   const std::lock_guard lock(mutex_);
-  v1::WorkerInfo& info = workers_[worker.id()].info;
+  Entry& entry = workers_[worker.id()];
+  entry.wait_ms = wait_ms;
+  v1::WorkerInfo& info = entry.info;
   info.set_id(worker.id());
   info.set_host(worker.host());
   info.set_pid(worker.pid());
@@ -46,6 +48,8 @@ void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& 
   const std::lock_guard lock(mutex_);
   const auto found = workers_.find(worker.id());
   if (found == workers_.end()) return;
+  found->second.wait_ms = 0;
+  found->second.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
   found->second.tasks[lease.token()] = std::string(kind_name(lease.kind())) + " " + lease.job().id();
   holders_[lease.token()] = worker.id();
 }
@@ -55,8 +59,9 @@ void WorkerRegistry::used(const std::string& token) {
   const auto holder = holders_.find(token);
   if (holder == holders_.end()) return;
   const auto found = workers_.find(holder->second);
-  if (found != workers_.end())
-    found->second.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+  if (found == workers_.end()) return;
+  found->second.wait_ms = 0;
+  found->second.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
 }
 
 void WorkerRegistry::ended(const std::string& token) {
@@ -75,6 +80,11 @@ void WorkerRegistry::forget_silent() {
   std::erase_if(holders_, [this](const auto& holder) { return !workers_.contains(holder.second); });
 }
 
+bool WorkerRegistry::is_silent(const Entry& entry) const {
+  const auto heard = static_cast<std::int64_t>(entry.info.last_seen_ms());
+  return clock_.wall_ms() - heard > entry.wait_ms + silence_ms_;
+}
+
 std::int64_t WorkerRegistry::oldest_ms() const {
   return clock_.wall_ms() - kForgetMs;
 }
@@ -85,7 +95,8 @@ std::vector<v1::WorkerInfo> WorkerRegistry::list() const {
   for (const auto& [id, entry] : workers_) {
     if (static_cast<std::int64_t>(entry.info.last_seen_ms()) < oldest_ms()) continue;
     infos.push_back(entry.info);
-    if (!entry.tasks.empty()) infos.back().set_task(entry.tasks.rbegin()->second);
+    infos.back().set_silent(is_silent(entry));
+    if (!entry.tasks.empty() && !infos.back().silent()) infos.back().set_task(entry.tasks.rbegin()->second);
   }
   return infos;
 }

@@ -16,7 +16,8 @@ namespace affskel::server {
 /// Who was heard from lately.  Only for people to look at: scheduling relies on leases alone.  Thread-safe.
 class WorkerRegistry {
  public:
-  explicit WorkerRegistry(const Clock& clock) : clock_(clock) {}
+  /// @param silence_ms a worker that calls no more for this long is silent: a lease's length.
+  WorkerRegistry(const Clock& clock, std::int64_t silence_ms) : clock_(clock), silence_ms_(silence_ms) {}
 
   /// A worker process that this server has started, or that has ended.
   void add_supervised(std::uint32_t pid);
@@ -24,8 +25,8 @@ class WorkerRegistry {
   /// Whether a worker is one of ours: started by us, on this host.
   bool is_supervised(const v1::WorkerIdentity& worker) const;
 
-  /// A worker asks for work.
-  void seen(const v1::WorkerIdentity& worker);
+  /// A worker asks for work, and will say nothing else for as long as it wants to wait for some.
+  void seen(const v1::WorkerIdentity& worker, std::uint32_t wait_ms);
   /// A worker got a lease, uses it, has ended it.
   void granted(const v1::WorkerIdentity& worker, const v1::Lease& lease);
   void used(const std::string& token);
@@ -38,11 +39,14 @@ class WorkerRegistry {
   struct Entry {
     v1::WorkerInfo info;
     std::map<std::string, std::string> tasks;  // by token: what for people
+    std::int64_t wait_ms = 0;                  // of the call under way
   };
   std::int64_t oldest_ms() const;
   void forget_silent();
+  bool is_silent(const Entry& entry) const;
 
   const Clock& clock_;
+  const std::int64_t silence_ms_;
   mutable std::mutex mutex_;
   std::map<std::string, Entry> workers_;        // by id
   std::map<std::string, std::string> holders_;  // token -> id

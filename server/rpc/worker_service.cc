@@ -3,13 +3,10 @@
 #include "rpc/status.h"
 #include "rpc/streams.h"
 #include "store/errors.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 
 namespace affskel::server {
 namespace {
-
-// A serialized message has at most 2 GiB - 1 bytes.
-constexpr std::uint64_t kMaxResultBytes = (std::uint64_t{1} << 31) - 1;
 
 [[noreturn]] void refuse(const char* why) {
   throw StoreError(StoreError::Code::kInvalid, why);
@@ -32,6 +29,7 @@ grpc::Status with_lease(WorkerRegistry& registry, const std::string& token, Body
   registry.used(token);
   bool ended = false;
   const grpc::Status status = guarded([&] { ended = body(); });
+  registry.used(token);  // a long report takes a while to arrive
   if (ended || status.error_code() == grpc::StatusCode::ABORTED) registry.ended(token);
   return status;
 }
@@ -90,7 +88,7 @@ grpc::Status WorkerServiceImpl::CompleteTask(grpc::ServerContext*,
   if (!reader->Read(&first) || !first.has_header()) return no_header();
   const v1::CompleteTaskHeader& header = first.header();
   return with_lease(registry_, header.token(), [&] {
-    if (header.bytes() > kMaxResultBytes) {
+    if (header.bytes() > wire::kMaxResultBytes) {
       throw StoreError(StoreError::Code::kLimit, "a result has at most 2^31 - 1 bytes");
     }
     UploadBudget::Share share(uploads_);

@@ -2,7 +2,7 @@
 
 #include "store/errors.h"
 #include "store/field.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::server {
@@ -56,7 +56,7 @@ class FieldReader final : public BlobReader {
  public:
   FieldReader(const std::string& file, std::int64_t erosion_id) : view_(file) {
     const std::optional<std::int64_t> points =
-        view_.db.integer("SELECT points FROM erosions WHERE id = ?", erosion_id);
+        view_.db.integer("SELECT points FROM erosions WHERE id = ? AND dropped = 0", erosion_id);
     if (!points) throw gone();
     field_.emplace(view_.db, erosion_id, *points);
     bytes_ = static_cast<std::uint64_t>(*points) * wire::kFieldRecordBytes;
@@ -86,6 +86,9 @@ class FieldReader final : public BlobReader {
 }  // namespace
 
 void put_mesh(Tx& tx, const std::string& sha256, std::string_view bytes) {
+  // Some of a dropped mesh may be gone already.
+  tx.db.run("DELETE FROM meshes WHERE sha256 IN (SELECT sha256 FROM dropped_meshes WHERE sha256 = ?)",
+            sha256);
   if (tx.db.integer("SELECT 1 FROM meshes WHERE sha256 = ?", sha256)) return;
   tx.db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, ?, ?)", sha256, bytes.size(),
             tx.wall_ms);
@@ -114,12 +117,16 @@ std::optional<std::int64_t> find_artifact(Database& db, const ArtifactKey& key) 
 }
 
 std::unique_ptr<BlobReader> read_mesh(const std::string& file, const std::string& sha256) {
-  return std::make_unique<ChunkReader>(file, "SELECT bytes, sha256 FROM meshes WHERE sha256 = ?",
+  return std::make_unique<ChunkReader>(file,
+                                       "SELECT bytes, sha256 FROM meshes WHERE sha256 = ?"
+                                       " AND sha256 NOT IN (SELECT sha256 FROM dropped_meshes)",
                                        "SELECT data FROM mesh_chunks WHERE sha256 = ? ORDER BY idx", sha256);
 }
 
 std::unique_ptr<BlobReader> read_artifact(const std::string& file, std::int64_t artifact_id) {
-  return std::make_unique<ChunkReader>(file, "SELECT bytes, sha256 FROM artifacts WHERE id = ?",
+  return std::make_unique<ChunkReader>(file,
+                                       "SELECT bytes, sha256 FROM artifacts WHERE id = ?"
+                                       " AND (SELECT dropped FROM erosions WHERE id = erosion_id) = 0",
                                        "SELECT data FROM artifact_chunks WHERE artifact_id = ? ORDER BY idx",
                                        artifact_id);
 }

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "store/errors.h"
-#include "wire/address.h"
+#include "wire/limits.h"
 
 namespace affskel::server {
 namespace {

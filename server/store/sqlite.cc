@@ -1,5 +1,6 @@
 #include "store/sqlite.h"
 
+#include <cerrno>
 #include <utility>
 
 namespace affskel::server {
@@ -16,8 +17,20 @@ constexpr int kPageBytes = 16384;
 // Reports rewrite field pages over and over: a long log copies each page to the database less often.
 constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
 
+// The database file grows in steps of this size.
+constexpr int kGrowthBytes = 1 << 20;
+
+/// SQLite calls a quota used up, or no room for the log's index, an error of input and output.
+int code_of(sqlite3* db) {
+  const int code = sqlite3_extended_errcode(db);
+  const int primary = code & 0xff;
+  const int cause = sqlite3_system_errno(db);
+  const bool no_room = cause == ENOSPC || cause == EDQUOT;
+  return no_room && (primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN) ? SQLITE_FULL : code;
+}
+
 [[noreturn]] void raise(sqlite3* db, const std::string& context) {
-  const int code = db == nullptr ? SQLITE_NOMEM : sqlite3_extended_errcode(db);
+  const int code = db == nullptr ? SQLITE_NOMEM : code_of(db);
   const char* text = db == nullptr ? "out of memory" : sqlite3_errmsg(db);
   throw SqliteError(code, "database " + context + ": " + text + " (code " + std::to_string(code) + ")");
 }
@@ -67,9 +80,6 @@ void Statement::bind(int index, Blob blob) {
 void Statement::bind(int index, double value) {
   check(sqlite3_bind_double(handle_, index, value));
 }
-void Statement::bind(int index, std::nullptr_t) {
-  check(sqlite3_bind_null(handle_, index));
-}
 void Statement::bind_integer(int index, std::int64_t value) {
   check(sqlite3_bind_int64(handle_, index, value));
 }
@@ -117,11 +127,18 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
     execute("PRAGMA foreign_keys = ON");
     if (mode == Mode::kReadWrite) {
       // FULL: a commit is on the disk when it is acknowledged.
-      execute("PRAGMA page_size = " + std::to_string(kPageBytes) +
-              "; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
-              std::to_string(kJournalBytes) + "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF");
-      const std::int64_t page_bytes = integer("PRAGMA page_size").value_or(kPageBytes);
-      execute("PRAGMA wal_autocheckpoint = " + std::to_string(kJournalBytes / page_bytes));
+      // Secure deletion, which Debian switches on, writes every page that is freed: a delete would need as
+      // much room in the log as it is to make.
+      // Given to a file that is there already, the first two would do nothing, or write for nothing.
+      if (integer("PRAGMA page_count") == 0) {
+        execute("PRAGMA page_size = " + std::to_string(kPageBytes) + "; PRAGMA auto_vacuum = INCREMENTAL");
+      }
+      execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
+              std::to_string(kJournalBytes) +
+              "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF");
+      int step = kGrowthBytes;
+      sqlite3_file_control(handle_, "main", SQLITE_FCNTL_CHUNK_SIZE, &step);
+      set_usual_log_limit();
     }
   } catch (...) {
     close();
@@ -153,6 +170,37 @@ Statement Database::prepare(const char* sql) {
   if (slot->busy) return {compile(sql), nullptr};
   slot->busy = true;
   return {slot->statement, &slot->busy};
+}
+
+void Database::claim_pages() {
+  sqlite3_int64 bytes =
+      integer("PRAGMA page_count").value_or(0) * integer("PRAGMA page_size").value_or(kPageBytes);
+  if (sqlite3_file_control(handle_, "main", SQLITE_FCNTL_SIZE_HINT, &bytes) != SQLITE_OK) {
+    throw SqliteError(SQLITE_FULL, "database " + file_ + ": no room for " + std::to_string(bytes) + " bytes");
+  }
+}
+
+void Database::unclaim_pages() {
+  // A checkpoint cuts the file only when it finds something in the log: a first page that stays as it is.
+  execute("PRAGMA user_version = " + std::to_string(integer("PRAGMA user_version").value_or(0)));
+  checkpoint();
+}
+
+bool Database::checkpoint() {
+  sqlite3_busy_timeout(handle_, 0);
+  const int code = sqlite3_wal_checkpoint_v2(handle_, "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+  sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
+  if (code != SQLITE_OK && (code & 0xff) != SQLITE_BUSY) raise(handle_, file_);
+  return code == SQLITE_OK;
+}
+
+void Database::set_log_limit(std::int64_t bytes) {
+  sqlite3_wal_autocheckpoint(handle_,
+                             static_cast<int>(bytes / integer("PRAGMA page_size").value_or(kPageBytes)));
+}
+
+void Database::set_usual_log_limit() {
+  set_log_limit(kJournalBytes);
 }
 
 void Database::execute(const std::string& script) {

@@ -46,15 +46,10 @@ class Statement {
   void bind(int index, const char* text) { bind(index, std::string_view(text)); }
   void bind(int index, Blob blob);
   void bind(int index, double value);
-  void bind(int index, std::nullptr_t);
   void bind(int index, std::integral auto value) { bind_integer(index, static_cast<std::int64_t>(value)); }
   template <typename T>
   void bind(int index, const std::optional<T>& value) {
-    if (value) {
-      bind(index, *value);
-    } else {
-      bind(index, nullptr);
-    }
+    if (value) bind(index, *value);  // unbound is NULL
   }
 
   /// Runs to the next row; false at the end.
@@ -114,6 +109,23 @@ class Database {
     if (!statement.step() || statement.is_null(0)) return std::nullopt;
     return statement.integer(0);
   }
+
+  /// Sees to it that the database file has room for every page that the open transaction has added, so that
+  /// a checkpoint needs no more of the disk than the file has already: what is committed never waits in the
+  /// log for room elsewhere.  @throws SqliteError with SQLITE_FULL when there is none.
+  void claim_pages();
+
+  /// Gives back what claim_pages took for a transaction that was not committed after all, and shortens the
+  /// log.
+  void unclaim_pages();
+
+  /// Copies the log into the database file and shortens both; false when a reader is in the way.  Does not
+  /// wait.  Outside of a transaction.
+  bool checkpoint();
+
+  /// Copies the log into the file after each commit that leaves more than this in it.
+  void set_log_limit(std::int64_t bytes);
+  void set_usual_log_limit();
 
   /// Runs a script of statements without parameters.
   void execute(const std::string& script);

@@ -41,7 +41,7 @@ class Store {
   const std::string& file() const { return file_; }
   const StoreOptions& options() const { return options_; }
   int schema_version() const { return schema_version_; }
-  /// Whether the last change could not be written for want of room.
+  /// Whether the disk has no room for more than bookkeeping.
   bool disk_full() const { return disk_full_; }
 
   // For clients: store_submit.cc, store_jobs.cc
@@ -60,7 +60,7 @@ class Store {
   v1::Job cancel(const std::string& job_ref);
   /// A failed or cancelled job goes on from where it was; an active one stays as it is.
   v1::Job resume(const std::string& job_ref);
-  /// Deletes a job that is not active, and what no other job needs.  Returns its id.
+  /// Deletes a job that is not active, and marks what no other job needs for tidy().  Returns its id.
   std::string remove(const std::string& job_ref);
 
   struct Counts {
@@ -116,6 +116,11 @@ class Store {
   /// A worker process of this machine has ended: its leases are lost now, not at their deadline.
   int release_worker(const std::string& host, std::int64_t pid);
 
+  /// One short step towards a database as small as what is in it: deletes a piece of what deleted jobs have
+  /// left, gives pages back to the file system, shortens the log.  On a full disk, first looks whether there
+  /// is room again.  True when the next step can be taken at once: store_space.cc.
+  bool tidy();
+
   struct Holder {
     std::string host;
     std::int64_t pid = 0;
@@ -127,9 +132,16 @@ class Store {
   template <typename Body>
   auto write(Body&& body);
   template <typename Body>
+  auto commit(Body&& body, Changes& changes, bool may_grow);
+  template <typename Body>
   auto read(Body&& body);
 
-  void note_full_disk(const Changes& undone);
+  bool make_room(const Changes& undone);
+  bool has_room();
+  void live_on_reserve();
+  void tell_room();
+  bool tidy_step();
+  bool shorten_log();
   v1::ReportResponse reply(bool cancelled) const;
   v1::Job write_job(const std::string& job_ref, const std::function<void(Tx&, const JobRow&)>& change);
 
@@ -138,10 +150,14 @@ class Store {
   const Clock& clock_;
   ChangeListener* const listener_;
 
-  std::mutex mutex_;  // guards db_
+  std::mutex mutex_;  // guards reserve_ and db_
+  DiskReserve reserve_;
   Database db_;
   int schema_version_ = 0;
-  std::atomic<bool> disk_full_ = false;
+  std::int64_t full_disk_ms_ = 0;                    // when the reserve was last needed; guarded as well
+  std::atomic<bool> disk_full_ = false;              // the reserve is given away
+  std::atomic<bool> room_again_ = false;             // and nobody was told yet
+  std::atomic<bool> untidy_ = true;                  // there may be something for tidy()
   std::atomic<std::int64_t> full_disk_told_ms_ = 0;  // when the log was last told of it; 0: never
 };
 

@@ -81,6 +81,7 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
           job.id, wanted.key.kind, wanted.key.params_key, job.active() && !job.cancel_requested)) {
     return *task;
   }
+  tx.require_room();
   tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + wanted.key.kind + " " +
                            wanted.key.params_key);
   return add_derive_task(tx, job.id, wanted.kind, wanted.params, wanted.key.params_key, true);

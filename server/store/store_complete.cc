@@ -159,6 +159,7 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
   return write([&](Tx& tx) {
     const TaskRow task = task_of_token(tx.db, header.token());
     if (task.state == "done") return reply(false);
+    tx.require_room();
     if (task.kind == v1::TASK_KIND_ERODE) refuse("a block of directions is finished by its reports");
     if ((task.kind == v1::TASK_KIND_PREPARE) != parts.has_value()) {
       refuse("a summary belongs to the prepare task, and only to it");

@@ -9,24 +9,33 @@
 namespace affskel::server {
 
 template <typename Body>
+auto Store::commit(Body&& body, Changes& changes, bool may_grow) {
+  const std::lock_guard lock(mutex_);
+  const bool room = may_grow && has_room();
+  Transaction transaction(db_);
+  Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes, room};
+  auto value = body(tx);
+  db_.claim_pages();
+  transaction.commit();
+  if (changes.grown || changes.eased) reserve_.allow_retry();
+  return value;
+}
+
+/// Runs `body` in a transaction; on a disk that turns out to be full once more, on what the reserve gives and
+/// for bookkeeping only.
+template <typename Body>
 auto Store::write(Body&& body) {
   Changes changes;
   auto result = [&] {
     try {
-      const std::lock_guard lock(mutex_);
-      Transaction transaction(db_);
-      Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes};
-      const int changes_before = sqlite3_total_changes(db_.handle());
-      auto value = body(tx);
-      transaction.commit();
-      // What changed nothing wrote nothing, and says nothing about the disk.
-      if (sqlite3_total_changes(db_.handle()) != changes_before) disk_full_ = false;
-      return value;
+      return commit(body, changes, true);
     } catch (const SqliteError& error) {
-      if (error.primary_code() == SQLITE_FULL) note_full_disk(changes);
-      throw;
+      if (error.primary_code() != SQLITE_FULL || !make_room(changes)) throw;
     }
+    changes = {};
+    return commit(body, changes, false);
   }();
+  if (changes.dropped) untidy_ = true;
   for (const std::string& line : changes.log) spdlog::info("{}", line);
   if (listener_ != nullptr) listener_->on_change(changes);
   return result;
@@ -47,7 +56,7 @@ std::optional<std::int64_t> find_finished_erosion(Database& db, const std::strin
                                                   const std::string& params_key,
                                                   const std::string& core_version);
 
-/// Deletes an erosion and its mesh when no job needs them.
+/// Marks an erosion for deletion when no job needs it.
 void drop_unused_erosion(Tx& tx, std::int64_t erosion_id);
 
 }  // namespace affskel::server

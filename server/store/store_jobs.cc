@@ -46,6 +46,7 @@ v1::Job Store::cancel(const std::string& job_ref) {
                        "job " + job.id + " is " + state_name(job.state) + ": nothing to cancel");
     }
     tx.db.run("UPDATE jobs SET cancel_requested = 1 WHERE id = ?", job.id);
+    tx.changes.eased = true;
     tx.changes.log.push_back("event=cancel_requested job=" + job.id);
     settle_job(tx, job.id);
   });
@@ -77,6 +78,7 @@ std::string Store::remove(const std::string& job_ref) {
     }
     tx.db.run("DELETE FROM jobs WHERE id = ?", job.id);
     drop_unused_erosion(tx, job.erosion_id);
+    tx.changes.eased = true;
     tx.changes.jobs.insert(job.id);
     tx.changes.log.push_back("event=deleted job=" + job.id);
     return job.id;

@@ -129,6 +129,7 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
   check_worker(worker);
   return write([&](Tx& tx) -> std::optional<v1::Lease> {
     expire(tx);
+    if (!tx.room) return std::nullopt;  // what would come of it could not be stored
     remember_core_version(tx, worker.core_version());
     while (const std::optional<std::int64_t> id = choose_task(tx.db, worker, preferred_job)) {
       const TaskRow task = *find_task(tx.db, *id);

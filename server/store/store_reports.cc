@@ -1,4 +1,7 @@
+#include <exception>
+
 #include "store/errors.h"
+#include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 
@@ -67,6 +70,24 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
       tx.lease_ms, progress.reported, progress.added, task.id);
 }
 
+/// A report that the full disk cannot take.  Its worker will try again and keeps its lease meanwhile, unless
+/// nobody wants the rest any more.
+std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job) {
+  if (task.state == "leased" && (!job.active() || job.cancel_requested)) {
+    release_task(tx, task);
+    settle_job(tx, job.id);
+    tx.changes.eased = true;
+    return std::make_exception_ptr(
+        StoreError(StoreError::Code::kFenced, "the job was cancelled while the disk was full"));
+  }
+  // It tries several times a second, and every commit takes a little of what is left.
+  tx.db.run(
+      "UPDATE tasks SET deadline_ms = ?1 + ?2 WHERE id = ?3 AND state = 'leased' AND deadline_ms < ?1 + ?2 / "
+      "2",
+      tx.lease_ms, tx.options.lease_ms, task.id);
+  return std::make_exception_ptr(full_disk(tx.db));
+}
+
 }  // namespace
 
 Store::ErodeLease Store::erode_lease(const std::string& token) {
@@ -77,10 +98,16 @@ Store::ErodeLease Store::erode_lease(const std::string& token) {
 }
 
 v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const RecordBatch& records) {
-  return write([&](Tx& tx) {
+  std::exception_ptr refusal;
+  const v1::ReportResponse response = write([&](Tx& tx) {
     const TaskRow task = erode_task(tx.db, header.token());
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
+    if (!tx.room) {
+      refusal = refuse_for_now(tx, task, job);
+      return reply(false);
+    }
+    tx.require_room();
     const std::vector<Range> ranges = checked_ranges(header, task.block);
     // A report that is repeated after its block was finished finds the field finished, too.
     const Progress progress = add_positions(tx, job, ranges);
@@ -101,6 +128,8 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     settle_job(tx, job.id);
     return reply(!job.active() || job.cancel_requested);
   });
+  if (refusal) std::rethrow_exception(refusal);
+  return response;
 }
 
 }  // namespace affskel::server

@@ -144,6 +144,7 @@ Store::Submitted Store::submit(const v1::SubmitJobHeader& header, std::string_vi
       remember_request(tx, submission, id);
       return {job_message(tx.db, id), true};
     }
+    tx.require_room();
     const std::string id = insert_job(tx, submission);
     remember_request(tx, submission, id);
     const std::optional<std::int64_t> finished = find_finished_erosion(

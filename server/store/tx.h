@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "store/disk_reserve.h"
 #include "store/sqlite.h"
 
 namespace affskel::server {
@@ -14,12 +15,18 @@ struct StoreOptions {
   std::int64_t report_interval_ms = 1000;  ///< what workers are told
   std::int64_t max_losses = 5;  ///< leases lost in a row, without progress, before a task is given up
   std::uint64_t max_mesh_bytes = std::uint64_t{1} << 30;
+  /// Kept back on the disk so that jobs can be cancelled and deleted when it is full.
+  std::uint64_t reserve_bytes = std::uint64_t{16} << 20;
+  DiskReserve::FreeBytes free_bytes = affskel::server::free_bytes;
 };
 
 /// What a committed transaction changed, for those who wait.
 struct Changes {
   std::set<std::string> jobs;    ///< ids of changed jobs
   bool work = false;             ///< a task became available
+  bool dropped = false;          ///< something is left for Store::tidy
+  bool grown = false;            ///< more than bookkeeping was written
+  bool eased = false;            ///< a job that may have needed more room than there was needs none now
   std::vector<std::string> log;  ///< key=value lines
 };
 
@@ -39,6 +46,10 @@ struct Tx {
   std::int64_t wall_ms;
   std::int64_t lease_ms;
   Changes& changes;
+  bool room;  ///< false on a full disk: only what frees space, or takes next to none, may be written
+
+  /// Before more than bookkeeping is written.  @throws SqliteError with SQLITE_FULL when there is no room.
+  void require_room();
 };
 
 }  // namespace affskel::server

@@ -150,10 +150,41 @@ Process Lab::server(const std::vector<std::string>& options) const {
                                         address()};
   arguments.insert(arguments.end(), options.begin(), options.end());
   Process process(arguments, path("server.log"));
+  wait_for_server();
+  return process;
+}
+
+void Lab::wait_for_server() const {
   v1::ServerInfo info;
   const grpc::Status status = call_when_ready(
       [&](grpc::ClientContext& context) { return stub_->GetServerInfo(&context, {}, &info); });
   if (!status.ok()) throw std::runtime_error("the server does not answer: " + status.error_message());
+}
+
+namespace {
+
+// In a mount namespace of its own, which needs no privileges where users may have theirs.
+std::vector<std::string> in_own_mounts(const std::string& script) {
+  return {"/usr/bin/unshare", "--user", "--map-root-user", "--mount", "/bin/sh", "-c", script, "sh"};
+}
+
+}  // namespace
+
+bool Lab::can_mount() const {
+  std::filesystem::create_directory(path("disk"));
+  std::vector<std::string> arguments = in_own_mounts("mount -t tmpfs none \"$1\"");
+  arguments.push_back(path("disk"));
+  return run(arguments).exit_code == 0;
+}
+
+Process Lab::server_on_small_disk(const std::string& size, const std::vector<std::string>& options) const {
+  std::vector<std::string> arguments =
+      in_own_mounts("mount -t tmpfs -o size=\"$1\" none \"$2\" && shift 2 && exec \"$@\"");
+  arguments.insert(arguments.end(), {size, path("disk"), AFFSKEL_SERVER_BINARY, "--data-dir",
+                                     path("disk/data"), "--listen", address()});
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  Process process(arguments, path("server.log"));
+  wait_for_server();
   return process;
 }
 

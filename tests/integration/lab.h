@@ -54,6 +54,11 @@ class Lab {
 
   /// Starts affskel-server on address() with the data directory path("data") and waits until it answers.
   Process server(const std::vector<std::string>& options = {}) const;
+  /// The same where data directory and everything else in path("disk") share so many bytes.  Only this server
+  /// sees what is in there.
+  Process server_on_small_disk(const std::string& size, const std::vector<std::string>& options = {}) const;
+  /// Whether this process may do that.
+  bool can_mount() const;
   Process worker(const std::vector<std::string>& options = {}) const;
 
   /// Runs affskel-client against address() to its end.
@@ -73,6 +78,8 @@ class Lab {
   v1::ErosionService::Stub& stub() const { return *stub_; }
 
  private:
+  void wait_for_server() const;
+
   std::string dir_;
   std::unique_ptr<v1::ErosionService::Stub> stub_;
 };

@@ -86,7 +86,7 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
 
 std::string operator_divergence(const FinishedField& field, v1::Operator which) {
   static_assert(std::endian::native == std::endian::little);
-  if (field.lattice().points > kMaxResultBytes / sizeof(double)) {
+  if (field.lattice().points > wire::kMaxResultBytes / sizeof(double)) {
     throw core::CoreError(core::CoreError::Code::kLimit,
                           "the divergence of " + std::to_string(field.lattice().points) +
                               " points is larger than what can be sent; take a wider spacing");

@@ -95,7 +95,7 @@ class EnsureEmbeddedServer : public ::testing::Test {
 TEST_F(EnsureEmbeddedServer, StartsOneAndSaysSo) {
   const wire::Address address = ensure_embedded_server(paths_, options_, environment_, console_);
   EXPECT_EQ(address.target(), "unix:" + paths_.socket.string());
-  EXPECT_TRUE(socket_answers(paths_.socket));
+  EXPECT_TRUE(wire::socket_answers(paths_.socket));
   EXPECT_NE(err_.str().find(paths_.home.string()), std::string::npos);
   const std::string said = err_.str();
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
@@ -122,7 +122,7 @@ TEST_F(EnsureEmbeddedServer, TwoClientsAtOnceShareOne) {
       std::ostringstream out, err;
       Console console(out, err, {});
       ensure_embedded_server(paths_, options_, environment_, console);
-      good += socket_answers(paths_.socket) ? 1 : 0;
+      good += wire::socket_answers(paths_.socket) ? 1 : 0;
     });
   }
   for (std::thread& client : clients) client.join();

@@ -169,5 +169,24 @@ TEST_F(ProgressViewTest, QuietShowsNothing) {
   EXPECT_EQ(err_.str(), "");
 }
 
+TEST(ServerDetails, CountTheWorkersThatAreThere) {
+  v1::ServerInfo info;
+  v1::WorkerInfo* busy = info.add_workers();
+  busy->set_id("a");
+  busy->set_threads(1);
+  busy->set_last_seen_ms(9000);
+  busy->set_task("erode 123");
+  EXPECT_NE(server_details(info, 10000).find("workers:              1\n"), std::string::npos);
+  v1::WorkerInfo* gone = info.add_workers();
+  gone->set_id("b");
+  gone->set_threads(2);
+  gone->set_silent(true);
+  const std::string text = server_details(info, 10000);
+  EXPECT_NE(text.find("workers:              1 and 1 silent\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 thread, "), std::string::npos) << text;
+  EXPECT_NE(text.find("ago, erode 123\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("ago, silent: dead, stopped or cut off\n"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace affskel::client

@@ -54,7 +54,13 @@ class FullDisk {
   sqlite3_vfs* vfs_;
 };
 
+std::uint64_t free_or_none(const std::string& directory) {
+  return disk_is_full ? 0 : free_bytes(directory);
+}
+
 TEST_F(ClientServiceTest, AFullDiskIsTheReasonWhyAJobGetsNoFurther) {
+  options_.store.free_bytes = free_or_none;
+  start();
   const std::string id = submit();
   const PrepareResult result = prepare_result(poll(0).lease().token(), 10, 40);
   ASSERT_TRUE(send_result(*worker_, result.header, result.data).ok());
@@ -82,6 +88,8 @@ TEST_F(ClientServiceTest, AFullDiskIsTheReasonWhyAJobGetsNoFurther) {
 }
 
 TEST_F(ClientServiceTest, AFullDiskIsLoggedOnceAndNotForEveryCallThatMeetsIt) {
+  options_.store.free_bytes = free_or_none;
+  start();
   std::ostringstream lines;
   const auto before = spdlog::default_logger();
   spdlog::set_default_logger(

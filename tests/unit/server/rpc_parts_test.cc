@@ -159,8 +159,8 @@ TEST_F(EventHubTest, EndedSubscriptionsHearNothing) {
 
 TEST(WorkerRegistryTest, ShowsWhoWorksOnWhat) {
   const TestClock clock;
-  WorkerRegistry registry(clock);
-  registry.seen(worker_identity());
+  WorkerRegistry registry(clock, 5000);
+  registry.seen(worker_identity(), 2000);
   ASSERT_EQ(registry.list().size(), 1U);
   EXPECT_EQ(registry.list()[0].task(), "");
   v1::Lease lease;
@@ -173,10 +173,33 @@ TEST(WorkerRegistryTest, ShowsWhoWorksOnWhat) {
   EXPECT_EQ(registry.list()[0].task(), "");
 }
 
+TEST(WorkerRegistryTest, TellsTheSilentFromThoseWhoWait) {
+  TestClock clock;
+  WorkerRegistry registry(clock, 5000);
+  registry.seen(worker_identity(), 30000);
+  clock.advance(35000);
+  EXPECT_FALSE(registry.list()[0].silent()) << "it may still wait for an answer, and that on its way";
+  clock.advance(1);
+  EXPECT_TRUE(registry.list()[0].silent());
+  v1::Lease lease;
+  lease.set_token("token");
+  lease.set_kind(v1::TASK_KIND_ERODE);
+  lease.mutable_job()->set_id("job");
+  registry.granted(worker_identity(), lease);
+  clock.advance(5000);
+  EXPECT_EQ(registry.list()[0].task(), "erode job");
+  clock.advance(1);
+  EXPECT_TRUE(registry.list()[0].silent());
+  EXPECT_EQ(registry.list()[0].task(), "") << "the lease has ended";
+  registry.used("token");
+  EXPECT_FALSE(registry.list()[0].silent());
+  EXPECT_EQ(registry.list()[0].task(), "erode job");
+}
+
 TEST(WorkerRegistryTest, ForgetsTheSilentAfterAMinute) {
   TestClock clock;
-  WorkerRegistry registry(clock);
-  registry.seen(worker_identity());
+  WorkerRegistry registry(clock, 5000);
+  registry.seen(worker_identity(), 2000);
   v1::Lease lease;
   lease.set_token("token");
   lease.set_kind(v1::TASK_KIND_ERODE);
@@ -191,7 +214,7 @@ TEST(WorkerRegistryTest, ForgetsTheSilentAfterAMinute) {
 
 TEST(WorkerRegistryTest, KnowsTheSupervised) {
   const TestClock clock;
-  WorkerRegistry registry(clock);
+  WorkerRegistry registry(clock, 5000);
   v1::WorkerIdentity worker = worker_identity();
   worker.set_host(wire::host_name());
   EXPECT_FALSE(registry.is_supervised(worker));
@@ -200,7 +223,7 @@ TEST(WorkerRegistryTest, KnowsTheSupervised) {
   worker.set_host("another-host");
   EXPECT_FALSE(registry.is_supervised(worker));
   worker.set_host(wire::host_name());
-  registry.seen(worker);
+  registry.seen(worker, 2000);
   registry.remove_supervised(worker.pid());
   EXPECT_TRUE(registry.list().empty());
 }

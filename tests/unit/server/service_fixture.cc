@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "wire/address.h"
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::server {

@@ -39,7 +39,8 @@ TEST_F(DatabaseTest, KeepsThePagesItWasMadeWithAndBoundsTheJournalInBytes) {
 TEST_F(DatabaseTest, BindsAndReadsEveryType) {
   Database db(file(), Database::Mode::kReadWrite);
   const std::string bytes("\0\1\xff", 3);
-  Statement row = db.query("SELECT ?, ?, ?, ?, ?", std::int64_t{-7}, 0.1, "text", Blob{bytes}, nullptr);
+  Statement row =
+      db.query("SELECT ?, ?, ?, ?, ?", std::int64_t{-7}, 0.1, "text", Blob{bytes}, std::optional<double>());
   ASSERT_TRUE(row.step());
   EXPECT_EQ(row.integer(0), -7);
   EXPECT_EQ(row.real(1), 0.1);

@@ -4,7 +4,6 @@
 
 #include "core/mesh/mesh_io.h"
 #include "core/shapes/shapes.h"
-#include "wire/address.h"
 #include "wire/direction_order.h"
 
 namespace affskel::worker {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <charconv>
+#include <concepts>
 #include <string>
+#include <string_view>
 
 namespace affskel::core {
 
@@ -12,11 +14,26 @@ inline std::string to_text(double value) {
   return std::string(buffer, result.ptr);
 }
 
-/// Rounded to `digits` significant digits, for people.
+/// Rounded to `digits` significant digits, for people: 9000, and 9e+09 only where that is shorter.
 inline std::string rounded(double value, int digits) {
   char buffer[32];
-  return {buffer,
-          std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr};
+  const char* end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
+  std::from_chars(buffer, end, value);
+  return to_text(value);
+}
+
+/// "1 edge", "2 edges": a count of things for people.  @param many where it is not `one` and an s.
+template <std::integral Count>
+std::string counted(Count count, std::string_view one, std::string_view many = {}) {
+  std::string text = std::to_string(count) + " ";
+  if (count == 1 || many.empty()) {
+    text += one;
+    if (count != 1) text += 's';
+  } else {
+    text += many;
+  }
+  return text;
 }
 
 }  // namespace affskel::core

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/parallel.h"
 
 namespace affskel::core {
@@ -90,9 +91,9 @@ class EdgeDefects {
     if (open_.count == 0 && crowded_.count == 0) return;
     std::string message = "the mesh does not bound a solid: ";
     if (!repeated_.empty()) message += repeated_ + "; ";
-    if (open_.count != 0) message += tell(open_, "open edges (one triangle only)");
+    if (open_.count != 0) message += tell(open_, "open edge", " (one triangle only)");
     if (open_.count != 0 && crowded_.count != 0) message += "; ";
-    if (crowded_.count != 0) message += tell(crowded_, "edges where more than two triangles meet");
+    if (crowded_.count != 0) message += tell(crowded_, "edge", " where more than two triangles meet");
     throw CoreError(CoreError::Code::kBadInput, message);
   }
 
@@ -110,8 +111,9 @@ class EdgeDefects {
     if (last - first > 2) kind.first += " and " + place_((last - 1)->half_edge / 3);
   }
 
-  static std::string tell(const Kind& kind, const char* what) {
-    return std::to_string(kind.count) + " " + what + ", the first between " + kind.first;
+  static std::string tell(const Kind& kind, const char* what, const char* more) {
+    return counted(kind.count, what) + more + (kind.count == 1 ? ", between " : ", the first between ") +
+           kind.first;
   }
 
   const Mesh& mesh_;

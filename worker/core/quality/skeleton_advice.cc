@@ -60,9 +60,8 @@ std::string on_threshold(std::vector<double> size, double threshold) {
 
 std::string on_few_points(const Lattice& lattice) {
   if (lattice.points >= kFewPoints) return "";
-  return " The lattice has only " + std::to_string(lattice.points) +
-         " sample points: submit with a smaller spacing than " + rounded(lattice.spacing, 3) +
-         ", or --points 100000.";
+  return " The lattice has only " + counted(lattice.points, "sample point") +
+         ": submit with a smaller spacing than " + rounded(lattice.spacing, 3) + ", or --points 100000.";
 }
 
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
@@ -115,8 +114,8 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
       std::string(name_of(shock_operator)) + ": " + on_threshold(magnitudes(divergence), threshold);
   const std::size_t normals = distinct_normals(optimal);
   if (normals < kFewNormals) {
-    advice += " Only " + std::to_string(normals) +
-              " directions are the optimum of some point, too few to show shocks well: submit with "
+    advice += " Only " + counted(normals, "direction is", "directions are") +
+              " the optimum of some point, too few to show shocks well: submit with "
               "--directions triangles+sphere:1000.";
   }
   return advice + on_few_points(lattice);

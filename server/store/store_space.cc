@@ -1,0 +1,192 @@
+// A disk that is full, or is to be less so.
+//
+// Three things together let users recover by cancelling and deleting jobs.  Whatever is committed has its
+// place in the database file (Database::claim_pages), so that the log can always be copied there and begun
+// anew.  A reserve (DiskReserve) is given away when a write finds the disk full: from then on it serves
+// bookkeeping only (Tx::room), until there is room to make it anew.  And deleting takes little of the log:
+// what is left of a job goes piece by piece, each a transaction, the log copied after every one.
+
+#include <spdlog/spdlog.h>
+
+#include "store/errors.h"
+#include "store/space.h"
+#include "store/store_impl.h"
+
+namespace affskel::server {
+namespace {
+
+// The log may be on the full disk, and workers try their reports again several times a second.
+constexpr std::int64_t kTellFullDiskMs = 60000;
+
+constexpr std::int64_t kTryAgainMs = 60000;
+
+// The log of a full disk is copied as soon as it has this much, for it must not grow.
+constexpr std::int64_t kFullDiskLogBytes = std::int64_t{1} << 18;
+
+// Rows deleted in a step: some 5 to 16 MiB.  A report that was logged can be as large as that by itself.
+constexpr int kFieldChunks = 64;
+constexpr int kMegabyteChunks = 8;
+constexpr int kLoggedReports = 8;
+
+// Pages given back in a step; each may have to be moved.
+constexpr int kPagesGivenBack = 128;
+
+// Largest content of an old database that is rewritten when it is opened.
+constexpr std::int64_t kQuicklyRewritten = std::int64_t{128} << 20;
+
+}  // namespace
+
+SqliteError full_disk(const Database& db) {
+  return {SQLITE_FULL, "the server's disk is full (" + db.file() +
+                           "): delete jobs that are no longer needed, or make room otherwise"};
+}
+
+void Tx::require_room() {
+  if (!room) throw full_disk(db);
+  changes.grown = true;
+}
+
+bool delete_piece(Tx& tx) {
+  if (const std::optional<std::int64_t> erosion =
+          tx.db.integer("SELECT id FROM erosions WHERE dropped = 1 LIMIT 1")) {
+    const auto gone = [&](const char* sql, int rows) { return tx.db.run(sql, *erosion, rows) > 0; };
+    if (gone("DELETE FROM field_chunks WHERE id IN"
+             " (SELECT id FROM field_chunks WHERE erosion_id = ? LIMIT ?)",
+             kFieldChunks) ||
+        gone("DELETE FROM field_log WHERE id IN (SELECT id FROM field_log WHERE erosion_id = ? LIMIT ?)",
+             kLoggedReports) ||
+        gone("DELETE FROM artifact_chunks WHERE rowid IN"
+             " (SELECT c.rowid FROM artifacts a JOIN artifact_chunks c ON c.artifact_id = a.id"
+             "  WHERE a.erosion_id = ? LIMIT ?)",
+             kMegabyteChunks)) {
+      return true;
+    }
+    tx.db.run(
+        "INSERT INTO dropped_meshes (sha256) SELECT e.mesh_sha256 FROM erosions e WHERE e.id = ?1"
+        " AND NOT EXISTS (SELECT 1 FROM erosions WHERE mesh_sha256 = e.mesh_sha256 AND id <> ?1)",
+        *erosion);
+    tx.db.run("DELETE FROM erosions WHERE id = ?", *erosion);
+    return true;
+  }
+  Statement dropped = tx.db.query("SELECT sha256 FROM dropped_meshes LIMIT 1");
+  if (!dropped.step()) return false;
+  const std::string mesh = dropped.text(0);
+  if (tx.db.run("DELETE FROM mesh_chunks WHERE rowid IN"
+                " (SELECT rowid FROM mesh_chunks WHERE sha256 = ? LIMIT ?)",
+                mesh, kMegabyteChunks) == 0) {
+    tx.db.run("DELETE FROM meshes WHERE sha256 = ?", mesh);
+  }
+  return true;
+}
+
+bool give_pages_back(Database& db) {
+  // Files of older versions cannot shrink.
+  if (db.integer("PRAGMA auto_vacuum") == 0 || db.integer("PRAGMA freelist_count") == 0) return false;
+  static const std::string vacuum = "PRAGMA incremental_vacuum(" + std::to_string(kPagesGivenBack) + ")";
+  db.run(vacuum.c_str());
+  return true;
+}
+
+void let_pages_go(Database& db, std::uint64_t free) {
+  if (db.integer("PRAGMA auto_vacuum") != 0) return;
+  const std::int64_t bytes =
+      (db.integer("PRAGMA page_count").value_or(0) - db.integer("PRAGMA freelist_count").value_or(0)) *
+      db.integer("PRAGMA page_size").value_or(0);
+  // The new content goes through the log.
+  if (bytes > kQuicklyRewritten || free < 3 * static_cast<std::uint64_t>(bytes)) return;
+  try {
+    db.execute("PRAGMA auto_vacuum = INCREMENTAL; VACUUM");
+    db.checkpoint();
+    spdlog::info("event=rewritten file={} bytes={}", db.file(), bytes);
+  } catch (const SqliteError& error) {
+    // No room for the temporary copy, say; everything works without.
+    spdlog::warn("event=not_rewritten file={} message=\"{}\"", db.file(), error.what());
+  }
+}
+
+/// With the lock held: whether there is room for more than bookkeeping.
+bool Store::has_room() {
+  if (!disk_full_) return true;
+  // A job too large for what is free must not lock all others out for ever.
+  if (clock_.lease_ms() - full_disk_ms_ > kTryAgainMs) reserve_.allow_retry();
+  if (!reserve_.restore()) return false;
+  db_.set_usual_log_limit();
+  disk_full_ = false;
+  room_again_ = true;
+  spdlog::info("event=disk_has_room file={}", file_);
+  return true;
+}
+
+void Store::live_on_reserve() {
+  reserve_.release();
+  db_.set_log_limit(kFullDiskLogBytes);
+}
+
+/// A write found the disk full: gives the reserve away.  False when it was given away before.  Whoever
+/// follows one of the jobs that the change was about learns why it gets no further.
+bool Store::make_room(const Changes& undone) {
+  const std::int64_t now = clock_.lease_ms();
+  std::int64_t told = full_disk_told_ms_;
+  if ((told == 0 || now - told >= kTellFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
+    spdlog::error("event=disk_full file={}", file_);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (disk_full_.exchange(true)) return false;
+    full_disk_ms_ = now;
+    live_on_reserve();
+    try {
+      db_.unclaim_pages();
+    } catch (const SqliteError&) {
+      // The next commit tries it again.
+    }
+  }
+  if (listener_ != nullptr) {
+    Changes stuck;
+    stuck.jobs = undone.jobs;
+    listener_->on_change(stuck);
+  }
+  return true;
+}
+
+/// Jobs that were stuck go on.
+void Store::tell_room() {
+  if (listener_ == nullptr) return;
+  Changes changes;
+  changes.work = true;
+  read([&](Database& db) {
+    Statement row = db.query("SELECT id FROM jobs WHERE state IN ('queued', 'running')");
+    while (row.step()) changes.jobs.insert(row.text(0));
+    return true;
+  });
+  listener_->on_change(changes);
+}
+
+bool Store::tidy() {
+  // Taken back first: what is dropped meanwhile must not be forgotten.
+  const bool more = untidy_.exchange(false) && tidy_step();
+  if (disk_full_) {
+    const std::lock_guard lock(mutex_);
+    has_room();
+  }
+  if (room_again_.exchange(false)) tell_room();
+  return more;
+}
+
+bool Store::tidy_step() {
+  try {
+    const bool more = write([](Tx& tx) { return delete_piece(tx) || give_pages_back(tx.db); });
+    if (more || !shorten_log()) untidy_ = true;
+    return more;
+  } catch (...) {
+    untidy_ = true;
+    throw;
+  }
+}
+
+bool Store::shorten_log() {
+  const std::lock_guard lock(mutex_);
+  return db_.checkpoint();
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,287 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "expect_store_error.h"
+#include "small_disk.h"
+#include "store/disk_reserve.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+
+/// A store on a disk of its own.
+class FullDiskTest : public StoreTest {
+ protected:
+  FullDiskTest() {
+    store_.reset();
+    std::filesystem::remove_all(directory_.path());
+    std::filesystem::create_directory(directory_.path());
+    options_.reserve_bytes = kMiB;
+    options_.free_bytes = [this](const std::string&) { return disk_.free(); };
+    open();
+  }
+  ~FullDiskTest() override { store_.reset(); }
+
+  void tidy_up() {
+    while (store_->tidy()) {
+    }
+  }
+
+  std::uint64_t bytes_of(const std::string& name) const {
+    const auto file = directory_.path() / name;
+    return std::filesystem::exists(file) ? std::filesystem::file_size(file) : 0;
+  }
+
+  void finish_blocks() {
+    for (;;) {
+      const v1::Lease task = lease();
+      if (task.kind() != v1::TASK_KIND_ERODE) return static_cast<void>(store_->give_back(task.token()));
+      finish_block(task);
+    }
+  }
+
+  /// Reports one direction after another until there is no room; returns how many were acknowledged.
+  std::uint64_t report_until_full(const v1::Lease& lease, std::uint64_t from) {
+    for (std::uint64_t position = from;; ++position) {
+      if (position == lease.positions(0).end()) throw std::logic_error("the disk did not get full");
+      try {
+        report(lease, position, position + 1);
+      } catch (const SqliteError& error) {
+        EXPECT_EQ(error.primary_code(), SQLITE_FULL);
+        return position;
+      }
+    }
+  }
+
+  SmallDisk disk_{directory_.path().string()};
+};
+
+TEST_F(FullDiskTest, JobsAreCancelledAndDeletedWhereNothingElseCanBeWritten) {
+  const v1::Job kept = complete_job(3000, 40, "kept");
+  const v1::Job old = submit("OFF 2", "old");
+  erode(100000, 20);
+  derive();
+  const v1::Job running = submit("OFF 3", "running");
+  prepare(100000, 40);
+  const v1::Lease block = lease();
+  disk_.leave(3 * kMiB);
+  report_until_full(block, block.positions(0).begin());
+  EXPECT_TRUE(store_->disk_full());
+  disk_.leave(options_.reserve_bytes / 2);
+  const std::uint64_t used = disk_.used();
+
+  EXPECT_THROW(submit("OFF 4"), SqliteError);
+  EXPECT_FALSE(store_->lease(worker_identity("worker-b"), "", false)) << "its work could not be stored";
+  EXPECT_EQ(store_->cancel(running.id()).state(), v1::JOB_STATE_RUNNING);
+  const std::uint64_t next = block.positions(0).end() - 1;
+  EXPECT_STORE_ERROR(report(block, next, next + 1), kFenced);
+  EXPECT_EQ(store_->job(running.id()).state(), v1::JOB_STATE_CANCELLED);
+  EXPECT_EQ(store_->remove(running.id()), running.id());
+  EXPECT_EQ(store_->remove(old.id()), old.id());
+  tidy_up();
+  EXPECT_LE(disk_.used() - bytes_of("reserve") + 2 * kMiB, used) << "a field of 2 MB and a log are gone";
+  EXPECT_LE(bytes_of("affskel.db"), 2 * kMiB);
+  EXPECT_EQ(bytes_of("affskel.db-wal"), 0U);
+
+  EXPECT_FALSE(store_->disk_full());
+  EXPECT_EQ(bytes_of("reserve"), options_.reserve_bytes);
+  EXPECT_EQ(field(kept.id()), expected_field(3000, 40));
+  EXPECT_EQ(submit("OFF 4").state(), v1::JOB_STATE_QUEUED);
+}
+
+TEST_F(FullDiskTest, WhatWasAcknowledgedIsKeptAndTheRestGoesOnWhenThereIsRoom) {
+  const v1::Job job = submit();
+  prepare(60000, 64);
+  const v1::Lease block = lease();
+  disk_.leave(4 * kMiB);
+  const std::uint64_t first = block.positions(0).begin();
+  const std::uint64_t acknowledged = report_until_full(block, first) - first;
+  ASSERT_GT(acknowledged, 0U);
+  EXPECT_EQ(store_->job(job.id()).directions_done(), acknowledged);
+
+  store_.reset();
+  disk_.leave(options_.reserve_bytes / 2);
+  open();
+  EXPECT_TRUE(store_->disk_full());
+  EXPECT_EQ(store_->job(job.id()).directions_done(), acknowledged);
+  EXPECT_THROW(report(block, first + acknowledged, first + acknowledged + 1), SqliteError);
+
+  disk_.leave(100 * kMiB);
+  store_->tidy();
+  EXPECT_FALSE(store_->disk_full());
+  for (std::uint64_t position = first + acknowledged; position < block.positions(0).end(); ++position) {
+    report(block, position, position + 1, position + 1 == block.positions(0).end());
+  }
+  finish_blocks();
+  derive();
+  EXPECT_TRUE(field(job.id()) == expected_field(60000, 64));
+}
+
+TEST_F(FullDiskTest, AWorkerThatTriesAgainKeepsItsLease) {
+  const v1::Job job = submit();
+  prepare(50000, 64);
+  const v1::Lease block = lease();
+  disk_.leave(3 * kMiB);
+  const std::uint64_t at = report_until_full(block, block.positions(0).begin());
+  disk_.leave(kMiB);  // others take what the log has given back
+  for (int i = 0; i < 10; ++i) {
+    clock_.advance(options_.lease_ms * 3 / 4);
+    EXPECT_THROW(report(block, at, at + 1), SqliteError);
+    EXPECT_EQ(store_->expire_leases(), 0);
+  }
+  EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 0U);
+  clock_.advance(options_.lease_ms + 1);
+  EXPECT_EQ(store_->expire_leases(), 1) << "silent workers lose theirs as ever";
+}
+
+TEST_F(FullDiskTest, AJobTooLargeForTheDiskHoldsOthersUpOnlyUntilItIsCancelledOrAMinuteHasPassed) {
+  const v1::Job large = submit();
+  prepare(500000, 16);
+  const v1::Lease block = lease();
+  disk_.leave(5 * kMiB);
+  EXPECT_THROW(report(block, 0, 1), SqliteError);
+  EXPECT_THROW(report(block, 0, 1), SqliteError) << "the room that the first had taken, tried once more";
+  EXPECT_THROW(submit("OFF 2"), SqliteError);
+  clock_.advance(60001);
+  EXPECT_NO_THROW(submit("OFF 2"));
+  EXPECT_THROW(report(block, 0, 1), SqliteError);
+  EXPECT_THROW(report(block, 0, 1), SqliteError);
+  EXPECT_THROW(submit("OFF 3"), SqliteError);
+  store_->cancel(large.id());
+  EXPECT_NO_THROW(submit("OFF 3"));
+}
+
+// Everything is small here, so the log's own place is what the commits must get along with.
+TEST_F(FullDiskTest, BookkeepingDoesNotUseTheReserveUp) {
+  submit();
+  prepare(50000, 64);
+  const v1::Lease block = lease();
+  disk_.leave(3 * kMiB);
+  report_until_full(block, block.positions(0).begin());
+  disk_.leave(options_.reserve_bytes);
+  for (int i = 0; i < 200; ++i) {
+    clock_.advance(1);
+    store_->renew(block.token());
+  }
+  EXPECT_TRUE(store_->disk_full());
+  EXPECT_GT(disk_.free(), 0U);
+}
+
+TEST_F(FullDiskTest, ALogThatWasCommittedNeedsNoMoreRoomToBeCopied) {
+  submit();
+  prepare(100000, 64);
+  const v1::Lease block = lease();
+  report(block, 0, 4);
+  EXPECT_GT(bytes_of("affskel.db-wal"), 0U);
+  disk_.leave(0);
+  Database db(database(), Database::Mode::kReadWrite);
+  EXPECT_TRUE(db.checkpoint());
+  EXPECT_EQ(bytes_of("affskel.db-wal"), 0U);
+}
+
+TEST_F(FullDiskTest, DeletingGivesBytesBackInShortSteps) {
+  const v1::Job job = submit("OFF 2");
+  erode(1000000, 16);
+  derive();
+  tidy_up();
+  const std::uint64_t before = bytes_of("affskel.db");
+  EXPECT_GT(before, 20 * kMiB);
+  store_->remove(job.id());
+  std::uint64_t longest_log = 0;
+  int steps = 0;
+  for (; store_->tidy(); ++steps) longest_log = std::max(longest_log, bytes_of("affskel.db-wal"));
+  EXPECT_GT(steps, 4);
+  EXPECT_LE(bytes_of("affskel.db"), kMiB);
+  EXPECT_LT(longest_log, before / 4) << "pages that are freed are not written";
+}
+
+TEST_F(FullDiskTest, AMeshThatIsHalfGoneCanBeSubmittedAgain) {
+  const std::string mesh = "OFF" + std::string(20 * kMiB, ' ');
+  const v1::Job first = submit(mesh);
+  store_->cancel(first.id());
+  store_->remove(first.id());
+  ASSERT_TRUE(store_->tidy());
+  ASSERT_TRUE(store_->tidy());
+  {
+    Database db(database(), Database::Mode::kReadOnly);
+    const std::int64_t chunks = db.integer("SELECT count(*) FROM mesh_chunks").value();
+    ASSERT_GT(chunks, 0);
+    ASSERT_LT(chunks, 20);
+  }
+  const v1::Job second = submit(mesh);
+  tidy_up();
+  v1::FetchArtifactRequest request;
+  request.set_job(second.id());
+  request.set_kind(v1::ARTIFACT_KIND_MESH);
+  EXPECT_TRUE(read_all(*store_->open_artifact(request).reader) == mesh);
+}
+
+TEST_F(FullDiskTest, AFieldThatIsHalfGoneIsNotTakenForAnotherJob) {
+  const v1::Job first = complete_job(300000, 16);
+  store_->remove(first.id());
+  ASSERT_TRUE(store_->tidy());
+  const v1::Job second = submit();
+  EXPECT_EQ(second.stage(), v1::JOB_STAGE_PREPARE);
+  tidy_up();
+  erode(300000, 16);
+  derive();
+  EXPECT_TRUE(field(second.id()) == expected_field(300000, 16));
+}
+
+TEST_F(FullDiskTest, ADatabaseOfAnOlderVersionIsRewrittenOnceSoThatItCanShrink) {
+  const v1::Job job = complete_job(3000, 40);
+  store_.reset();
+  {
+    Database db(database(), Database::Mode::kReadWrite);
+    db.execute("PRAGMA auto_vacuum = NONE; VACUUM");
+    ASSERT_EQ(db.integer("PRAGMA auto_vacuum"), 0);
+  }
+  open();
+  Database db(database(), Database::Mode::kReadOnly);
+  EXPECT_EQ(db.integer("PRAGMA auto_vacuum"), 2);
+  EXPECT_EQ(field(job.id()), expected_field(3000, 40));
+}
+
+TEST_F(FullDiskTest, StartsWhereNothingIsFreeButTheReserve) {
+  const v1::Job job = submit();
+  store_.reset();
+  disk_.leave(0);
+  open();
+  EXPECT_TRUE(store_->disk_full());
+  EXPECT_EQ(bytes_of("reserve"), 0U);
+  EXPECT_EQ(store_->cancel(job.id()).state(), v1::JOB_STATE_CANCELLED);
+  EXPECT_EQ(store_->remove(job.id()), job.id());
+}
+
+TEST(DiskReserve, IsRealAndRestoredOnlyWhenThereIsMoreThanWasNotEnough) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "reserve").string();
+  std::ofstream(file) << "";
+  std::filesystem::resize_file(file, kMiB);  // sparse
+  std::uint64_t free = 100 * kMiB;
+  DiskReserve reserve(directory.path().string(), kMiB, [&](const std::string&) { return free; });
+  EXPECT_TRUE(reserve.whole());
+  reserve.release();
+  EXPECT_FALSE(std::filesystem::exists(file));
+  free = kMiB + kMiB / 4 - 1;
+  EXPECT_FALSE(reserve.restore()) << "it would take the last";
+  free = 10 * kMiB;
+  EXPECT_TRUE(reserve.restore());
+  EXPECT_EQ(std::filesystem::file_size(file), kMiB);
+  reserve.release();
+  EXPECT_FALSE(reserve.restore()) << "as much as before, which was not enough";
+  free = 11 * kMiB;
+  EXPECT_TRUE(reserve.restore());
+  reserve.allow_retry();
+  reserve.release();
+  EXPECT_TRUE(reserve.restore());
+}
+
+}  // namespace
+}  // namespace affskel::server
