@@ -82,8 +82,9 @@ void add_transform(CLI::App& app, Options& options) {
       "other\n"
       "columns stay. A mirrored surface is turned over, so that it stays outward.");
   add_file(sub, "FILE", o.file, "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
-  sub->add_option("-o,--output", o.output,
-                  "File to write: .off .ply .obj .stl .vtp for triangles,\n.csv .ply .off .xyz .vtp for points")
+  sub->add_option(
+         "-o,--output", o.output,
+         "File to write: .off .ply .obj .stl .vtp for triangles,\n.csv .ply .off .xyz .vtp for points")
       ->required()
       ->check(given())
       ->type_name("FILE");

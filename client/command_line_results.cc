@@ -19,8 +19,8 @@ void add_fetch(CLI::App& app, Options& options) {
                           "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
                           "Formats by extension: field and divergence .csv .dat .vtkhdf;\n"
                           "skeleton and eroded points .csv .ply .off .xyz .vtp; surface and eroded surface\n"
-                          ".off .ply .obj .stl .vtp; mesh: the submitted bytes. Of an eroded solid this is the\n"
-                          "one at a tenth of the volume; see erode");
+                          ".off .ply .obj .stl .vtp; mesh: the submitted bytes. Of an eroded solid this\n"
+                          "is the one at a tenth of the volume; see erode");
   add_job(sub, options);
   sub->add_option("ARTEFACT", options.job.artifact, "What to fetch")
       ->required()
@@ -91,7 +91,8 @@ void add_erode(CLI::App& app, Options& options) {
       throw CLI::RequiredError("--fraction or --volume");
     }
   });
-  add_output(sub, options, "Points: .csv .ply .off .xyz .vtp; surface: .off .ply .obj .stl .vtp; - is stdout");
+  add_output(sub, options,
+             "Points: .csv .ply .off .xyz .vtp; surface: .off .ply .obj .stl .vtp; - is stdout");
   add_format(sub, options.job.format);
 }
 

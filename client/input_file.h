@@ -32,8 +32,8 @@ ClientError out_of_memory(const std::string& path);
 /// or than the memory holds.
 std::string read_file(const std::string& path, std::uint64_t max_bytes = kMaxFileBytes);
 
-/// Reads and parses a mesh: .ply, .obj, .stl and .vtp as read_shape does, after which `bytes` are the OFF text of
-/// their surface; everything else as OFF text, kept byte for byte.
+/// Reads and parses a mesh: .ply, .obj, .stl and .vtp as read_shape does, after which `bytes` are the OFF
+/// text of their surface; everything else as OFF text, kept byte for byte.
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path);
 
