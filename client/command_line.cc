@@ -33,7 +33,7 @@ void add_submit(CLI::App& app, Options& options) {
               "  JOB=$(affskel-client submit body.off --name subject-7)");
   sub->add_option(
          "FILE", o.file,
-         "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl, which are submitted as OFF text")
+         "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp, which are submitted as OFF text")
       ->required()
       ->type_name("");
   sub->add_flag("-w,--wait", o.wait, "Follow the job to its end");
@@ -115,7 +115,7 @@ CLI::App* shape(CLI::App* make, Options& options, const std::string& name, Shape
   sub->group("Shapes");
   sub->callback([&options, which] { options.make.shape = which; });
   sub->add_option("-o,--output", options.make.output,
-                  "File to write (.off .ply .obj .stl), or - for OFF on stdout")
+                  "File to write (.off .ply .obj .stl .vtp), or - for OFF on stdout")
       ->required()
       ->type_name("FILE");
   sub->footer("Example:\n  affskel-client make " + name + " -o " + name + ".off");
@@ -142,7 +142,7 @@ void add_inspect(CLI::App& app, Options& options) {
   CLI::App* sub = command(app, options, "inspect", Command::kInspect,
                           "What a mesh is, and every defect with its place; needs no server",
                           "  affskel-client inspect body.off\n  affskel-client --json inspect scan.stl");
-  sub->add_option("FILE", options.inspect_file, "Geomview OFF text, .ply, .obj or .stl")
+  sub->add_option("FILE", options.inspect_file, "Geomview OFF text, .ply, .obj, .stl or .vtp")
       ->required()
       ->type_name("");
 }

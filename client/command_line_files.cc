@@ -20,8 +20,8 @@ void add_compare(CLI::App& app, Options& options) {
       "  affskel-client compare a.ply b.ply --solid body.off -o curve.csv\n"
       "  affskel-client compare a.csv b.csv --squared --radii 1.2e5,1e6,1e7,1e8\n"
       "The table tells the share of A's points within r of B and back; its area under the curve is taken up\n"
-      "to the largest r and divided by it. Points: .csv .ply .off .xyz .dat; surfaces: .off .ply .obj .stl,\n"
-      "compared by points spread evenly over them.");
+      "to the largest r and divided by it. Points: .csv .ply .off .xyz .vtp .dat; surfaces: .off .ply .obj\n"
+      ".stl .vtp, compared by points spread evenly over them.");
   add_file(sub, "A", o.a, "Skeleton: points or a surface");
   add_file(sub, "B", o.b, "The other one");
   sub->add_option("--radius", o.radius,
@@ -81,9 +81,10 @@ void add_transform(CLI::App& app, Options& options) {
       "Steps are taken in the order given. Normals are mapped as those of planes, E as a volume; H and "
       "other\n"
       "columns stay. A mirrored surface is turned over, so that it stays outward.");
-  add_file(sub, "FILE", o.file, "Mesh, surface, skeleton or field: .off .ply .obj .stl .csv .xyz .dat");
-  sub->add_option("-o,--output", o.output,
-                  "File to write: .off .ply .obj .stl for triangles, .csv .ply .off .xyz for points")
+  add_file(sub, "FILE", o.file, "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
+  sub->add_option(
+         "-o,--output", o.output,
+         "File to write: .off .ply .obj .stl .vtp for triangles,\n.csv .ply .off .xyz .vtp for points")
       ->required()
       ->check(given())
       ->type_name("FILE");
@@ -113,8 +114,8 @@ void add_perturb(CLI::App& app, Options& options) {
                           "Every vertex moves by sigma times a normal number in x, y and z; vertices at one "
                           "place move together.\n"
                           "The same seed gives the same noise on every machine.");
-  add_file(sub, "FILE", o.file, "Mesh: .off .ply .obj .stl");
-  sub->add_option("-o,--output", o.output, "File to write: .off .ply .obj .stl")
+  add_file(sub, "FILE", o.file, "Mesh: .off .ply .obj .stl .vtp");
+  sub->add_option("-o,--output", o.output, "File to write: .off .ply .obj .stl .vtp")
       ->required()
       ->check(given())
       ->type_name("FILE");

@@ -18,9 +18,9 @@ void add_fetch(CLI::App& app, Options& options) {
                           "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
                           "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
                           "Formats by extension: field and divergence .csv .dat .vtkhdf;\n"
-                          "skeleton and eroded points .csv .ply .off .xyz; surface and eroded surface\n"
-                          ".off .ply .obj .stl; mesh: the submitted bytes. Of an eroded solid this is the\n"
-                          "one at a tenth of the volume; see erode");
+                          "skeleton and eroded points .csv .ply .off .xyz .vtp; surface and eroded surface\n"
+                          ".off .ply .obj .stl .vtp; mesh: the submitted bytes. Of an eroded solid this\n"
+                          "is the one at a tenth of the volume; see erode");
   add_job(sub, options);
   sub->add_option("ARTEFACT", options.job.artifact, "What to fetch")
       ->required()
@@ -48,7 +48,7 @@ void add_skeleton(CLI::App& app, Options& options) {
                           "  affskel-client skeleton @last --threshold 5 -o fine.ply");
   add_job(sub, options);
   add_skeleton_options(sub, options.job.skeleton);
-  add_output(sub, options, "File to write: .csv .ply .off .xyz, or -");
+  add_output(sub, options, "File to write: .csv .ply .off .xyz .vtp, or -");
   add_format(sub, options.job.format);
 }
 
@@ -62,7 +62,7 @@ void add_surface(CLI::App& app, Options& options) {
   sub->add_option("--alpha", options.job.alpha, "Squared radius in mesh units squared (default: 3 DT^2)")
       ->check(positive_number())
       ->type_name("A");
-  add_output(sub, options, "File to write: .off .ply .obj .stl, or -");
+  add_output(sub, options, "File to write: .off .ply .obj .stl .vtp, or -");
   add_format(sub, options.job.format);
 }
 
@@ -91,7 +91,8 @@ void add_erode(CLI::App& app, Options& options) {
       throw CLI::RequiredError("--fraction or --volume");
     }
   });
-  add_output(sub, options, "Points: .csv .ply .off .xyz; surface: .off .ply .obj .stl; - is stdout");
+  add_output(sub, options,
+             "Points: .csv .ply .off .xyz .vtp; surface: .off .ply .obj .stl .vtp; - is stdout");
   add_format(sub, options.job.format);
 }
 

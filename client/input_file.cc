@@ -63,7 +63,7 @@ std::string read_all(int fd, const std::string& path, std::uint64_t announced, s
 // known.
 std::string format_of(const std::string& path, std::string_view bytes) {
   const std::string extension = lower_extension(path);
-  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl}) {
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl, FileFormat::kVtp}) {
     if (extension == extension_of(format)) return extension.substr(1);
   }
   return extension != extension_of(FileFormat::kOff) && bytes.starts_with("ply") ? "ply" : "off";

@@ -15,7 +15,7 @@ struct InputFile {
   std::string path;
   std::string bytes;           ///< OFF text: the file's own bytes, or what was made of another format
   core::OffMesh off;           ///< with the lines of the file, where it is text
-  std::string format = "off";  ///< of the file: off, ply, obj or stl
+  std::string format = "off";  ///< of the file: off, ply, obj, stl or vtp
   std::uint64_t file_bytes = 0;
   std::string file_sha256;  ///< hexadecimal
   bool converted() const { return format != "off"; }
@@ -32,8 +32,8 @@ ClientError out_of_memory(const std::string& path);
 /// or than the memory holds.
 std::string read_file(const std::string& path, std::uint64_t max_bytes = kMaxFileBytes);
 
-/// Reads and parses a mesh: .ply, .obj and .stl as read_shape does, after which `bytes` are the OFF text of
-/// their surface; everything else as OFF text, kept byte for byte.
+/// Reads and parses a mesh: .ply, .obj, .stl and .vtp as read_shape does, after which `bytes` are the OFF
+/// text of their surface; everything else as OFF text, kept byte for byte.
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path);
 

@@ -11,8 +11,10 @@ namespace {
 
 constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
 constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
-constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz};
-constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl};
+constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz,
+                                  FileFormat::kVtp};
+constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
+                                 FileFormat::kVtp};
 constexpr std::array kPicture = {FileFormat::kPng};
 constexpr std::array kPage = {FileFormat::kHtml};
 
@@ -46,8 +48,8 @@ std::span<const FileFormat> page_formats() {
 }
 
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 11> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off", ".xyz",
-                                                       ".obj", ".stl", ".png",    ".svg", ".html"};
+  constexpr std::array<std::string_view, 12> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off", ".xyz",
+                                                       ".obj", ".stl", ".vtp",    ".png", ".svg", ".html"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -7,13 +7,13 @@
 
 namespace affskel::client {
 
-enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kPng, kSvg, kHtml };
+enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kVtp, kPng, kSvg, kHtml };
 
 /// What can be written as which formats.
 std::span<const FileFormat> field_formats();       // csv dat vtkhdf
 std::span<const FileFormat> divergence_formats();  // csv dat vtkhdf
-std::span<const FileFormat> skeleton_formats();    // csv ply off xyz
-std::span<const FileFormat> surface_formats();     // off ply obj stl
+std::span<const FileFormat> skeleton_formats();    // csv ply off xyz vtp
+std::span<const FileFormat> surface_formats();     // off ply obj stl vtp
 std::span<const FileFormat> picture_formats();     // png
 std::span<const FileFormat> page_formats();        // html
 

@@ -8,6 +8,7 @@
 #include "client/error.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/single_precision.h"
+#include "client/exporters/vtp_writer.h"
 #include "core/mesh/mesh_io.h"
 
 namespace affskel::client {
@@ -82,6 +83,19 @@ void write_stl(const core::Mesh& mesh, const Write& write) {
   }
 }
 
+// One column per component.
+std::vector<PointColumn> columns_of(const std::vector<VertexProperty>& properties, std::size_t vertices) {
+  std::vector<PointColumn> columns;
+  for (const VertexProperty& property : properties) {
+    const std::size_t n = property.components.size();
+    for (std::size_t c = 0; c < n; ++c) {
+      columns.push_back({property.components[c], false, std::vector<double>(vertices)});
+      for (std::size_t v = 0; v < vertices; ++v) columns.back().values[v] = property.values[n * v + c];
+    }
+  }
+  return columns;
+}
+
 [[noreturn]] void damaged(const std::string& what) {
   throw ClientError(ExitCode::kInternal, "the server sent a damaged surface: " + what);
 }
@@ -138,6 +152,8 @@ void write_mesh(FileFormat format, const core::Mesh& mesh, const std::vector<std
       return write_obj(mesh, comments, write);
     case FileFormat::kStl:
       return write_stl(mesh, write);
+    case FileFormat::kVtp:
+      return write_vtp(mesh, columns_of(properties, mesh.points.size()), comments, write);
     default:
       throw ClientError(ExitCode::kInternal, "no mesh writer for " + std::string(extension_of(format)));
   }

@@ -30,9 +30,10 @@ struct FetchedSurface {
 FetchedSurface parse_surface(const std::string& bytes);
 
 /// Writes a mesh in one of surface_formats(): .off and .obj as text that reads back exactly, .ply binary with
-/// double coordinates and the properties, .stl binary (single precision, which is all that STL has).
+/// double coordinates and the properties, .vtp with the same as arrays (see write_vtp), .stl binary (single
+/// precision, which is all that STL has).
 /// Slivers that single precision makes flat are written as they are; the surface stays closed.
-/// @param comments lines for formats that have comments (PLY, OBJ), without line breaks.
+/// @param comments lines for formats that have comments (PLY, OBJ, VTP), without line breaks.
 /// @param write takes the bytes, piece by piece.
 /// @throws ClientError kLimit when the mesh has more elements than the format can count, and for .stl when a
 /// coordinate does not fit into single precision or when triangles would become flat in it that hold more

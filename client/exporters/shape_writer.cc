@@ -1,7 +1,5 @@
 #include "client/exporters/shape_writer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
@@ -9,6 +7,8 @@
 #include "client/error.h"
 #include "client/exporters/mesh_writer.h"
 #include "client/exporters/numbers.h"
+#include "client/exporters/stored_type.h"
+#include "client/exporters/vtp_writer.h"
 
 namespace affskel::client {
 namespace {
@@ -55,20 +55,6 @@ std::string safe_name(std::string name) {
   return name.empty() ? "_" : name;
 }
 
-enum class Stored { kInt, kUint, kDouble };
-
-Stored stored_as(const PointColumn& column) {
-  const auto all_within = [&](double low, double high) {
-    return std::all_of(column.values.begin(), column.values.end(),
-                       [&](double v) { return v >= low && v <= high && v == std::floor(v); });
-  };
-  if (!column.whole) return Stored::kDouble;
-  if (all_within(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max())) {
-    return Stored::kInt;
-  }
-  return all_within(0, std::numeric_limits<std::uint32_t>::max()) ? Stored::kUint : Stored::kDouble;
-}
-
 std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored,
                        const std::vector<std::string>& comments) {
   constexpr const char* kTypes[] = {"int", "uint", "double"};
@@ -85,17 +71,6 @@ std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored
             "\nproperty list uchar int vertex_indices\n";
   }
   return text + "end_header\n";
-}
-
-void append_stored(std::string& row, double value, Stored stored) {
-  switch (stored) {
-    case Stored::kInt:
-      return append_bytes(row, static_cast<std::int32_t>(value));
-    case Stored::kUint:
-      return append_bytes(row, static_cast<std::uint32_t>(value));
-    case Stored::kDouble:
-      return append_bytes(row, value);
-  }
 }
 
 void write_ply(const ShapeFile& shape, const std::vector<std::string>& comments, const Write& write) {
@@ -119,6 +94,13 @@ void write_ply(const ShapeFile& shape, const std::vector<std::string>& comments,
   }
 }
 
+std::vector<PointColumn> columns_as_written(const ShapeFile& shape) {
+  std::vector<PointColumn> columns = shape.columns;
+  const std::vector<std::string> names = written_names(shape);
+  for (std::size_t c = 0; c < columns.size(); ++c) columns[c].name = names[c];
+  return columns;
+}
+
 }  // namespace
 
 std::span<const FileFormat> shape_formats(const ShapeFile& shape) {
@@ -126,7 +108,7 @@ std::span<const FileFormat> shape_formats(const ShapeFile& shape) {
 }
 
 bool holds_columns(FileFormat format) {
-  return format == FileFormat::kCsv || format == FileFormat::kPly;
+  return format == FileFormat::kCsv || format == FileFormat::kPly || format == FileFormat::kVtp;
 }
 
 std::vector<std::string> written_names(const ShapeFile& shape) {
@@ -151,6 +133,9 @@ void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<st
     throw ClientError(ExitCode::kLimit, "the shape has too many points for this format");
   }
   if (format == FileFormat::kPly) return write_ply(shape, comments, write);
+  if (format == FileFormat::kVtp) {
+    return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
+  }
   if (shape.is_surface()) return write_mesh(format, shape.mesh(), comments, write);
   switch (format) {
     case FileFormat::kCsv:

@@ -24,9 +24,9 @@ bool holds_columns(FileFormat format);
 std::vector<std::string> written_names(const ShapeFile& shape);
 
 /// Writes a shape in one of its formats.  Points: .csv with a header line and 17 significant digits, .ply
-/// binary with all columns, .off and .xyz coordinates alone.  Surfaces: as write_mesh does, and .ply with the
-/// columns of the vertices, under their written_names.
-/// @param comments lines for formats that have comments (PLY, OBJ), without line breaks.
+/// binary and .vtp (see write_vtp) with all columns, .off and .xyz coordinates alone.  Surfaces: as
+/// write_mesh does, and .ply and .vtp with the columns of the vertices.  Columns have their written_names.
+/// @param comments lines for formats that have comments (PLY, OBJ, VTP), without line breaks.
 /// @param write takes the bytes, piece by piece.
 void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                  const std::function<void(std::string_view)>& write);

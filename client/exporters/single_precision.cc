@@ -14,7 +14,7 @@ namespace {
 
 using core::Vec3;
 
-constexpr const char* kInstead = "; write .off, .ply or .obj, which hold double precision";
+constexpr const char* kInstead = "; write .off, .ply, .obj or .vtp, which hold double precision";
 
 // The box round the corners of the triangles.
 struct Extent {

@@ -3,6 +3,7 @@
 #include "client/console.h"
 #include "client/error.h"
 #include "client/exporters/numbers.h"
+#include "client/exporters/vtp_writer.h"
 
 namespace affskel::client {
 namespace {
@@ -61,6 +62,24 @@ void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comm
   }
 }
 
+void write_as_vtp(const v1::SkeletonPoints& s, const std::vector<std::string>& comments, AtomicFile& file) {
+  core::Mesh mesh;
+  std::vector<PointColumn> columns = {{"E", false, {s.erosion().begin(), s.erosion().end()}},
+                                      {"nx", false, {}},
+                                      {"ny", false, {}},
+                                      {"nz", false, {}}};
+  for (int p = 0; p < s.point_size(); ++p) {
+    mesh.points.push_back({s.xyz(3 * p), s.xyz(3 * p + 1), s.xyz(3 * p + 2)});
+    for (int c = 0; c < 3; ++c)
+      columns[static_cast<std::size_t>(1 + c)].values.push_back(s.normal(3 * p + c));
+  }
+  if (!s.divergence().empty() || s.point_size() == 0) {
+    columns.push_back({"H", false, {s.divergence().begin(), s.divergence().end()}});
+  }
+  columns.push_back({"direction", true, {s.direction().begin(), s.direction().end()}});
+  write_vtp(mesh, columns, comments, [&](std::string_view bytes) { file.write(bytes); });
+}
+
 void write_coordinates(const v1::SkeletonPoints& s, AtomicFile& file) {
   std::string row;
   for (int p = 0; p < s.point_size(); ++p) {
@@ -102,6 +121,8 @@ void write_skeleton(FileFormat format, const v1::SkeletonPoints& skeleton,
       return write_csv(skeleton, file);
     case FileFormat::kPly:
       return write_ply(skeleton, comments, file);
+    case FileFormat::kVtp:
+      return write_as_vtp(skeleton, comments, file);
     case FileFormat::kOff:
       file.write("OFF\n" + std::to_string(skeleton.point_size()) + " 0 0\n");
       return write_coordinates(skeleton, file);

@@ -15,8 +15,9 @@ v1::SkeletonPoints parse_skeleton(const std::string& bytes);
 v1::SkeletonPoints parse_eroded_points(const std::string& bytes);
 
 /// Writes skeleton points in one of skeleton_formats(): .csv `x,y,z,E,nx,ny,nz,direction,H`; .ply binary with
-/// the same as properties; .off and .xyz coordinates alone.  Points of an eroded solid come without H.
-/// @param comments lines for formats that have comments (PLY), without line breaks.
+/// the same as properties; .vtp with them as arrays (see write_vtp); .off and .xyz coordinates alone.  Points
+/// of an eroded solid come without H.
+/// @param comments lines for formats that have comments (PLY, VTP), without line breaks.
 void write_skeleton(FileFormat format, const v1::SkeletonPoints& skeleton,
                     const std::vector<std::string>& comments, AtomicFile& file);
 

@@ -27,13 +27,14 @@ ShapeFile parse_off(std::string_view bytes) {
 
 using Parser = ShapeFile (*)(std::string_view);
 
-constexpr std::array<std::pair<std::string_view, Parser>, 7> kParsers = {{{".csv", parse_csv},
+constexpr std::array<std::pair<std::string_view, Parser>, 8> kParsers = {{{".csv", parse_csv},
                                                                           {".dat", parse_dat},
                                                                           {".xyz", parse_xyz},
                                                                           {".off", parse_off},
                                                                           {".ply", parse_ply},
                                                                           {".obj", parse_obj},
-                                                                          {".stl", parse_stl}}};
+                                                                          {".stl", parse_stl},
+                                                                          {".vtp", parse_vtp}}};
 
 Parser parser_for(const std::string& path, std::string_view bytes) {
   const std::string extension = lower_extension(path);
@@ -43,8 +44,8 @@ Parser parser_for(const std::string& path, std::string_view bytes) {
   if (bytes.starts_with("ply")) return parse_ply;
   if (bytes.starts_with("OFF")) return parse_off;
   throw ClientError(ExitCode::kBadInput,
-                    "not a known kind of file; points are read from .csv .ply .off .xyz .dat, surfaces from "
-                    ".off .ply .obj .stl",
+                    "not a known kind of file; points are read from .csv .ply .off .xyz .vtp .dat, "
+                    "surfaces from .off .ply .obj .stl .vtp",
                     path);
 }
 

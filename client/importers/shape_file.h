@@ -37,7 +37,9 @@ struct ShapeFile {
 ///   .off          Geomview OFF text, with or without faces;
 ///   .ply          ASCII or binary of either byte order, any properties, polygons cut into triangles;
 ///   .obj          v and f, polygons cut; the rest is passed over;
-///   .stl          text or binary; corners at the same place become one vertex.
+///   .stl          text or binary; corners at the same place become one vertex;
+///   .vtp          VTK XML PolyData, as text, base64 or raw, not compressed; point arrays become columns (see
+///                 columns_of_array), polygons and strips triangles; the rest is passed over.
 /// Coordinates and normals are finite.
 /// @throws ClientError kBadInput with the line where there is one; kLimit when the file is too large.
 ShapeFile read_shape(const std::string& path);

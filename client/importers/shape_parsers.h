@@ -15,6 +15,7 @@ ShapeFile parse_xyz(std::string_view bytes);
 ShapeFile parse_ply(std::string_view bytes);
 ShapeFile parse_obj(std::string_view bytes);
 ShapeFile parse_stl(std::string_view bytes);
+ShapeFile parse_vtp(std::string_view bytes);
 
 /// Whether a column of this name belongs to a normal (nx, ny, nz and the like).
 bool is_normal_column(std::string_view name);

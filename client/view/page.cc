@@ -11,7 +11,7 @@
 #include "client/exporters/numbers.h"
 #include "client/job_json.h"
 #include "client/mesh_box.h"
-#include "client/view/base64.h"
+#include "client/base64.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
 #include "wire/version.h"

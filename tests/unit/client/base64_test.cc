@@ -1,4 +1,4 @@
-#include "client/view/base64.h"
+#include "client/base64.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +17,24 @@ TEST(Base64, VectorsOfTheStandard) {
 
 TEST(Base64, EveryByte) {
   EXPECT_EQ(base64(std::string("\x00\xFF\xFB\xEF\xBE", 5)), "AP/7774=");
+}
+
+TEST(Base64, BytesReadBack) {
+  const std::string all = [] {
+    std::string bytes;
+    for (int i = 0; i < 256; ++i) bytes.push_back(static_cast<char>(i));
+    return bytes;
+  }();
+  for (std::size_t length = 0; length <= all.size(); ++length) {
+    EXPECT_EQ(bytes_of_base64(base64(all.substr(0, length))), all.substr(0, length));
+  }
+  EXPECT_EQ(bytes_of_base64(" Zg = =\n Zm8=\tZm9v"), "ffofoo");
+}
+
+TEST(Base64, RefusesWhatItIsNot) {
+  for (const char* text : {"Z", "Zg", "Zg=", "Zg===", "Z===", "====", "Zg=a", "Zm9*", "Zm9\x80"}) {
+    EXPECT_EQ(bytes_of_base64(text), std::nullopt) << text;
+  }
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(ChooseFormat, AFormatStandsAboveTheName) {
   } catch (const ClientError& error) {
     EXPECT_EQ(
         error.for_people(),
-        "standard output: say by --format how to write the skeleton; possible are .csv, .ply, .off, .xyz");
+        "standard output: say by --format how to write the skeleton; possible are .csv, .ply, .off, .xyz, .vtp");
   }
 }
 
@@ -53,7 +53,7 @@ TEST(ChooseFormat, SpeaksOfWhatIsToBeWritten) {
     FAIL();
   } catch (const ClientError& error) {
     EXPECT_STREQ(error.what(),
-                 "cannot write the eroded solid's points as '.stl'; possible are .csv, .ply, .off, .xyz");
+                 "cannot write the eroded solid's points as '.stl'; possible are .csv, .ply, .off, .xyz, .vtp");
   }
 }
 

@@ -106,7 +106,7 @@ std::string refusal_of_stl(const core::Mesh& mesh) {
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
     EXPECT_EQ(error.file(), dir / "out.stl");
-    EXPECT_NE(std::string(error.what()).find(".off, .ply or .obj"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(".off, .ply, .obj or .vtp"), std::string::npos) << error.what();
     return error.what();
   }
   return "";

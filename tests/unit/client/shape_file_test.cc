@@ -44,7 +44,7 @@ class ShapeFileTest : public ::testing::Test {
 
 TEST_F(ShapeFileTest, SkeletonsReadBackAsTheyWereWritten) {
   const v1::SkeletonPoints skeleton = sample_skeleton();
-  for (const char* name : {"s.csv", "s.ply", "s.off", "s.xyz", "S.PLY"}) {
+  for (const char* name : {"s.csv", "s.ply", "s.off", "s.xyz", "S.PLY", "s.vtp"}) {
     AtomicFile file(dir_ / name);
     const FileFormat format = choose_format(dir_ / name, skeleton_formats(), "skeleton");
     write_skeleton(format, skeleton, {"a comment"}, file);
@@ -248,7 +248,7 @@ TEST_F(ShapeFileTest, NamesOfColumnsThatWouldNotReadBackAreChanged) {
                              "end_header\n1 2 3 4 5 6\n");
   EXPECT_EQ(written_names(ply), (std::vector<std::string>{"a_b", "x_", "E"}));
   for (const ShapeFile* from : {&shape, &ply}) {
-    for (const FileFormat format : {FileFormat::kCsv, FileFormat::kPly}) {
+    for (const FileFormat format : {FileFormat::kCsv, FileFormat::kPly, FileFormat::kVtp}) {
       std::string bytes;
       write_shape(format, *from, {}, [&](std::string_view piece) { bytes += piece; });
       const ShapeFile back = read("back" + std::string(extension_of(format)), bytes);

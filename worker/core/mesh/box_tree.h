@@ -31,6 +31,7 @@ std::vector<Box> boxes_of(const Mesh& mesh);
 /// threads are safe.
 class BoxTree {
  public:
+  BoxTree() = default;
   /// O(N log N), on up to `threads` threads.
   explicit BoxTree(std::vector<Box> boxes, unsigned threads = 1);
 
@@ -42,7 +43,7 @@ class BoxTree {
 
   /// The same for the indices > `above`.
   template <class Visit>
-  void visit_above(const Box& query, std::uint32_t above, Visit visit) const {
+  void visit_above(const Box& query, std::int64_t above, Visit visit) const {
     walk(query, above, visit);
   }
 

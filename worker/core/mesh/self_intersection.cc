@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/mesh/box_tree.h"
+#include "core/mesh/close_triangles.h"
 
 namespace affskel::core {
 namespace {
@@ -70,9 +71,8 @@ class PairTest {
            CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
   }
 
-  /// False only where the triangles surely meet in no more than their one shared vertex.  Cheap: in a fan of
-  /// n triangles round a vertex the boxes of n^2 / 2 pairs meet, but hardly a side comes near another
-  /// triangle.
+  /// False only where the triangles surely meet in no more than their one shared vertex.  Cheap: in the
+  /// fan of triangles round a vertex all boxes meet, but hardly a side comes near another triangle.
   bool may_meet(std::uint32_t i, std::uint32_t j) const {
     const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
     const Turned a = shared_first(s, t);
@@ -135,12 +135,12 @@ class Search {
       for (std::size_t i = begin; i < end; ++i) degenerate_[i] = meet_.degenerate(mesh_.triangles[i]);
     });
     boxes_ = boxes_of(mesh_);
-    const BoxTree tree(boxes_, options_.threads);
+    const CloseTriangles close(mesh_, boxes_, options_.threads);
     std::vector<Pairs> found((count + kBlock - 1) / kBlock);
     std::atomic<std::size_t> pairs{0};
     parallel_for(options_.threads, found.size(), [&](std::size_t block) {
       if (pairs >= options_.max_pairs) return;
-      find(tree, block * kBlock, std::min(count, (block + 1) * kBlock), found[block]);
+      find(close, block * kBlock, std::min(count, (block + 1) * kBlock), found[block]);
       pairs += found[block].size();
     });
     return first_of(found);
@@ -149,7 +149,7 @@ class Search {
  private:
   static constexpr std::size_t kBlock = 2048;
 
-  void find(const BoxTree& tree, std::size_t begin, std::size_t end, Pairs& pairs) const {
+  void find(const CloseTriangles& close, std::size_t begin, std::size_t end, Pairs& pairs) const {
     std::vector<std::uint32_t> candidates;
     for (auto i = static_cast<std::uint32_t>(begin); i < end && pairs.size() < options_.max_pairs; ++i) {
       if (degenerate_[i] != 0) {
@@ -157,10 +157,11 @@ class Search {
         continue;
       }
       candidates.clear();
-      tree.visit_above(boxes_[i], i, [&](std::uint32_t j) {
+      close.visit_above(i, [&](std::uint32_t j) {
         if (meet_.may_meet(i, j)) candidates.push_back(j);
       });
       std::sort(candidates.begin(), candidates.end());
+      candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
       for (const std::uint32_t j : candidates) {
         if (pairs.size() == options_.max_pairs) break;
         if (degenerate_[j] == 0 && meet_(i, j)) pairs.emplace_back(i, j);

@@ -12,6 +12,7 @@
 #include "core/mesh/self_intersection.h"
 #include "core/mesh/unused_points.h"
 #include "core/solid/shell_nesting.h"
+#include "core/solid/specks.h"
 
 namespace affskel::core {
 namespace {
@@ -37,12 +38,14 @@ class CompensatedSum {
 
 class SolidBuilder {
  public:
-  SolidBuilder(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
-               const std::vector<std::uint32_t>& triangle_line)
-      : options_(options), vertex_line_(vertex_line), triangle_line_(triangle_line) {
-    solid_.mesh = mesh;
-    triangle_source_.resize(mesh.triangles.size());
-    std::iota(triangle_source_.begin(), triangle_source_.end(), 0U);
+  // Of the triangles `source` of the mesh, ascending.
+  SolidBuilder(const Mesh& mesh, std::vector<std::uint32_t> source, const SolidOptions& options,
+               const std::vector<std::uint32_t>& vertex_line, const std::vector<std::uint32_t>& triangle_line)
+      : options_(options), input_(mesh), vertex_line_(vertex_line), triangle_line_(triangle_line) {
+    solid_.mesh.points = mesh.points;
+    solid_.mesh.triangles.reserve(source.size());
+    for (const std::uint32_t t : source) solid_.mesh.triangles.push_back(mesh.triangles[t]);
+    triangle_source_ = std::move(source);
   }
 
   Solid run() {
@@ -61,7 +64,10 @@ class SolidBuilder {
     count_degenerate();
     find_shells(mates);
     face_outward();
-    sum_volumes();
+    const std::vector<double> volumes = inner_volumes();
+    const std::vector<std::uint8_t> specks = find_specks(solid_, volumes);
+    if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks, volumes);
+    set_volumes(volumes);
     if (options_.check_self_intersections) look_for_self_intersections();
     return std::move(solid_);
   }
@@ -104,7 +110,7 @@ class SolidBuilder {
 
   void drop_unused_vertices() {
     const std::vector<std::uint32_t> unused = drop_unused_points(solid_.mesh);
-    if (unused.empty()) return;
+    if (unused.empty() || again_) return;
     std::string message = std::to_string(unused.size()) +
                           " vertices that no face uses were left out, the first: vertex " +
                           std::to_string(unused.front());
@@ -269,22 +275,64 @@ class SolidBuilder {
     }
   }
 
-  void sum_volumes() {
-    const double unit = std::ldexp(1.0, 3 * solid_.exponent);
+  // Per solid, its cavities subtracted.
+  std::vector<double> inner_volumes() const {
     std::vector<CompensatedSum> sums(solid_.solid_volume.size());
-    CompensatedSum total;
-    for (Shell& shell : solid_.shells) {
-      sums[shell.solid].add(shell.volume);
-      total.add(shell.volume);
+    for (const Shell& shell : solid_.shells) sums[shell.solid].add(shell.volume);
+    std::vector<double> volumes;
+    for (const CompensatedSum& sum : sums) volumes.push_back(sum.value());
+    return volumes;
+  }
+
+  // What the input is without these solids.  From the beginning: the box, and with it all inner coordinates,
+  // may be another one.
+  Solid without(const std::vector<std::uint8_t>& specks, const std::vector<double>& volumes) {
+    std::vector<std::uint32_t> kept, left_out;
+    for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
+      const bool speck = specks[solid_.shells[solid_.triangle_shell[t]].solid] != 0;
+      (speck ? left_out : kept).push_back(t);
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      if (!(sums[i].value() > 1e-15)) {
+    note_specks(specks, volumes, left_out);
+    for (std::uint32_t& t : kept) t = triangle_source_[t];
+    SolidBuilder rest(input_, std::move(kept), options_, vertex_line_, triangle_line_);
+    rest.again_ = true;
+    // What was left out before is not there to be told of again.
+    for (const MeshNote& known : solid_.notes) {
+      const bool collapsed =
+          known.code == "degenerate-triangles" && known.severity == MeshNote::Severity::kRepaired;
+      if (collapsed || known.code == "unused-vertices" || known.code == "specks")
+        rest.solid_.notes.push_back(known);
+    }
+    solid_ = {};
+    return rest.run();
+  }
+
+  void note_specks(const std::vector<std::uint8_t>& specks, const std::vector<double>& volumes,
+                   const std::vector<std::uint32_t>& triangles) {
+    const auto count = std::count(specks.begin(), specks.end(), 1);
+    const std::uint32_t solid = solid_.shells[solid_.triangle_shell[triangles.front()]].solid;
+    const std::string volume = to_text(volumes[solid] * std::ldexp(1.0, 3 * solid_.exponent));
+    const std::string message = std::to_string(count) + " of " + std::to_string(specks.size()) + " solids (" +
+                                std::to_string(triangles.size()) +
+                                " triangles) bound too little volume beside the mesh's size to tell from "
+                                "rounding; the first, of volume " +
+                                volume + ", begins with " + place(triangles.front());
+    if (!options_.repair) refuse(message + " (repair is off)");
+    note(MeshNote::Severity::kWarning, "specks", message + "; left out");
+  }
+
+  void set_volumes(const std::vector<double>& volumes) {
+    const double unit = std::ldexp(1.0, 3 * solid_.exponent);
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      if (!(volumes[i] > kLeastInnerVolume)) {
         refuse("the mesh bounds no volume: solid " + std::to_string(i) + " of " +
-               std::to_string(sums.size()) + " has volume " + to_text(sums[i].value() * unit) +
-               (sums[i].value() > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
+               std::to_string(volumes.size()) + " has volume " + to_text(volumes[i] * unit) +
+               (volumes[i] > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
       }
-      solid_.solid_volume[i] = sums[i].value() * unit;
+      solid_.solid_volume[i] = volumes[i] * unit;
     }
+    CompensatedSum total;
+    for (const Shell& shell : solid_.shells) total.add(shell.volume);
     for (Shell& shell : solid_.shells) shell.volume *= unit;
     solid_.volume = total.value() * unit;
     // E of a point goes down to 1e-20 v0 and less; keep such values away from the subnormals.
@@ -315,6 +363,8 @@ class SolidBuilder {
   }
 
   SolidOptions options_;
+  const Mesh& input_;
+  bool again_ = false;  // the same input, without specks
   const std::vector<std::uint32_t>& vertex_line_;
   const std::vector<std::uint32_t>& triangle_line_;
   std::vector<std::uint32_t> triangle_source_;  // index in the input, per triangle kept
@@ -329,7 +379,9 @@ double Solid::scale() const {
 
 Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
                  const std::vector<std::uint32_t>& triangle_line) {
-  return SolidBuilder(mesh, options, vertex_line, triangle_line).run();
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return SolidBuilder(mesh, std::move(all), options, vertex_line, triangle_line).run();
 }
 
 }  // namespace affskel::core

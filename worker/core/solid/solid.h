@@ -10,7 +10,8 @@
 namespace affskel::core {
 
 struct SolidOptions {
-  bool repair = true;  ///< weld equal vertices, turn faces to agree, drop what nothing uses; false: refuse
+  /// Weld equal vertices, turn faces to agree, drop what nothing uses, leave out specks; false: refuse.
+  bool repair = true;
   bool check_self_intersections = true;
   unsigned threads = 1;  ///< >= 1; the solid does not depend on it
 };
@@ -20,7 +21,7 @@ struct MeshNote {
   enum class Severity { kRepaired, kWarning };
   Severity severity = Severity::kWarning;
   std::string code;     ///< stable: "unused-vertices", "welded", "degenerate-triangles", "reoriented",
-                        ///< "split-vertices", "turned-out", "self-intersecting"
+                        ///< "split-vertices", "specks", "turned-out", "self-intersecting"
   std::string message;  ///< counts and the first place
 };
 
@@ -60,8 +61,8 @@ struct Solid {
 /// Checks that the mesh bounds a solid and normalises it.
 /// @param vertex_line, triangle_line lines for messages (see OffMesh); may be empty.
 /// @throws CoreError kBadInput with the first place and cause: no triangles, open edges, edges with more
-///   than two triangles, repeated triangles, not orientable, zero volume, coordinates so large or small
-///   that the volume is not a normal double.
+///   than two triangles, repeated triangles, not orientable, zero volume (but see find_specks), coordinates
+///   so large or small that the volume is not a normal double.
 Solid make_solid(const Mesh& mesh, const SolidOptions& options = {},
                  const std::vector<std::uint32_t>& vertex_line = {},
                  const std::vector<std::uint32_t>& triangle_line = {});

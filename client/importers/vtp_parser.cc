@@ -1,0 +1,244 @@
+// VTK XML PolyData: points, arrays per point, and cells of which the polygons and strips of triangles are
+// taken; in one or several pieces, which are put together.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "client/importers/shape_parsers.h"
+#include "client/importers/vtk_data.h"
+#include "client/importers/xml_tags.h"
+#include "client/vtk_arrays.h"
+#include "core/mesh/text_rows.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::uint64_t kMostComponents = 1024;  // far more than any array has
+
+// What a piece holds: the arrays of each of its sections ("Points", "PointData", "Polys", ...).
+struct Piece {
+  std::map<std::string, std::vector<VtkArray>> arrays;
+  std::uint64_t line = 0;
+};
+
+struct Description {
+  VtkEncoding encoding;
+  std::vector<Piece> pieces;
+};
+
+// Reads the text, up to the appended data.
+class DescriptionReader {
+ public:
+  explicit DescriptionReader(std::string_view bytes) : bytes_(bytes), tags_(bytes) {}
+
+  Description run() {
+    read_head();
+    while (tags_.next()) {
+      if (tags_.name() == "AppendedData") {
+        read_appended();
+        return std::move(description_);
+      }
+      if (tags_.name() == "Piece" && tags_.opens()) {
+        description_.pieces.push_back({{}, tags_.line()});
+      } else if (tags_.name() == "DataArray" || tags_.name() == "Array") {
+        read_array();
+      } else {
+        section_ = tags_.opens() && !tags_.closes() ? tags_.name() : std::string_view();
+      }
+    }
+    return std::move(description_);
+  }
+
+ private:
+  void read_head() {
+    if (!tags_.next() || tags_.name() != "VTKFile") fail_at(tags_.line(), "not a VTK XML file");
+    if (tags_.attribute("type") != "PolyData") {
+      fail_at(tags_.line(), "a VTK file of type " + core::quoted_piece(tags_.attribute("type")) +
+                                "; only PolyData is read");
+    }
+    description_.encoding.big_endian = tags_.attribute("byte_order") == "BigEndian";
+    description_.encoding.long_headers = tags_.attribute("header_type") == "UInt64";
+    description_.encoding.compressor = tags_.attribute("compressor");
+  }
+
+  void read_appended() {
+    description_.encoding.base64 = tags_.attribute("encoding") == "base64";
+    const std::size_t mark = bytes_.find('_', tags_.end());
+    if (mark == std::string_view::npos) fail_at(tags_.line(), "the appended data do not begin with '_'");
+    std::string_view& appended = description_.encoding.appended;
+    appended = bytes_.substr(mark + 1);
+    if (description_.encoding.base64) appended = appended.substr(0, appended.find('<'));
+  }
+
+  void read_array() {
+    if (!tags_.opens()) return;
+    VtkArray array{tags_.attribute("Name"),
+                   tags_.attribute("type"),
+                   tags_.attribute("format"),
+                   tags_.attribute("offset"),
+                   1,
+                   {},
+                   tags_.line()};
+    const std::string components = tags_.attribute("NumberOfComponents");
+    if (!components.empty()) {
+      array.components = core::parse_count(components, tags_.line(), "NumberOfComponents");
+    }
+    if (!tags_.closes()) {
+      const std::size_t begin = tags_.end();
+      // Within it may be tags that describe it.
+      while (tags_.next() && !(tags_.closes() && !tags_.opens() &&
+                               (tags_.name() == "DataArray" || tags_.name() == "Array"))) {
+      }
+      array.text = bytes_.substr(begin, tags_.begin() - begin);
+      array.text = array.text.substr(0, array.text.find('<'));
+    }
+    if (!description_.pieces.empty() && !section_.empty()) {
+      description_.pieces.back().arrays[std::string(section_)].push_back(std::move(array));
+    }
+  }
+
+  std::string_view bytes_;
+  XmlTags tags_;
+  std::string_view section_;
+  Description description_;
+};
+
+class VtpReader {
+ public:
+  explicit VtpReader(std::string_view bytes) : description_(DescriptionReader(bytes).run()) {}
+
+  ShapeFile run() {
+    if (description_.pieces.empty()) fail_at(0, "the file holds no <Piece>");
+    for (Piece& piece : description_.pieces) {
+      first_point_ = file_.off.mesh.points.size();
+      read_points(piece);
+      read_columns(piece);
+      read_cells(piece, "Polys");
+      read_cells(piece, "Strips");
+    }
+    return std::move(file_);
+  }
+
+ private:
+  std::vector<double> numbers(const VtkArray& array) const {
+    return vtk_numbers(array, description_.encoding);
+  }
+
+  void read_points(Piece& piece) {
+    const std::vector<VtkArray>& arrays = piece.arrays["Points"];
+    if (arrays.empty()) return;
+    const VtkArray& array = arrays.front();
+    const std::vector<double> xyz = numbers(array);
+    if (array.components != 3 || xyz.size() % 3 != 0)
+      fail_at(array.line, "points must have three coordinates");
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const core::Vec3 point = {xyz[i], xyz[i + 1], xyz[i + 2]};
+      if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+        fail_at(array.line, "point " + std::to_string(i / 3) + " has a coordinate that is not finite");
+      }
+      file_.off.mesh.points.push_back(point);
+    }
+  }
+
+  void read_columns(Piece& piece) {
+    for (const VtkArray& array : piece.arrays["PointData"]) {
+      if (is_vtk_number(array.type)) read_array(array);
+    }
+    for (const PointColumn& column : file_.columns) {
+      if (column.values.size() != file_.off.mesh.points.size()) {
+        fail_at(piece.line, "this piece is without the values of " + core::quoted_piece(column.name) +
+                                " that others have");
+      }
+    }
+  }
+
+  void read_array(const VtkArray& array) {
+    const std::vector<double> values = numbers(array);
+    const std::size_t points = file_.off.mesh.points.size() - first_point_;
+    if (array.components == 0 || array.components > kMostComponents ||
+        values.size() != points * array.components) {
+      fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
+                              std::to_string(values.size()) + " numbers for " + std::to_string(points) +
+                              " points of " + std::to_string(array.components) + " components");
+    }
+    const std::vector<std::string> names = columns_of_array(array.name, array.components);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      PointColumn& column = column_of(names[c], array);
+      for (std::size_t p = 0; p < points; ++p) column.values.push_back(values[names.size() * p + c]);
+    }
+  }
+
+  PointColumn& column_of(const std::string& name, const VtkArray& array) {
+    const auto found = std::find_if(file_.columns.begin(), file_.columns.end(),
+                                    [&](const PointColumn& c) { return c.name == name; });
+    if (found != file_.columns.end()) {
+      if (found->values.size() != first_point_) {
+        fail_at(array.line, "two arrays give values called " + core::quoted_piece(name));
+      }
+      found->whole = found->whole && is_vtk_whole(array.type);
+      return *found;
+    }
+    if (first_point_ > 0) {
+      fail_at(array.line, "the pieces before are without the values of " + core::quoted_piece(name));
+    }
+    file_.columns.push_back({name, is_vtk_whole(array.type), {}});
+    return file_.columns.back();
+  }
+
+  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) const {
+    const auto found =
+        std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
+    std::vector<std::int64_t> whole;
+    if (found == arrays.end()) return whole;
+    for (const double value : numbers(*found)) {
+      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
+        fail_at(found->line, std::string("the ") + name + " hold a number that is not whole");
+      }
+      whole.push_back(static_cast<std::int64_t>(value));
+    }
+    return whole;
+  }
+
+  void read_cells(Piece& piece, const std::string& section) {
+    const std::vector<VtkArray>& arrays = piece.arrays[section];
+    const std::vector<std::int64_t> corners = whole_numbers(arrays, "connectivity");
+    std::vector<std::int64_t> cell;
+    std::int64_t begin = 0;
+    for (const std::int64_t end : whole_numbers(arrays, "offsets")) {
+      if (end < begin || end > static_cast<std::int64_t>(corners.size())) {
+        fail_at(arrays.front().line, "the offsets of " + section + " do not fit their connectivity");
+      }
+      cell.assign(corners.begin() + begin, corners.begin() + end);
+      begin = end;
+      for (std::int64_t& corner : cell)
+        corner = corner < 0 ? -1 : corner + static_cast<std::int64_t>(first_point_);
+      section == "Polys" ? add_face(cell) : add_strip(cell);
+    }
+  }
+
+  void add_face(const std::vector<std::int64_t>& corners) {
+    add_polygon(file_, corners, "polygon " + std::to_string(file_.off.polygons), 0);
+    ++file_.off.polygons;
+    if (corners.size() > 3) ++file_.off.polygons_cut;
+  }
+
+  // Every corner from the third on makes a triangle with the two before it, every other one turned over.
+  void add_strip(const std::vector<std::int64_t>& corners) {
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      add_face({corners[i - (i % 2 == 0 ? 2 : 1)], corners[i - (i % 2 == 0 ? 1 : 2)], corners[i]});
+    }
+  }
+
+  Description description_;
+  std::size_t first_point_ = 0;  // of the piece in hand
+  ShapeFile file_;
+};
+
+}  // namespace
+
+ShapeFile parse_vtp(std::string_view bytes) {
+  return VtpReader(bytes).run();
+}
+
+}  // namespace affskel::client

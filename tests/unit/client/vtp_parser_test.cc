@@ -1,0 +1,246 @@
+// Files of others: the three ways to hold numbers, both byte orders and lengths, pieces, cells of all kinds.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+#include "client/base64.h"
+#include "client/error.h"
+#include "client/importers/shape_file.h"
+
+namespace affskel::client {
+namespace {
+
+using Doubles = std::vector<double>;
+
+template <typename Number>
+std::string bytes_of_number(Number value, bool big) {
+  std::string raw(sizeof value, '\0');
+  std::memcpy(raw.data(), &value, sizeof value);
+  if (big) raw.assign(raw.rbegin(), raw.rend());
+  return raw;
+}
+
+// Puts arrays into a file the way that its encoding wants.
+struct Encoder {
+  std::string format;  // ascii, binary, raw or base64
+  bool big = false, long_lengths = false;
+  std::string appended = {};
+
+  template <typename Number>
+  std::string array(const std::string& attributes, const std::vector<Number>& values) {
+    std::string tag = "<DataArray " + attributes + " format=\"";
+    if (format == "ascii") {
+      for (tag += "ascii\" RangeMin=\"0\">\n "; const Number value : values)
+        tag += std::to_string(value) + "\n  ";
+      return tag + "</DataArray>\n";
+    }
+    std::string body;
+    for (const Number value : values) body += bytes_of_number(value, big);
+    const std::string length = long_lengths ? bytes_of_number(std::uint64_t{body.size()}, big)
+                                            : bytes_of_number(static_cast<std::uint32_t>(body.size()), big);
+    body = length + body;
+    if (format == "binary") return tag + "binary\">\n   " + base64(body) + "\n  </DataArray>\n";
+    tag += "appended\" offset=\"" + std::to_string(appended.size()) + "\" />\n";
+    appended += format == "raw" ? body : base64(body);
+    return tag;
+  }
+
+  std::string file(const std::string& pieces) const {
+    std::string text =
+        "<?xml version='1.0'?>\n<!-- <not> a tag -->\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+        "byte_order=\"";
+    text += big ? "BigEndian\"" : "LittleEndian\"";
+    if (long_lengths) text += " header_type=\"UInt64\"";
+    text += ">\n<PolyData>\n" + pieces + "</PolyData>\n";
+    if (format == "raw" || format == "base64") {
+      text += "<AppendedData encoding=\"" + format + "\">\n   _" + appended + "\n</AppendedData>\n";
+    }
+    return text + "</VTKFile>\n";
+  }
+};
+
+std::string piece_of_a_square(Encoder& encoder) {
+  return "<Piece NumberOfPoints=\"5\" NumberOfPolys=\"2\">\n<PointData Scalars=\"E\">\n" +
+         encoder.array("type=\"Float64\" Name=\"E\"", Doubles{0.5, 1, 2, 3, 4}) +
+         encoder.array("type=\"Int16\" Name=\"flag&amp;\"", std::vector<std::int16_t>{-7, 1, 2, 3, 4}) +
+         encoder.array("type=\"Float32\" Name=\"normal_a\" NumberOfComponents=\"3\"",
+                       std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0}) +
+         "<Array type=\"String\" Name=\"words\" format=\"ascii\">0 0 0 0 "
+         "0</Array>\n</PointData>\n<CellData/>\n<Points>\n" +
+         encoder.array("type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"",
+                       std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1.25F, 0, 0, 1, 0, 0.5F, 0.5F, 7}) +
+         "</Points>\n<Verts>\n" + encoder.array("type=\"Int32\" Name=\"connectivity\"", std::vector<int>{4}) +
+         encoder.array("type=\"Int32\" Name=\"offsets\"", std::vector<int>{1}) + "</Verts>\n<Polys>\n" +
+         encoder.array("type=\"Int32\" Name=\"connectivity\"", std::vector<int>{0, 1, 2, 3, 0, 1, 4}) +
+         encoder.array("type=\"Int64\" Name=\"offsets\"", std::vector<std::int64_t>{4, 7}) +
+         "</Polys>\n</Piece>\n";
+}
+
+TEST(VtpParser, NumbersComeInFourWays) {
+  for (const char* format : {"ascii", "binary", "raw", "base64"}) {
+    for (const bool big : {false, true}) {
+      for (const bool long_lengths : {false, true}) {
+        Encoder encoder{format, big, long_lengths};
+        const std::string pieces = piece_of_a_square(encoder);
+        const ShapeFile shape = parse_shape("a.vtp", encoder.file(pieces));
+        const std::string what = std::string(format) + (big ? " big" : "") + (long_lengths ? " 64" : "");
+        ASSERT_EQ(shape.mesh().points.size(), 5u) << what;
+        EXPECT_EQ(shape.mesh().points[2], (core::Vec3{1, 1.25, 0})) << what;
+        ASSERT_EQ(shape.mesh().triangles.size(), 3u) << what;
+        EXPECT_EQ(shape.mesh().triangles[2], (core::Triangle{0, 1, 4})) << what;
+        EXPECT_EQ(shape.off.polygons, 2u);
+        EXPECT_EQ(shape.off.polygons_cut, 1u);
+        ASSERT_EQ(shape.columns.size(), 5u) << what;
+        EXPECT_EQ(shape.column("E")->values, (Doubles{0.5, 1, 2, 3, 4})) << what;
+        EXPECT_EQ(shape.column("flag&")->values, (Doubles{-7, 1, 2, 3, 4})) << what;
+        EXPECT_TRUE(shape.column("flag&")->whole);
+        EXPECT_EQ(shape.column("nx_a")->values, (Doubles{0, 0, 0, 0, 1})) << what;
+        EXPECT_EQ(shape.column("nz_a")->values, (Doubles{1, 1, 1, 1, 0})) << what;
+      }
+    }
+  }
+}
+
+// A piece of so many points (i, 0, 0), each with E = i, as text.
+std::string piece_of_points(int count, const std::string& cells, const std::string& array = "E") {
+  std::string points, values;
+  for (int i = 0; i < count; ++i) {
+    points += std::to_string(i) + " " + std::to_string(i * i) + " 0 ";
+    values += std::to_string(i) + " ";
+  }
+  const auto tag = [](const std::string& attributes, const std::string& text) {
+    return "<DataArray " + attributes + " format=\"ascii\">" + text + "</DataArray>";
+  };
+  return "<Piece>\n<Points>" + tag("type=\"Float64\" NumberOfComponents=\"3\"", points) +
+         "</Points>\n<PointData>" + tag("type=\"Float64\" Name=\"" + array + "\"", values) +
+         "</PointData>\n" + cells + "</Piece>\n";
+}
+
+std::string cells(const std::string& section, const std::string& corners, const std::string& ends) {
+  return "<" + section + "><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" + corners +
+         "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + ends +
+         "</DataArray></" + section + ">\n";
+}
+
+ShapeFile parsed(const std::string& pieces) {
+  return parse_shape("a.vtp", Encoder{"ascii"}.file(pieces));
+}
+
+TEST(VtpParser, StripsKeepTheirSide) {
+  const ShapeFile shape = parsed(piece_of_points(5, cells("Strips", "0 1 2 3 4", "5")));
+  EXPECT_EQ(shape.mesh().triangles, (std::vector<core::Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}));
+}
+
+TEST(VtpParser, PiecesArePutTogether) {
+  const ShapeFile shape = parsed(piece_of_points(3, cells("Polys", "0 1 2", "3")) + piece_of_points(0, "") +
+                                 piece_of_points(4, cells("Polys", "1 2 3", "3")));
+  EXPECT_EQ(shape.mesh().points.size(), 7u);
+  EXPECT_EQ(shape.mesh().triangles, (std::vector<core::Triangle>{{0, 1, 2}, {4, 5, 6}}));
+  EXPECT_EQ(shape.column("E")->values, (Doubles{0, 1, 2, 0, 1, 2, 3}));
+}
+
+TEST(VtpParser, LinesAndVerticesArePassedOver) {
+  const ShapeFile shape =
+      parsed(piece_of_points(3, cells("Lines", "0 1 2", "3") + cells("Verts", "0 1", "1 2")));
+  EXPECT_FALSE(shape.is_surface());
+  EXPECT_EQ(shape.mesh().points.size(), 3u);
+}
+
+void expect_bad(const std::string& bytes, std::uint64_t line, const std::string& cause) {
+  try {
+    parse_shape("a.vtp", bytes);
+    ADD_FAILURE() << "was read: " << cause;
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kBadInput) << error.what();
+    EXPECT_EQ(error.line(), line) << error.what();
+    EXPECT_NE(std::string(error.what()).find(cause), std::string::npos) << error.what();
+  }
+}
+
+void expect_bad_pieces(const std::string& pieces, std::uint64_t line, const std::string& cause) {
+  expect_bad(Encoder{"ascii"}.file(pieces), line, cause);  // the first piece begins in line 5
+}
+
+TEST(VtpParser, ErrorsNameThePlace) {
+  expect_bad("", 1, "not a VTK XML file");
+  expect_bad("ply\n", 1, "not a VTK XML file");
+  expect_bad("\n<VTKFile type=\"ImageData\">", 2, "only PolyData");
+  expect_bad("<VTKFile type=\"PolyData", 1, "does not end");
+  expect_bad("<!-- ", 1, "does not end");
+  expect_bad("<VTKFile type=PolyData>", 1, "NAME=\"VALUE\"");
+  expect_bad("<VTKFile type=\"PolyData\"></VTKFile>", 0, "no <Piece>");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 3", "3")), 0, "vertex that does not exist");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 -1", "3")), 0, "vertex that does not exist");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 2", "4")), 8, "offsets");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 2", "3 1")), 8, "offsets");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 1.5", "3")), 8, "not a whole number");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1", "2")), 0, "2 corners");
+  expect_bad_pieces(piece_of_points(3, "") + piece_of_points(3, "", "F"), 11, "without the values of 'F'");
+  expect_bad_pieces(piece_of_points(3, "") +
+                        "<Piece><Points><DataArray type=\"Int8\" format=\"ascii\" "
+                        "NumberOfComponents=\"3\">1 2 3</DataArray></Points></Piece>",
+                    9, "'E'");
+  const std::string twice =
+      "<PointData><DataArray type=\"Int8\" Name=\"E\" format=\"ascii\">1 2 3</DataArray></PointData>";
+  expect_bad_pieces(piece_of_points(3, twice), 8, "two arrays");
+  const auto point = [](const std::string& attributes, const std::string& text) {
+    return "<Piece>\n<Points><DataArray " + attributes + ">" + text + "</DataArray></Points></Piece>";
+  };
+  const std::string three = "NumberOfComponents=\"3\" type=\"Float64\" format=\"ascii\"";
+  expect_bad_pieces(point(three, "1 2"), 6, "three coordinates");
+  expect_bad_pieces(point(three, "1 2 nan"), 6, "not finite");
+  expect_bad_pieces(point(three, "1 2 z"), 6, "'z'");
+  expect_bad_pieces(point("NumberOfComponents=\"3\" type=\"Float16\" format=\"ascii\"", "1 2 3"), 6,
+                    "'Float16'");
+  expect_bad_pieces(point("NumberOfComponents=\"3\" type=\"Int8\" format=\"binary\"", "AQ*="), 6,
+                    "not base64");
+  expect_bad_pieces(point("NumberOfComponents=\"3\" type=\"Int8\" format=\"binary\"", base64("ab")), 6,
+                    "length");
+  expect_bad_pieces(
+      point("NumberOfComponents=\"3\" type=\"Int8\" format=\"binary\"", base64(std::string("\3\0\0\0ab", 6))),
+      6, "announces 3 bytes, but only 2 follow");
+  expect_bad_pieces(point("NumberOfComponents=\"3\" type=\"Int16\" format=\"binary\"",
+                          base64(std::string("\3\0\0\0abc", 7))),
+                    6, "half a number");
+  expect_bad_pieces(point("NumberOfComponents=\"3\" type=\"Int8\" format=\"appended\" offset=\"9\"", ""), 6,
+                    "behind the end");
+}
+
+TEST(VtpParser, SaysThatItDoesNotReadCompressedData) {
+  Encoder encoder{"raw"};
+  std::string file = encoder.file(piece_of_a_square(encoder));
+  file.insert(file.find(" version=\"0.1\""), " compressor=\"vtkZLibDataCompressor\"");
+  try {
+    parse_shape("a.vtp", file);
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_NE(std::string(error.what()).find("compressed"), std::string::npos) << error.what();
+  }
+}
+
+TEST(VtpParser, DamagedFilesAreErrors) {
+  for (const char* format : {"ascii", "binary", "raw", "base64"}) {
+    Encoder encoder{format, false, true};
+    const std::string pieces = piece_of_a_square(encoder), whole = encoder.file(pieces);
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+      try {
+        parse_shape("a.vtp", whole.substr(0, size));
+      } catch (const ClientError& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::kBadInput) << error.what();
+      }
+    }
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+      try {
+        parse_shape("a.vtp", damaged);
+      } catch (const ClientError& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::kBadInput) << error.what();
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace affskel::client
