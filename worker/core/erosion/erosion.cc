@@ -17,11 +17,10 @@ class Erosion::Engine {
       : directions_(directions),
         trees_(solid, options.threads),
         field_(lattice.points, options.track_changes),
-        // Volumes may fall along a run where a mesh crosses itself: nothing can be left out there.
-        sweeper_(lattice, field_,
-                 {options.prune && !solid.self_intersecting, 2 * trees_.volume_tolerance(),
-                  std::ldexp(solid.volume, -3 * solid.exponent)}) {
-    const JoinTreeOptions tree_options{!solid.self_intersecting};
+        sweeper_(
+            lattice, field_,
+            {options.prune, 2 * trees_.volume_tolerance(), std::ldexp(solid.volume, -3 * solid.exponent)}) {
+    const JoinTreeOptions tree_options{!solid.self_intersecting, solid.self_intersecting};
     builders_.resize(std::max(1U, options.threads));
     parallel_for(options.threads, builders_.size(), [&](std::size_t i) {
       builders_[i] = std::make_unique<JoinTreeBuilder>(trees_, tree_options);

@@ -128,6 +128,7 @@ class JoinTreeBuilder::Work {
     running_.resize(tree_.arcs.size());
     tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
     fill_cells();
+    if (options_.volumes_may_fall) lower_cells();
     for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
       tree_.triangle_arc[input_.original_triangle[t]] = topology_.vertex_arc[vertex_.lowest[t]];
     }
@@ -172,7 +173,7 @@ class JoinTreeBuilder::Work {
       const std::uint32_t v = order[r];
       const SectionBends::Vertex& vertex = vertex_.vertices[v];
       std::uint32_t arc = 0;
-      if (!input_.crossing(v).empty()) {
+      if (input_.at_crossing(v)) {
         arc = at_crossing(r);
       } else if (vertex.down == kNone) {
         arc = at_minimum(r);
@@ -227,12 +228,17 @@ class JoinTreeBuilder::Work {
 
   // Where the surface crosses itself the parts of the solid on both sides overlap and are one.  Joined at
   // the lower ends of the two triangles, at most their height too early: that makes single chords too large,
-  // which other directions put right, and none too small, which nothing would.
+  // which other directions put right, and none too small, which nothing would.  The later of the two lower
+  // ends joins them: only triangles that begin here can cross one that nobody has joined with them yet.
   std::uint32_t at_crossing(std::uint32_t r) {
+    const std::uint32_t v = heights_.order()[r];
     meeting_.clear();
     gather_fan(r);
-    for (std::uint32_t t : input_.crossing(heights_.order()[r])) {
-      if (begins_below(t, r)) meeting_.push_back(arc_of(vertex_.lowest[t]));
+    for (std::uint32_t t : input_.fan(v)) {
+      if (vertex_.lowest[t] != v) continue;
+      for (std::uint32_t other : input_.crossing(t)) {
+        if (begins_below(other, r)) meeting_.push_back(arc_of(vertex_.lowest[other]));
+      }
     }
     return meeting_.empty() ? at_minimum(r) : join_meeting(r);
   }
@@ -307,6 +313,36 @@ class JoinTreeBuilder::Work {
     }
     entry[last_cell + 1] = arc.last_piece;
     volume[last_cell + 1] = pieces[last].volume;
+  }
+
+  // Where volumes may fall, a cell's entry becomes the least volume from there on, up to the root.
+  void lower_cells() {
+    for (std::size_t a = tree_.arcs.size(); a-- > 0;) {  // parents before their children
+      const Arc& arc = tree_.arcs[a];
+      const bool root = arc.parent == Arc::kNone;
+      double least = root ? kInfinity : tree_.cell_volume[tree_.arcs[arc.parent].first_cell];
+      double end = root ? tree_.pieces[arc.last_piece].height : arc.top;
+      std::uint32_t p = arc.last_piece;  // `least` is for what lies above this piece, which ends at `end`
+      for (std::uint32_t c = arc.last_cell + 2; c-- > arc.first_cell;) {
+        for (; p > tree_.cells[c]; --p) {
+          const Piece& piece = tree_.pieces[p];
+          least = std::min(least, piece.volume - fall(piece, end));
+          end = piece.height;
+        }
+        const Piece& piece = tree_.pieces[p];
+        const double own = fall(piece, end);
+        double& volume = tree_.cell_volume[c];
+        volume = std::min(least, own > tolerance_ ? piece.volume - own : volume);
+      }
+    }
+  }
+
+  // At most so much V falls between a piece's beginning and its end.
+  static double fall(const Piece& piece, double end) {
+    const double b = piece.half_slope, c3 = 3 * piece.sixth_bend, width = end - piece.height;
+    double least = std::min(piece.area, piece.area_at(end));
+    if (b < 0 && -b < c3 * width) least = std::min(least, piece.area - b * b / c3);
+    return least < 0 ? -least * width : 0;
   }
 
   void check() const {

@@ -49,7 +49,9 @@ struct JoinTree {
   std::vector<Piece> pieces;
   /// Per cell, and one more per arc: the least piece of the cell's heights.
   std::vector<std::uint32_t> cells;
-  std::vector<double> cell_volume;          ///< parallel to cells: V at the least height of the cell
+  /// Parallel to cells: V at the least height of the cell, or the least V from there on up to the root, where
+  /// volumes may fall (JoinTreeOptions).
+  std::vector<double> cell_volume;
   std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
   std::uint32_t roots = 0;
   double least_step = 0;  ///< the most negative change of volume between neighbouring pieces, inner units
@@ -68,8 +70,8 @@ struct JoinTree {
     return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
   }
 
-  /// A volume that V(h) is not below, but for twice TreeInput::volume_tolerance(): V at or shortly under h.
-  /// One look-up.
+  /// A volume that V is not below at h or anywhere above on the way to the root, but for twice
+  /// TreeInput::volume_tolerance(): V at or shortly under h, unless it falls further up.  One look-up.
   double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
 
   /// The piece of `arc` that holds height h: the last one that starts at or below h, else the first.
@@ -114,6 +116,8 @@ struct JoinTreeOptions {
   /// solid's, and that volumes never fall, both within TreeInput::volume_tolerance(); off for meshes that
   /// cross themselves, where it need not hold.
   bool check_invariants = true;
+  /// The surface crosses itself: what it winds round the other way counts as a negative volume.
+  bool volumes_may_fall = false;
 };
 
 /// Builds trees for one direction after another, reusing its memory.  One per thread.

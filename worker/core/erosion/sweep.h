@@ -29,9 +29,9 @@ struct SweepCounts {
 };
 
 /// Offers chord(x, d) of all sample points to a field, direction after direction, leaving out points that
-/// cannot improve: V does not fall along a run, so when the first chord of a run (or of one of its
-/// segments) exceeds the largest E in it by more than the margin, none of its points can improve.  The
-/// field after all directions is the same whatever was pruned.
+/// cannot improve: where the least volume from the first point of a run (or of one of its segments) on
+/// upwards, JoinTree::volume_below, exceeds the largest E in it by more than the margin, none of its points
+/// can improve.  The field after all directions is the same whatever was pruned.
 ///
 /// Shared by threads: bounds are atomic and may be out of date, which only costs time.
 class Sweeper {

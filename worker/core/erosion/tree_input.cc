@@ -103,20 +103,20 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
 
 void TreeInput::Data::find_crossings(const Solid& solid) {
   const std::vector<std::uint32_t> place = inverse(original_triangle);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // vertex, triangle
-  for (const auto& [original_i, original_j] : solid.crossings) {
-    const std::uint32_t i = place[original_i], j = place[original_j];
-    for (std::uint32_t v : mesh.triangles[i]) entries.emplace_back(v, j);
-    for (std::uint32_t v : mesh.triangles[j]) entries.emplace_back(v, i);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // both ways
+  for (const auto& [i, j] : solid.crossings) {
+    entries.emplace_back(place[i], place[j]);
+    entries.emplace_back(place[j], place[i]);
   }
   std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-  crossing_begin.assign(mesh.points.size() + 1, 0);
-  for (const auto& [vertex, triangle] : entries) {
-    ++crossing_begin[vertex + 1];
-    crossing_triangles.push_back(triangle);
+  crosses.assign(mesh.points.size(), 0);
+  crossing_begin.assign(mesh.triangles.size() + 1, 0);
+  for (const auto& [triangle, other] : entries) {
+    ++crossing_begin[triangle + 1];
+    crossing_triangles.push_back(other);
+    for (std::uint32_t v : mesh.triangles[triangle]) crosses[v] = 1;
   }
-  for (std::size_t v = 1; v < crossing_begin.size(); ++v) crossing_begin[v] += crossing_begin[v - 1];
+  for (std::size_t t = 1; t < crossing_begin.size(); ++t) crossing_begin[t] += crossing_begin[t - 1];
 }
 
 void TreeInput::Data::find_nested(unsigned threads) {

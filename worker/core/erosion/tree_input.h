@@ -27,15 +27,18 @@ struct TreeInput::Data {
   std::vector<Vec3> pseudonormal;        ///< per vertex: unit normals weighted by the angles they span
   std::vector<std::uint32_t> fan_begin;  ///< per vertex and one more
   std::vector<std::uint32_t> fan_triangles;
-  /// Triangles that cross one of those round a vertex; none unless the surface crosses itself.
-  std::span<const std::uint32_t> crossing(std::uint32_t vertex) const {
-    if (crossing_begin.empty()) return {};
-    return {crossing_triangles.data() + crossing_begin[vertex],
-            crossing_begin[vertex + 1] - crossing_begin[vertex]};
+  /// Whether a triangle round the vertex crosses another one.
+  bool at_crossing(std::uint32_t vertex) const { return !crosses.empty() && crosses[vertex] != 0; }
+
+  /// Triangles that cross a triangle; only where the surface crosses itself.
+  std::span<const std::uint32_t> crossing(std::uint32_t triangle) const {
+    return {crossing_triangles.data() + crossing_begin[triangle],
+            crossing_begin[triangle + 1] - crossing_begin[triangle]};
   }
 
   std::vector<std::uint32_t> vertex_solid;    ///< per vertex: the solid its surface bounds
-  std::vector<std::uint32_t> crossing_begin;  ///< per vertex and one more; empty unless it crosses itself
+  std::vector<std::uint8_t> crosses;          ///< per vertex; empty unless the surface crosses itself
+  std::vector<std::uint32_t> crossing_begin;  ///< per triangle and one more; likewise
   std::vector<std::uint32_t> crossing_triangles;
   /// Per vertex: whether other parts of the surface wind round its outer side, so that the solid is there
   /// too; empty unless the surface crosses itself.

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <random>
 
+#include "core/mesh/perturb.h"
+#include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -25,6 +27,7 @@ struct Computed {
   DirectionSet directions;
   std::vector<Vec3> place;
   std::vector<FieldValue> value;
+  SweepCounts counts;
 };
 
 struct How {
@@ -50,7 +53,7 @@ Lattice lattice_through_the_middle(const Solid& solid, double spacing) {
 }
 
 Computed compute(Solid solid, Lattice lattice, const std::string& directions, const How& how = {}) {
-  Computed result{std::move(solid), std::move(lattice), {}, {}, {}};
+  Computed result{std::move(solid), std::move(lattice), {}, {}, {}, {}};
   result.directions = make_directions(result.solid, directions);
   Erosion erosion(result.solid, result.lattice, result.directions, {how.threads, false, how.prune});
   std::vector<std::uint32_t> list(result.directions.size());
@@ -58,6 +61,7 @@ Computed compute(Solid solid, Lattice lattice, const std::string& directions, co
   if (how.shuffle != 0) std::shuffle(list.begin(), list.end(), std::mt19937_64(how.shuffle));
   ExecutionContext context;
   erosion.run(list, context);
+  result.counts = erosion.cost().counts;
   const SamplePlaces places(result.solid, result.lattice);
   const double unit = result.solid.scale();
   for (const LatticeRun& run : result.lattice.axis[2].runs) {
@@ -388,6 +392,24 @@ TEST(Erosion, ComputesMeshesThatCrossThemselvesTheSameInAnyOrder) {
   ASSERT_TRUE(plain.solid.self_intersecting);
   EXPECT_TRUE(same_bytes(plain, compute(crossing, 0.1, "triangles", {2, true, 5})));
   for (const FieldValue& value : plain.value) EXPECT_TRUE(std::isfinite(value.erosion));
+}
+
+// Volumes fall where folds turn the surface inside out.
+TEST(Erosion, PruningDoesNotChangeABitOfNoisyMeshes) {
+  const Mesh body = make_body({300, 1800});
+  std::uint64_t crossing = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    for (const Mesh& mesh : {perturb(body, {0.005 * static_cast<double>(seed) * box_diagonal(body), seed}),
+                             shaken(make_sphere(600, 320), 30.0 * static_cast<double>(seed), seed)}) {
+      const Computed plain = compute(mesh, 40, "triangles+random:50:3", {1, false, 0});
+      crossing += plain.solid.self_intersecting;
+      const Computed pruned = compute(mesh, 40, "triangles+random:50:3");
+      EXPECT_TRUE(same_bytes(plain, pruned)) << seed;
+      EXPECT_TRUE(same_bytes(plain, compute(mesh, 40, "triangles+random:50:3", {2, true, seed}))) << seed;
+      EXPECT_LT(2 * pruned.counts.evaluated, plain.counts.evaluated);
+    }
+  }
+  EXPECT_GE(crossing, 8U);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include "core/base/error.h"
 #include "core/erosion/directions.h"
+#include "core/mesh/perturb.h"
+#include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -198,6 +200,40 @@ TEST(JoinTree, LooksUpALowerBoundOfTheVolume) {
       }
     }
   }
+}
+
+// Folds turn parts of the surface inside out, where volumes fall: there it must hold all the way up.
+TEST(JoinTree, LooksUpALowerBoundOfAllVolumesAboveWhereTheyFall) {
+  const Mesh body = make_body({1000, 1800});
+  const Solid solid = make_solid(perturb(body, {0.01 * box_diagonal(body), 3}));
+  ASSERT_TRUE(solid.self_intersecting);
+  const TreeInput input(solid);
+  JoinTreeBuilder builder(input, {false, true});
+  const double tolerance = 2 * input.volume_tolerance();
+  const double volume_of_all = std::ldexp(solid.volume, -3 * solid.exponent);
+  constexpr int kSamples = 100;
+  std::size_t falling = 0, close = 0, all = 0;
+  for (const Vec3& d : make_directions(solid, "random:20:2")) {
+    const JoinTree& tree = builder.build(d);
+    std::vector<double> least(tree.arcs.size());  // of what was sampled of an arc and above it
+    for (std::size_t a = tree.arcs.size(); a-- > 0;) {
+      const Arc& arc = tree.arcs[a];
+      const bool root = arc.parent == Arc::kNone;
+      const double top = root ? tree.pieces[arc.last_piece].height : arc.top;
+      least[a] = root ? 1e300 : least[arc.parent];
+      for (int i = kSamples - 1; i >= 0; --i) {
+        const double h = arc.bottom + (top - arc.bottom) * (i / double{kSamples});
+        const double volume = tree.locate(arc, h).volume_at(h), bound = tree.volume_below(arc, h);
+        falling += least[a] < volume - tolerance;
+        least[a] = std::min(least[a], volume);
+        ASSERT_LE(bound, least[a] + tolerance);
+        close += bound > least[a] - 0.02 * volume_of_all;
+        ++all;
+      }
+    }
+  }
+  EXPECT_GT(falling, 100U) << "none of them says anything about falling volumes";
+  EXPECT_GT(close, all / 2);
 }
 
 TEST(JoinTree, CountsMinimaOfAComb) {

@@ -6,20 +6,14 @@
 
 #include "core/base/error.h"
 #include "core/erosion/field.h"
-#include "core/shapes/shapes.h"
+#include "core/normal_block.h"
 #include "core/shocks/skeleton.h"
 
 namespace affskel::core {
 namespace {
 
 struct Slab {
-  Solid solid = make_solid(make_box(9, 9, 9));
-  Lattice lattice;
-  Slab() {
-    LatticeOptions options;
-    options.spacing = 1;
-    lattice = make_lattice(solid, options);
-  }
+  Lattice lattice = NormalBlock({9, 9, 9}).lattice;
   // Index of a point of the 9 x 9 x 9 lattice.
   static std::uint32_t at(std::uint32_t i, std::uint32_t j, std::uint32_t k) { return (i * 9 + j) * 9 + k; }
 };
