@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/mesh/mesh_io.h"
+#include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "forked.h"
@@ -27,6 +28,10 @@ core::Mesh generate(const MeshSpec& mesh) {
       return core::make_torus(kTorusMajor, kTorusMinor, mesh.triangles);
     case Shape::kBall:
       return core::make_sphere(kBallRadius, mesh.triangles);
+    case Shape::kNoisyBody: {
+      const core::Mesh body = core::make_body({mesh.triangles, kBodyUnits});
+      return core::perturb(body, {0.01 * core::box_diagonal(body), 1});
+    }
     case Shape::kBody:
       break;
   }

@@ -8,6 +8,7 @@ namespace {
 
 constexpr MeshSpec kTorus{Shape::kTorus, 256};
 constexpr MeshSpec kBall{Shape::kBall, 5120};
+constexpr MeshSpec kNoisyBody{Shape::kNoisyBody, 5000};
 constexpr MeshSpec kLargestBody{Shape::kBody, 107024};
 constexpr MeshSpec kLargeBall{Shape::kBall, 1000000};
 
@@ -41,6 +42,7 @@ void add_table(std::vector<RowSpec>& rows, std::uint64_t points) {
   for (const std::uint32_t n : {292U, 500U, 1000U, 5000U, 20000U})
     rows.push_back(with_points(body(n), points));
   rows.push_back(with_points(kLargestBody, points, kStretch));
+  rows.push_back(with_points(kNoisyBody, points));
   rows.push_back(with_points(kBall, points));
 }
 
@@ -66,8 +68,20 @@ std::string power(std::uint64_t value) {
 }  // namespace
 
 std::string mesh_name(const MeshSpec& mesh) {
-  const char* shape = mesh.shape == Shape::kTorus ? "torus" : mesh.shape == Shape::kBody ? "body" : "ball";
-  return std::string(shape) + " " + std::to_string(mesh.triangles);
+  const auto named = [&](const char* shape) {
+    return std::string(shape) + " " + std::to_string(mesh.triangles);
+  };
+  switch (mesh.shape) {
+    case Shape::kTorus:
+      return named("torus");
+    case Shape::kNoisyBody:
+      return named("noisy body");
+    case Shape::kBall:
+      return named("ball");
+    case Shape::kBody:
+      break;
+  }
+  return named("body");
 }
 
 std::string row_name(const RowSpec& row) {

@@ -7,7 +7,12 @@
 
 namespace affskel::bench {
 
-enum class Shape { kTorus, kBody, kBall };
+enum class Shape {
+  kTorus,
+  kBody,
+  kNoisyBody,  ///< with vertex noise of 1 % of the box's diagonal: its surface crosses itself all over
+  kBall
+};
 
 /// A mesh of the benchmark, by what it is and by how many triangles it has.
 struct MeshSpec {
@@ -17,7 +22,7 @@ struct MeshSpec {
   friend auto operator<=>(const MeshSpec&, const MeshSpec&) = default;
 };
 
-/// "torus 256", "body 5000", "ball 5120".
+/// "torus 256", "body 5000", "noisy body 5000", "ball 5120".
 std::string mesh_name(const MeshSpec& mesh);
 
 /// The longest side of every body counts as this many units, whatever its file's units are: the size at
