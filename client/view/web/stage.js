@@ -38,8 +38,7 @@ export class Stage {
     canvas.addEventListener('keydown', (event) => this.pressKey(event));
     // A new size clears the canvas: drawn at once, before anybody sees it black.
     new ResizeObserver(() => {
-      this.resize();
-      this.draw();
+      if (this.resize()) this.draw();
     }).observe(canvas.parentElement);
     this.resize();
     this.show('start');
@@ -62,9 +61,10 @@ export class Stage {
     this.requestFrame();
   }
 
+  // To the size of the window's part; false when that has none.
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
-    if (clientWidth === 0 || clientHeight === 0) return;
+    if (clientWidth === 0 || clientHeight === 0) return false;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, kMaxPixelRatio));
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.right = clientWidth / clientHeight;
@@ -81,6 +81,7 @@ export class Stage {
     if (this.view)
       this.show(this.view); // still as chosen: keep it in the window
     else this.requestFrame();
+    return true;
   }
 
   // Screen pixels (of the layout) per page unit.

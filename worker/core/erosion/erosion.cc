@@ -20,7 +20,7 @@ class Erosion::Engine {
         sweeper_(
             lattice, field_,
             {options.prune, 2 * trees_.volume_tolerance(), std::ldexp(solid.volume, -3 * solid.exponent)}) {
-    const JoinTreeOptions tree_options{!solid.self_intersecting, solid.self_intersecting};
+    const JoinTreeOptions tree_options{solid.self_intersecting};
     builders_.resize(std::max(1U, options.threads));
     parallel_for(options.threads, builders_.size(), [&](std::size_t i) {
       builders_[i] = std::make_unique<JoinTreeBuilder>(trees_, tree_options);

@@ -128,11 +128,11 @@ class JoinTreeBuilder::Work {
     running_.resize(tree_.arcs.size());
     tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
     fill_cells();
-    if (options_.volumes_may_fall) lower_cells();
+    if (options_.crosses_itself) lower_cells();
     for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
       tree_.triangle_arc[input_.original_triangle[t]] = topology_.vertex_arc[vertex_.lowest[t]];
     }
-    if (options_.check_invariants) check();
+    if (!options_.crosses_itself) check();
     return tree_;
   }
 
@@ -212,7 +212,7 @@ class JoinTreeBuilder::Work {
     if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
     // At the rim of a thin plate the normals of its two sides cancel but for rounding.
     const bool undecided = up > -kThinRim;
-    if (options_.check_invariants && !undecided) {
+    if (!options_.crosses_itself && !undecided) {
       throw CoreError(CoreError::Code::kInternal, "direction " + in_words(d_) +
                                                       ": no surface below the inner minimum at vertex " +
                                                       std::to_string(input_.original_vertex[v]));

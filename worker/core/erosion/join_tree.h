@@ -112,12 +112,11 @@ class TreeInput {
 };
 
 struct JoinTreeOptions {
-  /// Check that the roots are as many as the solids and that every root's volume at its top is its
-  /// solid's, and that volumes never fall, both within TreeInput::volume_tolerance(); off for meshes that
-  /// cross themselves, where it need not hold.
-  bool check_invariants = true;
-  /// The surface crosses itself: what it winds round the other way counts as a negative volume.
-  bool volumes_may_fall = false;
+  /// Whether the surface crosses itself: what it winds round the other way counts as a negative volume, so
+  /// that volumes may fall.  Otherwise it is checked that the roots are as many as the solids and that every
+  /// root's volume at its top is its solid's, and that volumes never fall, both within
+  /// TreeInput::volume_tolerance().
+  bool crosses_itself = false;
 };
 
 /// Builds trees for one direction after another, reusing its memory.  One per thread.

@@ -210,7 +210,7 @@ struct Plan {
   bool fits = false;    // within the limits; only then there is a frame
 };
 
-// An even number: the middle planes of the box, where solids that are their own mirror images have their
+// An even number, or one: the middle planes of the box, where solids that are their own mirror images have their
 // skeletons, lie half-way between sample points.  At a point in the skeleton two chords are equal, and which
 // of them rounding takes for the lesser one would be chance.  None on the box itself, nor within rounding of
 // it.
@@ -289,7 +289,7 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box, options, spacing);
   // Too many points by their volume are refused; lines that a thin solid would not need are not.
   if (options.spacing == 0 && plan.estimate <= static_cast<double>(options.max_points)) {
-    if (plan.fits) {
+    if (plan.fits && !is_foil(solid, spacing)) {
       Lattice lattice = make_lattice(solid, plan.frame, options.threads);
       lattice.spacing = spacing;
       if (is_near(lattice.points, options.target_points)) return lattice;

@@ -81,7 +81,7 @@ struct LatticeOptions {
 /// line is always even).
 ///
 /// Points lie half a dT, 3/2 dT, ... to either side of the box's middle planes as long as they are inside the
-/// box by more than 1e-9 of its side; where a side is at most dT, in its middle plane.  So no point lies in
+/// box by more than 5e-10 of its side; where a side is at most dT, in its middle plane.  So no point lies in
 /// the middle planes of other solids: there a symmetric one has its skeleton.
 /// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
 ///   more than max_points would.

@@ -11,12 +11,29 @@ constexpr int kMostHalvings = 24;  // of the bracket in the logarithm: to a part
 constexpr int kSteps = 24;         // to either side of the spacing for single layers ...
 constexpr double kStep = 0.004;    // ... in the logarithm: 10 %
 
+constexpr double kMany = 4;  // thicknesses of a foil
+
+// Of the surface.
+double inner_area(const Solid& solid) {
+  const std::vector<Vec3>& p = solid.mesh.points;
+  double sum = 0;
+  for (const Triangle& t : solid.mesh.triangles) {
+    sum += 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+  }
+  return sum;
+}
+
 class SpacingSearch {
  public:
   SpacingSearch(const Solid& solid, const LatticeOptions& options, double first)
       : solid_(solid), options_(options), best_(first) {}
 
   double run() {
+    if (is_foil(solid_, best_)) {
+      best_ = single_layer_spacing();
+      try_single_layers();
+      if (found_) return best_;
+    }
     double low = best_, high = best_;  // with too many points, and with too few
     const bool many = too_many(best_);
     const double factor = many ? 2 : 0.5;
@@ -34,20 +51,13 @@ class SpacingSearch {
   }
 
  private:
-  void try_single_layers() {
-    const double middle =
-        solid_.scale() * std::sqrt(area() / 2 / static_cast<double>(options_.target_points));
-    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * std::exp(i * kStep));
+  double single_layer_spacing() const {
+    return solid_.scale() * std::sqrt(inner_area(solid_) / 2 / static_cast<double>(options_.target_points));
   }
 
-  // Of the surface, inner coordinates.
-  double area() const {
-    const std::vector<Vec3>& p = solid_.mesh.points;
-    double sum = 0;
-    for (const Triangle& t : solid_.mesh.triangles) {
-      sum += 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-    }
-    return sum;
+  void try_single_layers() {
+    const double middle = single_layer_spacing();
+    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * std::exp(i * kStep));
   }
 
   // A lattice beyond the limits has too many.
@@ -75,6 +85,11 @@ class SpacingSearch {
 };
 
 }  // namespace
+
+bool is_foil(const Solid& solid, double spacing) {
+  const double inner_volume = std::ldexp(solid.volume, -3 * solid.exponent);
+  return spacing > kMany * solid.scale() * 2 * inner_volume / inner_area(solid);
+}
 
 bool is_near(std::uint64_t points, std::uint64_t target) {
   const std::uint64_t miss = points > target ? points - target : target - points;

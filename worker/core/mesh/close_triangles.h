@@ -19,7 +19,7 @@ namespace affskel::core {
 /// Immutable after construction; queries from several threads are safe.
 class CloseTriangles {
  public:
-  /// O(N log N), on up to `threads` threads.  Keeps references to both.  @param boxes of the mesh's
+  /// O(N log N), on up to `threads` threads.  Keeps a reference to the boxes.  @param boxes of the mesh's
   /// triangles.
   CloseTriangles(const Mesh& mesh, const std::vector<Box>& boxes, unsigned threads = 1);
 

@@ -208,7 +208,7 @@ TEST(JoinTree, LooksUpALowerBoundOfAllVolumesAboveWhereTheyFall) {
   const Solid solid = make_solid(perturb(body, {0.01 * box_diagonal(body), 3}));
   ASSERT_TRUE(solid.self_intersecting);
   const TreeInput input(solid);
-  JoinTreeBuilder builder(input, {false, true});
+  JoinTreeBuilder builder(input, {true});
   const double tolerance = 2 * input.volume_tolerance();
   const double volume_of_all = std::ldexp(solid.volume, -3 * solid.exponent);
   constexpr int kSamples = 100;
@@ -314,7 +314,7 @@ TEST(JoinTree, EverySolidIsARootOfItsVolume) {
 std::uint32_t roots_of(const Mesh& mesh, const Vec3& d) {
   const Solid solid = make_solid(mesh);
   const TreeInput input(solid);
-  JoinTreeBuilder builder(input, {false});
+  JoinTreeBuilder builder(input, {true});
   return builder.build((1 / norm(d)) * d).roots;
 }
 
@@ -331,7 +331,7 @@ TEST(JoinTree, PartsThatPassThroughEachOtherAreOne) {
 TEST(JoinTree, MinimaInsideOtherPartsGiveNoComponents) {
   const Solid solid = make_solid(joined(make_sphere(1, 320), moved(make_sphere(1, 320), {0, 0, 0.9}, 0.5)));
   const TreeInput input(solid);
-  JoinTreeBuilder builder(input, {false});
+  JoinTreeBuilder builder(input, {true});
   EXPECT_EQ(builder.build({0, 0, 1}).arcs.size(), 1U);
 }
 

@@ -71,6 +71,16 @@ TEST(SpacingForPoints, ObliquePlatesAndSkinsGetTheirPoints) {
   }
 }
 
+// The cube root of the volume would give 46,000 points per side, all in one layer.
+TEST(SpacingForPoints, FoilsGetASingleLayerAtOnce) {
+  const Solid foil = make_solid(make_box(1000, 1000, 0.001));
+  EXPECT_TRUE(is_foil(foil, cube_root(foil.volume / 1e5)));
+  const Lattice lattice = lattice_for(foil, 100000);
+  EXPECT_TRUE(is_near(lattice.points, 100000)) << lattice.points;
+  EXPECT_EQ(lattice.frame.dims[2], 1U);
+  EXPECT_FALSE(is_foil(make_solid(make_body({500, 18000})), 200));
+}
+
 TEST(SpacingForPoints, TakesTheNearestWhereLayersJump) {
   // 10,000 points in one layer, twice as many in two, nothing between.
   const Solid plate = make_solid(make_box(100, 100, 1));
