@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <numeric>
 #include <random>
 
-#include "core/mesh/perturb.h"
-#include "core/shapes/body.h"
+#include "core/erosion/computed.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -19,84 +17,6 @@ namespace affskel::core {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-// E at sample points, in mesh units.
-struct Computed {
-  Solid solid;
-  Lattice lattice;
-  DirectionSet directions;
-  std::vector<Vec3> place;
-  std::vector<FieldValue> value;
-  SweepCounts counts;
-};
-
-struct How {
-  unsigned threads = 1;
-  bool prune = true;
-  std::uint64_t shuffle = 0;  // seed; 0 = in order
-};
-
-Lattice lattice_of(const Solid& solid, double spacing) {
-  LatticeOptions options;
-  options.spacing = spacing;
-  return make_lattice(solid, options);
-}
-
-// The same with points in the middle planes of the solid's box, where two chords can be equal.
-Lattice lattice_through_the_middle(const Solid& solid, double spacing) {
-  LatticeFrame frame = lattice_of(solid, spacing).frame;
-  for (std::size_t k = 0; k < 3; ++k) {
-    frame.origin = frame.origin - 0.5 * frame.axes[k];
-    ++frame.dims[k];
-  }
-  return make_lattice(solid, frame);
-}
-
-Computed compute(Solid solid, Lattice lattice, const std::string& directions, const How& how = {}) {
-  Computed result{std::move(solid), std::move(lattice), {}, {}, {}, {}};
-  result.directions = make_directions(result.solid, directions);
-  Erosion erosion(result.solid, result.lattice, result.directions, {how.threads, false, how.prune});
-  std::vector<std::uint32_t> list(result.directions.size());
-  std::iota(list.begin(), list.end(), 0U);
-  if (how.shuffle != 0) std::shuffle(list.begin(), list.end(), std::mt19937_64(how.shuffle));
-  ExecutionContext context;
-  erosion.run(list, context);
-  result.counts = erosion.cost().counts;
-  const SamplePlaces places(result.solid, result.lattice);
-  const double unit = result.solid.scale();
-  for (const LatticeRun& run : result.lattice.axis[2].runs) {
-    for (std::uint32_t n = 0; n < run.length; ++n) {
-      FieldValue value = erosion.field().value(run.first + n);
-      value.erosion *= unit * unit * unit;
-      value.area *= unit * unit;
-      result.value.push_back(value);
-      result.place.push_back(places.at(run.start[0], run.start[1], run.start[2] + n));
-    }
-  }
-  return result;
-}
-
-Computed compute(const Mesh& mesh, double spacing, const std::string& directions, const How& how = {}) {
-  Solid solid = make_solid(mesh);
-  Lattice lattice = lattice_of(solid, spacing);
-  return compute(std::move(solid), std::move(lattice), directions, how);
-}
-
-Computed compute_through_the_middle(const Mesh& mesh, double spacing, const std::string& directions) {
-  Solid solid = make_solid(mesh);
-  Lattice lattice = lattice_through_the_middle(solid, spacing);
-  return compute(std::move(solid), std::move(lattice), directions);
-}
-
-bool same_bytes(const Computed& a, const Computed& b) {
-  if (a.value.size() != b.value.size()) return false;
-  for (std::size_t i = 0; i < a.value.size(); ++i) {
-    if (std::memcmp(&a.value[i].erosion, &b.value[i].erosion, 8) != 0) return false;
-    if (std::memcmp(&a.value[i].area, &b.value[i].area, 8) != 0) return false;
-    if (a.value[i].direction != b.value[i].direction) return false;
-  }
-  return true;
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -348,68 +268,6 @@ TEST(Erosion, SolidsThatTouchDoNotDependOnTheirOrder) {
     // Columns of 8 points: the lower 4 are the lower box's.
     EXPECT_NEAR(one.value[i].erosion, single.value[i / 8 * 4 + i % 4].erosion, 1e-12);
   }
-}
-
-// A prism over a bow tie: one half is inside out, where chords say nothing.
-TEST(Erosion, EveryPointGetsADirectionEvenWhereChordsSayNothing) {
-  Mesh bow;
-  for (double z : {0.0, 1.0}) {
-    for (const Vec3& p : {Vec3{0, 0, z}, Vec3{2, 2, z}, Vec3{2, 0, z}, Vec3{0, 2.4, z}})
-      bow.points.push_back(p);
-  }
-  bow.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const std::uint32_t j = (i + 1) % 4;
-    bow.triangles.push_back({i, j, j + 4});
-    bow.triangles.push_back({i, j + 4, i + 4});
-  }
-  const Solid solid = make_solid(bow);
-  ASSERT_TRUE(solid.self_intersecting);
-  const Computed field = compute(bow, 0.1, "random:1:2");
-  for (const FieldValue& value : field.value) {
-    EXPECT_NE(value.direction, FieldValue::kNoDirection);
-    EXPECT_TRUE(std::isfinite(value.erosion) && value.erosion >= 0);
-  }
-}
-
-// A bar of two overlapping boxes: near the end of one of them it goes on in the other.
-TEST(Erosion, PartsThatOverlapAreErodedAsOne) {
-  const Mesh bar = joined(make_box(2, 1, 1), moved(make_box(2, 1, 1), {1.5, 0.1, 0.05}));
-  const Computed t = compute(bar, 0.1, "sphere:500");
-  int inner = 0;
-  for (std::size_t i = 0; i < t.place.size(); ++i) {
-    const Vec3& p = t.place[i];
-    if (!(p.x > 1.6 && p.x < 1.9 && std::abs(p.y - 0.55) < 0.1 && std::abs(p.z - 0.5) < 0.1)) continue;
-    ++inner;
-    EXPECT_GT(t.value[i].erosion, 0.5) << "the box alone has less than 0.4 beyond the point";
-  }
-  EXPECT_GT(inner, 5);
-}
-
-TEST(Erosion, ComputesMeshesThatCrossThemselvesTheSameInAnyOrder) {
-  const Mesh crossing = joined(make_sphere(1, 320), moved(make_sphere(1, 320), {0.7, 0.1, 0.2}));
-  const Computed plain = compute(crossing, 0.1, "triangles", {1, false, 0});
-  ASSERT_TRUE(plain.solid.self_intersecting);
-  EXPECT_TRUE(same_bytes(plain, compute(crossing, 0.1, "triangles", {2, true, 5})));
-  for (const FieldValue& value : plain.value) EXPECT_TRUE(std::isfinite(value.erosion));
-}
-
-// Volumes fall where folds turn the surface inside out.
-TEST(Erosion, PruningDoesNotChangeABitOfNoisyMeshes) {
-  const Mesh body = make_body({300, 1800});
-  std::uint64_t crossing = 0;
-  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
-    for (const Mesh& mesh : {perturb(body, {0.005 * static_cast<double>(seed) * box_diagonal(body), seed}),
-                             shaken(make_sphere(600, 320), 30.0 * static_cast<double>(seed), seed)}) {
-      const Computed plain = compute(mesh, 40, "triangles+random:50:3", {1, false, 0});
-      crossing += plain.solid.self_intersecting;
-      const Computed pruned = compute(mesh, 40, "triangles+random:50:3");
-      EXPECT_TRUE(same_bytes(plain, pruned)) << seed;
-      EXPECT_TRUE(same_bytes(plain, compute(mesh, 40, "triangles+random:50:3", {2, true, seed}))) << seed;
-      EXPECT_LT(2 * pruned.counts.evaluated, plain.counts.evaluated);
-    }
-  }
-  EXPECT_GE(crossing, 8U);
 }
 
 }  // namespace
