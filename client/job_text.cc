@@ -65,9 +65,8 @@ std::string prepared_details(const v1::PreparedSummary& p) {
 }
 
 std::string asked_sampling(const v1::Sampling& s) {
-  return s.density_case() == v1::Sampling::kSpacing
-             ? "spacing " + shortest(s.spacing())
-             : "about " + std::to_string(s.target_points()) + " points";
+  return s.density_case() == v1::Sampling::kSpacing ? "spacing " + shortest(s.spacing())
+                                                    : "about " + core::counted(s.target_points(), "point");
 }
 
 std::string counters_details(const v1::JobCounters& c) {

@@ -119,7 +119,11 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
   compute->add_option("FILE", flags.compute.file, "mesh (OFF)")->required();
   compute->add_option("--spacing", flags.compute.spacing, "lattice spacing in mesh units")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        double value = 0;
+        const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+        return good ? std::string() : "must be a number > 0, not '" + text + "'";
+      });
   compute
       ->add_option("--points", flags.compute.points,
                    "aim at this many sample points, unless --spacing is given")

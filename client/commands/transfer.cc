@@ -98,7 +98,7 @@ double volume_of_points(const v1::Job& job, int points) {
 
 std::string volume_text(const Written& written) {
   if (!written.volume) return "";
-  return (written.unit == "points" ? ", volume about " : ", volume ") + rounded(*written.volume, 6);
+  return (written.unit == "point" ? ", volume about " : ", volume ") + rounded(*written.volume, 6);
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ Written transfer_field(Context& context, const std::string& job, const Destinati
       request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
         return std::make_unique<FieldSink>(format, destination.file, points, directions);
       });
-  return {destination, "field", "points", points.count(), header.job()};
+  return {destination, "field", "point", points.count(), header.job()};
 }
 
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
@@ -138,7 +138,7 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
       comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality),
       out);
   out.commit();
-  Written written{destination, "skeleton", "points", static_cast<std::uint64_t>(points.point_size()),
+  Written written{destination, "skeleton", "point", static_cast<std::uint64_t>(points.point_size()),
                   header.job()};
   if (quality != nullptr) written.quality = *quality;
   return written;
@@ -160,7 +160,7 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
                           "operator " + skeleton_params_text(params), sheet ? &fetched.quality : nullptr),
              out, fetched.properties);
   out.commit();
-  Written written{destination, "surface", "triangles", fetched.mesh.triangles.size(), header.job()};
+  Written written{destination, "surface", "triangle", fetched.mesh.triangles.size(), header.job()};
   if (sheet) written.quality = fetched.quality;
   return written;
 }
@@ -179,7 +179,7 @@ Written transfer_divergence(Context& context, const std::string& job, const v1::
         return std::make_unique<DivergenceSink>(format, destination.file, points);
       },
       "divergence");
-  return {destination, "divergence", "points", points.count(), header.job()};
+  return {destination, "divergence", "point", points.count(), header.job()};
 }
 
 Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
@@ -197,7 +197,7 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
                               "level " + eroded_params_text(params) + ", volume about " + rounded(volume, 6)),
                  out);
   out.commit();
-  Written written{destination, "eroded", "points", static_cast<std::uint64_t>(points.point_size()),
+  Written written{destination, "eroded", "point", static_cast<std::uint64_t>(points.point_size()),
                   header.job()};
   written.volume = volume;
   written.advice = points.quality().advice();
@@ -217,7 +217,7 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
                           "level " + eroded_params_text(params) + ", volume " + shortest(fetched.volume)),
              out);
   out.commit();
-  Written written{destination, "eroded", "triangles", fetched.mesh.triangles.size(), header.job()};
+  Written written{destination, "eroded", "triangle", fetched.mesh.triangles.size(), header.job()};
   written.volume = fetched.volume;
   written.advice = fetched.quality.advice();
   return written;
@@ -227,14 +227,14 @@ Written transfer_mesh(Context& context, const std::string& job, const Destinatio
   const v1::ArtifactHeader header = context.session().fetch(
       request_for(job, v1::ARTIFACT_KIND_MESH),
       [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(destination.file); });
-  return {destination, "mesh", "bytes", header.bytes(), header.job()};
+  return {destination, "mesh", "byte", header.bytes(), header.job()};
 }
 
 nlohmann::ordered_json written_json(const Written& written) {
   nlohmann::ordered_json document = {{"job", written.job.id()},
                                      {"artefact", written.kind},
                                      {"file", written.destination.file.string()},
-                                     {written.unit, written.items}};
+                                     {written.unit + "s", written.items}};
   if (written.volume) document["volume"] = *written.volume;
   if (written.quality) document["quality"] = to_json(*written.quality);
   return document;
@@ -242,7 +242,7 @@ nlohmann::ordered_json written_json(const Written& written) {
 
 void tell_written(Console& console, const Written& written) {
   console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
-               std::to_string(written.items) + " " + written.unit + volume_text(written) + ")");
+               core::counted(written.items, written.unit) + volume_text(written) + ")");
 }
 
 }  // namespace affskel::client

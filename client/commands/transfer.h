@@ -13,7 +13,7 @@ namespace affskel::client {
 struct Written {
   Destination destination;
   std::string kind;         ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
-  std::string unit;         ///< what is counted: "points", "triangles" or "bytes"
+  std::string unit;         ///< what is counted: "point", "triangle" or "byte"
   std::uint64_t items = 0;  ///< how many
   v1::Job job;              ///< as the server sent it along
   std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet of chords

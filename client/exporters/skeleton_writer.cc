@@ -47,8 +47,9 @@ void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comm
   for (const char* name : {"x", "y", "z", "E", "nx", "ny", "nz"}) {
     header += std::string("property double ") + name + "\n";
   }
+  header += "property int direction\n";
   if (divergence) header += "property double H\n";
-  header += "property int direction\nend_header\n";
+  header += "end_header\n";
   file.write(header);
   std::string row;
   for (int p = 0; p < s.point_size(); ++p) {
@@ -56,8 +57,8 @@ void write_ply(const v1::SkeletonPoints& s, const std::vector<std::string>& comm
     for (int c = 0; c < 3; ++c) append_bytes(row, s.xyz(3 * p + c));
     append_bytes(row, s.erosion(p));
     for (int c = 0; c < 3; ++c) append_bytes(row, s.normal(3 * p + c));
-    if (divergence) append_bytes(row, s.divergence(p));
     append_bytes(row, static_cast<std::int32_t>(s.direction(p)));
+    if (divergence) append_bytes(row, s.divergence(p));
     file.write(row);
   }
 }
@@ -73,10 +74,10 @@ void write_as_vtp(const v1::SkeletonPoints& s, const std::vector<std::string>& c
     for (int c = 0; c < 3; ++c)
       columns[static_cast<std::size_t>(1 + c)].values.push_back(s.normal(3 * p + c));
   }
+  columns.push_back({"direction", true, {s.direction().begin(), s.direction().end()}});
   if (!s.divergence().empty() || s.point_size() == 0) {
     columns.push_back({"H", false, {s.divergence().begin(), s.divergence().end()}});
   }
-  columns.push_back({"direction", true, {s.direction().begin(), s.direction().end()}});
   write_vtp(mesh, columns, comments, [&](std::string_view bytes) { file.write(bytes); });
 }
 

@@ -130,6 +130,7 @@ void Server::tidy() {
     more = false;
     const auto begin = now();
     guarded([&] { more = store_->tidy(); });
+    tidying_ = more;
     std::unique_lock lock(mutex_);
     if (stopped_.wait_for(lock, now() - begin, [this] { return stopping_; })) return;
   }
@@ -137,7 +138,7 @@ void Server::tidy() {
 
 std::chrono::steady_clock::duration Server::idle_time() {
   const Store::Counts counts = store_->counts();
-  if (counts.queued > 0 || counts.running > 0 || counts.requests > 0) {
+  if (counts.queued > 0 || counts.running > 0 || counts.requests > 0 || tidying_) {
     activity_.touch();
     return std::chrono::steady_clock::duration::zero();
   }

@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -49,7 +50,8 @@ class Server {
   Store& store() { return *store_; }
   WorkerRegistry& registry() { return registry_; }
 
-  /// Time without client calls, without active jobs and without requests for artefacts.
+  /// Time without client calls, without active jobs, without requests for artefacts, and without anything of
+  /// deleted jobs going.
   std::chrono::steady_clock::duration idle_time();
 
   /// Ends the waiting calls and leases nothing more; reports are still taken.
@@ -75,6 +77,7 @@ class Server {
   std::unique_ptr<grpc::Server> grpc_;
   std::vector<wire::Address> addresses_;
 
+  std::atomic<bool> tidying_ = false;
   std::mutex mutex_;
   std::condition_variable stopped_;
   bool stopping_ = false;

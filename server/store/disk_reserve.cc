@@ -12,8 +12,8 @@
 namespace affskel::server {
 namespace {
 
-// For the log's header, its index, server.json and a first commit.
-constexpr std::uint64_t kNextToNothing = std::uint64_t{1} << 20;
+// For the log's header, its index, server.json, a migration and a first commit.
+constexpr std::uint64_t kNextToNothing = std::uint64_t{4} << 20;
 
 constexpr std::uint64_t kGain = std::uint64_t{1} << 20;
 
@@ -56,13 +56,10 @@ bool DiskReserve::restore() {
   const std::uint64_t free = free_(directory_);
   const std::uint64_t wanted = not_enough_ == 0 ? 0 : not_enough_ + kGain;
   if (free < std::max(bytes_ + bytes_ / 4, wanted)) return false;
-  whole_ = allocate();
-  if (!whole_) {
-    unlink(file_.c_str());
-    return false;
-  }
   not_enough_ = free;
-  return true;
+  whole_ = allocate();
+  if (!whole_) unlink(file_.c_str());
+  return whole_;
 }
 
 void DiskReserve::release() {

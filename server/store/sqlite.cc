@@ -129,13 +129,15 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
       // FULL: a commit is on the disk when it is acknowledged.
       // Secure deletion, which Debian switches on, writes every page that is freed: a delete would need as
       // much room in the log as it is to make.
+      // Temporary files may lie on another disk, which would be taken for this one when it is full.
       // Given to a file that is there already, the first two would do nothing, or write for nothing.
       if (integer("PRAGMA page_count") == 0) {
         execute("PRAGMA page_size = " + std::to_string(kPageBytes) + "; PRAGMA auto_vacuum = INCREMENTAL");
       }
       execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
               std::to_string(kJournalBytes) +
-              "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF");
+              "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF"
+              "; PRAGMA temp_store = MEMORY");
       int step = kGrowthBytes;
       sqlite3_file_control(handle_, "main", SQLITE_FCNTL_CHUNK_SIZE, &step);
       set_usual_log_limit();

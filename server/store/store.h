@@ -132,11 +132,11 @@ class Store {
   template <typename Body>
   auto write(Body&& body);
   template <typename Body>
-  auto commit(Body&& body, Changes& changes, bool may_grow);
+  auto commit(Body&& body, Changes& changes, bool& room);
   template <typename Body>
   auto read(Body&& body);
 
-  bool make_room(const Changes& undone);
+  void make_room(const Changes& undone);
   bool has_room();
   void live_on_reserve();
   void tell_room();

@@ -9,9 +9,9 @@
 namespace affskel::server {
 
 template <typename Body>
-auto Store::commit(Body&& body, Changes& changes, bool may_grow) {
+auto Store::commit(Body&& body, Changes& changes, bool& room) {
   const std::lock_guard lock(mutex_);
-  const bool room = may_grow && has_room();
+  room = room && has_room();
   Transaction transaction(db_);
   Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes, room};
   auto value = body(tx);
@@ -27,13 +27,17 @@ template <typename Body>
 auto Store::write(Body&& body) {
   Changes changes;
   auto result = [&] {
+    bool room = true;
     try {
-      return commit(body, changes, true);
+      return commit(body, changes, room);
     } catch (const SqliteError& error) {
-      if (error.primary_code() != SQLITE_FULL || !make_room(changes)) throw;
+      if (error.primary_code() != SQLITE_FULL) throw;
+      make_room(changes);
+      if (!room) throw;  // it had the reserve already
     }
     changes = {};
-    return commit(body, changes, false);
+    room = false;
+    return commit(body, changes, room);
   }();
   if (changes.dropped) untidy_ = true;
   for (const std::string& line : changes.log) spdlog::info("{}", line);

@@ -122,9 +122,9 @@ void Store::live_on_reserve() {
   db_.set_log_limit(kFullDiskLogBytes);
 }
 
-/// A write found the disk full: gives the reserve away.  False when it was given away before.  Whoever
+/// A write found the disk full: gives the reserve away, unless another one has done so meanwhile.  Whoever
 /// follows one of the jobs that the change was about learns why it gets no further.
-bool Store::make_room(const Changes& undone) {
+void Store::make_room(const Changes& undone) {
   const std::int64_t now = clock_.lease_ms();
   std::int64_t told = full_disk_told_ms_;
   if ((told == 0 || now - told >= kTellFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
@@ -132,7 +132,7 @@ bool Store::make_room(const Changes& undone) {
   }
   {
     const std::lock_guard lock(mutex_);
-    if (disk_full_.exchange(true)) return false;
+    if (disk_full_.exchange(true)) return;
     full_disk_ms_ = now;
     live_on_reserve();
     try {
@@ -146,7 +146,6 @@ bool Store::make_room(const Changes& undone) {
     stuck.jobs = undone.jobs;
     listener_->on_change(stuck);
   }
-  return true;
 }
 
 /// Jobs that were stuck go on.

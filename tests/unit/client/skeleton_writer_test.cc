@@ -52,22 +52,24 @@ TEST(SkeletonWriter, PlyHeaderDescribesTheBytes) {
   EXPECT_EQ(header,
             "ply\nformat binary_little_endian 1.0\ncomment job 0123\ncomment two?[2Jlines\nelement vertex 2\n"
             "property double x\nproperty double y\nproperty double z\nproperty double E\n"
-            "property double nx\nproperty double ny\nproperty double nz\nproperty double H\n"
-            "property int direction\nend_header\n");
+            "property double nx\nproperty double ny\nproperty double nz\n"
+            "property int direction\nproperty double H\nend_header\n");
   constexpr std::size_t kRow = 8 * 8 + 4;
   ASSERT_EQ(ply.size(), body + 2 * kRow);
   const v1::SkeletonPoints s = sample_skeleton();
   for (int p = 0; p < 2; ++p) {
-    double row[8];
+    double row[7], divergence = 0;
     std::int32_t direction = 0;
-    std::memcpy(row, ply.data() + body + std::size_t(p) * kRow, sizeof row);
-    std::memcpy(&direction, ply.data() + body + std::size_t(p) * kRow + sizeof row, sizeof direction);
+    const char* at = ply.data() + body + std::size_t(p) * kRow;
+    std::memcpy(row, at, sizeof row);
+    std::memcpy(&direction, at + sizeof row, sizeof direction);
+    std::memcpy(&divergence, at + sizeof row + sizeof direction, sizeof divergence);
     for (int c = 0; c < 3; ++c) {
       EXPECT_EQ(row[c], s.xyz(3 * p + c));
       EXPECT_EQ(row[4 + c], s.normal(3 * p + c));
     }
     EXPECT_EQ(row[3], s.erosion(p));
-    EXPECT_EQ(row[7], s.divergence(p));
+    EXPECT_EQ(divergence, s.divergence(p));
     EXPECT_EQ(direction, std::int32_t(s.direction(p)));
   }
 }

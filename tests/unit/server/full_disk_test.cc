@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <barrier>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "expect_store_error.h"
 #include "small_disk.h"
@@ -93,6 +97,23 @@ TEST_F(FullDiskTest, JobsAreCancelledAndDeletedWhereNothingElseCanBeWritten) {
   EXPECT_EQ(bytes_of("reserve"), options_.reserve_bytes);
   EXPECT_EQ(field(kept.id()), expected_field(3000, 40));
   EXPECT_EQ(submit("OFF 4").state(), v1::JOB_STATE_QUEUED);
+}
+
+// All of them find the disk full, one gives the reserve away: the others may use it, too.
+TEST_F(FullDiskTest, EverybodyMayCancelWhenTheDiskGetsFull) {
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 8; ++i) jobs.push_back(submit("OFF " + std::to_string(i), "queued").id());
+  disk_.leave(0);
+  std::barrier together(static_cast<std::ptrdiff_t>(jobs.size()));
+  std::vector<std::thread> users;
+  for (const std::string& job : jobs) {
+    users.emplace_back([&] {
+      together.arrive_and_wait();
+      EXPECT_NO_THROW(store_->cancel(job));
+    });
+  }
+  for (std::thread& user : users) user.join();
+  for (const std::string& job : jobs) EXPECT_EQ(store_->job(job).state(), v1::JOB_STATE_CANCELLED);
 }
 
 TEST_F(FullDiskTest, WhatWasAcknowledgedIsKeptAndTheRestGoesOnWhenThereIsRoom) {

@@ -111,9 +111,8 @@ class SolidBuilder {
   void drop_unused_vertices() {
     const std::vector<std::uint32_t> unused = drop_unused_points(solid_.mesh);
     if (unused.empty() || again_) return;
-    std::string message = std::to_string(unused.size()) +
-                          " vertices that no face uses were left out, the first: vertex " +
-                          std::to_string(unused.front());
+    std::string message = "left out " + counted(unused.size(), "vertex", "vertices") +
+                          " without a face, the first: vertex " + std::to_string(unused.front());
     if (unused.front() < vertex_line_.size()) {
       message += " (line " + std::to_string(vertex_line_[unused.front()]) + ")";
     }
@@ -127,7 +126,7 @@ class SolidBuilder {
     for (std::size_t v = 0; v < first.size(); ++v) merged += first[v] != v;
     if (merged == 0) return;
     repaired("welded",
-             std::to_string(merged) + " vertices had the same place as another and were joined with it");
+             "joined " + counted(merged, "vertex", "vertices") + " with another one at the same place");
     for (Triangle& t : mesh.triangles) {
       for (std::uint32_t& v : t) v = first[v];
     }
@@ -150,17 +149,15 @@ class SolidBuilder {
     if (kept == 0) refuse("the mesh bounds no volume: all its triangles collapse to points or lines");
     if (dropped != 0) {
       note(MeshNote::Severity::kRepaired, "degenerate-triangles",
-           std::to_string(dropped) + " triangles had two corners in one place and were left out");
+           "left out " + counted(dropped, "triangle") + " with two corners in one place");
     }
   }
 
   void make_orientation_agree(HalfEdges& mates, const TrianglePlace& where) {
     const std::vector<std::uint32_t> turned = orient_consistently(solid_.mesh, mates, where);
     if (turned.empty()) return;
-    repaired("reoriented",
-             std::to_string(turned.size()) +
-                 " triangles faced another way than their neighbours and were turned over, the first: " +
-                 place(turned[0]));
+    repaired("reoriented", "turned over " + counted(turned.size(), "triangle") +
+                               " that faced another way than the neighbours, the first: " + place(turned[0]));
   }
 
   void note_split(std::uint32_t added) {
@@ -203,7 +200,7 @@ class SolidBuilder {
     }
     if (count == 0) return;
     note(MeshNote::Severity::kWarning, "degenerate-triangles",
-         std::to_string(count) + " triangles have no area and give no direction, the first: " + place(first));
+         counted(count, "triangle") + " without area, which give no direction, the first: " + place(first));
   }
 
   void find_shells(const HalfEdges& mates) {

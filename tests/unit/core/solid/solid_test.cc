@@ -239,7 +239,7 @@ TEST(MakeSolid, TellsOfSpecksAndOfTheRestOnce) {
   std::vector<std::string> codes;
   for (const MeshNote& note : solid.notes) codes.push_back(note.code);
   EXPECT_EQ(codes, (std::vector<std::string>{"unused-vertices", "specks", "turned-out"}));
-  EXPECT_NE(solid.notes[0].message.find("1 vertices"), std::string::npos);
+  EXPECT_NE(solid.notes[0].message.find("1 vertex "), std::string::npos);
   EXPECT_NE(solid.notes[1].message.find("2 of 3 solids (8 triangles)"), std::string::npos);
 }
 
