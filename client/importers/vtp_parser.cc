@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "client/importers/shape_parsers.h"
@@ -14,7 +15,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::uint64_t kMostComponents = 1024;  // far more than any array has
+constexpr std::size_t kMostColumns = 4096;  // of all arrays together; far more than any file has
 
 // What a piece holds: the arrays of each of its sections ("Points", "PointData", "Polys", ...).
 struct Piece {
@@ -106,11 +107,13 @@ class DescriptionReader {
 
 class VtpReader {
  public:
-  explicit VtpReader(std::string_view bytes) : description_(DescriptionReader(bytes).run()) {}
+  explicit VtpReader(std::string_view bytes)
+      : description_(DescriptionReader(bytes).run()), values_left_(bytes.size()) {}
 
   ShapeFile run() {
     if (description_.pieces.empty()) fail_at(0, "the file holds no <Piece>");
     for (Piece& piece : description_.pieces) {
+      ++pieces_begun_;
       first_point_ = file_.off.mesh.points.size();
       read_points(piece);
       read_columns(piece);
@@ -121,8 +124,16 @@ class VtpReader {
   }
 
  private:
-  std::vector<double> numbers(const VtkArray& array) const {
-    return vtk_numbers(array, description_.encoding);
+  // A value takes a byte of the file at least, so more values than bytes come from arrays over the same
+  // bytes, which could take any amount of memory.
+  std::vector<double> numbers(const VtkArray& array) {
+    std::vector<double> values = vtk_numbers(array, description_.encoding);
+    if (values.size() > values_left_) {
+      fail_at(array.line, "array " + core::quoted_piece(array.name) +
+                              " takes the file beyond one value per byte; arrays must not share their data");
+    }
+    values_left_ -= values.size();
+    return values;
   }
 
   void read_points(Piece& piece) {
@@ -142,9 +153,16 @@ class VtpReader {
   }
 
   void read_columns(Piece& piece) {
+    const bool empty = file_.off.mesh.points.size() == first_point_;
+    const bool known = !file_.columns.empty();
+    columns_filled_ = 0;
     for (const VtkArray& array : piece.arrays["PointData"]) {
-      if (is_vtk_number(array.type)) read_array(array);
+      if (!is_vtk_number(array.type)) continue;
+      const std::vector<double> values = point_values(array);
+      // Where there are no values, taking names could cost far more than the file is long.
+      if (!(empty && known)) add_values(array, values);
     }
+    if (empty || columns_filled_ == file_.columns.size()) return;
     for (const PointColumn& column : file_.columns) {
       if (column.values.size() != file_.off.mesh.points.size()) {
         fail_at(piece.line, "this piece is without the values of " + core::quoted_piece(column.name) +
@@ -153,40 +171,52 @@ class VtpReader {
     }
   }
 
-  void read_array(const VtkArray& array) {
-    const std::vector<double> values = numbers(array);
+  std::vector<double> point_values(const VtkArray& array) {
     const std::size_t points = file_.off.mesh.points.size() - first_point_;
-    if (array.components == 0 || array.components > kMostComponents ||
-        values.size() != points * array.components) {
+    if (array.components == 0 || array.components > kMostColumns) {
+      fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
+                              std::to_string(array.components) + " components; 1 to " +
+                              std::to_string(kMostColumns) + " are read");
+    }
+    std::vector<double> values = numbers(array);
+    if (values.size() != points * array.components) {
       fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
                               std::to_string(values.size()) + " numbers for " + std::to_string(points) +
                               " points of " + std::to_string(array.components) + " components");
     }
+    return values;
+  }
+
+  void add_values(const VtkArray& array, const std::vector<double>& values) {
     const std::vector<std::string> names = columns_of_array(array.name, array.components);
     for (std::size_t c = 0; c < names.size(); ++c) {
       PointColumn& column = column_of(names[c], array);
-      for (std::size_t p = 0; p < points; ++p) column.values.push_back(values[names.size() * p + c]);
+      for (std::size_t v = c; v < values.size(); v += names.size()) column.values.push_back(values[v]);
+      ++columns_filled_;
     }
   }
 
   PointColumn& column_of(const std::string& name, const VtkArray& array) {
-    const auto found = std::find_if(file_.columns.begin(), file_.columns.end(),
-                                    [&](const PointColumn& c) { return c.name == name; });
-    if (found != file_.columns.end()) {
-      if (found->values.size() != first_point_) {
+    const auto [place, is_new] = places_.try_emplace(name, ColumnPlace{file_.columns.size(), pieces_begun_});
+    if (!is_new) {
+      if (std::exchange(place->second.piece, pieces_begun_) == pieces_begun_) {
         fail_at(array.line, "two arrays give values called " + core::quoted_piece(name));
       }
-      found->whole = found->whole && is_vtk_whole(array.type);
-      return *found;
+      PointColumn& column = file_.columns[place->second.index];
+      column.whole = column.whole && is_vtk_whole(array.type);
+      return column;
     }
     if (first_point_ > 0) {
       fail_at(array.line, "the pieces before are without the values of " + core::quoted_piece(name));
+    }
+    if (file_.columns.size() == kMostColumns) {
+      fail_at(array.line, "the arrays have more than " + std::to_string(kMostColumns) + " components in all");
     }
     file_.columns.push_back({name, is_vtk_whole(array.type), {}});
     return file_.columns.back();
   }
 
-  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) const {
+  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) {
     const auto found =
         std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
     std::vector<std::int64_t> whole;
@@ -230,8 +260,17 @@ class VtpReader {
     }
   }
 
+  // Where a column is, and the last piece that gave it values, counted from 1.
+  struct ColumnPlace {
+    std::size_t index, piece;
+  };
+
   Description description_;
-  std::size_t first_point_ = 0;  // of the piece in hand
+  std::uint64_t values_left_;
+  std::size_t pieces_begun_ = 0;
+  std::size_t first_point_ = 0;     // of the piece in hand
+  std::size_t columns_filled_ = 0;  // by the piece in hand
+  std::unordered_map<std::string, ColumnPlace> places_;
   ShapeFile file_;
 };
 

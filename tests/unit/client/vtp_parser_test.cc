@@ -207,6 +207,54 @@ TEST(VtpParser, ErrorsNameThePlace) {
                     "behind the end");
 }
 
+std::string point_data(const std::string& arrays) {
+  return "<PointData>" + arrays + "</PointData>\n";
+}
+
+TEST(VtpParser, ComponentsOfAllArraysAreBounded) {
+  std::string arrays;
+  for (int a = 0; a < 4; ++a) {
+    arrays += "<DataArray type=\"Int8\" Name=\"a" + std::to_string(a) +
+              "\" format=\"ascii\" NumberOfComponents=\"1024\"/>\n";
+  }
+  const std::string begin = "<Piece>\n", end = "</Piece>\n";
+  EXPECT_EQ(parsed(begin + point_data(arrays) + end).columns.size(), 4096u);
+  const std::string one = "<DataArray type=\"Int8\" Name=\"b\" format=\"ascii\"/>";
+  expect_bad_pieces(begin + point_data(arrays + one) + end, 10, "more than 4096 components in all");
+  // Without points there are names alone.
+  EXPECT_EQ(parsed(begin + point_data(arrays) + end + begin + point_data(arrays) + end).columns.size(),
+            4096u);
+  expect_bad_pieces(begin + point_data(one + one) + end, 6, "two arrays");
+  for (const char* components : {"0", "4097"}) {
+    expect_bad_pieces(begin +
+                          point_data("<DataArray type=\"Int8\" Name=\"b\" format=\"ascii\" "
+                                     "NumberOfComponents=\"" +
+                                     std::string(components) + "\"/>") +
+                          end,
+                      6, std::string("has ") + components + " components");
+  }
+}
+
+TEST(VtpParser, ArraysDoNotShareTheirData) {
+  constexpr std::size_t kPoints = 1000;
+  Encoder encoder{"raw"};
+  const std::string points = encoder.array("type=\"Int8\" Name=\"P\" NumberOfComponents=\"3\"",
+                                           std::vector<std::int8_t>(3 * kPoints));
+  const std::string offset = std::to_string(encoder.appended.size());
+  encoder.array("type=\"Int8\" Name=\"a\"", std::vector<std::int8_t>(kPoints));
+  const auto file = [&](int arrays) {
+    std::string tags;
+    for (int a = 0; a < arrays; ++a) {
+      tags += "<DataArray type=\"Int8\" Name=\"a" + std::to_string(a) + "\" format=\"appended\" offset=\"" +
+              offset + "\"/>\n";
+    }
+    return encoder.file("<Piece>\n<Points>" + points + "</Points>\n" + point_data(tags) + "</Piece>\n");
+  };
+  EXPECT_EQ(parse_shape("a.vtp", file(1)).columns.size(), 1u);
+  // 3000 + 1000 n values are more than its 5000 to 6000 bytes from the third array on.
+  expect_bad(file(15), 10, "share");
+}
+
 TEST(VtpParser, SaysThatItDoesNotReadCompressedData) {
   Encoder encoder{"raw"};
   std::string file = encoder.file(piece_of_a_square(encoder));
