@@ -2,6 +2,7 @@
 // taken; in one or several pieces, which are put together.
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -20,12 +21,15 @@ constexpr std::size_t kMostColumns = 4096;  // of all arrays together; far more 
 // What a piece holds: the arrays of each of its sections ("Points", "PointData", "Polys", ...).
 struct Piece {
   std::map<std::string, std::vector<VtkArray>> arrays;
+  std::map<std::string, std::uint64_t>
+      announced;  // "Points", "Polys", ...: as many as its tag says, if it does
   std::uint64_t line = 0;
 };
 
 struct Description {
   VtkEncoding encoding;
   std::vector<Piece> pieces;
+  std::deque<std::string> joined_texts;  // of arrays, where comments cut them in pieces
 };
 
 // Reads the text, up to the appended data.
@@ -41,17 +45,29 @@ class DescriptionReader {
         return std::move(description_);
       }
       if (tags_.name() == "Piece" && tags_.opens()) {
-        description_.pieces.push_back({{}, tags_.line()});
+        begin_piece();
       } else if (tags_.name() == "DataArray" || tags_.name() == "Array") {
         read_array();
+      } else if (tags_.name() == "VTKFile") {
+        return std::move(description_);
       } else {
         section_ = tags_.opens() && !tags_.closes() ? tags_.name() : std::string_view();
       }
     }
-    return std::move(description_);
+    fail_at(tags_.line(), "the file ends without </VTKFile>");
   }
 
  private:
+  void begin_piece() {
+    Piece piece{{}, {}, tags_.line()};
+    for (const char* what : {"Points", "Verts", "Strips", "Polys"}) {
+      const std::string name = std::string("NumberOf") + what;
+      const std::string count = tags_.attribute(name);
+      if (!count.empty()) piece.announced[what] = core::parse_count(count, tags_.line(), name.c_str());
+    }
+    description_.pieces.push_back(std::move(piece));
+  }
+
   void read_head() {
     if (!tags_.next() || tags_.name() != "VTKFile") fail_at(tags_.line(), "not a VTK XML file");
     if (tags_.attribute("type") != "PolyData") {
@@ -85,18 +101,32 @@ class DescriptionReader {
     if (!components.empty()) {
       array.components = core::parse_count(components, tags_.line(), "NumberOfComponents");
     }
-    if (!tags_.closes()) {
-      const std::size_t begin = tags_.end();
-      // Within it may be tags that describe it.
-      while (tags_.next() && !(tags_.closes() && !tags_.opens() &&
-                               (tags_.name() == "DataArray" || tags_.name() == "Array"))) {
-      }
-      array.text = bytes_.substr(begin, tags_.begin() - begin);
-      array.text = array.text.substr(0, array.text.find('<'));
-    }
+    if (!tags_.closes()) array.text = read_text(array.line);
     if (!description_.pieces.empty() && !section_.empty()) {
       description_.pieces.back().arrays[std::string(section_)].push_back(std::move(array));
     }
+  }
+
+  // What stands in the element of an array up to its end, without that of elements within it, which describe
+  // it.
+  std::string_view read_text(std::uint64_t line) {
+    std::vector<std::string_view> parts;
+    for (std::size_t depth = 0; tags_.next();) {
+      if (depth == 0) parts.insert(parts.end(), tags_.text_before().begin(), tags_.text_before().end());
+      if (!tags_.closes()) {
+        ++depth;
+      } else if (!tags_.opens()) {
+        if (depth-- == 0) return joined(parts);
+      }
+    }
+    fail_at(line, "the element of an array does not end");
+  }
+
+  std::string_view joined(const std::vector<std::string_view>& parts) {
+    if (parts.size() == 1) return parts.front();
+    std::string& text = description_.joined_texts.emplace_back();
+    for (const std::string_view part : parts) text += part;
+    return text;
   }
 
   std::string_view bytes_;
@@ -117,8 +147,7 @@ class VtpReader {
       first_point_ = file_.off.mesh.points.size();
       read_points(piece);
       read_columns(piece);
-      read_cells(piece, "Polys");
-      read_cells(piece, "Strips");
+      for (const char* section : {"Verts", "Polys", "Strips"}) read_cells(piece, section);
     }
     return std::move(file_);
   }
@@ -138,8 +167,18 @@ class VtpReader {
 
   void read_points(Piece& piece) {
     const std::vector<VtkArray>& arrays = piece.arrays["Points"];
-    if (arrays.empty()) return;
-    const VtkArray& array = arrays.front();
+    if (!arrays.empty()) add_points(arrays.front());
+    check_count(piece, "Points", file_.off.mesh.points.size() - first_point_);
+  }
+
+  static void check_count(const Piece& piece, const std::string& what, std::size_t count) {
+    const auto announced = piece.announced.find(what);
+    if (announced == piece.announced.end() || announced->second == count) return;
+    fail_at(piece.line, "the piece announces NumberOf" + what + " " + std::to_string(announced->second) +
+                            ", but holds " + std::to_string(count));
+  }
+
+  void add_points(const VtkArray& array) {
     const std::vector<double> xyz = numbers(array);
     if (array.components != 3 || xyz.size() % 3 != 0)
       fail_at(array.line, "points must have three coordinates");
@@ -230,20 +269,34 @@ class VtpReader {
     return whole;
   }
 
+  // Vertices are counted only.
   void read_cells(Piece& piece, const std::string& section) {
+    if (section == "Verts" && !piece.announced.contains(section)) return;
     const std::vector<VtkArray>& arrays = piece.arrays[section];
     const std::vector<std::int64_t> corners = whole_numbers(arrays, "connectivity");
+    const std::vector<std::int64_t> ends = whole_numbers(arrays, "offsets");
+    check_count(piece, section, ends.size());
+    check_ends(ends, corners.size(), section, arrays.empty() ? piece.line : arrays.front().line);
+    if (section == "Verts") return;
     std::vector<std::int64_t> cell;
     std::int64_t begin = 0;
-    for (const std::int64_t end : whole_numbers(arrays, "offsets")) {
-      if (end < begin || end > static_cast<std::int64_t>(corners.size())) {
-        fail_at(arrays.front().line, "the offsets of " + section + " do not fit their connectivity");
-      }
+    for (const std::int64_t end : ends) {
       cell.assign(corners.begin() + begin, corners.begin() + end);
       begin = end;
       for (std::int64_t& corner : cell)
         corner = corner < 0 ? -1 : corner + static_cast<std::int64_t>(first_point_);
       section == "Polys" ? add_face(cell) : add_strip(cell);
+    }
+  }
+
+  static void check_ends(const std::vector<std::int64_t>& ends, std::size_t corners,
+                         const std::string& section, std::uint64_t line) {
+    std::int64_t last = 0;
+    bool fit = true;
+    for (const std::int64_t end : ends) fit = std::exchange(last, end) <= end && fit;
+    if (!fit || last != static_cast<std::int64_t>(corners)) {
+      fail_at(line, "the offsets of " + section + " do not fit their connectivity of " +
+                        std::to_string(corners) + " corners");
     }
   }
 

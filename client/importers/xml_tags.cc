@@ -48,9 +48,11 @@ std::size_t XmlTags::closing_bracket() const {
 }
 
 bool XmlTags::next() {
+  text_before_.clear();
   for (;;) {
     const std::size_t start = bytes_.find('<', end_);
     if (start == std::string_view::npos) return false;
+    text_before_.push_back(bytes_.substr(end_, start - end_));
     move_to(start);
     const std::string_view rest = bytes_.substr(start);
     if (rest.starts_with("<!--")) {
@@ -59,6 +61,7 @@ bool XmlTags::next() {
       end_ = start + stop + 3;
       continue;
     }
+    if (rest.starts_with("<![CDATA[")) fail_at(line_, "CDATA sections are not read");
     end_ = closing_bracket() + 1;
     if (rest.starts_with("<?") || rest.starts_with("<!")) continue;
 

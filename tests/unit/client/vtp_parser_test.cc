@@ -255,6 +255,57 @@ TEST(VtpParser, ArraysDoNotShareTheirData) {
   expect_bad(file(15), 10, "share");
 }
 
+TEST(VtpParser, CommentsDoNotEndTheTextOfAnArray) {
+  const std::string begin = "<Piece><Points><DataArray NumberOfComponents=\"3\" type=\"Int8\" format=\"",
+                    end = "</DataArray></Points></Piece>";
+  const std::string comment = "<!-- 7 < 8 > 9 </DataArray> -->";
+  const std::string child = "<InformationKey><Value index=\"0\">7</Value> 8 </InformationKey>";
+  for (const std::string& text :
+       {"1 2 3 4 " + comment + "5 6", "1 2 " + comment + comment + " 3 4 5 6" + comment,
+        child + "1 2 3 4 5 6", "1 2 3 " + child + "4 5" + comment + " 6", "1 2 3 <a/>4 <?b?>5 6" + child}) {
+    EXPECT_EQ(parsed(begin + "ascii\">" + text + end).mesh().points,
+              (std::vector<core::Vec3>{{1, 2, 3}, {4, 5, 6}}))
+        << text;
+  }
+  const std::string digits = base64(std::string("\3\0\0\0\1\2\3", 7));
+  EXPECT_EQ(
+      parsed(begin + "binary\">" + digits.substr(0, 5) + comment + digits.substr(5) + end).mesh().points,
+      (std::vector<core::Vec3>{{1, 2, 3}}));
+  expect_bad_pieces(begin + "ascii\"><![CDATA[1 2 3]]>" + end, 5, "CDATA");
+}
+
+TEST(VtpParser, PiecesHoldWhatTheyAnnounce) {
+  const std::string all = cells("Verts", "0 1 2", "2 3") + cells("Strips", "0 1 2", "3") +
+                          cells("Polys", "0 1 2 2 1 3 0 1 2 3", "3 6 10");
+  const auto with = [&](const std::string& attributes) {
+    std::string piece = piece_of_points(4, all);
+    return piece.insert(std::string("<Piece").size(), attributes);
+  };
+  const ShapeFile shape =
+      parsed(with(" NumberOfPoints=\"4\" NumberOfVerts=\"2\" NumberOfStrips=\"1\" "
+                  "NumberOfPolys=\"3\" NumberOfLines=\"0\""));
+  EXPECT_EQ(shape.mesh().triangles.size(), 5u);
+  expect_bad_pieces(with(" NumberOfPoints=\"7\""), 5, "announces NumberOfPoints 7, but holds 4");
+  expect_bad_pieces(with(" NumberOfVerts=\"3\""), 5, "announces NumberOfVerts 3, but holds 2");
+  expect_bad_pieces(with(" NumberOfStrips=\"0\""), 5, "announces NumberOfStrips 0, but holds 1");
+  expect_bad_pieces(with(" NumberOfPolys=\"4\""), 5, "announces NumberOfPolys 4, but holds 3");
+  expect_bad_pieces(with(" NumberOfPolys=\"x\""), 5, "'x'");
+  expect_bad_pieces("<Piece NumberOfPoints=\"1\"/>", 5, "announces NumberOfPoints 1, but holds 0");
+  for (const char* ends : {"", "3"}) {
+    expect_bad_pieces(piece_of_points(4, cells("Polys", "0 1 2 1 2 3", ends)), 8, "6 corners");
+  }
+}
+
+TEST(VtpParser, FilesCutOffAreRefused) {
+  const std::string whole = Encoder{"ascii"}.file(piece_of_points(4, cells("Polys", "0 1 2", "3")));
+  for (std::size_t size = 0; size < whole.size() - 1; ++size) {
+    EXPECT_THROW(parse_shape("a.vtp", whole.substr(0, size)), ClientError) << size;
+  }
+  EXPECT_EQ(parse_shape("a.vtp", whole.substr(0, whole.size() - 1)).mesh().points.size(), 4u);
+  expect_bad(whole.substr(0, whole.find("</Piece>")), 8, "without </VTKFile>");
+  expect_bad(whole.substr(0, whole.find("<Polys>")) + "<Polys><DataArray>0 1", 8, "does not end");
+}
+
 TEST(VtpParser, SaysThatItDoesNotReadCompressedData) {
   Encoder encoder{"raw"};
   std::string file = encoder.file(piece_of_a_square(encoder));
