@@ -11,6 +11,7 @@
 #include "client/importers/vtk_data.h"
 #include "client/importers/xml_tags.h"
 #include "client/vtk_arrays.h"
+#include "core/base/number_text.h"
 #include "core/mesh/text_rows.h"
 
 namespace affskel::client {
@@ -255,11 +256,16 @@ class VtpReader {
     return file_.columns.back();
   }
 
-  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) {
+  static const VtkArray* find_array(const std::vector<VtkArray>& arrays, std::string_view name) {
     const auto found =
         std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
+    return found == arrays.end() ? nullptr : &*found;
+  }
+
+  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) {
+    const VtkArray* found = find_array(arrays, name);
     std::vector<std::int64_t> whole;
-    if (found == arrays.end()) return whole;
+    if (found == nullptr) return whole;
     for (const double value : numbers(*found)) {
       if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
         fail_at(found->line, std::string("the ") + name + " hold a number that is not whole");
@@ -276,17 +282,25 @@ class VtpReader {
     const std::vector<std::int64_t> corners = whole_numbers(arrays, "connectivity");
     const std::vector<std::int64_t> ends = whole_numbers(arrays, "offsets");
     check_count(piece, section, ends.size());
-    check_ends(ends, corners.size(), section, arrays.empty() ? piece.line : arrays.front().line);
+    const VtkArray* array = find_array(arrays, "connectivity");
+    const std::uint64_t line = array == nullptr ? piece.line : array->line;
+    check_ends(ends, corners.size(), section, line);
     if (section == "Verts") return;
     std::vector<std::int64_t> cell;
-    std::int64_t begin = 0;
-    for (const std::int64_t end : ends) {
-      cell.assign(corners.begin() + begin, corners.begin() + end);
-      begin = end;
-      for (std::int64_t& corner : cell)
-        corner = corner < 0 ? -1 : corner + static_cast<std::int64_t>(first_point_);
-      section == "Polys" ? add_face(cell) : add_strip(cell);
+    for (std::size_t i = 0, begin = 0; i < ends.size(); ++i) {
+      const auto end = static_cast<std::size_t>(ends[i]);
+      cell.clear();
+      for (; begin < end; ++begin) cell.push_back(vertex(corners[begin]));
+      section == "Polys" ? add_face(cell, "polygon " + std::to_string(i), line) : add_strip(cell, i, line);
     }
+  }
+
+  // The vertex of all pieces for one of the piece in hand; -1 when there is none.
+  std::int64_t vertex(std::int64_t corner) const {
+    const auto first = static_cast<std::int64_t>(first_point_);
+    return corner < 0 || corner >= static_cast<std::int64_t>(file_.off.mesh.points.size()) - first
+               ? -1
+               : corner + first;
   }
 
   static void check_ends(const std::vector<std::int64_t>& ends, std::size_t corners,
@@ -300,16 +314,24 @@ class VtpReader {
     }
   }
 
-  void add_face(const std::vector<std::int64_t>& corners) {
-    add_polygon(file_, corners, "polygon " + std::to_string(file_.off.polygons), 0);
+  void add_face(const std::vector<std::int64_t>& corners, const std::string& place, std::uint64_t line) {
+    add_polygon(file_, corners, place, line);
     ++file_.off.polygons;
     if (corners.size() > 3) ++file_.off.polygons_cut;
   }
 
   // Every corner from the third on makes a triangle with the two before it, every other one turned over.
-  void add_strip(const std::vector<std::int64_t>& corners) {
+  // Triangles with equal corners join strips into one and are left out.
+  void add_strip(const std::vector<std::int64_t>& corners, std::size_t strip, std::uint64_t line) {
+    const std::string place = "strip " + std::to_string(strip);
+    if (corners.size() < 3) {
+      fail_at(line, place + " has " + core::counted(corners.size(), "corner") + ", needs 3");
+    }
     for (std::size_t i = 2; i < corners.size(); ++i) {
-      add_face({corners[i - (i % 2 == 0 ? 2 : 1)], corners[i - (i % 2 == 0 ? 1 : 2)], corners[i]});
+      const std::int64_t a = corners[i - 2], b = corners[i - 1], c = corners[i];
+      if ((a == b || b == c || c == a) && std::min({a, b, c}) >= 0) continue;
+      const bool turned = i % 2 != 0;
+      add_face({turned ? b : a, turned ? a : b, c}, place + ", triangle " + std::to_string(i - 2), line);
     }
   }
 

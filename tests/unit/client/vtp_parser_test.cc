@@ -132,6 +132,13 @@ TEST(VtpParser, StripsKeepTheirSide) {
   EXPECT_EQ(shape.mesh().triangles, (std::vector<core::Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}));
 }
 
+TEST(VtpParser, StripsAreJoinedByTrianglesWithEqualCorners) {
+  // 0 1 2 3 and 4 5 6 turned alike: 3 3 4 4 between them.
+  const ShapeFile shape = parsed(piece_of_points(7, cells("Strips", "0 1 2 3 3 4 4 5 6", "9")));
+  EXPECT_EQ(shape.mesh().triangles, (std::vector<core::Triangle>{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}}));
+  EXPECT_EQ(shape.off.polygons, 3u);
+}
+
 TEST(VtpParser, PiecesArePutTogether) {
   const ShapeFile shape = parsed(piece_of_points(3, cells("Polys", "0 1 2", "3")) + piece_of_points(0, "") +
                                  piece_of_points(4, cells("Polys", "1 2 3", "3")));
@@ -170,12 +177,14 @@ TEST(VtpParser, ErrorsNameThePlace) {
   expect_bad("<!-- ", 1, "does not end");
   expect_bad("<VTKFile type=PolyData>", 1, "NAME=\"VALUE\"");
   expect_bad("<VTKFile type=\"PolyData\"></VTKFile>", 0, "no <Piece>");
-  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 3", "3")), 0, "vertex that does not exist");
-  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 -1", "3")), 0, "vertex that does not exist");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 3", "3")), 8,
+                    "polygon 0 uses a vertex that does not exist");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 -1", "3")), 8,
+                    "polygon 0 uses a vertex that does not exist");
   expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 2", "4")), 8, "offsets");
   expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 2", "3 1")), 8, "offsets");
   expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 1.5", "3")), 8, "not a whole number");
-  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1", "2")), 0, "2 corners");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1", "2")), 8, "polygon 0 has 2 corners");
   expect_bad_pieces(piece_of_points(3, "") + piece_of_points(3, "", "F"), 11, "without the values of 'F'");
   expect_bad_pieces(piece_of_points(3, "") +
                         "<Piece><Points><DataArray type=\"Int8\" format=\"ascii\" "
@@ -209,6 +218,18 @@ TEST(VtpParser, ErrorsNameThePlace) {
 
 std::string point_data(const std::string& arrays) {
   return "<PointData>" + arrays + "</PointData>\n";
+}
+
+TEST(VtpParser, ErrorsNameTheCellWithinItsPiece) {
+  const std::string first = piece_of_points(3, cells("Polys", "0 1 2", "3"));  // lines 5 to 9
+  const auto bad = [&](const std::string& second, const std::string& cause) {
+    expect_bad_pieces(first + piece_of_points(4, second), 13, cause);
+  };
+  bad(cells("Polys", "0 1 2 0 1 4", "3 6"), "polygon 1 uses a vertex that does not exist");
+  bad(cells("Polys", "0 1 2 0 1 0", "3 6"), "polygon 1 uses a vertex twice");
+  bad(cells("Strips", "0 1 2 0 1 2 4", "3 7"), "strip 1, triangle 1 uses a vertex that does not exist");
+  bad(cells("Strips", "0 1 2 4 4 4", "3 6"), "strip 1, triangle 0 uses a vertex that does not exist");
+  bad(cells("Strips", "0 1 2 0 1", "3 5"), "strip 1 has 2 corners");
 }
 
 TEST(VtpParser, ComponentsOfAllArraysAreBounded) {
