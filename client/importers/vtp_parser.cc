@@ -149,6 +149,7 @@ class VtpReader {
       read_points(piece);
       read_columns(piece);
       for (const char* section : {"Verts", "Polys", "Strips"}) read_cells(piece, section);
+      piece = {};  // a file may be made of very many empty ones
     }
     return std::move(file_);
   }
