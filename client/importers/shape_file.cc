@@ -89,8 +89,18 @@ ShapeFile parse_shape(const std::string& path, std::string_view bytes) {
 }
 
 bool is_normal_column(std::string_view name) {
-  return !name.empty() && (name.front() == 'n' || name.front() == 'N') &&
-         name.find_first_of("xyz") != std::string_view::npos;
+  const auto take = [&name](std::string_view start) {
+    const bool found = name.starts_with(start);
+    if (found) name.remove_prefix(start.size());
+    return found;
+  };
+  const auto is_axis = [](char c) { return c == 'x' || c == 'y' || c == 'z'; };
+  if (take("normal") || take("Normal")) {
+    take("s");
+    if (!take("_a")) take("_b");
+    return name.size() == 2 && name[0] == '_' && is_axis(name[1]);
+  }
+  return name.size() >= 2 && name[0] == 'n' && is_axis(name[1]) && (name.size() == 2 || name[2] == '_');
 }
 
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,

@@ -17,7 +17,8 @@ ShapeFile parse_obj(std::string_view bytes);
 ShapeFile parse_stl(std::string_view bytes);
 ShapeFile parse_vtp(std::string_view bytes);
 
-/// Whether a column of this name belongs to a normal (nx, ny, nz and the like).
+/// Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal,
+/// normals, Normal or Normals, with _a or _b behind it or not (Normals_x, normal_a_x); the same of y and z.
 bool is_normal_column(std::string_view name);
 
 /// Cuts a polygon into triangles of `file`.

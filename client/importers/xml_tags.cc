@@ -48,9 +48,11 @@ std::size_t XmlTags::closing_bracket() const {
 }
 
 bool XmlTags::next() {
+  text_before_.clear();
   for (;;) {
     const std::size_t start = bytes_.find('<', end_);
     if (start == std::string_view::npos) return false;
+    text_before_.push_back(bytes_.substr(end_, start - end_));
     move_to(start);
     const std::string_view rest = bytes_.substr(start);
     if (rest.starts_with("<!--")) {
@@ -59,6 +61,7 @@ bool XmlTags::next() {
       end_ = start + stop + 3;
       continue;
     }
+    if (rest.starts_with("<![CDATA[")) fail_at(line_, "CDATA sections are not read");
     end_ = closing_bracket() + 1;
     if (rest.starts_with("<?") || rest.starts_with("<!")) continue;
 
@@ -84,8 +87,10 @@ void XmlTags::read_attributes(std::string_view text) {
     const bool quoted = open != std::string_view::npos && (text[open] == '"' || text[open] == '\'');
     const std::size_t close = quoted ? text.find(text[open], open + 1) : std::string_view::npos;
     if (close == std::string_view::npos) fail_at(line_, "expected NAME=\"VALUE\" in a tag of XML");
-    const std::string_view name = text.substr(0, std::min(equals, text.find_first_of(kBlanks)));
-    attributes_.emplace_back(name, text.substr(open + 1, close - open - 1));
+    // Blanks are looked for in front of the = only, lest a long tag without any take quadratic time.
+    const std::string_view name = text.substr(0, equals);
+    attributes_.emplace_back(name.substr(0, name.find_first_of(kBlanks)),
+                             text.substr(open + 1, close - open - 1));
     text.remove_prefix(close + 1);
   }
 }

@@ -26,8 +26,10 @@ class XmlTags {
   /// Value of an attribute, empty when there is none.
   std::string attribute(std::string_view name) const;
 
-  std::size_t begin() const { return begin_; }  ///< of the tag, in bytes
-  std::size_t end() const { return end_; }      ///< behind it
+  /// What stands between the tag before and this one, in the parts that comments and the like leave.
+  const std::vector<std::string_view>& text_before() const { return text_before_; }
+
+  std::size_t end() const { return end_; }      ///< behind the tag, in bytes
   std::uint64_t line() const { return line_; }  ///< where it begins, counted from 1
 
  private:
@@ -37,6 +39,7 @@ class XmlTags {
   void read_attributes(std::string_view text);
 
   std::string_view bytes_, name_;
+  std::vector<std::string_view> text_before_;
   std::size_t begin_ = 0, end_ = 0;
   std::uint64_t line_ = 1;
   bool opens_ = false, closes_ = false;

@@ -290,6 +290,18 @@ TEST_F(ShapeFileTest, TablesOfNumbers) {
   expect_bad("t.dat", "1 2 3\n", 1, "3 words");
 }
 
+TEST_F(ShapeFileTest, NormalsAloneMustBeFinite) {
+  const auto file = [](const std::string& name) { return "x,y,z," + name + "\n1,2,3,4\n5,6,7,nan\n"; };
+  for (const char* name : {"nx", "ny", "nz_a", "nx_b", "normal_x", "normals_y", "Normal_z", "Normals_x",
+                           "Normals_a_y", "normal_b_z"}) {
+    expect_bad("n.csv", file(name), 0, std::string("point 1: ") + name + " is not finite");
+  }
+  for (const char* name :
+       {"noise_x", "n", "x_n", "nxt", "Nusselt_z", "normality_x", "normal_x_error", "normals", "density_y"}) {
+    EXPECT_EQ(read("n.csv", file(name)).columns.size(), 1u) << name;
+  }
+}
+
 TEST_F(ShapeFileTest, ObjAndStlText) {
   const ShapeFile obj =
       read("t.obj", "# c\nmtllib m\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3 -1\n");

@@ -132,6 +132,13 @@ TEST(VtpParser, StripsKeepTheirSide) {
   EXPECT_EQ(shape.mesh().triangles, (std::vector<core::Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}));
 }
 
+TEST(VtpParser, StripsAreJoinedByTrianglesWithEqualCorners) {
+  // 0 1 2 3 and 4 5 6 turned alike: 3 3 4 4 between them.
+  const ShapeFile shape = parsed(piece_of_points(7, cells("Strips", "0 1 2 3 3 4 4 5 6", "9")));
+  EXPECT_EQ(shape.mesh().triangles, (std::vector<core::Triangle>{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}}));
+  EXPECT_EQ(shape.off.polygons, 3u);
+}
+
 TEST(VtpParser, PiecesArePutTogether) {
   const ShapeFile shape = parsed(piece_of_points(3, cells("Polys", "0 1 2", "3")) + piece_of_points(0, "") +
                                  piece_of_points(4, cells("Polys", "1 2 3", "3")));
@@ -170,12 +177,14 @@ TEST(VtpParser, ErrorsNameThePlace) {
   expect_bad("<!-- ", 1, "does not end");
   expect_bad("<VTKFile type=PolyData>", 1, "NAME=\"VALUE\"");
   expect_bad("<VTKFile type=\"PolyData\"></VTKFile>", 0, "no <Piece>");
-  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 3", "3")), 0, "vertex that does not exist");
-  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 -1", "3")), 0, "vertex that does not exist");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 3", "3")), 8,
+                    "polygon 0 uses a vertex that does not exist");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 -1", "3")), 8,
+                    "polygon 0 uses a vertex that does not exist");
   expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 2", "4")), 8, "offsets");
   expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 2", "3 1")), 8, "offsets");
   expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1 1.5", "3")), 8, "not a whole number");
-  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1", "2")), 0, "2 corners");
+  expect_bad_pieces(piece_of_points(3, cells("Polys", "0 1", "2")), 8, "polygon 0 has 2 corners");
   expect_bad_pieces(piece_of_points(3, "") + piece_of_points(3, "", "F"), 11, "without the values of 'F'");
   expect_bad_pieces(piece_of_points(3, "") +
                         "<Piece><Points><DataArray type=\"Int8\" format=\"ascii\" "
@@ -205,6 +214,117 @@ TEST(VtpParser, ErrorsNameThePlace) {
                     6, "half a number");
   expect_bad_pieces(point("NumberOfComponents=\"3\" type=\"Int8\" format=\"appended\" offset=\"9\"", ""), 6,
                     "behind the end");
+}
+
+std::string point_data(const std::string& arrays) {
+  return "<PointData>" + arrays + "</PointData>\n";
+}
+
+TEST(VtpParser, ErrorsNameTheCellWithinItsPiece) {
+  const std::string first = piece_of_points(3, cells("Polys", "0 1 2", "3"));  // lines 5 to 9
+  const auto bad = [&](const std::string& second, const std::string& cause) {
+    expect_bad_pieces(first + piece_of_points(4, second), 13, cause);
+  };
+  bad(cells("Polys", "0 1 2 0 1 4", "3 6"), "polygon 1 uses a vertex that does not exist");
+  bad(cells("Polys", "0 1 2 0 1 0", "3 6"), "polygon 1 uses a vertex twice");
+  bad(cells("Strips", "0 1 2 0 1 2 4", "3 7"), "strip 1, triangle 1 uses a vertex that does not exist");
+  bad(cells("Strips", "0 1 2 4 4 4", "3 6"), "strip 1, triangle 0 uses a vertex that does not exist");
+  bad(cells("Strips", "0 1 2 0 1", "3 5"), "strip 1 has 2 corners");
+}
+
+TEST(VtpParser, ComponentsOfAllArraysAreBounded) {
+  std::string arrays;
+  for (int a = 0; a < 4; ++a) {
+    arrays += "<DataArray type=\"Int8\" Name=\"a" + std::to_string(a) +
+              "\" format=\"ascii\" NumberOfComponents=\"1024\"/>\n";
+  }
+  const std::string begin = "<Piece>\n", end = "</Piece>\n";
+  EXPECT_EQ(parsed(begin + point_data(arrays) + end).columns.size(), 4096u);
+  const std::string one = "<DataArray type=\"Int8\" Name=\"b\" format=\"ascii\"/>";
+  expect_bad_pieces(begin + point_data(arrays + one) + end, 10, "more than 4096 components in all");
+  // Without points there are names alone.
+  EXPECT_EQ(parsed(begin + point_data(arrays) + end + begin + point_data(arrays) + end).columns.size(),
+            4096u);
+  expect_bad_pieces(begin + point_data(one + one) + end, 6, "two arrays");
+  for (const char* components : {"0", "4097"}) {
+    expect_bad_pieces(begin +
+                          point_data("<DataArray type=\"Int8\" Name=\"b\" format=\"ascii\" "
+                                     "NumberOfComponents=\"" +
+                                     std::string(components) + "\"/>") +
+                          end,
+                      6, std::string("has ") + components + " components");
+  }
+}
+
+TEST(VtpParser, ArraysDoNotShareTheirData) {
+  constexpr std::size_t kPoints = 1000;
+  Encoder encoder{"raw"};
+  const std::string points = encoder.array("type=\"Int8\" Name=\"P\" NumberOfComponents=\"3\"",
+                                           std::vector<std::int8_t>(3 * kPoints));
+  const std::string offset = std::to_string(encoder.appended.size());
+  encoder.array("type=\"Int8\" Name=\"a\"", std::vector<std::int8_t>(kPoints));
+  const auto file = [&](int arrays) {
+    std::string tags;
+    for (int a = 0; a < arrays; ++a) {
+      tags += "<DataArray type=\"Int8\" Name=\"a" + std::to_string(a) + "\" format=\"appended\" offset=\"" +
+              offset + "\"/>\n";
+    }
+    return encoder.file("<Piece>\n<Points>" + points + "</Points>\n" + point_data(tags) + "</Piece>\n");
+  };
+  EXPECT_EQ(parse_shape("a.vtp", file(1)).columns.size(), 1u);
+  // 3000 + 1000 n values are more than its 5000 to 6000 bytes from the third array on.
+  expect_bad(file(15), 10, "share");
+}
+
+TEST(VtpParser, CommentsDoNotEndTheTextOfAnArray) {
+  const std::string begin = "<Piece><Points><DataArray NumberOfComponents=\"3\" type=\"Int8\" format=\"",
+                    end = "</DataArray></Points></Piece>";
+  const std::string comment = "<!-- 7 < 8 > 9 </DataArray> -->";
+  const std::string child = "<InformationKey><Value index=\"0\">7</Value> 8 </InformationKey>";
+  for (const std::string& text :
+       {"1 2 3 4 " + comment + "5 6", "1 2 " + comment + comment + " 3 4 5 6" + comment,
+        child + "1 2 3 4 5 6", "1 2 3 " + child + "4 5" + comment + " 6", "1 2 3 <a/>4 <?b?>5 6" + child}) {
+    EXPECT_EQ(parsed(begin + "ascii\">" + text + end).mesh().points,
+              (std::vector<core::Vec3>{{1, 2, 3}, {4, 5, 6}}))
+        << text;
+  }
+  const std::string digits = base64(std::string("\3\0\0\0\1\2\3", 7));
+  EXPECT_EQ(
+      parsed(begin + "binary\">" + digits.substr(0, 5) + comment + digits.substr(5) + end).mesh().points,
+      (std::vector<core::Vec3>{{1, 2, 3}}));
+  expect_bad_pieces(begin + "ascii\"><![CDATA[1 2 3]]>" + end, 5, "CDATA");
+}
+
+TEST(VtpParser, PiecesHoldWhatTheyAnnounce) {
+  const std::string all = cells("Verts", "0 1 2", "2 3") + cells("Strips", "0 1 2", "3") +
+                          cells("Polys", "0 1 2 2 1 3 0 1 2 3", "3 6 10");
+  const auto with = [&](const std::string& attributes) {
+    std::string piece = piece_of_points(4, all);
+    return piece.insert(std::string("<Piece").size(), attributes);
+  };
+  const ShapeFile shape =
+      parsed(with(" NumberOfPoints=\"4\" NumberOfVerts=\"2\" NumberOfStrips=\"1\" "
+                  "NumberOfPolys=\"3\" NumberOfLines=\"0\""));
+  EXPECT_EQ(shape.mesh().triangles.size(), 5u);
+  expect_bad_pieces(with(" NumberOfPoints=\"7\""), 5, "announces NumberOfPoints 7, but holds 4");
+  expect_bad_pieces(with(" NumberOfVerts=\"3\""), 5, "announces NumberOfVerts 3, but holds 2");
+  expect_bad_pieces(with(" NumberOfStrips=\"0\""), 5, "announces NumberOfStrips 0, but holds 1");
+  expect_bad_pieces(with(" NumberOfPolys=\"4\""), 5, "announces NumberOfPolys 4, but holds 3");
+  expect_bad_pieces(with(" NumberOfPolys=\"x\""), 5, "'x'");
+  expect_bad_pieces("<Piece NumberOfPoints=\"1\"/>", 5, "announces NumberOfPoints 1, but holds 0");
+  for (const char* ends : {"", "3"}) {
+    expect_bad_pieces(piece_of_points(4, cells("Polys", "0 1 2 1 2 3", ends)), 8, "6 corners");
+  }
+}
+
+TEST(VtpParser, FilesCutOffAreRefused) {
+  const std::string whole = Encoder{"ascii"}.file(piece_of_points(4, cells("Polys", "0 1 2", "3")));
+  for (std::size_t size = 0; size < whole.size() - 1; ++size) {
+    EXPECT_THROW(parse_shape("a.vtp", whole.substr(0, size)), ClientError) << size;
+  }
+  EXPECT_EQ(parse_shape("a.vtp", whole.substr(0, whole.size() - 1)).mesh().points.size(), 4u);
+  expect_bad(whole.substr(0, whole.find("</Piece>")), 8, "without </VTKFile>");
+  expect_bad(whole.substr(0, whole.find("<Polys>")) + "<Polys><DataArray>0 1", 8, "does not end");
 }
 
 TEST(VtpParser, SaysThatItDoesNotReadCompressedData) {
