@@ -10,36 +10,13 @@
 #include "client/console.h"
 #include "client/exporters/numbers.h"
 #include "client/exporters/stored_type.h"
-#include "client/utf8.h"
 #include "client/vtk_arrays.h"
+#include "client/xml_text.h"
 
 namespace affskel::client {
 namespace {
 
 using Write = std::function<void(std::string_view)>;
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : to_utf8(text)) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe.push_back(c);
-    }
-  }
-  return safe;
-}
 
 const char* vtk_type(Stored stored) {
   constexpr const char* kTypes[] = {"Int32", "UInt32", "Float64"};
@@ -134,7 +111,7 @@ class VtpWriter {
     for (const PointColumn& part : parts) {
       if (stored_as(part) != stored) stored = Stored::kDouble;
     }
-    std::string attributes = std::string("type=\"") + vtk_type(stored) + "\" Name=\"" + escaped(name) + "\"";
+    std::string attributes = std::string("type=\"") + vtk_type(stored) + "\" Name=\"" + xml_text(name) + "\"";
     if (parts.size() > 1) attributes += " NumberOfComponents=\"" + std::to_string(parts.size()) + "\"";
     describe(attributes, parts.size() * mesh_.points.size() * bytes_of(stored), [this, parts, stored] {
       std::string row;

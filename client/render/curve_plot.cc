@@ -4,7 +4,7 @@
 
 #include "client/console.h"
 #include "client/exporters/numbers.h"
-#include "client/utf8.h"
+#include "client/xml_text.h"
 
 namespace affskel::client {
 namespace {
@@ -12,29 +12,6 @@ namespace {
 // Pixels.  The legend stands above the axes, where no curve can be.
 constexpr double kWidth = 800, kHeight = 560;
 constexpr double kLeft = 70, kRight = 770, kTop = 150, kBottom = 490;
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : to_utf8(printable(text))) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 // A place on the picture, to a hundredth of a pixel.
 std::string pixel(double value) {
@@ -54,7 +31,8 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
 }
 
 std::string text(double x, double y, const std::string& style, const std::string& words) {
-  return "<text x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" " + style + ">" + escaped(words) + "</text>\n";
+  return "<text x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" " + style + ">" + xml_text(printable(words)) +
+         "</text>\n";
 }
 
 class Drawing {
@@ -66,7 +44,8 @@ class Drawing {
            pixel(kHeight) + "\" viewBox=\"0 0 " + pixel(kWidth) + " " + pixel(kHeight) +
            "\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" font-size=\"14\" "
            "fill=\"#222\">\n<title>" +
-           escaped(plot_.title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+           xml_text(printable(plot_.title)) +
+           "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     svg_ += text(kLeft, 28, "font-size=\"17\" font-weight=\"bold\"", plot_.title);
     for (std::size_t i = 0; i < plot_.notes.size(); ++i) {
       svg_ += text(kLeft, 50 + 18 * static_cast<double>(i), "font-size=\"13\" fill=\"#555\"",
