@@ -31,6 +31,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
   if (disk_full_) live_on_reserve();
   let_pages_go(db_, options_.free_bytes(directory_of(file_)));
   write([](Tx& tx) {
+    settle_finished_blocks(tx);
     return tx.db.run("UPDATE tasks SET deadline_ms = ? WHERE state = 'leased'",
                      tx.lease_ms + tx.options.lease_ms);
   });

@@ -11,6 +11,7 @@
 #include "store/errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
+#include "store/tasks.h"
 
 namespace affskel::server {
 namespace {
@@ -150,6 +151,10 @@ void Store::make_room(const Changes& undone) {
 
 /// Jobs that were stuck go on.
 void Store::tell_room() {
+  write([](Tx& tx) {
+    settle_finished_blocks(tx);
+    return true;
+  });
   if (listener_ == nullptr) return;
   Changes changes;
   changes.work = true;

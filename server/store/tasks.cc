@@ -256,7 +256,8 @@ void settle_job(Tx& tx, const std::string& job_id) {
           .integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = 'erode' AND state <> 'done' LIMIT 1",
                    job_id)
           .has_value();
-  if (job.stage == v1::JOB_STAGE_ERODE && !blocks_left) finish_erosion(tx, job);
+  // That may write the whole field, for which a full disk has no room: see settle_finished_blocks().
+  if (job.stage == v1::JOB_STAGE_ERODE && !blocks_left && tx.room) finish_erosion(tx, job);
   if (job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job)) return;
   if (!job.cancel_requested) return;
   if (tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND state = 'leased' AND on_request = 0 LIMIT 1",
@@ -266,6 +267,17 @@ void settle_job(Tx& tx, const std::string& job_id) {
   tx.db.run("UPDATE jobs SET state = 'cancelled', cancel_requested = 0, finished_ms = ? WHERE id = ?",
             tx.wall_ms, job_id);
   log_state(tx, job, v1::JOB_STATE_CANCELLED, job.stage);
+}
+
+void settle_finished_blocks(Tx& tx) {
+  std::vector<std::string> jobs;
+  {
+    Statement row = tx.db.query(
+        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND stage = 'erode' AND NOT EXISTS"
+        " (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = 'erode' AND state <> 'done')");
+    while (row.step()) jobs.push_back(row.text(0));
+  }
+  for (const std::string& job : jobs) settle_job(tx, job);
 }
 
 }  // namespace affskel::server

@@ -67,4 +67,7 @@ void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error);
 /// change to its tasks.
 void settle_job(Tx& tx, const std::string& job_id);
 
+/// Moves on the jobs whose last block ended when there was no room for their fields.
+void settle_finished_blocks(Tx& tx);
+
 }  // namespace affskel::server

@@ -161,6 +161,35 @@ TEST_F(FullDiskTest, AWorkerThatTriesAgainKeepsItsLease) {
   EXPECT_EQ(store_->expire_leases(), 1) << "silent workers lose theirs as ever";
 }
 
+// The end of the last block merges the log into the field, for which there is no room.
+TEST_F(FullDiskTest, AJobWhoseLastBlockEndsOnAFullDiskGoesOnWhenThereIsRoom) {
+  const v1::Job job = submit();
+  prepare(100000, 8);
+  v1::Lease block = lease();
+  for (;;) {
+    const std::uint64_t begin = block.positions(0).begin(), end = block.positions(0).end();
+    if (end == 8) break;
+    report(block, begin, end, true);
+    block = lease();
+  }
+  report(block, block.positions(0).begin(), block.positions(0).end());  // not called done, and then it dies
+  for (const bool again : {false, true}) {
+    disk_.leave(0);
+    clock_.advance(options_.lease_ms + 1);
+    EXPECT_NO_THROW(store_->expire_leases());
+    EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_RUNNING);
+    EXPECT_EQ(store_->job(job.id()).stage(), v1::JOB_STAGE_ERODE) << again;
+    store_.reset();  // a new server finds the disk as full
+    disk_.leave(options_.reserve_bytes / 2);
+    open();
+  }
+  disk_.leave(100 * kMiB);
+  store_->tidy();
+  EXPECT_EQ(store_->job(job.id()).stage(), v1::JOB_STAGE_DERIVE);
+  derive();
+  EXPECT_TRUE(field(job.id()) == expected_field(100000, 8));
+}
+
 TEST_F(FullDiskTest, AJobTooLargeForTheDiskHoldsOthersUpOnlyUntilItIsCancelledOrAMinuteHasPassed) {
   const v1::Job large = submit();
   prepare(500000, 16);
