@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/error.h"
+#include "core/base/require.h"
 #include "core/chords/chord_cells.h"
 #include "core/chords/chord_squares.h"
 
@@ -263,19 +263,16 @@ class Pruning {
   SignificantShocks result_;
 };
 
-void check(double value, double low, double high, const char* message) {
-  if (!(value >= low && value <= high)) throw CoreError(CoreError::Code::kBadInput, message);
-}
-
 }  // namespace
 
 SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,
                                      const std::vector<ChordShock>& candidates,
                                      const ChordPruningOptions& options) {
-  check(options.significance, 0, 1, "the significance must lie between 0 and 1");
-  check(options.strong_turn, 0, 1, "the turn of strong shocks must lie between 0 and 1");
-  check(options.least_erosion, 0, 1, "the least erosion must be a share of the volume between 0 and 1");
-  check(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
+  require_within(options.significance, 0, 1, "the significance must lie between 0 and 1");
+  require_within(options.strong_turn, 0, 1, "the turn of strong shocks must lie between 0 and 1");
+  require_within(options.least_erosion, 0, 1,
+                 "the least erosion must be a share of the volume between 0 and 1");
+  require_within(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
   return Pruning(lattice, parts, candidates, options).run();
 }
 

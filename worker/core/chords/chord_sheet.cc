@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/matrix3.h"
 #include "core/base/near_one.h"
+#include "core/base/require.h"
 #include "core/chords/chord_cells.h"
 #include "core/chords/chord_edge.h"
 #include "core/chords/chord_pinholes.h"
@@ -215,11 +216,8 @@ double strong_turn(const std::vector<ChordShock>& shocks, const ChordSheetOption
 
 ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const ChordSheetOptions& options) {
-  for (const double share : {options.strong_share, options.least_strong_turn}) {
-    if (!(share >= 0 && share <= 1)) {
-      throw CoreError(CoreError::Code::kBadInput, "the shares of strong turns must lie between 0 and 1");
-    }
-  }
+  for (const double share : {options.strong_share, options.least_strong_turn})
+    require_within(share, 0, 1, "the shares of strong turns must lie between 0 and 1");
   if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
     throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
   }

@@ -6,17 +6,13 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/error.h"
 #include "core/base/near_one.h"
+#include "core/base/require.h"
 #include "core/chords/chord_edge.h"
 #include "core/erosion/field.h"
 
 namespace affskel::core {
 namespace {
-
-void check(double value, double low, double high, const char* message) {
-  if (!(value >= low && value <= high)) throw CoreError(CoreError::Code::kBadInput, message);
-}
 
 class ShockFinder {
  public:
@@ -58,10 +54,10 @@ class ShockFinder {
 
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
                                      const ChordShockOptions& options) {
-  check(options.least_strength, 0, 1, "the least strength of a shock must lie between 0 and 1");
-  check(options.least_opening, 0, 1, "the least opening of a shock must lie between 0 and 1");
-  check(options.slack, 0, std::numeric_limits<double>::max(),
-        "the slack of a crossing must be a finite number >= 0");
+  require_within(options.least_strength, 0, 1, "the least strength of a shock must lie between 0 and 1");
+  require_within(options.least_opening, 0, 1, "the least opening of a shock must lie between 0 and 1");
+  require_within(options.slack, 0, std::numeric_limits<double>::max(),
+                 "the slack of a crossing must be a finite number >= 0");
   return ShockFinder(lattice, field, options).run();
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/near_one.h"
+#include "core/base/require.h"
 #include "core/chords/chord_cells.h"
 #include "core/chords/chord_edge.h"
 
@@ -146,9 +147,7 @@ void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameF
   if (options.reach > kMost || options.rounds > kMost) {
     throw CoreError(CoreError::Code::kBadInput, "reach and rounds of the turns must lie between 0 and 16");
   }
-  if (!(options.least_share >= 0 && options.least_share <= 1)) {
-    throw CoreError(CoreError::Code::kBadInput, "the least share of the jump must lie between 0 and 1");
-  }
+  require_within(options.least_share, 0, 1, "the least share of the jump must lie between 0 and 1");
   const ChordCells cells = chord_cells(lattice, parts, shocks);
   TurnGauge gauge(lattice, field, cells, shocks, options);
   gauge.measure();
