@@ -1,11 +1,11 @@
 #include "client/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <stdexcept>
 
 #include "client/command_parts.h"
 #include "client/help_format.h"
-#include "core/base/error.h"
-#include "core/erosion/directions.h"
+#include "wire/params.h"
 #include "wire/version.h"
 
 namespace affskel::client {
@@ -15,9 +15,9 @@ CLI::Validator direction_set() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         try {
-          text = core::canonical_directions(text);
+          text = wire::canonical_directions(text);
           return {};
-        } catch (const core::CoreError& error) {
+        } catch (const std::invalid_argument& error) {
           return error.what();
         }
       },

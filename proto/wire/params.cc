@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 namespace affskel::wire {
@@ -60,6 +59,8 @@ std::string canonical_direction_part(std::string_view part) {
   return text;
 }
 
+}  // namespace
+
 std::string canonical_directions(std::string_view text) {
   if (text.empty()) return "triangles";
   std::string joined;
@@ -69,8 +70,6 @@ std::string canonical_directions(std::string_view text) {
   }
   return joined;
 }
-
-}  // namespace
 
 v1::ErosionParams canonical(const v1::ErosionParams& params) {
   v1::ErosionParams result = params;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "affskel/v1/types.pb.h"
 
@@ -11,6 +12,11 @@ inline constexpr double kZuckerHummelThreshold = 7.0;
 
 /// Level of an eroded solid when none is asked for, as a share of v0.
 inline constexpr double kErodedFraction = 0.1;
+
+/// The one spelling of a direction set (see Sampling's `directions`): no blanks, no leading zeros; empty is
+/// "triangles".
+/// @throws std::invalid_argument, naming the part and what is wrong with it.
+std::string canonical_directions(std::string_view text);
 
 /// Canonical forms: defaults filled in, the direction set spelled in one way, so that equal requests are
 /// equal messages.  Idempotent.

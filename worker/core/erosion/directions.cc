@@ -164,23 +164,4 @@ DirectionSet make_directions(const Solid& solid, std::string_view spec, const Di
   return set;
 }
 
-std::string canonical_directions(std::string_view spec) {
-  std::string text;
-  for (const Part& part : parse(spec)) {
-    if (!text.empty()) text += "+";
-    switch (part.kind) {
-      case Part::Kind::kTriangles:
-        text += "triangles";
-        break;
-      case Part::Kind::kSphere:
-        text += "sphere:" + std::to_string(part.count);
-        break;
-      case Part::Kind::kRandom:
-        text += "random:" + std::to_string(part.count) + ":" + std::to_string(part.seed);
-        break;
-    }
-  }
-  return text;
-}
-
 }  // namespace affskel::core

@@ -34,8 +34,4 @@ struct DirectionOptions {
 /// @throws CoreError kBadInput for a spec that does not parse; kLimit for too many directions.
 DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options = {});
 
-/// Checks the spec's form only and returns it in canonical form: no blanks, no leading zeros or plus signs.
-/// @throws CoreError kBadInput.
-std::string canonical_directions(std::string_view spec);
-
 }  // namespace affskel::core

@@ -79,7 +79,6 @@ TEST(MakeDirections, RefusesWhatDoesNotParse) {
        {"", "triangle", "sphere", "sphere:", "sphere:0", "sphere:-5", "random:5", "random:5:x", "triangles+",
         "+triangles", "sphere:1e3", "sphere:99999999999999999999"}) {
     EXPECT_THROW(make_directions(box(), spec), CoreError) << spec;
-    EXPECT_THROW(canonical_directions(spec), CoreError) << spec;
   }
   try {
     make_directions(box(), "random:1000000000000:1");
@@ -87,10 +86,6 @@ TEST(MakeDirections, RefusesWhatDoesNotParse) {
   } catch (const CoreError& error) {
     EXPECT_EQ(error.code(), CoreError::Code::kLimit);
   }
-}
-
-TEST(CanonicalDirections, DropsLeadingZeros) {
-  EXPECT_EQ(canonical_directions("sphere:007+triangles+random:010:0"), "sphere:7+triangles+random:10:0");
 }
 
 }  // namespace
