@@ -339,5 +339,33 @@ TEST_F(ClientServiceTest, IsIdleOnlyWithoutWorkAndClients) {
   while (server_->idle_time() == std::chrono::steady_clock::duration::zero()) std::this_thread::yield();
 }
 
+// No client calls: they would count by themselves.
+TEST_F(ClientServiceTest, IsNotIdleWhileDeletedJobsAreTidiedAway) {
+  constexpr auto kZero = std::chrono::steady_clock::duration::zero();
+  const std::string mesh = "OFF 1";
+  const std::string id = server_->store().submit(submit_header(mesh, "body"), mesh).job.id();
+  Database db(server_->store().file(), Database::Mode::kReadWrite);
+  // Tidying has no end as long as what it deletes comes back.
+  db.execute(
+      "CREATE TABLE steps (id INTEGER PRIMARY KEY);"
+      "CREATE TRIGGER comes_back AFTER DELETE ON mesh_chunks BEGIN"
+      " INSERT INTO steps VALUES (NULL);"
+      " INSERT INTO mesh_chunks (sha256, idx, data) VALUES (OLD.sha256, OLD.idx, OLD.data);"
+      " END");
+  server_->store().cancel(id);
+  server_->store().remove(id);
+  // With the second step begun, the server knows that the first was not the last.
+  while (db.integer("SELECT count(*) FROM steps") < 2) std::this_thread::yield();
+  const auto still_tidying = std::chrono::steady_clock::now();
+  EXPECT_EQ(server_->idle_time(), kZero);
+
+  db.execute("DROP TRIGGER comes_back");
+  auto idle = kZero;
+  while (idle == kZero) idle = server_->idle_time();
+  EXPECT_EQ(db.integer("SELECT count(*) FROM mesh_chunks"), 0) << "idle with a deleted mesh on the disk";
+  EXPECT_LE(idle, std::chrono::steady_clock::now() - still_tidying)
+      << "counted from before the end of tidying";
+}
+
 }  // namespace
 }  // namespace affskel::server

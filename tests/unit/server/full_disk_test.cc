@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <barrier>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <latch>
 #include <optional>
 #include <string>
 #include <thread>
@@ -99,21 +100,58 @@ TEST_F(FullDiskTest, JobsAreCancelledAndDeletedWhereNothingElseCanBeWritten) {
   EXPECT_EQ(submit("OFF 4").state(), v1::JOB_STATE_QUEUED);
 }
 
-// All of them find the disk full, one gives the reserve away: the others may use it, too.
+/// Holds up everybody who found the disk full until all of them have: a store that finds its disk full asks
+/// for the time before it gives the reserve away.
+class AllFindItFull final : public Clock {
+ public:
+  AllFindItFull(const Clock& clock, const SmallDisk& disk, std::ptrdiff_t users)
+      : clock_(clock), disk_(disk), users_to_come_(users) {}
+
+  std::int64_t wall_ms() const override { return clock_.wall_ms(); }
+  std::int64_t lease_ms() const override {
+    if (disk_.refused_this_thread() && !counted_) {
+      counted_ = true;
+      ++found_it_full_;
+      users_to_come_.arrive_and_wait();
+    }
+    return clock_.lease_ms();
+  }
+
+  /// The user of this thread has done what he wanted: the others do not wait for him.
+  void leave() const {
+    if (!counted_) users_to_come_.count_down();
+  }
+
+  std::ptrdiff_t found_it_full() const { return found_it_full_; }
+
+ private:
+  const Clock& clock_;
+  const SmallDisk& disk_;
+  mutable std::latch users_to_come_;
+  mutable std::atomic<std::ptrdiff_t> found_it_full_ = 0;
+  inline static thread_local bool counted_ = false;
+};
+
+// All of them find the disk full before the first gives the reserve away: the others may use it, too.
 TEST_F(FullDiskTest, EverybodyMayCancelWhenTheDiskGetsFull) {
   std::vector<std::string> jobs;
   for (int i = 0; i < 8; ++i) jobs.push_back(submit("OFF " + std::to_string(i), "queued").id());
+  const AllFindItFull clock(clock_, disk_, std::ssize(jobs));
+  store_.reset();
+  store_ = std::make_unique<Store>(database(), options_, clock);
   disk_.leave(0);
-  std::barrier together(static_cast<std::ptrdiff_t>(jobs.size()));
   std::vector<std::thread> users;
   for (const std::string& job : jobs) {
     users.emplace_back([&] {
-      together.arrive_and_wait();
       EXPECT_NO_THROW(store_->cancel(job));
+      clock.leave();
     });
   }
   for (std::thread& user : users) user.join();
+  EXPECT_EQ(clock.found_it_full(), std::ssize(jobs));
+  EXPECT_TRUE(store_->disk_full());
   for (const std::string& job : jobs) EXPECT_EQ(store_->job(job).state(), v1::JOB_STATE_CANCELLED);
+  store_.reset();  // before its clock
 }
 
 TEST_F(FullDiskTest, WhatWasAcknowledgedIsKeptAndTheRestGoesOnWhenThereIsRoom) {

@@ -16,6 +16,8 @@ namespace {
 // SQLite's calls carry no context.
 std::string disk_directory;
 std::atomic<std::uint64_t> capacity = 0;
+std::atomic<int> disks = 0;
+thread_local int last_refusal = 0;  // the number of the disk
 
 std::uint64_t used_bytes() {
   std::uint64_t used = 0;
@@ -29,7 +31,9 @@ std::uint64_t used_bytes() {
 bool has_room(int fd, off_t end) {
   struct stat status {};
   if (fstat(fd, &status) != 0 || end <= status.st_size) return true;
-  return used_bytes() + static_cast<std::uint64_t>(end - status.st_size) <= capacity;
+  if (used_bytes() + static_cast<std::uint64_t>(end - status.st_size) <= capacity) return true;
+  last_refusal = disks;
+  return false;
 }
 
 ssize_t pwrite_in_room(int fd, const void* bytes, size_t count, off_t offset) {
@@ -44,7 +48,7 @@ int fallocate_in_room(int fd, off_t offset, off_t length) {
 
 }  // namespace
 
-SmallDisk::SmallDisk(const std::string& directory) : vfs_(sqlite3_vfs_find(nullptr)) {
+SmallDisk::SmallDisk(const std::string& directory) : vfs_(sqlite3_vfs_find(nullptr)), number_(++disks) {
   disk_directory = directory;
   capacity = std::numeric_limits<std::uint64_t>::max();
   for (const char* name : {"pwrite", "pwrite64"}) {
@@ -67,6 +71,10 @@ std::uint64_t SmallDisk::free() const {
 
 void SmallDisk::leave(std::uint64_t bytes) {
   capacity = used_bytes() + bytes;
+}
+
+bool SmallDisk::refused_this_thread() const {
+  return last_refusal == number_;
 }
 
 }  // namespace affskel::server

@@ -23,8 +23,12 @@ class SmallDisk {
   /// Others write so much that only this is left.
   void leave(std::uint64_t bytes);
 
+  /// Whether the calling thread was refused room here.
+  bool refused_this_thread() const;
+
  private:
   sqlite3_vfs* vfs_;
+  int number_;  // of the disks of this process, from 1
 };
 
 }  // namespace affskel::server
