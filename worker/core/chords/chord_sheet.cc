@@ -111,6 +111,7 @@ class Contouring {
       v.normal_b = v.normal_b + unit(seen.gradient_b);
     }
     v.erosion = std::max(v.erosion, 0.0);
+    v.strength = std::min(v.strength, 1.0);  // a mean may round up
     v.normal_a = unit(v.normal_a);
     v.normal_b = unit(v.normal_b);
     return v;
