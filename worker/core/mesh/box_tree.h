@@ -35,15 +35,19 @@ class BoxTree {
   /// O(N log N), on up to `threads` threads.
   explicit BoxTree(std::vector<Box> boxes, unsigned threads = 1);
 
+  /// The box that was given with this index.
+  const Box& box(std::uint32_t index) const { return boxes_[index]; }
+
   /// Calls visit(index) for every box that meets `query`, in an order of the tree's own.
-  template <class Visit>
-  void visit(const Box& query, Visit visit) const {
+  /// @param query a Box, or anything that tells by meets(Box) whether it may meet what is in a box.
+  template <class Query = Box, class Visit>
+  void visit(const Query& query, Visit visit) const {
     walk(query, -1, visit);
   }
 
   /// The same for the indices > `above`.
-  template <class Visit>
-  void visit_above(const Box& query, std::int64_t above, Visit visit) const {
+  template <class Query = Box, class Visit>
+  void visit_above(const Query& query, std::int64_t above, Visit visit) const {
     walk(query, above, visit);
   }
 
@@ -58,8 +62,8 @@ class BoxTree {
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
 
-  template <class Visit>
-  void walk(const Box& query, std::int64_t above, Visit visit) const {
+  template <class Query = Box, class Visit>
+  void walk(const Query& query, std::int64_t above, Visit visit) const {
     if (nodes_.empty()) return;
     std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
     std::size_t depth = 0;
@@ -67,14 +71,14 @@ class BoxTree {
     while (depth > 0) {
       const std::uint32_t index = stack[--depth];
       const Node& node = nodes_[index];
-      if (node.greatest <= above || !node.box.meets(query)) continue;
+      if (node.greatest <= above || !query.meets(node.box)) continue;
       if (node.right != 0) {
         stack[depth++] = node.right;
         stack[depth++] = index + 1;
         continue;
       }
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        if (items_[i] > above && boxes_[items_[i]].meets(query)) visit(items_[i]);
+        if (items_[i] > above && query.meets(boxes_[items_[i]])) visit(items_[i]);
       }
     }
   }

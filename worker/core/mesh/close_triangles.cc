@@ -1,6 +1,7 @@
 #include "core/mesh/close_triangles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,8 +10,8 @@
 namespace affskel::core {
 namespace {
 
-// From here on a fan gets boxes of its own: below, comparing all its triangles costs less.
-constexpr std::uint32_t kLargeFan = 64;
+// From here on fans and slivers get boxes of their own: below, comparing all the triangles costs less.
+constexpr std::uint32_t kMany = 64;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
@@ -46,39 +47,27 @@ Box arc_box(const Vec3& v, const Vec3& p, const Vec3& q) {
   return widened(around(unit_p, unit_q), rise + 16 * kEps);
 }
 
-// Boxes that cover the triangle v, p, q: of its parts from v half of the way to the side pq, half of the
-// rest, and so on, until a part is about as long as the side.
-void append_pieces(const Vec3& v, const Vec3& p, const Vec3& q, const Box& whole, std::vector<Box>& pieces) {
-  constexpr int kMost = 30;
-  const double length = std::max(largest(p - v), largest(q - v)), width = largest(q - p);
-  // What the rounding of a point between v and p or q may come to.
-  const double margin = 4 * kEps * std::max({largest(v), largest(p), largest(q)}) +
-                        4 * std::numeric_limits<double>::denorm_min();
-  Vec3 p_before = v, q_before = v;
-  double rest = 1;
-  for (int k = 0; k < kMost && rest * length > 2 * width; ++k) {
-    rest /= 2;
-    const Vec3 p_next = rest * v + (1 - rest) * p, q_next = rest * v + (1 - rest) * q;
-    Box piece = around(p_before, q_before);
-    piece.include(around(p_next, q_next));
-    piece = widened(piece, margin);
-    for (std::size_t c = 0; c < 3; ++c) {
-      piece.low[c] = std::max(piece.low[c], whole.low[c]);
-      piece.high[c] = std::min(piece.high[c], whole.high[c]);
-    }
-    pieces.push_back(piece);
-    p_before = p_next;
-    q_before = q_next;
+std::vector<Box> arc_boxes(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::uint32_t>& fan) {
+  std::vector<Box> arcs;
+  arcs.reserve(fan.size());
+  for (const std::uint32_t i : fan) {
+    const Triangle& t = mesh.triangles[i];
+    const std::size_t at = t[1] == vertex ? 1 : t[2] == vertex ? 2 : 0;
+    arcs.push_back(arc_box(mesh.points[vertex], mesh.points[t[(at + 1) % 3]], mesh.points[t[(at + 2) % 3]]));
   }
-  Box last = widened(around(p_before, q_before), margin);
-  last.include(around(p, q));
-  pieces.push_back(last);
+  return arcs;
 }
 
-// The corners of a triangle of the fan, the fan's vertex first.
-Triangle from_vertex(const Triangle& t, std::uint32_t vertex) {
-  if (t[1] == vertex) return {t[1], t[2], t[0]};
-  return t[2] == vertex ? Triangle{t[2], t[0], t[1]} : t;
+// Whether the box reaches far beyond a triangle's width in two directions or three.
+bool is_oblique_sliver(const Box& box, const Corners& corners, double unit) {
+  constexpr double kFar = 64;
+  const Vec3 a = corners[1] - corners[0], b = corners[2] - corners[1], c = corners[0] - corners[2];
+  std::array<double, 3> sides{};
+  for (std::size_t k = 0; k < 3; ++k) sides[k] = unit * (box.high[k] - box.low[k]);
+  std::sort(sides.begin(), sides.end());
+  const double longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+  const Vec3 area = cross(a, b);
+  return sides[1] * sides[1] * longest > kFar * kFar * dot(area, area);
 }
 
 }  // namespace
@@ -88,63 +77,59 @@ std::uint32_t CloseTriangles::Members::behind(std::uint32_t i) const {
 }
 
 CloseTriangles::CloseTriangles(const Mesh& mesh, const std::vector<Box>& boxes, unsigned threads)
-    : boxes_(boxes) {
-  assign_fans(mesh);
-  if (fans_.empty()) {
+    : boxes_(boxes), triangles_(mesh) {
+  assign_groups(mesh);
+  if (groups_.empty()) {
     loose_.tree = BoxTree(boxes, threads);
     return;
   }
   std::vector<Box> loose, whole;
   for (const std::uint32_t t : loose_.members.index) loose.push_back(boxes[t]);
   loose_.tree = BoxTree(std::move(loose), threads);
-  for (Fan& fan : fans_) {
-    cut(mesh, fan, threads);
-    whole.push_back(boxes[fan.members.index.front()]);
-    for (const std::uint32_t t : fan.members.index) whole.back().include(boxes[t]);
+  for (Group& group : groups_) {
+    const std::vector<std::uint32_t>& index = group.members.index;
+    group.tree = OrientedBoxTree(triangles_, index, threads);
+    if (group.is_fan()) group.arcs = BoxTree(arc_boxes(mesh, group.vertex, index), threads);
+    whole.push_back(boxes[index.front()]);
+    for (const std::uint32_t t : index) whole.back().include(boxes[t]);
   }
-  fan_tree_ = BoxTree(std::move(whole), threads);
+  group_tree_ = BoxTree(std::move(whole), threads);
 }
 
 // Each triangle goes to the largest of the large fans at its corners.  What it then has to do with a smaller
 // fan at another corner is found triangle by triangle: of two neighbouring vertices, the lesser number of
 // triangles counts, and in a surface like a sphere's these sum to O(N) (Chiba and Nishizeki 1985).
-void CloseTriangles::assign_fans(const Mesh& mesh) {
+void CloseTriangles::assign_groups(const Mesh& mesh) {
   std::vector<std::uint32_t> valence(mesh.points.size(), 0);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) ++valence[v];
   }
-  if (std::none_of(valence.begin(), valence.end(), [](std::uint32_t n) { return n > kLargeFan; })) return;
-  fan_of_.assign(mesh.triangles.size(), kNone);
+  group_of_.assign(mesh.triangles.size(), kNone);
   std::map<std::uint32_t, std::uint32_t> fan_at;
+  Group slivers;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     const std::uint32_t home = *std::max_element(t.begin(), t.end(), [&](std::uint32_t v, std::uint32_t w) {
       return std::pair(valence[v], w) < std::pair(valence[w], v);
     });
-    if (valence[home] <= kLargeFan) {
-      loose_.members.index.push_back(i);
-      continue;
+    if (valence[home] > kMany) {
+      const auto [place, added] = fan_at.emplace(home, static_cast<std::uint32_t>(groups_.size()));
+      if (added) groups_.emplace_back().vertex = home;
+      group_of_[i] = place->second;
+      groups_[place->second].members.index.push_back(i);
+    } else if (is_oblique_sliver(boxes_[i], triangles_.corners(i), triangles_.unit())) {
+      slivers.members.index.push_back(i);
     }
-    const auto [place, added] = fan_at.emplace(home, static_cast<std::uint32_t>(fans_.size()));
-    if (added) fans_.emplace_back().vertex = home;
-    fan_of_[i] = place->second;
-    fans_[place->second].members.index.push_back(i);
   }
-}
-
-void CloseTriangles::cut(const Mesh& mesh, Fan& fan, unsigned threads) const {
-  for (std::uint32_t local = 0; local < fan.members.index.size(); ++local) {
-    const std::uint32_t i = fan.members.index[local];
-    const Triangle t = from_vertex(mesh.triangles[i], fan.vertex);
-    const Vec3 &v = mesh.points[t[0]], &p = mesh.points[t[1]], &q = mesh.points[t[2]];
-    fan.arcs.push_back(arc_box(v, p, q));
-    fan.first_piece.push_back(static_cast<std::uint32_t>(fan.pieces.size()));
-    append_pieces(v, p, q, boxes_[i], fan.pieces);
-    fan.piece_member.resize(fan.pieces.size(), local);
+  if (slivers.members.index.size() > kMany) {
+    for (const std::uint32_t i : slivers.members.index)
+      group_of_[i] = static_cast<std::uint32_t>(groups_.size());
+    groups_.push_back(std::move(slivers));
   }
-  fan.first_piece.push_back(static_cast<std::uint32_t>(fan.pieces.size()));
-  fan.arc_tree = BoxTree(fan.arcs, threads);
-  fan.piece_tree = BoxTree(fan.pieces, threads);
+  if (groups_.empty()) return;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (group_of_[i] == kNone) loose_.members.index.push_back(i);
+  }
 }
 
 }  // namespace affskel::core

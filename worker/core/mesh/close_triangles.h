@@ -5,22 +5,24 @@
 
 #include "core/mesh/box_tree.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/oriented_box_tree.h"
 
 namespace affskel::core {
 
 /// Finds the triangles that come close to a triangle, by bounding boxes.
 ///
-/// Plain boxes fail in large fans, the triangles round a vertex with very many: their boxes all hold the
-/// vertex, and as slivers are long and oblique, boxes of a fan on the base of a cone meet nearly all boxes of
-/// its side.  Hence each large fan has boxes of its own: two of its triangles are compared as seen from the
-/// vertex, by boxes round the arcs that their opposite sides draw on the unit sphere; and they are compared
-/// with other triangles piece by piece, pieces getting shorter towards the opposite side.
+/// Boxes parallel to the axes fail where there are many slivers, long and oblique: the boxes of the sides of
+/// a tilted cylinder nearly all meet.  Hence slivers have boxes along their own directions.
+///
+/// All boxes fail within large fans, the triangles round a vertex with very many: all of them hold the
+/// vertex. Two triangles of such a fan are compared as seen from the vertex, by boxes round the arcs that
+/// their opposite sides draw on the unit sphere.
 ///
 /// Immutable after construction; queries from several threads are safe.
 class CloseTriangles {
  public:
-  /// O(N log N), on up to `threads` threads.  Keeps a reference to the boxes.  @param boxes of the mesh's
-  /// triangles.
+  /// O(N log N), on up to `threads` threads.  Keeps references to the mesh and to the boxes.
+  /// @param boxes of the mesh's triangles.
   CloseTriangles(const Mesh& mesh, const std::vector<Box>& boxes, unsigned threads = 1);
 
   /// Calls visit(j), once or several times, for every triangle j > i that has a point in common with triangle
@@ -28,15 +30,24 @@ class CloseTriangles {
   /// others nearby.
   template <class Visit>
   void visit_above(std::uint32_t i, Visit visit) const {
-    if (fans_.empty()) return loose_.tree.visit_above(boxes_[i], i, visit);
-    const std::uint32_t home = fan_of_[i];
-    if (home == kNone) return visit_strangers(boxes_[i], i, home, visit);
-    const Fan& fan = fans_[home];
-    const std::uint32_t local = fan.members.behind(i) - 1;
-    for (std::uint32_t p = fan.first_piece[local]; p < fan.first_piece[local + 1]; ++p) {
-      visit_strangers(fan.pieces[p], i, home, visit);
+    if (groups_.empty()) return loose_.tree.visit_above(boxes_[i], i, visit);
+    const std::uint32_t home = group_of_[i];
+    const Corners corners = triangles_.corners(i);
+    const Query query{boxes_[i], oriented_box(corners), triangles_.unit()};
+    const std::int64_t above = std::int64_t{loose_.members.behind(i)} - 1;
+    const auto visit_loose = [&](std::uint32_t k) { visit(loose_.members.index[k]); };
+    if (home == kNone) {
+      loose_.tree.visit_above(boxes_[i], above, visit_loose);
+    } else {
+      loose_.tree.visit_above(query, above, visit_loose);
     }
-    fan.arc_tree.visit_above(fan.arcs[local], local, [&](std::uint32_t k) { visit(fan.members.index[k]); });
+    group_tree_.visit(query, [&](std::uint32_t g) {
+      const Group& group = groups_[g];
+      if (g != home || !group.is_fan()) return group.tree.visit_above(i, corners, query.oriented, visit);
+      const std::uint32_t local = group.members.behind(i) - 1;
+      group.arcs.visit_above(group.arcs.box(local), local,
+                             [&](std::uint32_t k) { visit(group.members.index[k]); });
+    });
   }
 
  private:
@@ -49,12 +60,13 @@ class CloseTriangles {
     std::uint32_t behind(std::uint32_t i) const;
   };
 
-  struct Fan {
-    std::uint32_t vertex = 0;
+  /// A large fan, or all slivers that are in none.
+  struct Group {
+    std::uint32_t vertex = kNone;  // of a fan
     Members members;
-    std::vector<Box> arcs, pieces;
-    std::vector<std::uint32_t> first_piece, piece_member;
-    BoxTree arc_tree, piece_tree;
+    OrientedBoxTree tree;
+    BoxTree arcs;  // of a fan
+    bool is_fan() const { return vertex != kNone; }
   };
 
   struct Loose {
@@ -62,27 +74,24 @@ class CloseTriangles {
     BoxTree tree;
   };
 
-  void assign_fans(const Mesh& mesh);
-  void cut(const Mesh& mesh, Fan& fan, unsigned threads) const;
+  /// What a triangle's own box and the oriented one round it both meet.
+  struct Query {
+    const Box& box;
+    OrientedBox oriented;
+    double unit;
+    bool meets(const Box& other) const {
+      return box.meets(other) && !surely_apart(oriented, oriented_box(other, unit));
+    }
+  };
 
-  /// Triangles outside of fan `home` whose boxes meet `query`.
-  template <class Visit>
-  void visit_strangers(const Box& query, std::uint32_t i, std::uint32_t home, Visit visit) const {
-    loose_.tree.visit_above(query, std::int64_t{loose_.members.behind(i)} - 1,
-                            [&](std::uint32_t k) { visit(loose_.members.index[k]); });
-    fan_tree_.visit(query, [&](std::uint32_t f) {
-      if (f == home) return;
-      const Fan& fan = fans_[f];
-      fan.piece_tree.visit_above(query, std::int64_t{fan.first_piece[fan.members.behind(i)]} - 1,
-                                 [&](std::uint32_t p) { visit(fan.members.index[fan.piece_member[p]]); });
-    });
-  }
+  void assign_groups(const Mesh& mesh);
 
   const std::vector<Box>& boxes_;
-  std::vector<Fan> fans_;
-  std::vector<std::uint32_t> fan_of_;  // per triangle, or kNone; empty without fans
-  Loose loose_;                        // the triangles of no large fan; members empty when these are all
-  BoxTree fan_tree_;                   // over the boxes of whole fans
+  UnitTriangles triangles_;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> group_of_;  // per triangle, or kNone; empty without groups
+  Loose loose_;                          // the triangles of no group; members empty when these are all
+  BoxTree group_tree_;                   // over the boxes of whole groups
 };
 
 }  // namespace affskel::core

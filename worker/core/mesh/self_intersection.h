@@ -25,7 +25,7 @@ struct SelfIntersectionOptions {
 ///
 /// Any mesh will do: open, not manifold, with unused vertices.  Decisions are exact (CGAL's exact
 /// predicates; the rules are those of Polygon_mesh_processing::self_intersections).  Time grows with the
-/// pairs of overlapping bounding boxes; those of large fans of triangles are cut up (see CloseTriangles).
+/// pairs of overlapping bounding boxes; slivers and large fans have boxes of their own (see CloseTriangles).
 /// @throws CoreError kBadInput when a used coordinate is not finite or an index is out of range.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options = {});

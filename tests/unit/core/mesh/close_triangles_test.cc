@@ -7,7 +7,9 @@
 #include <limits>
 #include <set>
 
+#include "core/base/affine_map.h"
 #include "core/base/split_mix64.h"
+#include "core/mesh/perturb.h"
 #include "core/mesh/self_intersection.h"
 #include "core/shapes/shapes.h"
 
@@ -119,6 +121,54 @@ TEST(CloseTriangles, SliversThatOverlapRoundAVertexAreSeen) {
   }
 }
 
+Mesh mapped(Mesh mesh, const AffineMap& map) {
+  for (Vec3& p : mesh.points) p = map(p);
+  return mesh;
+}
+
+// No axis, and no plane of two, is left as it was.
+const AffineMap kTilt = then(rotation(0, 37), rotation(2, 11));
+
+TEST(CloseTriangles, ObliqueSliversHideNoPair) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const Mesh& shape : {make_cylinder(1, 3, 48), make_cone(1, 40, 90)}) {
+      // Stretched, the triangles of the caps are slivers, too.
+      const Mesh tilted = mapped(shape, then(scaling(1, 200, 1), kTilt));
+      const Mesh mesh = perturb(tilted, {.sigma = 0.3, .seed = seed});
+      const Pairs pairs = all_pairs(mesh);
+      EXPECT_GT(pairs.size(), 20u) << seed;
+      EXPECT_EQ(pairs, pairs_one_by_one(mesh)) << seed;
+    }
+  }
+}
+
+// Slivers anywhere, some with common vertices, some without width, among a few triangles that are none.
+Mesh drawn_slivers(std::uint64_t seed) {
+  Draw draw(seed);
+  Mesh mesh;
+  for (int t = 0; t < 250; ++t) {
+    const Vec3 start = draw.anywhere(), along = draw.anywhere();
+    const Vec3 across = (t % 10 == 0 ? 0.3 : t % 10 == 1 ? 0 : 1e-3) * draw.anywhere();
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const Vec3& p : {start, start + along, start + across}) mesh.points.push_back(p);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    if (t % 3 == 0) mesh.triangles.back()[draw.below(3)] = draw.below(first + 1);
+  }
+  return mesh;
+}
+
+TEST(CloseTriangles, DrawnSliversHideNoPairAtAnyScale) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Mesh mesh = drawn_slivers(seed);
+    const Pairs pairs = pairs_one_by_one(mesh);
+    EXPECT_GT(pairs.size(), 20u) << seed;
+    EXPECT_EQ(all_pairs(mesh), pairs) << seed;
+    for (const double scale : {0x1p1023, 0x1p-1000, 0x1p-1023}) {
+      EXPECT_EQ(all_pairs(mapped(mesh, scaling(scale, scale, scale))), pairs) << seed << " " << scale;
+    }
+  }
+}
+
 // Triangles visited from all others.
 std::uint64_t visits(const Mesh& mesh) {
   const std::vector<Box> boxes = boxes_of(mesh);
@@ -140,7 +190,49 @@ TEST(CloseTriangles, FewAreCloseInAConeOfAnyNumberOfSides) {
     for (const int sides : {1000, 16000}) {
       const Mesh cone = make_cone(1, height, sides);
       EXPECT_LT(visits(cone), 60 * cone.triangles.size()) << height << " " << sides;
+      EXPECT_LT(visits(mapped(cone, kTilt)), 60 * cone.triangles.size()) << height << " " << sides;
     }
+  }
+}
+
+TEST(CloseTriangles, FewAreCloseInATiltedCylinderOfAnyNumberOfSides) {
+  const AffineMap narrowed = then(scaling(1, 0.25, 1), shear(0, 2, 0.5));
+  for (const int sides : {1000, 16000}) {
+    const Mesh cylinder = make_cylinder(1, 3, static_cast<std::uint32_t>(sides));
+    for (const AffineMap& map : {AffineMap{}, kTilt, then(narrowed, kTilt)}) {
+      EXPECT_LT(visits(mapped(cylinder, map)), 60 * cylinder.triangles.size()) << sides;
+    }
+  }
+}
+
+// Slivers whose directions turn round the axis.
+TEST(CloseTriangles, FewAreCloseInATiltedFrustumOfAnyNumberOfSides) {
+  for (const int sides : {1000, 16000}) {
+    Mesh frustum = make_cylinder(1, 3, static_cast<std::uint32_t>(sides));
+    for (Vec3& p : frustum.points) p = kTilt(p.z > 0 ? Vec3{0.3 * p.x, 0.3 * p.y, p.z} : p);
+    EXPECT_LT(visits(frustum), 60 * frustum.triangles.size()) << sides;
+  }
+}
+
+// A ball beside a fence of slivers whose boxes hold it, before it and after it in the order of triangles.
+TEST(CloseTriangles, OfABallFewAreCloseToSliversThatPassBy) {
+  for (const bool ball_first : {true, false}) {
+    const Mesh ball = mapped(make_sphere(0.2, 5000), translation({0, 0.5, -0.5}));
+    Mesh mesh = ball_first ? ball : Mesh{};
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (std::uint32_t k = 0; k < 5000; ++k) {
+      const Vec3 start = Vec3{-1, -1, -1} + k * Vec3{4e-4, -4e-4, 0};
+      for (const Vec3& p : {start, start + Vec3{2, 2, 2}, start + Vec3{2e-4, -2e-4, 0}})
+        mesh.points.push_back(p);
+      mesh.triangles.push_back({first + 3 * k, first + 3 * k + 1, first + 3 * k + 2});
+    }
+    const auto offset = static_cast<std::uint32_t>(mesh.points.size());
+    if (!ball_first) {
+      mesh.points.insert(mesh.points.end(), ball.points.begin(), ball.points.end());
+      for (const Triangle& t : ball.triangles)
+        mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    }
+    EXPECT_LT(visits(mesh), 60 * mesh.triangles.size());
   }
 }
 
