@@ -34,9 +34,9 @@ class ArtifactSink {
 };
 
 /// The connection to a server, and its calls.  A server that was never reached is an error at once; one
-/// that answered before may go away and come back: calls that change nothing twice (all of them) are then
-/// repeated with growing pauses, and the embedded server is started again.  All calls throw ClientError.
-/// Not thread-safe.
+/// that answered may go away and come back, or have too much to do: calls that change nothing twice (all of
+/// them) are then repeated with growing pauses, and the embedded server is started again.  All calls throw
+/// ClientError. Not thread-safe.
 class Session {
  public:
   Session(ServerChoice choice, Environment environment, Console& console, RetryPolicy policy = {});
@@ -70,6 +70,7 @@ class Session {
                           const std::function<void(const v1::Job&)>& seen);
   [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
   void tell_away();
+  void tell_busy(const std::string& why);
   template <typename Request, typename Response>
   Response unary(const Request& request,
                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
@@ -79,6 +80,7 @@ class Session {
   Console& console_;
   RetryPolicy policy_;
   std::string target_;
+  std::shared_ptr<grpc::Channel> channel_;  // of stub_
   std::unique_ptr<Stub> stub_;
   bool proven_ = false;     // the server answered at least once
   bool told_away_ = false;  // that it went away; until it is back

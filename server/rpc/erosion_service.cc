@@ -41,14 +41,18 @@ grpc::Status status_of_failure(const v1::JobError& error) {
 }  // namespace
 
 ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub,
-                                       Activity& activity, UploadBudget& uploads, Facts facts)
+                                       Activity& activity, UploadBudget& uploads, const CallLimits& limits,
+                                       Facts facts)
     : store_(store),
       registry_(registry),
       hub_(hub),
       activity_(activity),
       uploads_(uploads),
       facts_(std::move(facts)),
-      watches_(hub, activity) {}
+      receiving_("uploads", limits.uploads, limits.patience, limits.stall),
+      waiting_("waiting calls", limits.waiting, {}, {}),
+      sending_("downloads", limits.downloads, limits.patience, limits.stall),
+      watches_(hub, activity, limits.watches) {}
 
 EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
   try {
@@ -77,11 +81,13 @@ v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
   return job;
 }
 
-grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext*,
+grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext* context,
                                            grpc::ServerReader<v1::SubmitJobRequest>* reader,
                                            v1::SubmitJobResponse* response) {
   const Activity::Call call(activity_);
   return guarded([&] {
+    CallLimit::Place place(receiving_);
+    place.depend_on_client(*context);
     v1::SubmitJobRequest first;
     if (!reader->Read(&first) || !first.has_header()) {
       throw StoreError(StoreError::Code::kInvalid, "a submission begins with its header");
@@ -93,7 +99,8 @@ grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext*,
                            " bytes; this server takes at most " + std::to_string(limit));
     }
     UploadBudget::Share share(uploads_);
-    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share);
+    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share,
+                                                                [&] { place.progress(); });
     Store::Submitted submitted = store_.submit(first.header(), mesh);
     *response->mutable_job() = with_reason(std::move(submitted.job));
     response->set_existed(submitted.existed);
@@ -150,8 +157,9 @@ grpc::Status ErosionServiceImpl::DeleteJob(grpc::ServerContext*, const v1::Delet
   return guarded([&] { response->set_id(store_.remove(request->job())); });
 }
 
-Store::ArtifactState ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& context,
-                                                           const v1::FetchArtifactRequest& request) {
+ErosionServiceImpl::Download ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& context,
+                                                                   const v1::FetchArtifactRequest& request) {
+  const CallLimit::Place waiting(waiting_);
   const auto signal = std::make_shared<Signal>();
   const EventHub::Subscription subscription =
       hub_.subscribe(request.job(), [signal](const EventHub::JobPtr&) {
@@ -162,9 +170,11 @@ Store::ArtifactState ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& 
         signal->changed.notify_all();
       });
   for (std::int64_t task = 0;;) {
+    auto place = std::make_unique<CallLimit::Place>(sending_);
     Store::ArtifactState state = store_.open_artifact(request, task);
     if (state.error) throw CallEnded(status_of_failure(*state.error));
-    if (state.reader != nullptr) return state;
+    if (state.reader != nullptr) return {std::move(place), std::move(state.reader)};
+    place.reset();
     task = state.task;
     std::unique_lock lock(signal->mutex);
     while (!signal->changed.wait_for(lock, kCancelCheck, [&] { return signal->set; })) {
@@ -183,9 +193,10 @@ grpc::Status ErosionServiceImpl::FetchArtifact(grpc::ServerContext* context,
     // The full id from here on: "@last" may soon mean another job.
     v1::FetchArtifactRequest fixed = *request;
     fixed.set_job(store_.resolve(request->job()));
-    const Store::ArtifactState state = wait_for_artifact(*context, fixed);
+    const Download download = wait_for_artifact(*context, fixed);
     const v1::Job job = with_reason(store_.job(fixed.job()));
-    send_blob(*writer, *state.reader, &job);
+    download.place->depend_on_client(*context);
+    send_blob(*writer, *download.reader, &job, [&] { download.place->progress(); });
   });
 }
 

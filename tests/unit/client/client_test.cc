@@ -163,6 +163,14 @@ TEST_F(ClientTest, WatchReattachesWhenTheStreamEndsTooEarly) {
   EXPECT_NE(done.err.find("the server went away"), std::string::npos);
 }
 
+TEST_F(ClientTest, ABusyServerIsAskedAgain) {
+  service_.busy = 2;
+  const Outcome done = run({"status", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("trying again: too many calls"), std::string::npos) << done.err;
+  EXPECT_LT(service_.busy, 0);
+}
+
 TEST_F(ClientTest, WatchGivesUpWhenTheServerStaysAway) {
   service_.watch_stays_away = true;
   service_.watch_breaks_after = 1;

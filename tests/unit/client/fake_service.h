@@ -24,6 +24,7 @@ class FakeService final : public v1::ErosionService::Service {
   bool watch_stays_away = false;  ///< all further watches are UNAVAILABLE
   std::map<v1::ArtifactKind, std::string> artifacts;
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
+  int busy = 0;                           ///< so many questions about a job are UNAVAILABLE first
   bool damage = false;                    ///< flip a byte of every artefact
   bool existed = false;
   std::uint64_t max_mesh_bytes = 1 << 30;
@@ -48,6 +49,7 @@ class FakeService final : public v1::ErosionService::Service {
   }
   grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) override {
     if (request->job() == "000000") return {grpc::StatusCode::NOT_FOUND, "no job begins with 000000"};
+    if (busy-- > 0) return {grpc::StatusCode::UNAVAILABLE, "too many calls"};
     *response = job;
     return fails;
   }
