@@ -92,16 +92,12 @@ grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext* context,
     if (!reader->Read(&first) || !first.has_header()) {
       throw StoreError(StoreError::Code::kInvalid, "a submission begins with its header");
     }
-    const std::uint64_t limit = store_.options().max_mesh_bytes;
-    if (first.header().mesh_bytes() > limit) {
-      throw StoreError(StoreError::Code::kLimit,
-                       "the mesh has " + std::to_string(first.header().mesh_bytes()) +
-                           " bytes; this server takes at most " + std::to_string(limit));
-    }
+    // Before the data, which may take minutes to arrive.
+    const Submission submission = store_.check(first.header());
     UploadBudget::Share share(uploads_);
     const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share,
                                                                 [&] { place.progress(); });
-    Store::Submitted submitted = store_.submit(first.header(), mesh);
+    Store::Submitted submitted = store_.submit(submission, mesh);
     *response->mutable_job() = with_reason(std::move(submitted.job));
     response->set_existed(submitted.existed);
   });
@@ -120,14 +116,15 @@ grpc::Status ErosionServiceImpl::ListJobs(grpc::ServerContext*, const v1::ListJo
     ListFilter filter;
     for (int state : request->states()) {
       if (!v1::JobState_IsValid(state) || state == v1::JOB_STATE_UNSPECIFIED) {
-        throw StoreError(StoreError::Code::kInvalid, "unknown job state");
+        throw StoreError(StoreError::Code::kInvalid, "unknown job state: " + std::to_string(state));
       }
       filter.states.push_back(static_cast<v1::JobState>(state));
     }
     filter.owner = request->owner();
     filter.limit = request->limit() == 0 ? kDefaultListLimit : request->limit();
     if (filter.limit > kMaxListLimit)
-      throw StoreError(StoreError::Code::kInvalid, "the limit must be 1 .. 1000");
+      throw StoreError(StoreError::Code::kInvalid,
+                       "the limit must be 1 .. 1000, or 0 for 50, not " + std::to_string(request->limit()));
     for (v1::Job& job : store_.list(filter)) *response->add_jobs() = with_reason(std::move(job));
   });
 }

@@ -79,6 +79,10 @@ void Server::serve(const ServerOptions& options) {
       grpc::InsecureServerCredentials());
   grpc_ = builder.BuildAndStart();
   if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
+  for (const char* service :
+       {v1::ErosionService::service_full_name(), v1::WorkerService::service_full_name()}) {
+    grpc_->GetHealthCheckService()->SetServingStatus(service, true);
+  }
   listener_->start([this](int listening, int connection) {
     grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
     parameters.listener_fd = listening;

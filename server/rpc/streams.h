@@ -52,8 +52,8 @@ std::string receive_data(
       throw StoreError(StoreError::Code::kInvalid, "only data may follow the header of an upload");
     }
     if (data.size() + message.data().size() > announced) {
-      throw StoreError(StoreError::Code::kInvalid,
-                       "more data than the " + std::to_string(announced) + " bytes that were announced");
+      throw StoreError(StoreError::Code::kInvalid, "more data than the " + std::to_string(announced) +
+                                                       " bytes that the header announced");
     }
     if (!share.take(message.data().size())) {
       throw CallEnded(

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "store/errors.h"
+#include "wire/quoted.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -100,14 +101,20 @@ v1::Job read_job(const Statement& row) {
   return job;
 }
 
-void require_hex(const std::string& reference) {
+/// An id or a prefix, in the form in which ids are kept.
+std::string checked_prefix(std::string reference) {
+  for (char& c : reference) {
+    if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
+  }
   const bool hex = std::all_of(reference.begin(), reference.end(),
                                [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
   if (reference.size() < 6 || reference.size() > 32 || !hex) {
     throw StoreError(
         StoreError::Code::kInvalid,
-        "job '" + reference + "': expected an id, a prefix of at least 6 of its digits, or @last");
+        "job " + wire::quoted(reference) +
+            ": expected an id of 32 hexadecimal digits, a prefix of at least 6 of them, or @last");
   }
+  return reference;
 }
 
 std::optional<JobRow> find_job(Database& db, const std::string& id) {
@@ -171,14 +178,14 @@ std::string resolve_job(Database& db, const std::string& reference) {
     if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job @last: there are no jobs");
     return row.text(0);
   }
-  require_hex(reference);
+  const std::string prefix = checked_prefix(reference);
   // 'g' follows the last hexadecimal digit, so this range is exactly the ids that begin so.
-  Statement row = db.query("SELECT id FROM jobs WHERE id >= ? AND id < ? || 'g' ORDER BY id LIMIT 2",
-                           reference, reference);
-  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + reference);
+  Statement row =
+      db.query("SELECT id FROM jobs WHERE id >= ? AND id < ? || 'g' ORDER BY id LIMIT 2", prefix, prefix);
+  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + prefix);
   std::string id = row.text(0);
   if (row.step()) {
-    throw StoreError(StoreError::Code::kInvalid, "job '" + reference + "': more than one job's id begins so");
+    throw StoreError(StoreError::Code::kInvalid, "job '" + prefix + "': more than one job's id begins so");
   }
   return id;
 }

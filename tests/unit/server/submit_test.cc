@@ -1,3 +1,5 @@
+#include <cctype>
+
 #include "expect_store_error.h"
 #include "store_fixture.h"
 
@@ -5,6 +7,11 @@ namespace affskel::server {
 namespace {
 
 using SubmitTest = StoreTest;
+
+std::string in_capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
 
 TEST_F(SubmitTest, StoresMeshAndJob) {
   const std::string mesh = std::string("OFF\n\0binary is kept", 19) + std::string(3 << 20, 'x');
@@ -43,6 +50,62 @@ TEST_F(SubmitTest, RefusesWrongHeaders) {
   });
   refused([](auto& h) { h.mutable_skeleton()->set_threshold(-1); });
   EXPECT_EQ(store_->counts().total, 0);
+}
+
+TEST_F(SubmitTest, HeadersAreCheckedWithoutTheirMesh) {
+  const v1::SubmitJobHeader good = submit_header("OFF 1");
+  const auto refusal = [&](auto change) {
+    v1::SubmitJobHeader header = good;
+    change(header);
+    return error_of([&] { store_->check(header); });
+  };
+  EXPECT_EQ(refusal([](auto&) {}), "");
+  const auto expect = [](const std::string& message, const std::string& value, const std::string& allowed) {
+    EXPECT_NE(message.find(value), std::string::npos) << message;
+    EXPECT_NE(message.find(allowed), std::string::npos) << message;
+  };
+  expect(refusal([](auto& h) { h.set_priority(12); }), "12", "0 .. 9");
+  expect(refusal([](auto& h) { h.set_name(std::string(201, 'n')); }), "name has 201", "200");
+  expect(refusal([](auto& h) { h.clear_mesh_sha256(); }), "mesh_sha256", "not set");
+  expect(refusal([](auto& h) { h.set_mesh_sha256("xyz"); }), "'xyz'", "64 hexadecimal digits");
+  expect(refusal([](auto& h) { h.clear_mesh_bytes(); }), "mesh_bytes", "not set");
+  expect(refusal([](auto& h) { h.mutable_params()->mutable_sampling()->set_spacing(-2); }), "-2", "> 0");
+  expect(refusal([](auto& h) { h.mutable_params()->set_frame(static_cast<v1::Frame>(77)); }), "77", "frame");
+  expect(refusal([](auto& h) { h.mutable_skeleton()->set_operator_(static_cast<v1::Operator>(78)); }), "78",
+         "operator");
+  expect(refusal([](auto& h) { h.mutable_params()->set_directions(std::string("a\0\n", 3)); }),
+         "'a\\x00\\x0a'", "sphere:N");
+
+  v1::SubmitJobHeader used = good;
+  used.set_request_id("key\n");
+  store_->submit(used, "OFF 1");
+  EXPECT_EQ(error_of([&] { store_->check(used); }), "");
+  used.set_mesh_sha256(std::string(64, '0'));
+  expect(error_of([&] { store_->check(used); }), "'key\\x0a'", "another submission");
+}
+
+TEST_F(SubmitTest, TellsWhatArrivedInsteadOfWhatWasAnnounced) {
+  const v1::SubmitJobHeader header = submit_header("OFF 1");
+  const std::string nothing = error_of([&] { store_->submit(header, ""); });
+  EXPECT_NE(nothing.find("announced 5 bytes, but 0 arrived"), std::string::npos) << nothing;
+  const std::string other = error_of([&] { store_->submit(header, "OFF 2"); });
+  EXPECT_NE(other.find(submit_header("OFF 2").mesh_sha256()), std::string::npos) << other;
+}
+
+TEST_F(SubmitTest, HexadecimalDigitsHaveNoCase) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_mesh_sha256(in_capitals(header.mesh_sha256()));
+  const v1::Job job = store_->submit(header, "OFF 1").job;
+  EXPECT_EQ(job.mesh_sha256(), submit_header("OFF 1").mesh_sha256());
+  EXPECT_TRUE(store_->submit(submit_header("OFF 1"), "OFF 1").existed);
+  EXPECT_EQ(store_->resolve(in_capitals(job.id())), job.id());
+  EXPECT_EQ(store_->resolve(in_capitals(job.id().substr(0, 10))), job.id());
+}
+
+TEST_F(SubmitTest, JobReferencesAreQuotedSafely) {
+  const std::string nul = error_of([&] { store_->resolve(std::string("x\0y", 3)); });
+  EXPECT_NE(nul.find("'x\\x00y': expected an id"), std::string::npos) << nul;
+  EXPECT_LT(error_of([&] { store_->resolve(std::string(5000, 'x')); }).size(), 300U);
 }
 
 TEST_F(SubmitTest, RefusesEmptyAndTooLargeMeshes) {
