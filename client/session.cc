@@ -218,9 +218,17 @@ v1::Job Session::get_job(const std::string& job) {
   return unary(request, &Stub::GetJob);
 }
 
-std::vector<v1::Job> Session::list_jobs(const v1::ListJobsRequest& request) {
-  v1::ListJobsResponse response = unary(request, &Stub::ListJobs);
-  return {response.jobs().begin(), response.jobs().end()};
+std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t limit) {
+  std::vector<v1::Job> jobs;
+  while (jobs.size() < limit) {
+    request.set_limit(
+        static_cast<std::uint32_t>(std::min<std::size_t>(limit - jobs.size(), wire::kMaxListedJobs)));
+    const v1::ListJobsResponse response = unary(request, &Stub::ListJobs);
+    jobs.insert(jobs.end(), response.jobs().begin(), response.jobs().end());
+    if (response.next_page_token().empty()) break;
+    request.set_page_token(response.next_page_token());
+  }
+  return jobs;
 }
 
 grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,

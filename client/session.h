@@ -45,7 +45,9 @@ class Session {
   /// @param existed set to whether an earlier job answers this submission.
   v1::Job submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed);
   v1::Job get_job(const std::string& job);
-  std::vector<v1::Job> list_jobs(const v1::ListJobsRequest& request);
+  /// The newest `limit` jobs that the request is about, whatever its own limit; from as many answers as
+  /// needed.
+  std::vector<v1::Job> list_jobs(v1::ListJobsRequest request, std::size_t limit);
   /// Calls `seen` with every state of the job until a final one, which is returned; re-attaches when the
   /// stream breaks.
   v1::Job watch(const std::string& job, const std::function<void(const v1::Job&)>& seen);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -12,13 +13,14 @@
 #include "rpc/status.h"
 #include "rpc/streams.h"
 #include "store/errors.h"
+#include "wire/limits.h"
+#include "wire/quoted.h"
 #include "wire/version.h"
 
 namespace affskel::server {
 namespace {
 
 constexpr std::uint32_t kDefaultListLimit = 50;
-constexpr std::uint32_t kMaxListLimit = 1000;
 
 // How often a waiting fetch looks whether its client is still there; gRPC's synchronous calls are not
 // told of it.
@@ -30,6 +32,26 @@ struct Signal {
   std::condition_variable changed;
   bool set = false;
 };
+
+// Says what it is, so that something else does not pass for it by accident.
+constexpr std::string_view kTokenPrefix = "before-";
+
+std::string token_of_number(std::int64_t number) {
+  return std::string(kTokenPrefix) + std::to_string(number);
+}
+
+/// 0 for no token.
+std::int64_t number_of_token(const std::string& token) {
+  if (token.empty()) return 0;
+  std::int64_t number = 0;
+  const std::string_view digits = std::string_view(token).substr(std::min(kTokenPrefix.size(), token.size()));
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (number < 1 || token != token_of_number(number)) {
+    throw StoreError(StoreError::Code::kInvalid,
+                     "page_token " + wire::quoted(token) + " is no next_page_token of an earlier answer");
+  }
+  return number;
+}
 
 grpc::Status status_of_failure(const v1::JobError& error) {
   const grpc::StatusCode code = error.code() == "BAD_INPUT" ? grpc::StatusCode::INVALID_ARGUMENT
@@ -122,10 +144,13 @@ grpc::Status ErosionServiceImpl::ListJobs(grpc::ServerContext*, const v1::ListJo
     }
     filter.owner = request->owner();
     filter.limit = request->limit() == 0 ? kDefaultListLimit : request->limit();
-    if (filter.limit > kMaxListLimit)
+    if (filter.limit > wire::kMaxListedJobs)
       throw StoreError(StoreError::Code::kInvalid,
                        "the limit must be 1 .. 1000, or 0 for 50, not " + std::to_string(request->limit()));
-    for (v1::Job& job : store_.list(filter)) *response->add_jobs() = with_reason(std::move(job));
+    filter.before = number_of_token(request->page_token());
+    JobPage page = store_.list(filter);
+    for (v1::Job& job : page.jobs) *response->add_jobs() = with_reason(std::move(job));
+    if (page.next != 0) response->set_next_page_token(token_of_number(page.next));
   });
 }
 

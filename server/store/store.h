@@ -59,7 +59,7 @@ class Store {
 
   v1::Job job(const std::string& job_ref);
   std::string resolve(const std::string& job_ref);
-  std::vector<v1::Job> list(const ListFilter& filter);
+  JobPage list(const ListFilter& filter);
   /// A queued job is cancelled at once, a running one is marked.
   v1::Job cancel(const std::string& job_ref);
   /// A failed or cancelled job goes on from where it was; an active one stays as it is.

@@ -3,6 +3,7 @@
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <string>
@@ -32,7 +33,9 @@ class FakeService final : public v1::ErosionService::Service {
   v1::SubmitJobHeader submitted;  ///< as it arrived
   std::string mesh;
   std::vector<v1::FetchArtifactRequest> fetches;
-  v1::ListJobsRequest listed;
+  v1::ListJobsRequest listed;  ///< the last of these
+  std::vector<v1::ListJobsRequest> lists;
+  std::uint32_t jobs = 1;  ///< so many are listed, in pages
   int watches = 0;
 
   grpc::Status SubmitJob(grpc::ServerContext*, grpc::ServerReader<v1::SubmitJobRequest>* reader,
@@ -56,7 +59,10 @@ class FakeService final : public v1::ErosionService::Service {
   grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* response) override {
     listed = *request;
-    *response->add_jobs() = job;
+    lists.push_back(*request);
+    for (std::uint32_t i = 0; i < std::min(jobs, request->limit()); ++i) *response->add_jobs() = job;
+    jobs -= static_cast<std::uint32_t>(response->jobs_size());
+    if (jobs > 0) response->set_next_page_token("left " + std::to_string(jobs));
     return fails;
   }
   grpc::Status WatchJob(grpc::ServerContext*, const v1::WatchJobRequest*,

@@ -230,6 +230,38 @@ TEST_F(SubmitTest, FindsJobsByPrefixAndLast) {
   EXPECT_STORE_ERROR(store_->resolve(std::string(32, first[0] == '0' ? '1' : '0')), kNotFound);
 }
 
+TEST_F(SubmitTest, PagesStayRightWhileJobsComeAndGo) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 7; ++i) ids.push_back(submit("OFF " + std::to_string(i)).id());
+  std::vector<std::string> seen;
+  const auto page = [&](std::int64_t before) {
+    ListFilter filter;
+    filter.limit = 2;
+    filter.before = before;
+    JobPage found = store_->list(filter);
+    for (const v1::Job& job : found.jobs) seen.push_back(job.id());
+    return found.next;
+  };
+  std::int64_t next = page(0);
+  submit("OFF newer");
+  // The last of a page, one of the next, and with it the number that begins the page after.
+  for (int gone : {5, 4}) {
+    store_->cancel(ids[static_cast<std::size_t>(gone)]);
+    store_->remove(ids[static_cast<std::size_t>(gone)]);
+  }
+  while (next != 0) next = page(next);
+  EXPECT_EQ(seen, (std::vector<std::string>{ids[6], ids[5], ids[3], ids[2], ids[1], ids[0]}));
+}
+
+TEST_F(SubmitTest, AFullPageOfTheLastJobsIsTheLast) {
+  for (int i = 0; i < 4; ++i) submit("OFF " + std::to_string(i));
+  ListFilter filter;
+  filter.limit = 4;
+  EXPECT_EQ(store_->list(filter).next, 0);
+  filter.limit = 3;
+  EXPECT_NE(store_->list(filter).next, 0);
+}
+
 TEST_F(SubmitTest, ListsNewestFirstWithFilters) {
   const std::string first = submit("OFF 1").id();
   const std::string second = submit("OFF 2").id();
@@ -239,7 +271,7 @@ TEST_F(SubmitTest, ListsNewestFirstWithFilters) {
   store_->cancel(first);
   const auto ids = [&](const ListFilter& filter) {
     std::vector<std::string> found;
-    for (const v1::Job& job : store_->list(filter)) found.push_back(job.id());
+    for (const v1::Job& job : store_->list(filter).jobs) found.push_back(job.id());
     return found;
   };
   EXPECT_EQ(ids({}), (std::vector<std::string>{third, second, first}));
