@@ -12,14 +12,20 @@ namespace {
 std::string find_request(Database& db, const Submission& submission) {
   const std::string& request_id = submission.header.request_id();
   if (request_id.empty()) return {};
-  Statement row = db.query("SELECT content_key, job_id FROM requests WHERE request_id = ?", request_id);
+  Statement row = db.query(
+      "SELECT r.job_id, e.mesh_sha256 = ?2 AND e.params_key = ?3 AND j.skeleton_key = ?4 AND j.name = ?5"
+      " AND j.owner = ?6 FROM requests r JOIN jobs j ON j.id = r.job_id JOIN erosions e ON e.id = "
+      "j.erosion_id"
+      " WHERE r.request_id = ?1",
+      request_id, submission.header.mesh_sha256(), submission.params_key, submission.skeleton_key,
+      submission.header.name(), submission.header.owner());
   if (!row.step()) return {};
-  if (row.text(0) != submission.content_key) {
+  if (!row.flag(1)) {
     throw StoreError(StoreError::Code::kExists, "the request id " + wire::quoted(request_id) +
                                                     " was used before for another submission (job " +
-                                                    row.text(1) + ")");
+                                                    row.text(0) + ")");
   }
-  return row.text(1);
+  return row.text(0);
 }
 
 /// Job that does or did exactly this for the same owner under the same name; "" when there is none.
@@ -36,8 +42,9 @@ std::string find_equal_job(Database& db, const Submission& submission) {
 
 void remember_request(Tx& tx, const Submission& submission, const std::string& job_id) {
   if (submission.header.request_id().empty()) return;
-  tx.db.run("INSERT INTO requests (request_id, content_key, job_id) VALUES (?, ?, ?) ON CONFLICT DO NOTHING",
-            submission.header.request_id(), submission.content_key, job_id);
+  // The key was once compared instead of the job, but had the priority in it.
+  tx.db.run("INSERT INTO requests (request_id, content_key, job_id) VALUES (?, '', ?) ON CONFLICT DO NOTHING",
+            submission.header.request_id(), job_id);
 }
 
 std::string insert_job(Tx& tx, const Submission& submission, std::string_view mesh) {
@@ -76,16 +83,16 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
   check_mesh(submission, mesh);
   const v1::SubmitJobHeader& header = submission.header;
   return write([&](Tx& tx) -> Submitted {
-    if (const std::string id = find_request(tx.db, submission); !id.empty())
-      return {job_message(tx.db, id), true};
-    if (const std::string id = find_equal_job(tx.db, submission); !id.empty()) {
+    std::string earlier = find_request(tx.db, submission);
+    if (earlier.empty()) earlier = find_equal_job(tx.db, submission);
+    if (!earlier.empty()) {
       // The same work twice: done once, and as urgent as the more urgent of the two.
-      if (tx.db.run("UPDATE jobs SET priority = ?2 WHERE id = ?1 AND priority < ?2 AND state <> 'done'", id,
-                    header.priority()) > 0) {
-        tx.changes.jobs.insert(id);
+      if (tx.db.run("UPDATE jobs SET priority = ?2 WHERE id = ?1 AND priority < ?2 AND state <> 'done'",
+                    earlier, header.priority()) > 0) {
+        tx.changes.jobs.insert(earlier);
       }
-      remember_request(tx, submission, id);
-      return {job_message(tx.db, id), true};
+      remember_request(tx, submission, earlier);
+      return {job_message(tx.db, earlier), true};
     }
     tx.require_room();
     const std::string id = insert_job(tx, submission, mesh);

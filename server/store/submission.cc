@@ -78,15 +78,6 @@ Submission checked_submission(const v1::SubmitJobHeader& header, std::uint64_t m
   }
   submission.params_key = wire::cache_key(submission.params);
   submission.skeleton_key = wire::cache_key(submission.skeleton);
-  // Lengths first, so that no two contents have the same text.
-  wire::Sha256 hash;
-  for (const std::string& part :
-       {submission.header.mesh_sha256(), submission.params_key, submission.skeleton_key, header.name(),
-        header.owner(), std::to_string(header.priority())}) {
-    hash.update(std::to_string(part.size()) + ":");
-    hash.update(part);
-  }
-  submission.content_key = hash.hex_digest();
   return submission;
 }
 

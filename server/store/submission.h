@@ -14,7 +14,6 @@ struct Submission {
   v1::SkeletonParams skeleton;
   std::string params_key;
   std::string skeleton_key;
-  std::string content_key;
 };
 
 /// Checks what a header says by itself.

@@ -154,6 +154,22 @@ TEST_F(SubmitTest, RequestIdsNameOneSubmission) {
   EXPECT_EQ(store_->counts().total, 1);
 }
 
+TEST_F(SubmitTest, ThePriorityIsNoContent) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_request_id("key");
+  header.set_priority(3);
+  const std::string id = store_->submit(header, "OFF 1").job.id();
+  for (const auto& [asked, got] : {std::pair{7U, 7U}, std::pair{2U, 7U}}) {
+    header.set_priority(asked);
+    const Store::Submitted again = store_->submit(header, "OFF 1");
+    EXPECT_TRUE(again.existed);
+    EXPECT_EQ(again.job.id(), id);
+    EXPECT_EQ(again.job.priority(), got);
+  }
+  header.mutable_skeleton()->set_threshold(3);
+  EXPECT_STORE_ERROR(store_->submit(header, "OFF 1"), kExists);
+}
+
 TEST_F(SubmitTest, RequestIdFindsItsJobEvenWhenItFailed) {
   v1::SubmitJobHeader header = submit_header("OFF 1");
   header.set_request_id("key");
