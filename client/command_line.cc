@@ -89,7 +89,7 @@ void add_job_commands(CLI::App& app, Options& options) {
       ->check(utf8_text())
       ->type_name("USER");
   list->add_option("--limit", options.list.limit, "At most this many")
-      ->check(whole_in(1, 1000))
+      ->check(whole_in(1, 1000000))
       ->capture_default_str()
       ->type_name("N");
   add_job(command(app, options, "status", Command::kStatus, "State, progress and facts of a job",

@@ -143,23 +143,31 @@ void Session::connect() {
     address = ensure_embedded_server(embedded_paths(environment_), {}, environment_, console_);
   }
   target_ = address.target();
-  stub_ = v1::ErosionService::NewStub(make_channel(address));
+  channel_ = make_channel(address);
+  stub_ = v1::ErosionService::NewStub(channel_);
 }
 
 void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet) {
   std::chrono::milliseconds pause = policy_.first_pause;
-  // The embedded server may leave, idle, in the moment we come: that is no reason to give up.
-  const bool retries = proven_ || choice_.embedded;
-  const auto patience = proven_ ? policy_.patience : std::min(policy_.patience, kStartPatience);
-  std::optional<Clock::time_point> deadline;  // counted from the first failure: calls may take long
+  std::optional<Clock::time_point> failing;  // since when: calls may take long
   while (true) {
     if (!stub_) connect();
     const grpc::Status status = attempt(*stub_);
     if (status.ok()) break;
     const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE;
-    if (!deadline) deadline = Clock::now() + patience;
-    if (!away || !retries || Clock::now() >= *deadline) fail(status, not_yet);
-    tell_away();
+    // The connection stands: the server itself has said so.
+    const bool busy = away && channel_->GetState(false) == GRPC_CHANNEL_READY;
+    proven_ = proven_ || busy;
+    if (!failing) failing = Clock::now();
+    // The embedded server may leave, idle, in the moment we come: that is no reason to give up.
+    const bool retries = proven_ || choice_.embedded;
+    const auto patience = proven_ ? policy_.patience : std::min(policy_.patience, kStartPatience);
+    if (!away || !retries || Clock::now() >= *failing + patience) fail(status, not_yet);
+    if (busy) {
+      tell_busy(status.error_message());
+    } else {
+      tell_away();
+    }
     stub_.reset();
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, policy_.longest_pause);
@@ -176,6 +184,11 @@ void Session::fail(const grpc::Status& status, ExitCode not_yet) const {
 
 void Session::tell_away() {
   if (proven_ && !told_away_) console_.note("the server went away; trying to reach it again");
+  told_away_ = true;
+}
+
+void Session::tell_busy(const std::string& why) {
+  if (!told_away_) console_.note("the server cannot answer now, trying again: " + why);
   told_away_ = true;
 }
 
@@ -205,9 +218,17 @@ v1::Job Session::get_job(const std::string& job) {
   return unary(request, &Stub::GetJob);
 }
 
-std::vector<v1::Job> Session::list_jobs(const v1::ListJobsRequest& request) {
-  v1::ListJobsResponse response = unary(request, &Stub::ListJobs);
-  return {response.jobs().begin(), response.jobs().end()};
+std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t limit) {
+  std::vector<v1::Job> jobs;
+  while (jobs.size() < limit) {
+    request.set_limit(
+        static_cast<std::uint32_t>(std::min<std::size_t>(limit - jobs.size(), wire::kMaxListedJobs)));
+    const v1::ListJobsResponse response = unary(request, &Stub::ListJobs);
+    jobs.insert(jobs.end(), response.jobs().begin(), response.jobs().end());
+    if (response.next_page_token().empty()) break;
+    request.set_page_token(response.next_page_token());
+  }
+  return jobs;
 }
 
 grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,

@@ -34,9 +34,9 @@ class ArtifactSink {
 };
 
 /// The connection to a server, and its calls.  A server that was never reached is an error at once; one
-/// that answered before may go away and come back: calls that change nothing twice (all of them) are then
-/// repeated with growing pauses, and the embedded server is started again.  All calls throw ClientError.
-/// Not thread-safe.
+/// that answered may go away and come back, or have too much to do: calls that change nothing twice (all of
+/// them) are then repeated with growing pauses, and the embedded server is started again.  All calls throw
+/// ClientError. Not thread-safe.
 class Session {
  public:
   Session(ServerChoice choice, Environment environment, Console& console, RetryPolicy policy = {});
@@ -45,7 +45,9 @@ class Session {
   /// @param existed set to whether an earlier job answers this submission.
   v1::Job submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed);
   v1::Job get_job(const std::string& job);
-  std::vector<v1::Job> list_jobs(const v1::ListJobsRequest& request);
+  /// The newest `limit` jobs that the request is about, whatever its own limit; from as many answers as
+  /// needed.
+  std::vector<v1::Job> list_jobs(v1::ListJobsRequest request, std::size_t limit);
   /// Calls `seen` with every state of the job until a final one, which is returned; re-attaches when the
   /// stream breaks.
   v1::Job watch(const std::string& job, const std::function<void(const v1::Job&)>& seen);
@@ -70,6 +72,7 @@ class Session {
                           const std::function<void(const v1::Job&)>& seen);
   [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
   void tell_away();
+  void tell_busy(const std::string& why);
   template <typename Request, typename Response>
   Response unary(const Request& request,
                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
@@ -79,6 +82,7 @@ class Session {
   Console& console_;
   RetryPolicy policy_;
   std::string target_;
+  std::shared_ptr<grpc::Channel> channel_;  // of stub_
   std::unique_ptr<Stub> stub_;
   bool proven_ = false;     // the server answered at least once
   bool told_away_ = false;  // that it went away; until it is back

@@ -28,8 +28,7 @@ void run_list(Context& context, const ListOptions& options) {
   v1::ListJobsRequest request;
   for (const std::string& state : options.states) request.add_states(state_named(state));
   request.set_owner(options.owner);
-  request.set_limit(options.limit);
-  const std::vector<v1::Job> jobs = context.session().list_jobs(request);
+  const std::vector<v1::Job> jobs = context.session().list_jobs(request, options.limit);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const v1::Job& job : jobs) list.push_back(to_json(job));
   context.console().document({{"jobs", list}});

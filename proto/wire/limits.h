@@ -17,4 +17,7 @@ inline constexpr std::size_t kFieldRecordBytes = 20;
 /// Largest result of one task: what Protobuf can serialize.
 inline constexpr std::uint64_t kMaxResultBytes = (std::uint64_t{1} << 31) - 1;
 
+/// Jobs in one answer to ListJobs.
+inline constexpr std::uint32_t kMaxListedJobs = 1000;
+
 }  // namespace affskel::wire

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "wire/quoted.h"
+
 namespace affskel::wire {
 namespace {
 
@@ -22,6 +24,12 @@ std::string bits(double value) {
   return text;
 }
 
+/// For messages.
+std::string shortest(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0;;) {
@@ -33,7 +41,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::invalid_argument bad_directions(std::string_view part, const char* why) {
-  return std::invalid_argument("directions '" + std::string(part) + "': " + why +
+  return std::invalid_argument("directions " + quoted(part) + ": " + why +
                                "; expected triangles, sphere:N or random:N:SEED, joined by +");
 }
 
@@ -77,12 +85,14 @@ v1::ErosionParams canonical(const v1::ErosionParams& params) {
   switch (sampling.density_case()) {
     case v1::Sampling::kSpacing:
       if (!std::isfinite(sampling.spacing()) || sampling.spacing() <= 0) {
-        throw std::invalid_argument("spacing must be a finite number > 0");
+        throw std::invalid_argument("the spacing must be a finite number > 0, not " +
+                                    shortest(sampling.spacing()));
       }
       break;
     case v1::Sampling::kTargetPoints:
       if (sampling.target_points() < 1 || sampling.target_points() > kMaxTargetPoints) {
-        throw std::invalid_argument("the number of sample points aimed at must be 1 .. 2^31");
+        throw std::invalid_argument("the number of sample points aimed at must be 1 .. 2^31, not " +
+                                    std::to_string(sampling.target_points()));
       }
       break;
     case v1::Sampling::DENSITY_NOT_SET:
@@ -90,20 +100,28 @@ v1::ErosionParams canonical(const v1::ErosionParams& params) {
   }
   result.set_directions(canonical_directions(params.directions()));
   if (params.frame() == v1::FRAME_UNSPECIFIED) result.set_frame(v1::FRAME_AXIS);
-  if (!v1::Frame_IsValid(result.frame())) throw std::invalid_argument("unknown frame of the lattice");
+  if (!v1::Frame_IsValid(result.frame()))
+    throw std::invalid_argument("unknown frame of the lattice: " +
+                                std::to_string(static_cast<int>(result.frame())));
   return result;
 }
 
 v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
   v1::SkeletonParams result = params;
   if (params.operator_() == v1::OPERATOR_UNSPECIFIED) result.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
-  if (!v1::Operator_IsValid(result.operator_())) throw std::invalid_argument("unknown skeleton operator");
+  if (!v1::Operator_IsValid(result.operator_()))
+    throw std::invalid_argument("unknown skeleton operator: " +
+                                std::to_string(static_cast<int>(result.operator_())));
   if (!std::isfinite(params.threshold()) || params.threshold() < 0) {
-    throw std::invalid_argument("the skeleton threshold must be a finite number > 0, or 0 for the default");
+    throw std::invalid_argument(
+        "the skeleton threshold must be a finite number > 0, or 0 for the default, not " +
+        shortest(params.threshold()));
   }
   if (result.operator_() == v1::OPERATOR_CHORDS && params.threshold() >= 1) {
     throw std::invalid_argument(
-        "the threshold of chords is the least share of the skeleton that a piece of it has, between 0 and 1");
+        "the threshold of chords is the least share of the skeleton that a piece of it has, between 0 and 1, "
+        "not " +
+        shortest(params.threshold()));
   }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {
@@ -115,7 +133,8 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
 v1::SurfaceParams canonical(const v1::SurfaceParams& params) {
   v1::SurfaceParams result = params;
   if (!std::isfinite(params.alpha()) || params.alpha() < 0) {
-    throw std::invalid_argument("alpha must be a finite number > 0, or 0 for the default");
+    throw std::invalid_argument("alpha must be a finite number > 0, or 0 for the default, not " +
+                                shortest(params.alpha()));
   }
   if (params.alpha() == 0) result.set_alpha(0.0);
   *result.mutable_skeleton() = canonical(params.skeleton());
@@ -130,12 +149,14 @@ v1::ErodedParams canonical(const v1::ErodedParams& params) {
   switch (params.level_case()) {
     case v1::ErodedParams::kFraction:
       if (!(params.fraction() > 0 && params.fraction() < 1)) {
-        throw std::invalid_argument("the fraction of the volume must be a number between 0 and 1");
+        throw std::invalid_argument("the fraction of the volume must be a number between 0 and 1, not " +
+                                    shortest(params.fraction()));
       }
       break;
     case v1::ErodedParams::kVolume:
       if (!std::isfinite(params.volume()) || params.volume() <= 0) {
-        throw std::invalid_argument("the volume must be a finite number > 0");
+        throw std::invalid_argument("the volume must be a finite number > 0, not " +
+                                    shortest(params.volume()));
       }
       break;
     case v1::ErodedParams::LEVEL_NOT_SET:

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "process/data_dir.h"
+#include "process/file_limit.h"
 #include "process/log_format.h"
 #include "process/supervisor.h"
 #include "rpc/server.h"
@@ -124,6 +125,7 @@ void serve(const Options& options, const DataDir& data_dir, const sigset_t& sign
 void run_server(const Options& options) {
   umask(0077);  // meshes and results are this user's alone
   const sigset_t signals = block_signals();
+  raise_file_limit();
   const DataDir data_dir(options.data_dir);
   ServerOptions server_options;
   server_options.data_dir = data_dir.path();

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -12,13 +13,14 @@
 #include "rpc/status.h"
 #include "rpc/streams.h"
 #include "store/errors.h"
+#include "wire/limits.h"
+#include "wire/quoted.h"
 #include "wire/version.h"
 
 namespace affskel::server {
 namespace {
 
 constexpr std::uint32_t kDefaultListLimit = 50;
-constexpr std::uint32_t kMaxListLimit = 1000;
 
 // How often a waiting fetch looks whether its client is still there; gRPC's synchronous calls are not
 // told of it.
@@ -31,6 +33,26 @@ struct Signal {
   bool set = false;
 };
 
+// Says what it is, so that something else does not pass for it by accident.
+constexpr std::string_view kTokenPrefix = "before-";
+
+std::string token_of_number(std::int64_t number) {
+  return std::string(kTokenPrefix) + std::to_string(number);
+}
+
+/// 0 for no token.
+std::int64_t number_of_token(const std::string& token) {
+  if (token.empty()) return 0;
+  std::int64_t number = 0;
+  const std::string_view digits = std::string_view(token).substr(std::min(kTokenPrefix.size(), token.size()));
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (number < 1 || token != token_of_number(number)) {
+    throw StoreError(StoreError::Code::kInvalid,
+                     "page_token " + wire::quoted(token) + " is no next_page_token of an earlier answer");
+  }
+  return number;
+}
+
 grpc::Status status_of_failure(const v1::JobError& error) {
   const grpc::StatusCode code = error.code() == "BAD_INPUT" ? grpc::StatusCode::INVALID_ARGUMENT
                                 : error.code() == "LIMIT"   ? grpc::StatusCode::RESOURCE_EXHAUSTED
@@ -41,14 +63,18 @@ grpc::Status status_of_failure(const v1::JobError& error) {
 }  // namespace
 
 ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub,
-                                       Activity& activity, UploadBudget& uploads, Facts facts)
+                                       Activity& activity, UploadBudget& uploads, const CallLimits& limits,
+                                       Facts facts)
     : store_(store),
       registry_(registry),
       hub_(hub),
       activity_(activity),
       uploads_(uploads),
       facts_(std::move(facts)),
-      watches_(hub, activity) {}
+      receiving_("uploads", limits.uploads, limits.patience, limits.stall),
+      waiting_("waiting calls", limits.waiting, {}, {}),
+      sending_("downloads", limits.downloads, limits.patience, limits.stall),
+      watches_(hub, activity, limits.watches) {}
 
 EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
   try {
@@ -77,24 +103,23 @@ v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
   return job;
 }
 
-grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext*,
+grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext* context,
                                            grpc::ServerReader<v1::SubmitJobRequest>* reader,
                                            v1::SubmitJobResponse* response) {
   const Activity::Call call(activity_);
   return guarded([&] {
+    CallLimit::Place place(receiving_);
+    place.depend_on_client(*context);
     v1::SubmitJobRequest first;
     if (!reader->Read(&first) || !first.has_header()) {
       throw StoreError(StoreError::Code::kInvalid, "a submission begins with its header");
     }
-    const std::uint64_t limit = store_.options().max_mesh_bytes;
-    if (first.header().mesh_bytes() > limit) {
-      throw StoreError(StoreError::Code::kLimit,
-                       "the mesh has " + std::to_string(first.header().mesh_bytes()) +
-                           " bytes; this server takes at most " + std::to_string(limit));
-    }
+    // Before the data, which may take minutes to arrive.
+    const Submission submission = store_.check(first.header());
     UploadBudget::Share share(uploads_);
-    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share);
-    Store::Submitted submitted = store_.submit(first.header(), mesh);
+    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share,
+                                                                [&] { place.progress(); });
+    Store::Submitted submitted = store_.submit(submission, mesh);
     *response->mutable_job() = with_reason(std::move(submitted.job));
     response->set_existed(submitted.existed);
   });
@@ -113,15 +138,19 @@ grpc::Status ErosionServiceImpl::ListJobs(grpc::ServerContext*, const v1::ListJo
     ListFilter filter;
     for (int state : request->states()) {
       if (!v1::JobState_IsValid(state) || state == v1::JOB_STATE_UNSPECIFIED) {
-        throw StoreError(StoreError::Code::kInvalid, "unknown job state");
+        throw StoreError(StoreError::Code::kInvalid, "unknown job state: " + std::to_string(state));
       }
       filter.states.push_back(static_cast<v1::JobState>(state));
     }
     filter.owner = request->owner();
     filter.limit = request->limit() == 0 ? kDefaultListLimit : request->limit();
-    if (filter.limit > kMaxListLimit)
-      throw StoreError(StoreError::Code::kInvalid, "the limit must be 1 .. 1000");
-    for (v1::Job& job : store_.list(filter)) *response->add_jobs() = with_reason(std::move(job));
+    if (filter.limit > wire::kMaxListedJobs)
+      throw StoreError(StoreError::Code::kInvalid,
+                       "the limit must be 1 .. 1000, or 0 for 50, not " + std::to_string(request->limit()));
+    filter.before = number_of_token(request->page_token());
+    JobPage page = store_.list(filter);
+    for (v1::Job& job : page.jobs) *response->add_jobs() = with_reason(std::move(job));
+    if (page.next != 0) response->set_next_page_token(token_of_number(page.next));
   });
 }
 
@@ -150,8 +179,9 @@ grpc::Status ErosionServiceImpl::DeleteJob(grpc::ServerContext*, const v1::Delet
   return guarded([&] { response->set_id(store_.remove(request->job())); });
 }
 
-Store::ArtifactState ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& context,
-                                                           const v1::FetchArtifactRequest& request) {
+ErosionServiceImpl::Download ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& context,
+                                                                   const v1::FetchArtifactRequest& request) {
+  const CallLimit::Place waiting(waiting_);
   const auto signal = std::make_shared<Signal>();
   const EventHub::Subscription subscription =
       hub_.subscribe(request.job(), [signal](const EventHub::JobPtr&) {
@@ -162,9 +192,11 @@ Store::ArtifactState ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& 
         signal->changed.notify_all();
       });
   for (std::int64_t task = 0;;) {
+    auto place = std::make_unique<CallLimit::Place>(sending_);
     Store::ArtifactState state = store_.open_artifact(request, task);
     if (state.error) throw CallEnded(status_of_failure(*state.error));
-    if (state.reader != nullptr) return state;
+    if (state.reader != nullptr) return {std::move(place), std::move(state.reader)};
+    place.reset();
     task = state.task;
     std::unique_lock lock(signal->mutex);
     while (!signal->changed.wait_for(lock, kCancelCheck, [&] { return signal->set; })) {
@@ -183,9 +215,10 @@ grpc::Status ErosionServiceImpl::FetchArtifact(grpc::ServerContext* context,
     // The full id from here on: "@last" may soon mean another job.
     v1::FetchArtifactRequest fixed = *request;
     fixed.set_job(store_.resolve(request->job()));
-    const Store::ArtifactState state = wait_for_artifact(*context, fixed);
+    const Download download = wait_for_artifact(*context, fixed);
     const v1::Job job = with_reason(store_.job(fixed.job()));
-    send_blob(*writer, *state.reader, &job);
+    download.place->depend_on_client(*context);
+    send_blob(*writer, *download.reader, &job, [&] { download.place->progress(); });
   });
 }
 

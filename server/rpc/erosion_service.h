@@ -7,6 +7,7 @@
 
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "rpc/activity.h"
+#include "rpc/call_limit.h"
 #include "rpc/event_hub.h"
 #include "rpc/upload_budget.h"
 #include "rpc/watch.h"
@@ -26,7 +27,7 @@ class ErosionServiceImpl final
   };
 
   ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub, Activity& activity,
-                     UploadBudget& uploads, Facts facts);
+                     UploadBudget& uploads, const CallLimits& limits, Facts facts);
 
   grpc::Status SubmitJob(grpc::ServerContext* context, grpc::ServerReader<v1::SubmitJobRequest>* reader,
                          v1::SubmitJobResponse* response) override;
@@ -56,8 +57,12 @@ class ErosionServiceImpl final
 
  private:
   v1::Job with_reason(v1::Job job) const;
-  Store::ArtifactState wait_for_artifact(grpc::ServerContext& context,
-                                         const v1::FetchArtifactRequest& request);
+  /// An artefact to be sent, and the place among the downloads that this takes.
+  struct Download {
+    std::unique_ptr<CallLimit::Place> place;
+    std::unique_ptr<BlobReader> reader;
+  };
+  Download wait_for_artifact(grpc::ServerContext& context, const v1::FetchArtifactRequest& request);
 
   Store& store_;
   WorkerRegistry& registry_;
@@ -65,6 +70,9 @@ class ErosionServiceImpl final
   Activity& activity_;
   UploadBudget& uploads_;
   const Facts facts_;
+  CallLimit receiving_;
+  CallLimit waiting_;
+  CallLimit sending_;
   Watches watches_;
   std::atomic<bool> stopping_ = false;
 };

@@ -5,8 +5,6 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -23,18 +21,6 @@ namespace {
 constexpr int kMaxReceiveBytes = 4 << 20;
 // A job with many finished ranges and notes, or a long list of jobs.
 constexpr int kMaxSendBytes = 64 << 20;
-
-/// New sockets belong to this user alone, from the first moment on.
-class PrivateFiles {
- public:
-  PrivateFiles() : before_(umask(0177)) {}
-  ~PrivateFiles() { umask(before_); }
-  PrivateFiles(const PrivateFiles&) = delete;
-  PrivateFiles& operator=(const PrivateFiles&) = delete;
-
- private:
-  mode_t before_;
-};
 
 /// Keeps the gRPC library initialised until the process ends.  Its last shutdown joins a thread that may
 /// sit in a poll of 10 s (the backup poller of a connection that had to wait for its peer), which would
@@ -67,11 +53,11 @@ Server::Server(const ServerOptions& options)
   queue_ = std::make_unique<LeaseQueue>(*store_, registry_);
   worker_service_ = std::make_unique<WorkerServiceImpl>(*store_, registry_, *queue_, uploads_);
   erosion_service_ = std::make_unique<ErosionServiceImpl>(
-      *store_, registry_, hub_, activity_, uploads_,
+      *store_, registry_, hub_, activity_, uploads_, options.limits,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
   hub_.start([this](const std::string& id) { return erosion_service_->load(id); },
              [this] { queue_->on_work(); });
-  listen(options.listen);
+  serve(options);
   maintenance_ = std::thread([this] { maintain(); });
 }
 
@@ -79,32 +65,30 @@ Server::~Server() {
   stop();
 }
 
-void Server::listen(const std::vector<wire::Address>& addresses) {
+void Server::serve(const ServerOptions& options) {
+  listener_ = std::make_unique<Listener>(options.listen, options.limits.connections);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
-  // Two servers must never share a port by accident.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder.SetMaxReceiveMessageSize(kMaxReceiveBytes);
   builder.SetMaxSendMessageSize(kMaxSendBytes);
   builder.RegisterService(worker_service_.get());
   builder.RegisterService(erosion_service_.get());
-  std::vector<int> ports(addresses.size(), 0);
-  for (std::size_t i = 0; i < addresses.size(); ++i) {
-    builder.AddListeningPort(addresses[i].target(), grpc::InsecureServerCredentials(), &ports[i]);
+  acceptor_ = builder.experimental().AddExternalConnectionAcceptor(
+      grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
+      grpc::InsecureServerCredentials());
+  grpc_ = builder.BuildAndStart();
+  if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
+  for (const char* service :
+       {v1::ErosionService::service_full_name(), v1::WorkerService::service_full_name()}) {
+    grpc_->GetHealthCheckService()->SetServingStatus(service, true);
   }
-  {
-    const PrivateFiles guard;
-    grpc_ = builder.BuildAndStart();
-  }
-  for (std::size_t i = 0; i < addresses.size(); ++i) {
-    if (grpc_ == nullptr || ports[i] == 0) {
-      throw std::runtime_error("cannot listen on " + addresses[i].target() +
-                               ": the address is in use, or cannot be bound (see the log above)");
-    }
-    addresses_.push_back(addresses[i]);
-    if (!addresses[i].is_unix) addresses_.back().port = ports[i];
-  }
+  listener_->start([this](int listening, int connection) {
+    grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
+    parameters.listener_fd = listening;
+    parameters.fd = connection;
+    acceptor_->HandleNewConnection(&parameters);
+  });
 }
 
 void Server::maintain() {
@@ -161,15 +145,12 @@ void Server::stop(std::chrono::milliseconds grace) {
   stopped_.notify_all();
   if (maintenance_.joinable()) maintenance_.join();
   drain();
+  if (listener_ != nullptr) listener_->stop();
   if (grpc_ != nullptr) {
     grpc_->Shutdown(std::chrono::system_clock::now() + grace);
     grpc_->Wait();
   }
   hub_.stop();
-  for (const wire::Address& address : addresses_) {
-    if (address.is_unix) unlink(address.path.c_str());
-  }
-  addresses_.clear();
 }
 
 }  // namespace affskel::server

@@ -14,9 +14,11 @@
 
 #include "clock.h"
 #include "rpc/activity.h"
+#include "rpc/call_limit.h"
 #include "rpc/erosion_service.h"
 #include "rpc/event_hub.h"
 #include "rpc/lease_queue.h"
+#include "rpc/listener.h"
 #include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "rpc/worker_service.h"
@@ -31,6 +33,7 @@ struct ServerOptions {
   StoreOptions store;
   /// Uploads in memory at once; at least one mesh of the greatest size always finds room.
   std::uint64_t upload_bytes = std::uint64_t{2} << 30;
+  CallLimits limits = limits_for(open_files_limit());
 };
 
 /// A serving server: the store, both services and the maintenance of leases, without signals and
@@ -45,7 +48,7 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   /// Where it listens, with the ports actually bound.
-  const std::vector<wire::Address>& addresses() const { return addresses_; }
+  const std::vector<wire::Address>& addresses() const { return listener_->addresses(); }
 
   Store& store() { return *store_; }
   WorkerRegistry& registry() { return registry_; }
@@ -61,7 +64,7 @@ class Server {
   void stop(std::chrono::milliseconds grace = std::chrono::milliseconds(2000));
 
  private:
-  void listen(const std::vector<wire::Address>& addresses);
+  void serve(const ServerOptions& options);
   void maintain();
   void tidy();
 
@@ -75,7 +78,8 @@ class Server {
   std::unique_ptr<WorkerServiceImpl> worker_service_;
   std::unique_ptr<ErosionServiceImpl> erosion_service_;
   std::unique_ptr<grpc::Server> grpc_;
-  std::vector<wire::Address> addresses_;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
+  std::unique_ptr<Listener> listener_;
 
   std::atomic<bool> tidying_ = false;
   std::mutex mutex_;

@@ -33,6 +33,7 @@ grpc::StatusCode code_of(StoreError::Code code) {
 }
 
 grpc::StatusCode code_of(const SqliteError& error) {
+  if (dynamic_cast<const OutOfFiles*>(&error) != nullptr) return grpc::StatusCode::UNAVAILABLE;
   switch (error.primary_code()) {
     case SQLITE_FULL:
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
@@ -44,6 +45,27 @@ grpc::StatusCode code_of(const SqliteError& error) {
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
     default:
       return grpc::StatusCode::INTERNAL;
+  }
+}
+
+/// Statements and paths are for the log.
+std::string told_of(const SqliteError& error) {
+  if (dynamic_cast<const OutOfFiles*>(&error) != nullptr) {
+    return "the server has as many files and connections open as it may; try again";
+  }
+  switch (error.primary_code()) {
+    case SQLITE_FULL:
+      return error.what();
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "the server's database is busy; try again";
+    case SQLITE_TOOBIG:
+      return "this is more than the server's database can hold in one piece";
+    case SQLITE_NOMEM:
+      return "the server is out of memory";
+    default:
+      return "the server's database failed (SQLite code " + std::to_string(error.extended_code()) +
+             "); its log says more";
   }
 }
 
@@ -63,7 +85,7 @@ grpc::Status full_status_of(const std::exception_ptr& error) {
     // Of a full disk the store tells, once in a while, not every call that meets it.
     if (e.primary_code() != SQLITE_FULL)
       spdlog::error("event=database_error code={} message=\"{}\"", e.extended_code(), e.what());
-    return {code_of(e), e.what()};
+    return {code_of(e), told_of(e)};
   } catch (const std::bad_alloc&) {
     spdlog::error("event=out_of_memory");
     return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};

@@ -101,13 +101,19 @@ class Watches::Stream final : public grpc::ServerWriteReactor<v1::Job>,
   grpc::Status status_;
 };
 
-Watches::Watches(EventHub& hub, Activity& activity) : hub_(hub), activity_(activity) {}
+Watches::Watches(EventHub& hub, Activity& activity, std::size_t most)
+    : hub_(hub), activity_(activity), most_(most) {}
 
 grpc::ServerWriteReactor<v1::Job>* Watches::watch(const std::string& job_id) {
   const auto stream = std::make_shared<Stream>(*this);
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return refused_watch({grpc::StatusCode::UNAVAILABLE, "the server is shutting down"});
+    if (streams_.size() >= most_) {
+      return refused_watch({grpc::StatusCode::UNAVAILABLE,
+                            std::to_string(most_) +
+                                " watches are under way, the most that this server has at once; try again"});
+    }
     streams_.insert(stream);
   }
   stream->start(job_id);

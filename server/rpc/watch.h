@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -16,7 +17,8 @@ namespace affskel::server {
 /// All WatchJob streams of a server; none of them holds a thread.  Thread-safe.
 class Watches {
  public:
-  Watches(EventHub& hub, Activity& activity);
+  /// @param most streams at once; more are refused with UNAVAILABLE.
+  Watches(EventHub& hub, Activity& activity, std::size_t most);
 
   /// Starts a stream for the job of this full id.
   grpc::ServerWriteReactor<v1::Job>* watch(const std::string& job_id);
@@ -29,6 +31,7 @@ class Watches {
 
   EventHub& hub_;
   Activity& activity_;
+  const std::size_t most_;
   std::mutex mutex_;
   std::set<std::shared_ptr<Stream>> streams_;
   bool stopping_ = false;

@@ -68,10 +68,10 @@ class FieldReader final : public BlobReader {
 
   std::string next() override {
     if (index_ >= field_->chunk_count()) return {};
-    // Several chunks to a message: each is far below the limit.
+    // Several chunks to a message, and not as many as it takes: each of many clients may let one wait.
     std::string bytes;
     while (index_ < field_->chunk_count() &&
-           bytes.size() + kChunkPoints * wire::kFieldRecordBytes <= wire::kChunkBytes) {
+           bytes.size() + kChunkPoints * wire::kFieldRecordBytes <= wire::kChunkBytes / 4) {
       bytes += field_->chunk(index_++);
     }
     return bytes;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "store/errors.h"
+#include "wire/quoted.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -46,7 +48,7 @@ constexpr const char* kJobColumns =
     " m.bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms, j.finished_ms,"
     " j.error_code, j.error_message, j.error_line, j.directions_reported, j.directions_repeated, j.reports,"
     " j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
-    " j.skeleton_points, e.stride, j.erosion_id, j.quality"
+    " j.skeleton_points, e.stride, j.erosion_id, j.quality, j.seq"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -100,14 +102,20 @@ v1::Job read_job(const Statement& row) {
   return job;
 }
 
-void require_hex(const std::string& reference) {
+/// An id or a prefix, in the form in which ids are kept.
+std::string checked_prefix(std::string reference) {
+  for (char& c : reference) {
+    if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
+  }
   const bool hex = std::all_of(reference.begin(), reference.end(),
                                [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
   if (reference.size() < 6 || reference.size() > 32 || !hex) {
     throw StoreError(
         StoreError::Code::kInvalid,
-        "job '" + reference + "': expected an id, a prefix of at least 6 of its digits, or @last");
+        "job " + wire::quoted(reference) +
+            ": expected an id of 32 hexadecimal digits, a prefix of at least 6 of them, or @last");
   }
+  return reference;
 }
 
 std::optional<JobRow> find_job(Database& db, const std::string& id) {
@@ -171,14 +179,14 @@ std::string resolve_job(Database& db, const std::string& reference) {
     if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job @last: there are no jobs");
     return row.text(0);
   }
-  require_hex(reference);
+  const std::string prefix = checked_prefix(reference);
   // 'g' follows the last hexadecimal digit, so this range is exactly the ids that begin so.
-  Statement row = db.query("SELECT id FROM jobs WHERE id >= ? AND id < ? || 'g' ORDER BY id LIMIT 2",
-                           reference, reference);
-  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + reference);
+  Statement row =
+      db.query("SELECT id FROM jobs WHERE id >= ? AND id < ? || 'g' ORDER BY id LIMIT 2", prefix, prefix);
+  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + prefix);
   std::string id = row.text(0);
   if (row.step()) {
-    throw StoreError(StoreError::Code::kInvalid, "job '" + reference + "': more than one job's id begins so");
+    throw StoreError(StoreError::Code::kInvalid, "job '" + prefix + "': more than one job's id begins so");
   }
   return id;
 }
@@ -197,18 +205,27 @@ v1::Job job_message(Database& db, const std::string& id) {
   return job;
 }
 
-std::vector<v1::Job> list_jobs(Database& db, const ListFilter& filter) {
+JobPage list_jobs(Database& db, const ListFilter& filter) {
   // States as a bit set, so that one statement serves every filter.
   std::int64_t mask = filter.states.empty() ? -1 : 0;
   for (v1::JobState state : filter.states) mask |= std::int64_t{1} << static_cast<int>(state);
   static const std::string sql =
       std::string(kJobColumns) +
       "WHERE (?1 = '' OR j.owner = ?1) AND (?2 >> CASE j.state WHEN 'queued' THEN 1 WHEN 'running' THEN 2"
-      " WHEN 'done' THEN 3 WHEN 'failed' THEN 4 ELSE 5 END) & 1 ORDER BY j.seq DESC LIMIT ?3";
-  Statement row = db.query(sql.c_str(), filter.owner, mask, filter.limit);
-  std::vector<v1::Job> jobs;
-  while (row.step()) jobs.push_back(read_job(row));
-  return jobs;
+      " WHEN 'done' THEN 3 WHEN 'failed' THEN 4 ELSE 5 END) & 1 AND j.seq < ?4 ORDER BY j.seq DESC LIMIT ?3";
+  const std::int64_t before = filter.before > 0 ? filter.before : std::numeric_limits<std::int64_t>::max();
+  Statement row = db.query(sql.c_str(), filter.owner, mask, filter.limit + 1, before);
+  JobPage page;
+  std::int64_t last = 0;
+  while (row.step()) {
+    if (static_cast<std::int64_t>(page.jobs.size()) == filter.limit) {
+      page.next = last;
+      break;
+    }
+    page.jobs.push_back(read_job(row));
+    last = row.integer(31);
+  }
+  return page;
 }
 
 std::string current_core_version(Database& db) {

@@ -58,10 +58,16 @@ struct ListFilter {
   std::vector<v1::JobState> states;  ///< empty = all
   std::string owner;                 ///< empty = all
   std::int64_t limit = 50;
+  std::int64_t before = 0;  ///< only jobs submitted before the one of this number; 0 = all
 };
 
-/// Newest first, without finished positions.
-std::vector<v1::Job> list_jobs(Database& db, const ListFilter& filter);
+struct JobPage {
+  std::vector<v1::Job> jobs;  ///< newest first, without finished positions
+  std::int64_t next = 0;      ///< ListFilter::before for the jobs after these; 0 = there are none
+};
+
+/// Numbers of jobs are never given twice, so that a page begins at the same place whatever comes and goes.
+JobPage list_jobs(Database& db, const ListFilter& filter);
 
 /// Finished ranges of an erosion in ascending order.
 std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id);

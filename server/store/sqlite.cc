@@ -17,6 +17,9 @@ constexpr int kPageBytes = 16384;
 // Reports rewrite field pages over and over: a long log copies each page to the database less often.
 constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
 
+// What a connection that only reads keeps of it; there may be many, and clients let them wait.
+constexpr int kReaderCacheKib = 256;
+
 // The database file grows in steps of this size.
 constexpr int kGrowthBytes = 1 << 20;
 
@@ -32,7 +35,13 @@ int code_of(sqlite3* db) {
 [[noreturn]] void raise(sqlite3* db, const std::string& context) {
   const int code = db == nullptr ? SQLITE_NOMEM : code_of(db);
   const char* text = db == nullptr ? "out of memory" : sqlite3_errmsg(db);
-  throw SqliteError(code, "database " + context + ": " + text + " (code " + std::to_string(code) + ")");
+  const std::string message = "database " + context + ": " + text + " (code " + std::to_string(code) + ")";
+  const int primary = code & 0xff;
+  const int cause = db == nullptr ? 0 : sqlite3_system_errno(db);
+  if ((primary == SQLITE_CANTOPEN || primary == SQLITE_IOERR) && (cause == EMFILE || cause == ENFILE)) {
+    throw OutOfFiles(code, message);
+  }
+  throw SqliteError(code, message);
 }
 
 }  // namespace
@@ -125,6 +134,8 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
     sqlite3_extended_result_codes(handle_, 1);
     sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
     execute("PRAGMA foreign_keys = ON");
+    // Readers go through what they read once.
+    if (mode == Mode::kReadOnly) execute("PRAGMA cache_size = " + std::to_string(-kReaderCacheKib));
     if (mode == Mode::kReadWrite) {
       // FULL: a commit is on the disk when it is acknowledged.
       // Secure deletion, which Debian switches on, writes every page that is freed: a delete would need as

@@ -25,6 +25,12 @@ class SqliteError : public std::runtime_error {
   int extended_code_;
 };
 
+/// The process or the machine has no descriptor left for the database's files: it soon has again.
+class OutOfFiles : public SqliteError {
+ public:
+  using SqliteError::SqliteError;
+};
+
 /// Bytes to bind as a BLOB; text is bound as TEXT.
 struct Blob {
   std::string_view bytes;

@@ -16,6 +16,7 @@
 #include "store/blobs.h"
 #include "store/field.h"
 #include "store/rows.h"
+#include "store/submission.h"
 #include "store/tx.h"
 
 namespace affskel::server {
@@ -50,12 +51,15 @@ class Store {
     v1::Job job;
     bool existed = false;
   };
-  /// Checks the header against the bytes and stores both, unless an earlier job answers the request.
+  /// Checks all of a header that can be checked without its mesh, its request id included.
+  Submission check(const v1::SubmitJobHeader& header);
+  /// Checks the bytes against the header and stores both, unless an earlier job answers the request.
+  Submitted submit(const Submission& submission, std::string_view mesh);
   Submitted submit(const v1::SubmitJobHeader& header, std::string_view mesh);
 
   v1::Job job(const std::string& job_ref);
   std::string resolve(const std::string& job_ref);
-  std::vector<v1::Job> list(const ListFilter& filter);
+  JobPage list(const ListFilter& filter);
   /// A queued job is cancelled at once, a running one is marked.
   v1::Job cancel(const std::string& job_ref);
   /// A failed or cancelled job goes on from where it was; an active one stays as it is.

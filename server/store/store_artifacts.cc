@@ -43,13 +43,38 @@ std::optional<Derived> derived_artifact(const JobRow& job, const v1::FetchArtifa
   }
 }
 
+StoreError unknown_kind(const v1::FetchArtifactRequest& request) {
+  return {StoreError::Code::kInvalid,
+          "unknown kind of artefact: " + std::to_string(static_cast<int>(request.kind()))};
+}
+
 Derived checked_derived(const JobRow& job, const v1::FetchArtifactRequest& request) {
   try {
     if (std::optional<Derived> known = derived_artifact(job, request)) return *std::move(known);
   } catch (const std::invalid_argument& error) {
     throw StoreError(StoreError::Code::kInvalid, error.what());
   }
-  throw StoreError(StoreError::Code::kInvalid, "unknown kind of artefact");
+  throw unknown_kind(request);
+}
+
+/// Parameters that would be ignored are a mistake of the caller.
+void check_parameters(const v1::FetchArtifactRequest& request) {
+  if (!v1::ArtifactKind_IsValid(request.kind()) || request.kind() == v1::ARTIFACT_KIND_UNSPECIFIED) {
+    throw unknown_kind(request);
+  }
+  const auto refuse_unless = [&](bool allowed, bool given, const std::string& what) {
+    if (given && !allowed) {
+      throw StoreError(StoreError::Code::kInvalid,
+                       what + ", not for " + v1::ArtifactKind_Name(request.kind()));
+    }
+  };
+  const auto is = [&](auto... kinds) { return ((request.kind() == kinds) || ...); };
+  refuse_unless(is(v1::ARTIFACT_KIND_SKELETON, v1::ARTIFACT_KIND_DIVERGENCE), request.has_skeleton(),
+                "the parameters 'skeleton' are for SKELETON and DIVERGENCE (SURFACE has surface.skeleton)");
+  refuse_unless(is(v1::ARTIFACT_KIND_SURFACE), request.has_surface(),
+                "the parameters 'surface' are for SURFACE");
+  refuse_unless(is(v1::ARTIFACT_KIND_ERODED_POINTS, v1::ARTIFACT_KIND_ERODED_SURFACE), request.has_eroded(),
+                "the parameters 'eroded' are for ERODED_POINTS and ERODED_SURFACE");
 }
 
 std::string progress_of(const JobRow& job) {
@@ -57,20 +82,30 @@ std::string progress_of(const JobRow& job) {
          std::to_string(job.directions_done) + " of " + std::to_string(job.directions) + " directions";
 }
 
+/// Why the job has no such thing, and whether waiting helps.
+StoreError missing(Database& db, const JobRow& job, const std::string& what) {
+  std::string why = "job " + job.id + " has no " + what;
+  if (job.active()) {
+    why += " yet (" + progress_of(job) + ")";
+  } else {
+    why += " (" + progress_of(job) + ")";
+    Statement error = db.query("SELECT error_code, error_message FROM jobs WHERE id = ?", job.id);
+    if (job.state == v1::JOB_STATE_FAILED && error.step()) {
+      why += ": " + error.text(0) + ": " + error.text(1);
+    }
+    if (job.state == v1::JOB_STATE_CANCELLED) why += ": resume it";
+  }
+  return {StoreError::Code::kPrecondition, why};
+}
+
 std::int64_t stored_artifact(Database& db, const JobRow& job, const char* kind) {
   const std::optional<std::int64_t> id = find_artifact(db, {job.erosion_id, kind, ""});
-  if (!id) {
-    throw StoreError(StoreError::Code::kPrecondition,
-                     "job " + job.id + " is not prepared yet (" + progress_of(job) + "): no " + kind);
-  }
+  if (!id) throw missing(db, job, kind);
   return *id;
 }
 
-void require_finished(const JobRow& job) {
-  if (!job.finished) {
-    throw StoreError(StoreError::Code::kPrecondition,
-                     "the field of job " + job.id + " is not complete yet (" + progress_of(job) + ")");
-  }
+void require_finished(Database& db, const JobRow& job) {
+  if (!job.finished) throw missing(db, job, "complete field");
 }
 
 /// The task that will bring the artefact: one that is queued already, or a new one.
@@ -115,6 +150,7 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
   std::string mesh;
   std::int64_t field = 0;
   std::int64_t artifact = 0;
+  check_parameters(request);
   ArtifactState state;
   state.task = write([&](Tx& tx) -> std::int64_t {
     const JobRow job = get_job(tx.db, resolve_job(tx.db, request.job()));
@@ -129,14 +165,14 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
         artifact = stored_artifact(tx.db, job, "directions");
         return 0;
       case v1::ARTIFACT_KIND_FIELD:
-        require_finished(job);
+        require_finished(tx.db, job);
         field = job.erosion_id;
         return 0;
       default:
         break;
     }
     const Derived wanted = checked_derived(job, request);
-    require_finished(job);
+    require_finished(tx.db, job);
     artifact = find_artifact(tx.db, wanted.key).value_or(0);
     if (artifact != 0) return 0;
     if (asked != 0) state.error = task_error(tx.db, asked);

@@ -14,7 +14,7 @@ std::string Store::resolve(const std::string& job_ref) {
   return read([&](Database& db) { return resolve_job(db, job_ref); });
 }
 
-std::vector<v1::Job> Store::list(const ListFilter& filter) {
+JobPage Store::list(const ListFilter& filter) {
   return read([&](Database& db) { return list_jobs(db, filter); });
 }
 

@@ -163,6 +163,14 @@ TEST_F(ClientTest, WatchReattachesWhenTheStreamEndsTooEarly) {
   EXPECT_NE(done.err.find("the server went away"), std::string::npos);
 }
 
+TEST_F(ClientTest, ABusyServerIsAskedAgain) {
+  service_.busy = 2;
+  const Outcome done = run({"status", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("trying again: too many calls"), std::string::npos) << done.err;
+  EXPECT_LT(service_.busy, 0);
+}
+
 TEST_F(ClientTest, WatchGivesUpWhenTheServerStaysAway) {
   service_.watch_stays_away = true;
   service_.watch_breaks_after = 1;
@@ -208,7 +216,20 @@ TEST_F(ClientTest, ListPassesFiltersOn) {
   EXPECT_EQ(service_.listed.owner(), "me");
   EXPECT_EQ(service_.listed.limit(), 3u);
   EXPECT_NE(outcome.out.find("0123456789ab  done"), std::string::npos) << outcome.out;
+  service_.jobs = 1;
   EXPECT_EQ(json::parse(run({"--json", "list"}).out).at("jobs").size(), 1u);
+}
+
+TEST_F(ClientTest, ListFollowsPagesUpToItsLimit) {
+  service_.jobs = 5000;
+  EXPECT_EQ(json::parse(run({"--json", "list", "--limit", "2300"}).out).at("jobs").size(), 2300u);
+  ASSERT_EQ(service_.lists.size(), 3u);
+  EXPECT_EQ(service_.lists[0].page_token(), "");
+  EXPECT_EQ(service_.lists[1].page_token(), "left 4000");
+  EXPECT_EQ(service_.lists[2].page_token(), "left 3000");
+  EXPECT_EQ(service_.lists[2].limit(), 300u);
+  service_.jobs = 1200;
+  EXPECT_EQ(json::parse(run({"--json", "list", "--limit", "9000"}).out).at("jobs").size(), 1200u);
 }
 
 TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {

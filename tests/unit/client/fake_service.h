@@ -3,6 +3,7 @@
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <string>
@@ -24,6 +25,7 @@ class FakeService final : public v1::ErosionService::Service {
   bool watch_stays_away = false;  ///< all further watches are UNAVAILABLE
   std::map<v1::ArtifactKind, std::string> artifacts;
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
+  int busy = 0;                           ///< so many questions about a job are UNAVAILABLE first
   bool damage = false;                    ///< flip a byte of every artefact
   bool existed = false;
   std::uint64_t max_mesh_bytes = 1 << 30;
@@ -31,7 +33,9 @@ class FakeService final : public v1::ErosionService::Service {
   v1::SubmitJobHeader submitted;  ///< as it arrived
   std::string mesh;
   std::vector<v1::FetchArtifactRequest> fetches;
-  v1::ListJobsRequest listed;
+  v1::ListJobsRequest listed;  ///< the last of these
+  std::vector<v1::ListJobsRequest> lists;
+  std::uint32_t jobs = 1;  ///< so many are listed, in pages
   int watches = 0;
 
   grpc::Status SubmitJob(grpc::ServerContext*, grpc::ServerReader<v1::SubmitJobRequest>* reader,
@@ -48,13 +52,17 @@ class FakeService final : public v1::ErosionService::Service {
   }
   grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) override {
     if (request->job() == "000000") return {grpc::StatusCode::NOT_FOUND, "no job begins with 000000"};
+    if (busy-- > 0) return {grpc::StatusCode::UNAVAILABLE, "too many calls"};
     *response = job;
     return fails;
   }
   grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* response) override {
     listed = *request;
-    *response->add_jobs() = job;
+    lists.push_back(*request);
+    for (std::uint32_t i = 0; i < std::min(jobs, request->limit()); ++i) *response->add_jobs() = job;
+    jobs -= static_cast<std::uint32_t>(response->jobs_size());
+    if (jobs > 0) response->set_next_page_token("left " + std::to_string(jobs));
     return fails;
   }
   grpc::Status WatchJob(grpc::ServerContext*, const v1::WatchJobRequest*,

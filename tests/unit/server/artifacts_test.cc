@@ -19,6 +19,10 @@ class ArtifactTest : public StoreTest {
     result.mutable_skeleton()->set_threshold(threshold);
     return result;
   }
+
+  std::string refusal(const v1::FetchArtifactRequest& wanted) {
+    return error_of([&] { store_->open_artifact(wanted); });
+  }
 };
 
 TEST_F(ArtifactTest, LatticeAndDirectionsAreThereAfterPreparing) {
@@ -174,6 +178,49 @@ TEST_F(ArtifactTest, RefusesWrongRequests) {
   v1::FetchArtifactRequest divergence = request(job.id(), v1::ARTIFACT_KIND_DIVERGENCE);
   divergence.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   EXPECT_STORE_ERROR(store_->open_artifact(divergence), kInvalid);
+}
+
+TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
+  const v1::Job job = complete_job(10, 20);
+  for (int kind = 1; kind < v1::ArtifactKind_ARRAYSIZE; ++kind) {
+    for (const std::string word : {"skeleton", "surface", "eroded"}) {
+      v1::FetchArtifactRequest wrong = request(job.id(), static_cast<v1::ArtifactKind>(kind));
+      const std::string name = v1::ArtifactKind_Name(wrong.kind());
+      bool right = false;
+      if (word == "skeleton") {
+        wrong.mutable_skeleton()->set_threshold(3);
+        right = name.ends_with("SKELETON") || name.ends_with("DIVERGENCE");
+      } else if (word == "surface") {
+        wrong.mutable_surface()->set_alpha(3);
+        right = name == "ARTIFACT_KIND_SURFACE";
+      } else {
+        wrong.mutable_eroded()->set_fraction(0.5);
+        right = name.find("ERODED") != std::string::npos;
+      }
+      if (right) {
+        EXPECT_NO_THROW(store_->open_artifact(wrong)) << name << " " << word;
+      } else {
+        EXPECT_NE(refusal(wrong).find("'" + word + "'"), std::string::npos) << name << " " << word;
+      }
+    }
+  }
+  EXPECT_NE(refusal(request(job.id(), static_cast<v1::ArtifactKind>(99))).find("99"), std::string::npos);
+}
+
+TEST_F(ArtifactTest, TellsWhyAJobThatHasEndedHasNoField) {
+  const v1::Job job = submit();
+  const v1::FetchArtifactRequest field = request(job.id(), v1::ARTIFACT_KIND_FIELD);
+  EXPECT_NE(refusal(field).find(" yet (queued"), std::string::npos) << refusal(field);
+  store_->cancel(job.id());
+  EXPECT_NE(refusal(field).find("cancelled"), std::string::npos) << refusal(field);
+  EXPECT_EQ(refusal(field).find("yet"), std::string::npos) << refusal(field);
+  store_->resume(job.id());
+  v1::JobError error;
+  error.set_code("BAD_INPUT");
+  error.set_message("edge 3 is open");
+  store_->fail(lease().token(), error, false);
+  EXPECT_NE(refusal(field).find("BAD_INPUT: edge 3 is open"), std::string::npos) << refusal(field);
+  EXPECT_EQ(refusal(field).find("yet"), std::string::npos) << refusal(field);
 }
 
 TEST_F(ArtifactTest, ReaderSeesOneStateWhileReportsGoOn) {

@@ -228,6 +228,19 @@ TEST_F(ClientServiceTest, SubmissionsAreChecked) {
   EXPECT_EQ(server_->store().counts().total, 0);
 }
 
+TEST_F(ClientServiceTest, AWrongHeaderIsRefusedBeforeItsMesh) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_priority(10);
+  grpc::ClientContext context;
+  v1::SubmitJobResponse response;
+  const auto writer = client_->SubmitJob(&context, &response);
+  v1::SubmitJobRequest message;
+  *message.mutable_header() = header;
+  writer->Write(message);
+  // Neither data nor an end of them.
+  EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+}
+
 TEST_F(ClientServiceTest, SubmissionMustBeginWithItsHeader) {
   grpc::ClientContext context;
   v1::SubmitJobResponse response;

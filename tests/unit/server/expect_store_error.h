@@ -2,7 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "store/errors.h"
+
+namespace affskel::server {
+
+/// Message of the StoreError that the call throws; "" when it throws none.
+template <typename Call>
+std::string error_of(Call call) {
+  try {
+    call();
+  } catch (const StoreError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace affskel::server
 
 /// Expects `statement` to throw a StoreError with the given code.
 #define EXPECT_STORE_ERROR(statement, expected)                                               \

@@ -35,6 +35,16 @@ TEST(StatusTest, EveryErrorHasItsCode) {
   EXPECT_TRUE(guarded([] {}).ok());
 }
 
+TEST(StatusTest, StatementsAndPathsAreNotForClients) {
+  for (const int code : {SQLITE_CORRUPT, SQLITE_BUSY, SQLITE_IOERR_READ, SQLITE_NOMEM, SQLITE_TOOBIG}) {
+    const SqliteError error(code, "database /home/me/affskel.db: statement SELECT 1");
+    const grpc::Status status = status_of(std::make_exception_ptr(error));
+    EXPECT_EQ(status.error_message().find("SELECT"), std::string::npos) << status.error_message();
+    EXPECT_EQ(status.error_message().find("/home"), std::string::npos) << status.error_message();
+    EXPECT_FALSE(status.error_message().empty());
+  }
+}
+
 TEST(StatusTest, LongMessagesAreCutAtACharacter) {
   const std::string quoted = "x" + [] {
     std::string text;

@@ -1,3 +1,5 @@
+#include <cctype>
+
 #include "expect_store_error.h"
 #include "store_fixture.h"
 
@@ -5,6 +7,11 @@ namespace affskel::server {
 namespace {
 
 using SubmitTest = StoreTest;
+
+std::string in_capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
 
 TEST_F(SubmitTest, StoresMeshAndJob) {
   const std::string mesh = std::string("OFF\n\0binary is kept", 19) + std::string(3 << 20, 'x');
@@ -43,6 +50,62 @@ TEST_F(SubmitTest, RefusesWrongHeaders) {
   });
   refused([](auto& h) { h.mutable_skeleton()->set_threshold(-1); });
   EXPECT_EQ(store_->counts().total, 0);
+}
+
+TEST_F(SubmitTest, HeadersAreCheckedWithoutTheirMesh) {
+  const v1::SubmitJobHeader good = submit_header("OFF 1");
+  const auto refusal = [&](auto change) {
+    v1::SubmitJobHeader header = good;
+    change(header);
+    return error_of([&] { store_->check(header); });
+  };
+  EXPECT_EQ(refusal([](auto&) {}), "");
+  const auto expect = [](const std::string& message, const std::string& value, const std::string& allowed) {
+    EXPECT_NE(message.find(value), std::string::npos) << message;
+    EXPECT_NE(message.find(allowed), std::string::npos) << message;
+  };
+  expect(refusal([](auto& h) { h.set_priority(12); }), "12", "0 .. 9");
+  expect(refusal([](auto& h) { h.set_name(std::string(201, 'n')); }), "name has 201", "200");
+  expect(refusal([](auto& h) { h.clear_mesh_sha256(); }), "mesh_sha256", "not set");
+  expect(refusal([](auto& h) { h.set_mesh_sha256("xyz"); }), "'xyz'", "64 hexadecimal digits");
+  expect(refusal([](auto& h) { h.clear_mesh_bytes(); }), "mesh_bytes", "not set");
+  expect(refusal([](auto& h) { h.mutable_params()->mutable_sampling()->set_spacing(-2); }), "-2", "> 0");
+  expect(refusal([](auto& h) { h.mutable_params()->set_frame(static_cast<v1::Frame>(77)); }), "77", "frame");
+  expect(refusal([](auto& h) { h.mutable_skeleton()->set_operator_(static_cast<v1::Operator>(78)); }), "78",
+         "operator");
+  expect(refusal([](auto& h) { h.mutable_params()->set_directions(std::string("a\0\n", 3)); }),
+         "'a\\x00\\x0a'", "sphere:N");
+
+  v1::SubmitJobHeader used = good;
+  used.set_request_id("key\n");
+  store_->submit(used, "OFF 1");
+  EXPECT_EQ(error_of([&] { store_->check(used); }), "");
+  used.set_mesh_sha256(std::string(64, '0'));
+  expect(error_of([&] { store_->check(used); }), "'key\\x0a'", "another submission");
+}
+
+TEST_F(SubmitTest, TellsWhatArrivedInsteadOfWhatWasAnnounced) {
+  const v1::SubmitJobHeader header = submit_header("OFF 1");
+  const std::string nothing = error_of([&] { store_->submit(header, ""); });
+  EXPECT_NE(nothing.find("announced 5 bytes, but 0 arrived"), std::string::npos) << nothing;
+  const std::string other = error_of([&] { store_->submit(header, "OFF 2"); });
+  EXPECT_NE(other.find(submit_header("OFF 2").mesh_sha256()), std::string::npos) << other;
+}
+
+TEST_F(SubmitTest, HexadecimalDigitsHaveNoCase) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_mesh_sha256(in_capitals(header.mesh_sha256()));
+  const v1::Job job = store_->submit(header, "OFF 1").job;
+  EXPECT_EQ(job.mesh_sha256(), submit_header("OFF 1").mesh_sha256());
+  EXPECT_TRUE(store_->submit(submit_header("OFF 1"), "OFF 1").existed);
+  EXPECT_EQ(store_->resolve(in_capitals(job.id())), job.id());
+  EXPECT_EQ(store_->resolve(in_capitals(job.id().substr(0, 10))), job.id());
+}
+
+TEST_F(SubmitTest, JobReferencesAreQuotedSafely) {
+  const std::string nul = error_of([&] { store_->resolve(std::string("x\0y", 3)); });
+  EXPECT_NE(nul.find("'x\\x00y': expected an id"), std::string::npos) << nul;
+  EXPECT_LT(error_of([&] { store_->resolve(std::string(5000, 'x')); }).size(), 300U);
 }
 
 TEST_F(SubmitTest, RefusesEmptyAndTooLargeMeshes) {
@@ -89,6 +152,22 @@ TEST_F(SubmitTest, RequestIdsNameOneSubmission) {
   header.set_name("renamed");
   EXPECT_STORE_ERROR(store_->submit(header, "OFF 1"), kExists);
   EXPECT_EQ(store_->counts().total, 1);
+}
+
+TEST_F(SubmitTest, ThePriorityIsNoContent) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_request_id("key");
+  header.set_priority(3);
+  const std::string id = store_->submit(header, "OFF 1").job.id();
+  for (const auto& [asked, got] : {std::pair{7U, 7U}, std::pair{2U, 7U}}) {
+    header.set_priority(asked);
+    const Store::Submitted again = store_->submit(header, "OFF 1");
+    EXPECT_TRUE(again.existed);
+    EXPECT_EQ(again.job.id(), id);
+    EXPECT_EQ(again.job.priority(), got);
+  }
+  header.mutable_skeleton()->set_threshold(3);
+  EXPECT_STORE_ERROR(store_->submit(header, "OFF 1"), kExists);
 }
 
 TEST_F(SubmitTest, RequestIdFindsItsJobEvenWhenItFailed) {
@@ -167,6 +246,38 @@ TEST_F(SubmitTest, FindsJobsByPrefixAndLast) {
   EXPECT_STORE_ERROR(store_->resolve(std::string(32, first[0] == '0' ? '1' : '0')), kNotFound);
 }
 
+TEST_F(SubmitTest, PagesStayRightWhileJobsComeAndGo) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 7; ++i) ids.push_back(submit("OFF " + std::to_string(i)).id());
+  std::vector<std::string> seen;
+  const auto page = [&](std::int64_t before) {
+    ListFilter filter;
+    filter.limit = 2;
+    filter.before = before;
+    JobPage found = store_->list(filter);
+    for (const v1::Job& job : found.jobs) seen.push_back(job.id());
+    return found.next;
+  };
+  std::int64_t next = page(0);
+  submit("OFF newer");
+  // The last of a page, one of the next, and with it the number that begins the page after.
+  for (int gone : {5, 4}) {
+    store_->cancel(ids[static_cast<std::size_t>(gone)]);
+    store_->remove(ids[static_cast<std::size_t>(gone)]);
+  }
+  while (next != 0) next = page(next);
+  EXPECT_EQ(seen, (std::vector<std::string>{ids[6], ids[5], ids[3], ids[2], ids[1], ids[0]}));
+}
+
+TEST_F(SubmitTest, AFullPageOfTheLastJobsIsTheLast) {
+  for (int i = 0; i < 4; ++i) submit("OFF " + std::to_string(i));
+  ListFilter filter;
+  filter.limit = 4;
+  EXPECT_EQ(store_->list(filter).next, 0);
+  filter.limit = 3;
+  EXPECT_NE(store_->list(filter).next, 0);
+}
+
 TEST_F(SubmitTest, ListsNewestFirstWithFilters) {
   const std::string first = submit("OFF 1").id();
   const std::string second = submit("OFF 2").id();
@@ -176,7 +287,7 @@ TEST_F(SubmitTest, ListsNewestFirstWithFilters) {
   store_->cancel(first);
   const auto ids = [&](const ListFilter& filter) {
     std::vector<std::string> found;
-    for (const v1::Job& job : store_->list(filter)) found.push_back(job.id());
+    for (const v1::Job& job : store_->list(filter).jobs) found.push_back(job.id());
     return found;
   };
   EXPECT_EQ(ids({}), (std::vector<std::string>{third, second, first}));

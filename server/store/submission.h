@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "affskel/v1/client_service.pb.h"
+
+namespace affskel::server {
+
+/// The header of a submission, checked and in canonical form.
+struct Submission {
+  v1::SubmitJobHeader header;  ///< its SHA-256 in lower case
+  v1::ErosionParams params;
+  v1::SkeletonParams skeleton;
+  std::string params_key;
+  std::string skeleton_key;
+};
+
+/// Checks what a header says by itself.
+/// @throws StoreError kInvalid naming field, value and what is allowed; kLimit for a mesh above the limit.
+Submission checked_submission(const v1::SubmitJobHeader& header, std::uint64_t max_mesh_bytes);
+
+/// Checks the bytes that came against what the header announced.  @throws StoreError kInvalid.
+void check_mesh(const Submission& submission, std::string_view mesh);
+
+}  // namespace affskel::server
