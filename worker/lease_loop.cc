@@ -20,6 +20,7 @@
 #include "prepared_job.h"
 #include "result_bytes.h"
 #include "server_link.h"
+#include "task_context.h"
 #include "wire/direction_order.h"
 #include "wire/identity.h"
 
@@ -178,20 +179,43 @@ class LeaseLoop {
   void work_on(const v1::Lease& lease) {
     spdlog::debug("job={} lease={} task={} msg=\"leased\"", lease.job().id(), lease.token(),
                   v1::TaskKind_Name(lease.kind()));
+    TaskContext context(stop_);
     try {
-      dispatch(lease);
-    } catch (const LeaseLost& lost) {
-      spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(),
-                   lost.what());
-      forget();
-      // It may have been the block before that lost its lease; this one would then lie idle.
-      link_.give_back(lease.token());
+      dispatch(lease, context);
     } catch (const ServerGone&) {
       throw;
+    } catch (const LeaseLost& lost) {
+      // The last call may have met the end that the lease keeper knows the reason of.
+      context.why() == TaskContext::Why::kCancelled ? drop(lease, context.why()) : lose(lease, lost.what());
     } catch (...) {
       const std::exception_ptr problem = std::current_exception();
-      forget();
-      tell_failure(lease.job().id(), lease.token(), problem);
+      if (context.stop_requested()) {
+        drop(lease, context.why());
+      } else {
+        forget();
+        tell_failure(lease.job().id(), lease.token(), problem);
+      }
+    }
+  }
+
+  void lose(const v1::Lease& lease, const char* cause) {
+    spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(), cause);
+    forget();
+    // It may have been the block before that lost its lease; this one would then lie idle.
+    link_.give_back(lease.token());
+  }
+
+  // What the context stopped.
+  void drop(const v1::Lease& lease, TaskContext::Why why) {
+    switch (why) {
+      case TaskContext::Why::kWorkerStops:
+        return link_.give_back(lease.token());
+      case TaskContext::Why::kLeaseLost:
+        return lose(lease, "it was not renewed in time, or its job is gone");
+      default:
+        spdlog::info("job={} lease={} msg=\"cancelled, task dropped\"", lease.job().id(), lease.token());
+        if (next_ && next_->job().id() == lease.job().id()) give_back_next();
+        forget();
     }
   }
 
@@ -210,30 +234,30 @@ class LeaseLoop {
     }
   }
 
-  void dispatch(const v1::Lease& lease) {
+  void dispatch(const v1::Lease& lease, TaskContext& context) {
     if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) {
-      const LeaseKeeper keeper(link_, lease);
+      const LeaseKeeper keeper(link_, lease, context);
       last_report_.wait();
     }
     switch (lease.kind()) {
       case v1::TASK_KIND_PREPARE:
-        return prepare(lease);
+        return prepare(lease, context);
       case v1::TASK_KIND_ERODE:
-        return erode_block(lease);
+        return erode_block(lease, context);
       case v1::TASK_KIND_SKELETON:
       case v1::TASK_KIND_SURFACE:
       case v1::TASK_KIND_DIVERGENCE:
       case v1::TASK_KIND_ERODED_POINTS:
       case v1::TASK_KIND_ERODED_SURFACE:
-        return derive(lease);
+        return derive(lease, context);
       default:
         throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
     }
   }
 
-  void prepare(const v1::Lease& lease) {
-    const LeaseKeeper keeper(link_, lease);
-    const PreparedJob& job = obtain(lease);
+  void prepare(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
     *header.mutable_prepared() = job.summary();
@@ -245,14 +269,16 @@ class LeaseLoop {
     link_.complete(header, data);
   }
 
-  void erode_block(const v1::Lease& lease) {
+  void erode_block(const v1::Lease& lease, TaskContext& context) {
     core::Erosion* erosion = nullptr;
     {
-      const LeaseKeeper keeper(link_, lease);
-      PreparedJob& job = obtain(lease);
+      const LeaseKeeper keeper(link_, lease, context);
+      PreparedJob& job = obtain(lease, context);
       require_same_job(lease, job);
-      const std::string stored =
-          job.has_erosion() ? std::string() : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
+      const std::string stored = job.has_erosion()
+                                     ? std::string()
+                                     : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+      core::throw_if_stopped(&context);
       erosion = &job.erosion(options_.threads, stored);
     }
     switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [this] { look_ahead(); })) {
@@ -268,12 +294,13 @@ class LeaseLoop {
     }
   }
 
-  void derive(const v1::Lease& lease) {
-    const LeaseKeeper keeper(link_, lease);
-    const PreparedJob& job = obtain(lease);
+  void derive(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
     require_same_job(lease, job);
-    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
-    const Derived derived = affskel::worker::derive(lease, job, stored);
+    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+    core::throw_if_stopped(&context);
+    const Derived derived = affskel::worker::derive(lease, job, stored, &context);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
     header.set_points(derived.items);
@@ -282,11 +309,11 @@ class LeaseLoop {
   }
 
   // The prepared job of the lease: the one in hand, or made from the mesh.
-  PreparedJob& obtain(const v1::Lease& lease) {
+  PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
     if (job_ && job_id_ == lease.job().id()) return *job_;
     forget();
-    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH);
-    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params(), options_.threads);
+    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
+    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params(), options_.threads, &context);
     job_id_ = lease.job().id();
     return *job_;
   }

@@ -23,12 +23,15 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kFewDirections = 40;
 
 core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, unsigned threads,
-                       std::uint64_t& polygons_cut) {
-  const core::OffMesh off = core::read_off(bytes);
+                       core::ExecutionContext* context, std::uint64_t& polygons_cut) {
+  core::ReadOffOptions read_options;
+  read_options.context = context;
+  const core::OffMesh off = core::read_off(bytes, read_options);
   polygons_cut = off.polygons_cut;
   core::SolidOptions options;
   options.repair = params.repair();
   options.threads = threads;
+  options.context = context;
   return core::make_solid(off.mesh, options, off.vertex_line, off.triangle_line);
 }
 
@@ -57,10 +60,11 @@ core::DirectionSet take_directions(const core::Solid& solid, const std::string& 
 }
 
 core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling, const core::Matrix3& frame,
-                          unsigned threads) {
+                          unsigned threads, core::ExecutionContext* context) {
   core::LatticeOptions options;
   options.frame = frame;
   options.threads = threads;
+  options.context = context;
   if (sampling.has_spacing()) {
     options.spacing = sampling.spacing();
   } else {
@@ -88,10 +92,11 @@ std::size_t distinct(const core::DirectionSet& directions) {
 
 }  // namespace
 
-PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads)
-    : solid_(read_solid(mesh_bytes, params, threads, polygons_cut_)),
+PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads,
+                         core::ExecutionContext* context)
+    : solid_(read_solid(mesh_bytes, params, threads, context, polygons_cut_)),
       frame_(core::solid_frame(solid_, frame_kind(params.frame()))),
-      lattice_(lay_lattice(solid_, params.sampling(), frame_, threads)),
+      lattice_(lay_lattice(solid_, params.sampling(), frame_, threads, context)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
 
 v1::PreparedSummary PreparedJob::summary() const {

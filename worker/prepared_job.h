@@ -18,8 +18,11 @@ namespace affskel::worker {
 /// members: neither copied nor moved.
 class PreparedJob {
  public:
-  /// @throws core::CoreError when the mesh or a parameter is wrong.
-  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1);
+  /// @throws core::CoreError when the mesh or a parameter is wrong; kCancelled when the context, if there is
+  /// one,
+  ///   asks to stop.
+  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1,
+              core::ExecutionContext* context = nullptr);
   PreparedJob(const PreparedJob&) = delete;
   PreparedJob& operator=(const PreparedJob&) = delete;
 

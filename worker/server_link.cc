@@ -98,32 +98,39 @@ std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) 
   return response.lease();
 }
 
-std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind) {
+std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop) {
   v1::FetchInputRequest request;
   request.set_token(token);
   request.set_kind(kind);
   std::string bytes;
   with_retries("fetching an input", [&](grpc::ClientContext& context) {
-    bytes.clear();
-    v1::ArtifactHeader header;
-    v1::FetchArtifactResponse part;
-    const auto reader = stub_->FetchInput(&context, request);
-    while (reader->Read(&part)) {
-      if (part.has_header()) {
-        header = part.header();
-        bytes.reserve(header.bytes());
-      } else {
-        bytes += part.data();
-      }
-    }
-    const grpc::Status status = reader->Finish();
-    if (status.ok() && (bytes.size() != header.bytes() || wire::sha256_hex(bytes) != header.sha256())) {
-      return grpc::Status(grpc::StatusCode::UNAVAILABLE,
-                          "the bytes that arrived are not those that were sent");
-    }
+    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+    const grpc::Status status = fetch_once(request, context, bytes);
+    if (stop.stop_requested()) throw Interrupted("fetching an input was ended early");
     return status;
   });
   return bytes;
+}
+
+grpc::Status ServerLink::fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
+                                    std::string& bytes) {
+  bytes.clear();
+  v1::ArtifactHeader header;
+  v1::FetchArtifactResponse part;
+  const auto reader = stub_->FetchInput(&context, request);
+  while (reader->Read(&part)) {
+    if (part.has_header()) {
+      header = part.header();
+      bytes.reserve(header.bytes());
+    } else {
+      bytes += part.data();
+    }
+  }
+  const grpc::Status status = reader->Finish();
+  if (status.ok() && (bytes.size() != header.bytes() || wire::sha256_hex(bytes) != header.sha256())) {
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "the bytes that arrived are not those that were sent");
+  }
+  return status;
 }
 
 v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,

@@ -28,6 +28,12 @@ class ServerGone : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The call was ended early because its task is to stop.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 struct ServerLinkOptions {
   std::string address;                ///< unix:PATH or HOST:PORT
   std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
@@ -45,8 +51,8 @@ class ServerLink {
   std::optional<v1::Lease> lease(const v1::LeaseTaskRequest& request);
 
   /// The bytes of one input of the leased task, checked against their SHA-256.
-  /// @throws LeaseLost, ServerGone.
-  std::string fetch(const std::string& token, v1::ArtifactKind kind);
+  /// @param stop ends the call early.  @throws LeaseLost, ServerGone, Interrupted.
+  std::string fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop = {});
 
   /// Reports finished positions and field records.
   /// @param records messages that hold records only, at most wire::kRecordsPerMessage each.
@@ -66,6 +72,8 @@ class ServerLink {
  private:
   template <class Call>
   void with_retries(const char* what, Call call);
+  grpc::Status fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
+                          std::string& bytes);
   void note_answer(const grpc::Status& status);
 
   std::unique_ptr<v1::WorkerService::Stub> stub_;
