@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <functional>
 #include <new>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "available_memory.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
 #include "derive/derive.h"
@@ -92,7 +94,10 @@ Failure describe(const std::exception_ptr& problem, const std::string& host) {
     failure.error = describe(error);
   } catch (const std::bad_alloc&) {
     failure.error.set_code("LIMIT");
-    failure.error.set_message("not enough memory on worker " + host);
+    const std::uint64_t left = available_memory() / 1000000;
+    failure.error.set_message("not enough memory on worker " + host +
+                              (left > 0 ? ", which has " + std::to_string(left) + " MB available" : "") +
+                              "; take a wider spacing or a worker with more");
   } catch (const std::exception& error) {
     failure.error.set_code("INTERNAL");
     failure.error.set_message(error.what());
@@ -313,7 +318,12 @@ class LeaseLoop {
     if (job_ && job_id_ == lease.job().id()) return *job_;
     forget();
     const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
-    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params(), options_.threads, &context);
+    // What is prepared already fitted somewhere: one worker short of memory must not fail the job for all.
+    const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
+    job_ = std::make_unique<PreparedJob>(
+        mesh, lease.job().params(), options_.threads, &context,
+        first ? std::function<std::uint64_t()>([] { return available_memory(); })
+              : std::function<std::uint64_t()>());
     job_id_ = lease.job().id();
     return *job_;
   }

@@ -37,6 +37,22 @@ TEST(PreparedJob, StopsWhereverItIsAsked) {
       10, [&](core::ExecutionContext* context) { const PreparedJob job(sample_mesh(), params, 1, context); });
 }
 
+// Its erosion starts from the server's field, 20 bytes a point, which a worker holds beside its own.
+TEST(PreparedJob, RefusesWhatDoesNotFitIntoMemory) {
+  const auto fits = [](std::uint64_t available) {
+    try {
+      const PreparedJob job(sample_mesh(), sample_params(), 1, nullptr, [&] { return available; });
+      return true;
+    } catch (const core::CoreError& error) {
+      EXPECT_EQ(error.code(), core::CoreError::Code::kLimit);
+      return false;
+    }
+  };
+  const std::uint64_t points = PreparedJob(sample_mesh(), sample_params()).lattice().points;
+  EXPECT_FALSE(fits(45 * points));
+  EXPECT_TRUE(fits(70 * points));
+}
+
 TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {
   v1::ErosionParams params = sample_params();
   const v1::PreparedSummary plain = PreparedJob(sample_mesh(), params).summary();

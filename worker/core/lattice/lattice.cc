@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
+#include "core/lattice/lattice_memory.h"
 #include "core/lattice/point_spacing.h"
 #include "core/lattice/scan_conversion.h"
 
@@ -20,18 +21,21 @@ constexpr double kMaxLines = 4e8;
 
 class LatticeBuilder {
  public:
-  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, unsigned threads, ExecutionContext* context)
-      : mesh_(solid.mesh), threads_(threads), context_(context) {
+  // Of the options those that do not say where the points are.
+  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, const LatticeOptions& options)
+      : mesh_(solid.mesh), options_(options), threads_(options.threads), context_(options.context) {
     lattice_.frame = frame;
+    const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
+    lattice_.spacing = solid.scale() * cube_root(std::abs(cell));
   }
 
   std::uint32_t count() {
-    fill_axis_2();
+    if (lattice_.points == 0) fill_axis_2();
     return lattice_.points;
   }
 
   Lattice run() {
-    fill_axis_2();
+    require_memory(count());
     parallel_for(threads_, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
     return std::move(lattice_);
   }
@@ -60,8 +64,14 @@ class LatticeBuilder {
     return lines.crossings[c].triangle;
   }
 
+  void require_memory(double points) const {
+    const double lines = static_cast<double>(lattice_.frame.dims[0]) * lattice_.frame.dims[1];
+    require_lattice_memory({points, lines, lattice_.spacing}, options_.point_bytes, options_.memory_budget);
+  }
+
   // Axis 2 decides what is inside and numbers the points.
   void fill_axis_2() {
+    require_memory(0);
     const LatticeFrame& frame = lattice_.frame;
     const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_, context_);
     StopCheck stop(context_);
@@ -178,6 +188,7 @@ class LatticeBuilder {
   }
 
   const Mesh& mesh_;
+  LatticeOptions options_;
   unsigned threads_;
   ExecutionContext* context_;
   Lattice lattice_;
@@ -260,10 +271,10 @@ Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned thr
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
-  Lattice lattice = LatticeBuilder(solid, frame, threads, context).run();
-  const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
-  lattice.spacing = solid.scale() * cube_root(std::abs(cell));
-  return lattice;
+  LatticeOptions options;
+  options.threads = threads;
+  options.context = context;
+  return LatticeBuilder(solid, frame, options).run();
 }
 
 namespace {
@@ -277,7 +288,7 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
                         rounded(static_cast<double>(options.max_points), 3) + " points on " +
                         rounded(kMaxLines, 3) + " lines are supported");
   }
-  Lattice lattice = make_lattice(solid, plan.frame, options.threads, options.context);
+  Lattice lattice = LatticeBuilder(solid, plan.frame, options).run();
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
@@ -292,7 +303,7 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);
   if (!plan.fits) return std::nullopt;
-  return LatticeBuilder(solid, plan.frame, options.threads, options.context).count();
+  return LatticeBuilder(solid, plan.frame, options).count();
 }
 
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
@@ -302,9 +313,12 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   // Too many points by their volume are refused; lines that a thin solid would not need are not.
   if (options.spacing == 0 && plan.estimate <= static_cast<double>(options.max_points)) {
     if (plan.fits && !is_foil(solid, spacing)) {
-      Lattice lattice = make_lattice(solid, plan.frame, options.threads, options.context);
-      lattice.spacing = spacing;
-      if (is_near(lattice.points, options.target_points)) return lattice;
+      LatticeBuilder builder(solid, plan.frame, options);
+      if (is_near(builder.count(), options.target_points)) {
+        Lattice lattice = builder.run();
+        lattice.spacing = spacing;
+        return lattice;
+      }
     }
     return lattice_at(solid, box, options, spacing_for_points(solid, options, spacing));
   }
