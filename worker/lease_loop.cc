@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <array>
+#include <condition_variable>
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <new>
 #include <optional>
+#include <random>
 #include <set>
 #include <utility>
 
 #include "available_memory.h"
+#include "backoff.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
 #include "derive/derive.h"
@@ -32,6 +36,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kLeaseWaitMs = 2000;
 constexpr int kExitServerGone = 5;
+// After a task that failed but may be tried again; shorter than the silence that a server wonders about.
+constexpr auto kFirstRest = std::chrono::milliseconds(250);
+constexpr auto kLongestRest = std::chrono::milliseconds(4000);
 
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   v1::WorkerIdentity identity;
@@ -187,6 +194,7 @@ class LeaseLoop {
     TaskContext context(stop_);
     try {
       dispatch(lease, context);
+      failures_.reset();
     } catch (const ServerGone&) {
       throw;
     } catch (const LeaseLost& lost) {
@@ -198,9 +206,16 @@ class LeaseLoop {
         drop(lease, context.why());
       } else {
         forget();
-        tell_failure(lease.job().id(), lease.token(), problem);
+        // Another attempt at once would most likely meet the same, and a job has few of them.
+        if (tell_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
       }
     }
+  }
+
+  void pause(std::chrono::milliseconds time) {
+    std::mutex mutex;
+    std::unique_lock<std::mutex> lock(mutex);
+    std::condition_variable_any().wait_for(lock, stop_, time, [] { return false; });
   }
 
   void lose(const v1::Lease& lease, const char* cause) {
@@ -224,7 +239,8 @@ class LeaseLoop {
     }
   }
 
-  void tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
+  // Whether the task will be tried again.
+  bool tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
     const Failure failure = describe(problem, request_.worker().host());
     spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", job, token,
                   failure.error.code(), failure.error.message());
@@ -237,6 +253,7 @@ class LeaseLoop {
     } catch (const LeaseLost&) {
       // Somebody else works on it already.
     }
+    return failure.retryable;
   }
 
   void dispatch(const v1::Lease& lease, TaskContext& context) {
@@ -344,6 +361,7 @@ class LeaseLoop {
   // server did not acknowledge: such points would not be reported again.
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
+  Backoff failures_{kFirstRest, kLongestRest, std::random_device()()};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead
 };

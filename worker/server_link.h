@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -40,8 +41,8 @@ struct ServerLinkOptions {
   std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
 };
 
-/// The worker's side of WorkerService.  Calls that the server can repeat safely are retried while it is
-/// UNAVAILABLE, with growing pauses, until patience ends.  Any thread.
+/// The worker's side of WorkerService.  Calls, all of which the server can repeat safely, are made again,
+/// with growing pauses, while it is away, full or in trouble, see RetryPolicy.  Any thread.
 class ServerLink {
  public:
   ServerLink(const ServerLinkOptions& options, std::stop_token stop);
@@ -71,7 +72,7 @@ class ServerLink {
 
  private:
   template <class Call>
-  void with_retries(const char* what, Call call);
+  void with_retries(const char* what, Call call, const std::stop_token& task = {});
   grpc::Status fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
                           std::string& bytes);
   void note_answer(const grpc::Status& status);
@@ -79,7 +80,8 @@ class ServerLink {
   std::unique_ptr<v1::WorkerService::Stub> stub_;
   ServerLinkOptions options_;
   std::stop_token stop_;
-  std::atomic<bool> away_ = false;  // as far as the log knows
+  std::atomic<std::uint64_t> seed_;  // of the pauses of the next call
+  std::atomic<bool> away_ = false;   // as far as the log knows
 };
 
 }  // namespace affskel::worker

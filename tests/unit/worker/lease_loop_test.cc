@@ -86,7 +86,7 @@ TEST_F(LoopTest, ErodesBlockAfterBlock) {
 
 // The report that fails is the first block's, on its way while the second is computed.
 TEST_F(LoopTest, AFailedLastReportFailsItsOwnTask) {
-  server_.fail_next("ReportErosion", {grpc::StatusCode::INTERNAL, "the numbers do not add up"});
+  server_.fail_next("ReportErosion", {grpc::StatusCode::INVALID_ARGUMENT, "the numbers do not add up"});
   v1::Lease first = erode_lease(prepared_, "a", 0, 128), second = erode_lease(prepared_, "b", 128, 256);
   for (v1::Lease* lease : {&first, &second}) {
     lease->set_report_interval_ms(60000);  // no reports but the last
@@ -147,6 +147,18 @@ TEST_F(LoopTest, FailsATaskForGoodOnABadMeshAndParameter) {
   EXPECT_FALSE(server_.failures()[0].retryable());
   EXPECT_EQ(server_.failures()[0].error().code(), "BAD_INPUT");
   EXPECT_EQ(server_.failures()[0].error().line(), 3U);
+}
+
+// As when the server has no more files to open for a while.
+TEST_F(LoopTest, PassingTroubleOfTheServerCostsNoAttempt) {
+  server_.fail_next("FetchInput1", {grpc::StatusCode::INTERNAL, "unable to open database file"}, 3);
+  server_.fail_next("FetchInput1", {grpc::StatusCode::RESOURCE_EXHAUSTED, "full"}, 2);
+  server_.fail_next("CompleteTask", {grpc::StatusCode::UNKNOWN, "trouble"}, 1);
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.failures().empty());
+  EXPECT_EQ(server_.completions().size(), 1U);
+  EXPECT_EQ(server_.calls("FetchInput1"), 6);
 }
 
 TEST_F(LoopTest, DropsACancelledTaskWithoutWaitingForItsEnd) {
