@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "available_memory.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/erosion/directions.h"
@@ -77,6 +78,8 @@ void compute(const ComputeOptions& options) {
   lattice_options.target_points = options.points;
   lattice_options.frame = core::solid_frame(solid, core::parse_frame(options.frame));
   lattice_options.threads = options.threads;
+  lattice_options.memory_budget = available_memory();
+  lattice_options.point_bytes = core::kErosionBytesPerPoint;
   const core::Lattice lattice = core::make_lattice(solid, lattice_options);
   core::DirectionOptions direction_options;
   direction_options.frame = lattice_options.frame;

@@ -11,26 +11,49 @@
 namespace affskel::worker {
 namespace {
 
+using Why = TaskContext::Why;
+
+// Why the task is to stop, if it is.
+Why renew(ServerLink& link, const std::string& token) {
+  try {
+    return link.renew(token).cancelled() ? Why::kCancelled : Why::kGoesOn;
+  } catch (const LeaseLost&) {
+    return Why::kLeaseLost;
+  }
+}
+
 void keep(ServerLink& link, const std::string& token, std::chrono::milliseconds interval,
-          const std::stop_token& stop) {
+          const std::stop_token& stop, TaskContext* context) {
   std::mutex mutex;
   std::condition_variable_any wake;
   std::unique_lock<std::mutex> lock(mutex);
   while (!wake.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
     try {
-      if (link.renew(token).cancelled()) return;
+      const Why why = renew(link, token);
+      if (why == Why::kGoesOn) continue;
+      if (context != nullptr) context->stop(why);
     } catch (const std::exception&) {
-      return;
+      // The task's own calls will meet the same.
     }
+    return;
   }
+}
+
+// Three times before it runs out.
+std::chrono::milliseconds renewal_interval(const v1::Lease& lease) {
+  return std::chrono::milliseconds(std::max(1U, lease.lease_ms() / 4));
 }
 
 }  // namespace
 
-// Three times before it runs out.
 LeaseKeeper::LeaseKeeper(ServerLink& link, const v1::Lease& lease)
-    : thread_([&link, token = lease.token(),
-               interval = std::chrono::milliseconds(std::max(1U, lease.lease_ms() / 4))](
-                  const std::stop_token& stop) { keep(link, token, interval, stop); }) {}
+    : thread_([&link, token = lease.token(), interval = renewal_interval(lease)](
+                  const std::stop_token& stop) { keep(link, token, interval, stop, nullptr); }) {}
+
+LeaseKeeper::LeaseKeeper(ServerLink& link, const v1::Lease& lease, TaskContext& context)
+    : thread_([&link, &context, token = lease.token(),
+               interval = std::min(renewal_interval(lease),
+                                   std::chrono::milliseconds(std::max(1U, lease.report_interval_ms())))](
+                  const std::stop_token& stop) { keep(link, token, interval, stop, &context); }) {}
 
 }  // namespace affskel::worker

@@ -5,12 +5,18 @@
 
 #include <algorithm>
 #include <array>
+#include <condition_variable>
 #include <exception>
+#include <functional>
+#include <mutex>
 #include <new>
 #include <optional>
+#include <random>
 #include <set>
 #include <utility>
 
+#include "available_memory.h"
+#include "backoff.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
 #include "derive/derive.h"
@@ -20,6 +26,7 @@
 #include "prepared_job.h"
 #include "result_bytes.h"
 #include "server_link.h"
+#include "task_context.h"
 #include "wire/direction_order.h"
 #include "wire/identity.h"
 
@@ -29,6 +36,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kLeaseWaitMs = 2000;
 constexpr int kExitServerGone = 5;
+// After a task that failed but may be tried again; shorter than the silence that a server wonders about.
+constexpr auto kFirstRest = std::chrono::milliseconds(250);
+constexpr auto kLongestRest = std::chrono::milliseconds(4000);
 
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   v1::WorkerIdentity identity;
@@ -91,7 +101,10 @@ Failure describe(const std::exception_ptr& problem, const std::string& host) {
     failure.error = describe(error);
   } catch (const std::bad_alloc&) {
     failure.error.set_code("LIMIT");
-    failure.error.set_message("not enough memory on worker " + host);
+    const std::uint64_t left = available_memory() / 1000000;
+    failure.error.set_message("not enough memory on worker " + host +
+                              (left > 0 ? ", which has " + std::to_string(left) + " MB available" : "") +
+                              "; take a wider spacing or a worker with more");
   } catch (const std::exception& error) {
     failure.error.set_code("INTERNAL");
     failure.error.set_message(error.what());
@@ -178,24 +191,56 @@ class LeaseLoop {
   void work_on(const v1::Lease& lease) {
     spdlog::debug("job={} lease={} task={} msg=\"leased\"", lease.job().id(), lease.token(),
                   v1::TaskKind_Name(lease.kind()));
+    TaskContext context(stop_);
     try {
-      dispatch(lease);
-    } catch (const LeaseLost& lost) {
-      spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(),
-                   lost.what());
-      forget();
-      // It may have been the block before that lost its lease; this one would then lie idle.
-      link_.give_back(lease.token());
+      dispatch(lease, context);
+      failures_.reset();
     } catch (const ServerGone&) {
       throw;
+    } catch (const LeaseLost& lost) {
+      // The last call may have met the end that the lease keeper knows the reason of.
+      context.why() == TaskContext::Why::kCancelled ? drop(lease, context.why()) : lose(lease, lost.what());
     } catch (...) {
       const std::exception_ptr problem = std::current_exception();
-      forget();
-      tell_failure(lease.job().id(), lease.token(), problem);
+      if (context.stop_requested()) {
+        drop(lease, context.why());
+      } else {
+        forget();
+        // Another attempt at once would most likely meet the same, and a job has few of them.
+        if (tell_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
+      }
     }
   }
 
-  void tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
+  void pause(std::chrono::milliseconds time) {
+    std::mutex mutex;
+    std::unique_lock<std::mutex> lock(mutex);
+    std::condition_variable_any().wait_for(lock, stop_, time, [] { return false; });
+  }
+
+  void lose(const v1::Lease& lease, const char* cause) {
+    spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(), cause);
+    forget();
+    // It may have been the block before that lost its lease; this one would then lie idle.
+    link_.give_back(lease.token());
+  }
+
+  // What the context stopped.
+  void drop(const v1::Lease& lease, TaskContext::Why why) {
+    switch (why) {
+      case TaskContext::Why::kWorkerStops:
+        return link_.give_back(lease.token());
+      case TaskContext::Why::kLeaseLost:
+        return lose(lease, "it was not renewed in time, or its job is gone");
+      default:
+        spdlog::info("job={} lease={} msg=\"cancelled, task dropped\"", lease.job().id(), lease.token());
+        if (next_ && next_->job().id() == lease.job().id()) give_back_next();
+        forget();
+    }
+  }
+
+  // Whether the task will be tried again.
+  bool tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
     const Failure failure = describe(problem, request_.worker().host());
     spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", job, token,
                   failure.error.code(), failure.error.message());
@@ -208,32 +253,33 @@ class LeaseLoop {
     } catch (const LeaseLost&) {
       // Somebody else works on it already.
     }
+    return failure.retryable;
   }
 
-  void dispatch(const v1::Lease& lease) {
+  void dispatch(const v1::Lease& lease, TaskContext& context) {
     if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) {
-      const LeaseKeeper keeper(link_, lease);
+      const LeaseKeeper keeper(link_, lease, context);
       last_report_.wait();
     }
     switch (lease.kind()) {
       case v1::TASK_KIND_PREPARE:
-        return prepare(lease);
+        return prepare(lease, context);
       case v1::TASK_KIND_ERODE:
-        return erode_block(lease);
+        return erode_block(lease, context);
       case v1::TASK_KIND_SKELETON:
       case v1::TASK_KIND_SURFACE:
       case v1::TASK_KIND_DIVERGENCE:
       case v1::TASK_KIND_ERODED_POINTS:
       case v1::TASK_KIND_ERODED_SURFACE:
-        return derive(lease);
+        return derive(lease, context);
       default:
         throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
     }
   }
 
-  void prepare(const v1::Lease& lease) {
-    const LeaseKeeper keeper(link_, lease);
-    const PreparedJob& job = obtain(lease);
+  void prepare(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
     *header.mutable_prepared() = job.summary();
@@ -245,14 +291,16 @@ class LeaseLoop {
     link_.complete(header, data);
   }
 
-  void erode_block(const v1::Lease& lease) {
+  void erode_block(const v1::Lease& lease, TaskContext& context) {
     core::Erosion* erosion = nullptr;
     {
-      const LeaseKeeper keeper(link_, lease);
-      PreparedJob& job = obtain(lease);
+      const LeaseKeeper keeper(link_, lease, context);
+      PreparedJob& job = obtain(lease, context);
       require_same_job(lease, job);
-      const std::string stored =
-          job.has_erosion() ? std::string() : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
+      const std::string stored = job.has_erosion()
+                                     ? std::string()
+                                     : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+      core::throw_if_stopped(&context);
       erosion = &job.erosion(options_.threads, stored);
     }
     switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [this] { look_ahead(); })) {
@@ -268,12 +316,13 @@ class LeaseLoop {
     }
   }
 
-  void derive(const v1::Lease& lease) {
-    const LeaseKeeper keeper(link_, lease);
-    const PreparedJob& job = obtain(lease);
+  void derive(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
     require_same_job(lease, job);
-    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD);
-    const Derived derived = affskel::worker::derive(lease, job, stored);
+    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+    core::throw_if_stopped(&context);
+    const Derived derived = affskel::worker::derive(lease, job, stored, &context);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
     header.set_points(derived.items);
@@ -282,11 +331,16 @@ class LeaseLoop {
   }
 
   // The prepared job of the lease: the one in hand, or made from the mesh.
-  PreparedJob& obtain(const v1::Lease& lease) {
+  PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
     if (job_ && job_id_ == lease.job().id()) return *job_;
     forget();
-    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH);
-    job_ = std::make_unique<PreparedJob>(mesh, lease.job().params(), options_.threads);
+    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
+    // What is prepared already fitted somewhere: one worker short of memory must not fail the job for all.
+    const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
+    job_ = std::make_unique<PreparedJob>(
+        mesh, lease.job().params(), options_.threads, &context,
+        first ? std::function<std::uint64_t()>([] { return available_memory(); })
+              : std::function<std::uint64_t()>());
     job_id_ = lease.job().id();
     return *job_;
   }
@@ -307,6 +361,7 @@ class LeaseLoop {
   // server did not acknowledge: such points would not be reported again.
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
+  Backoff failures_{kFirstRest, kLongestRest, std::random_device()()};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead
 };

@@ -23,12 +23,15 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kFewDirections = 40;
 
 core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, unsigned threads,
-                       std::uint64_t& polygons_cut) {
-  const core::OffMesh off = core::read_off(bytes);
+                       core::ExecutionContext* context, std::uint64_t& polygons_cut) {
+  core::ReadOffOptions read_options;
+  read_options.context = context;
+  const core::OffMesh off = core::read_off(bytes, read_options);
   polygons_cut = off.polygons_cut;
   core::SolidOptions options;
   options.repair = params.repair();
   options.threads = threads;
+  options.context = context;
   return core::make_solid(off.mesh, options, off.vertex_line, off.triangle_line);
 }
 
@@ -57,10 +60,15 @@ core::DirectionSet take_directions(const core::Solid& solid, const std::string& 
 }
 
 core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling, const core::Matrix3& frame,
-                          unsigned threads) {
+                          unsigned threads, core::ExecutionContext* context,
+                          const std::function<std::uint64_t()>& available) {
   core::LatticeOptions options;
+  // Of the solid made before, memory is taken already.
+  if (available) options.memory_budget = available();
+  options.point_bytes = core::kErosionBytesPerPoint + wire::kFieldRecordBytes;  // the server's field, fetched
   options.frame = frame;
   options.threads = threads;
+  options.context = context;
   if (sampling.has_spacing()) {
     options.spacing = sampling.spacing();
   } else {
@@ -86,12 +94,31 @@ std::size_t distinct(const core::DirectionSet& directions) {
   return seen.size();
 }
 
+// The records of a field in the server's form, without a copy of them all: there may be a great many.
+template <class Visit>
+void visit_field(std::string_view bytes, std::uint64_t points, Visit visit) {
+  if (bytes.size() != points * wire::kFieldRecordBytes) {
+    throw core::CoreError(core::CoreError::Code::kInternal, "the stored field has " +
+                                                                std::to_string(bytes.size()) + " bytes for " +
+                                                                std::to_string(points) + " points");
+  }
+  const char* at = bytes.data();
+  for (std::uint32_t p = 0; p < points; ++p, at += wire::kFieldRecordBytes) {
+    core::FieldValue value;
+    std::memcpy(&value.erosion, at, 8);
+    std::memcpy(&value.area, at + 8, 8);
+    std::memcpy(&value.direction, at + 16, 4);
+    visit(p, value);
+  }
+}
+
 }  // namespace
 
-PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads)
-    : solid_(read_solid(mesh_bytes, params, threads, polygons_cut_)),
+PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads,
+                         core::ExecutionContext* context, const std::function<std::uint64_t()>& available)
+    : solid_(read_solid(mesh_bytes, params, threads, context, polygons_cut_)),
       frame_(core::solid_frame(solid_, frame_kind(params.frame()))),
-      lattice_(lay_lattice(solid_, params.sampling(), frame_, threads)),
+      lattice_(lay_lattice(solid_, params.sampling(), frame_, threads, context, available)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
 
 v1::PreparedSummary PreparedJob::summary() const {
@@ -178,31 +205,20 @@ core::Erosion& PreparedJob::erosion(unsigned threads, std::string_view stored) {
   options.threads = threads;
   options.track_changes = true;
   auto erosion = std::make_unique<core::Erosion>(solid_, lattice_, directions_, options);
-  const std::vector<core::FieldValue> values = unpack_field(stored, lattice_.points);
-  for (std::uint32_t p = 0; p < values.size(); ++p) {
-    if (values[p].direction == core::FieldValue::kNoDirection) continue;
-    erosion->field().offer(
-        p, {values[p].erosion / volume_unit(), values[p].area / area_unit(), values[p].direction});
-  }
+  const double per_volume = volume_unit(), per_area = area_unit();
+  visit_field(stored, lattice_.points, [&](std::uint32_t p, const core::FieldValue& value) {
+    if (value.direction == core::FieldValue::kNoDirection) return;
+    erosion->field().offer(p, {value.erosion / per_volume, value.area / per_area, value.direction});
+  });
   erosion->field().take_changes([](std::uint32_t, const core::FieldValue&) {});  // the server knows these
   erosion_ = std::move(erosion);
   return *erosion_;
 }
 
 std::vector<core::FieldValue> unpack_field(std::string_view bytes, std::uint64_t points) {
-  if (bytes.size() != points * wire::kFieldRecordBytes) {
-    throw core::CoreError(core::CoreError::Code::kInternal, "the stored field has " +
-                                                                std::to_string(bytes.size()) + " bytes for " +
-                                                                std::to_string(points) + " points");
-  }
-  std::vector<core::FieldValue> values(points);
-  const char* at = bytes.data();
-  for (core::FieldValue& value : values) {
-    std::memcpy(&value.erosion, at, 8);
-    std::memcpy(&value.area, at + 8, 8);
-    std::memcpy(&value.direction, at + 16, 4);
-    at += wire::kFieldRecordBytes;
-  }
+  std::vector<core::FieldValue> values;
+  values.reserve(bytes.size() / wire::kFieldRecordBytes);
+  visit_field(bytes, points, [&](std::uint32_t, const core::FieldValue& value) { values.push_back(value); });
   return values;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,8 +20,14 @@ namespace affskel::worker {
 /// members: neither copied nor moved.
 class PreparedJob {
  public:
-  /// @throws core::CoreError when the mesh or a parameter is wrong.
-  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1);
+  /// @throws core::CoreError when the mesh or a parameter is wrong; kCancelled when the context, if there is
+  /// one,
+  ///   asks to stop; kLimit when
+  ///   the lattice and the erosion would take more than is available.
+  /// @param available tells the bytes that may be taken, see available_memory; none: no bound.
+  PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1,
+              core::ExecutionContext* context = nullptr,
+              const std::function<std::uint64_t()>& available = nullptr);
   PreparedJob(const PreparedJob&) = delete;
   PreparedJob& operator=(const PreparedJob&) = delete;
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <random>
 
+#include "retry_policy.h"
 #include "wire/address.h"
 #include "wire/limits.h"
 #include "wire/sha256.h"
@@ -14,8 +16,6 @@ namespace affskel::worker {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kFirstPause = std::chrono::milliseconds(20);
-constexpr auto kLongestPause = std::chrono::milliseconds(500);
 constexpr auto kCallTimeout = std::chrono::seconds(120);
 
 std::shared_ptr<grpc::Channel> connect(const std::string& text) {
@@ -31,12 +31,19 @@ std::shared_ptr<grpc::Channel> connect(const std::string& text) {
   return grpc::CreateCustomChannel(address.target(), grpc::InsecureChannelCredentials(), arguments);
 }
 
+void wait(std::chrono::milliseconds pause, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::unique_lock<std::mutex> lock(mutex);
+  std::condition_variable_any().wait_for(lock, stop, pause, [] { return false; });
+}
+
 }  // namespace
 
 ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
     : stub_(v1::WorkerService::NewStub(connect(options.address))),
       options_(options),
-      stop_(std::move(stop)) {}
+      stop_(std::move(stop)),
+      seed_(std::random_device()()) {}
 
 // A worker that waits for its server says so, once; without it a wrong address looks like having no work.
 void ServerLink::note_answer(const grpc::Status& status) {
@@ -51,9 +58,9 @@ void ServerLink::note_answer(const grpc::Status& status) {
 }
 
 template <class Call>
-void ServerLink::with_retries(const char* what, Call call) {
-  Clock::time_point give_up = Clock::now() + options_.patience;
-  auto pause = kFirstPause;
+void ServerLink::with_retries(const char* what, Call call, const std::stop_token& task) {
+  const Clock::time_point begun = Clock::now();
+  RetryPolicy policy(options_.patience, seed_++);
   for (;;) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
@@ -61,26 +68,21 @@ void ServerLink::with_retries(const char* what, Call call) {
     note_answer(status);
     if (status.ok()) return;
     const std::string message = std::string(what) + ": " + status.error_message();
-    switch (status.error_code()) {
-      case grpc::StatusCode::RESOURCE_EXHAUSTED:
-        // The server is there, but its disk or memory is full: wait until somebody makes room.
-        give_up = Clock::now() + options_.patience;
+    const RetryPolicy::Decision decision = policy.after(
+        status.error_code(), std::chrono::duration_cast<RetryPolicy::Duration>(Clock::now() - begun));
+    switch (decision.verdict) {
+      case RetryPolicy::Verdict::kAgain:
         break;
-      case grpc::StatusCode::UNAVAILABLE:
-      case grpc::StatusCode::DEADLINE_EXCEEDED:
-        break;
-      case grpc::StatusCode::ABORTED:
-      case grpc::StatusCode::NOT_FOUND:
+      case RetryPolicy::Verdict::kLeaseLost:
         throw LeaseLost(message);
-      default:
+      case RetryPolicy::Verdict::kFailed:
         throw std::runtime_error(message);
+      case RetryPolicy::Verdict::kServerGone:
+        throw ServerGone(message);
     }
-    if (Clock::now() + pause > give_up) throw ServerGone(message);
-    std::mutex mutex;
-    std::unique_lock<std::mutex> lock(mutex);
-    std::condition_variable_any().wait_for(lock, stop_, pause, [] { return false; });
+    wait(decision.pause, task.stop_possible() ? task : stop_);
+    if (task.stop_requested()) throw Interrupted(message);
     if (stop_.stop_requested()) throw ServerGone(message);
-    pause = std::min(2 * pause, kLongestPause);
   }
 }
 
@@ -98,32 +100,42 @@ std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) 
   return response.lease();
 }
 
-std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind) {
+std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop) {
   v1::FetchInputRequest request;
   request.set_token(token);
   request.set_kind(kind);
   std::string bytes;
-  with_retries("fetching an input", [&](grpc::ClientContext& context) {
-    bytes.clear();
-    v1::ArtifactHeader header;
-    v1::FetchArtifactResponse part;
-    const auto reader = stub_->FetchInput(&context, request);
-    while (reader->Read(&part)) {
-      if (part.has_header()) {
-        header = part.header();
-        bytes.reserve(header.bytes());
-      } else {
-        bytes += part.data();
-      }
-    }
-    const grpc::Status status = reader->Finish();
-    if (status.ok() && (bytes.size() != header.bytes() || wire::sha256_hex(bytes) != header.sha256())) {
-      return grpc::Status(grpc::StatusCode::UNAVAILABLE,
-                          "the bytes that arrived are not those that were sent");
-    }
-    return status;
-  });
+  with_retries(
+      "fetching an input",
+      [&](grpc::ClientContext& context) {
+        const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+        const grpc::Status status = fetch_once(request, context, bytes);
+        if (stop.stop_requested()) throw Interrupted("fetching an input was ended early");
+        return status;
+      },
+      stop);
   return bytes;
+}
+
+grpc::Status ServerLink::fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
+                                    std::string& bytes) {
+  bytes.clear();
+  v1::ArtifactHeader header;
+  v1::FetchArtifactResponse part;
+  const auto reader = stub_->FetchInput(&context, request);
+  while (reader->Read(&part)) {
+    if (part.has_header()) {
+      header = part.header();
+      bytes.reserve(header.bytes());
+    } else {
+      bytes += part.data();
+    }
+  }
+  const grpc::Status status = reader->Finish();
+  if (status.ok() && (bytes.size() != header.bytes() || wire::sha256_hex(bytes) != header.sha256())) {
+    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "the bytes that arrived are not those that were sent");
+  }
+  return status;
 }
 
 v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,

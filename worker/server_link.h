@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -28,14 +29,20 @@ class ServerGone : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The call was ended early because its task is to stop.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 struct ServerLinkOptions {
   std::string address;                ///< unix:PATH or HOST:PORT
   std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
   std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
 };
 
-/// The worker's side of WorkerService.  Calls that the server can repeat safely are retried while it is
-/// UNAVAILABLE, with growing pauses, until patience ends.  Any thread.
+/// The worker's side of WorkerService.  Calls, all of which the server can repeat safely, are made again,
+/// with growing pauses, while it is away, full or in trouble, see RetryPolicy.  Any thread.
 class ServerLink {
  public:
   ServerLink(const ServerLinkOptions& options, std::stop_token stop);
@@ -45,8 +52,8 @@ class ServerLink {
   std::optional<v1::Lease> lease(const v1::LeaseTaskRequest& request);
 
   /// The bytes of one input of the leased task, checked against their SHA-256.
-  /// @throws LeaseLost, ServerGone.
-  std::string fetch(const std::string& token, v1::ArtifactKind kind);
+  /// @param stop ends the call early.  @throws LeaseLost, ServerGone, Interrupted.
+  std::string fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop = {});
 
   /// Reports finished positions and field records.
   /// @param records messages that hold records only, at most wire::kRecordsPerMessage each.
@@ -65,13 +72,16 @@ class ServerLink {
 
  private:
   template <class Call>
-  void with_retries(const char* what, Call call);
+  void with_retries(const char* what, Call call, const std::stop_token& task = {});
+  grpc::Status fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
+                          std::string& bytes);
   void note_answer(const grpc::Status& status);
 
   std::unique_ptr<v1::WorkerService::Stub> stub_;
   ServerLinkOptions options_;
   std::stop_token stop_;
-  std::atomic<bool> away_ = false;  // as far as the log knows
+  std::atomic<std::uint64_t> seed_;  // of the pauses of the next call
+  std::atomic<bool> away_ = false;   // as far as the log knows
 };
 
 }  // namespace affskel::worker

@@ -9,14 +9,15 @@
 namespace affskel::worker {
 namespace {
 
-core::ChordSheetOptions options_for(double threshold) {
+core::ChordSheetOptions options_for(const FinishedField& field, double threshold) {
   core::ChordSheetOptions options;
+  options.context = field.context();
   if (threshold != 0) options.pruning.significance = threshold;
   return options;
 }
 
 core::ChordSheet sheet_of(const FinishedField& field, const core::FrameField& in_frame, double threshold) {
-  return core::chord_sheet(field.job().solid(), field.lattice(), in_frame, options_for(threshold));
+  return core::chord_sheet(field.job().solid(), field.lattice(), in_frame, options_for(field, threshold));
 }
 
 core::Mesh mesh_of(const core::ChordSheet& sheet) {
@@ -30,7 +31,7 @@ core::Mesh mesh_of(const core::ChordSheet& sheet) {
 v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
                                const core::ChordSheet& sheet, double threshold,
                                const std::vector<core::Vec3>* points) {
-  core::ChordPruningOptions pruning = options_for(threshold).pruning;
+  core::ChordPruningOptions pruning = options_for(field, threshold).pruning;
   pruning.strong_turn = sheet.strong_turn;
   const double next = core::next_threshold(pruning.significance);
   core::SheetQualityOptions options;
@@ -42,6 +43,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
     options.other = &other;
     options.other_threshold = next;
   }
+  field.throw_if_stopped();
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(pruning.significance);

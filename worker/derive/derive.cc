@@ -29,8 +29,10 @@ Derived packed(const v1::TriangleMesh& mesh, const std::string& what) {
 
 }  // namespace
 
-Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored) {
-  const FinishedField field(job, stored);
+Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
+               core::ExecutionContext* context) {
+  const FinishedField field(job, stored, context);
+  field.throw_if_stopped();
   switch (lease.kind()) {
     case v1::TASK_KIND_SKELETON:
       return packed(by_chords(lease.skeleton()) ? chord_skeleton(field, lease.skeleton())

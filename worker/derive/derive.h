@@ -19,7 +19,10 @@ struct Derived {
 
 /// Computes the artefact that the lease asks for from the finished field.
 /// @param stored the field's bytes, see ARTIFACT_KIND_FIELD.
-/// @throws core::CoreError for a wrong parameter, or an artefact too large to be sent.
-Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored);
+/// @param context asked between the steps whether to stop; may be null.
+/// @throws core::CoreError for a wrong parameter, or an artefact too large to be sent; kCancelled when
+/// stopped.
+Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
+               core::ExecutionContext* context = nullptr);
 
 }  // namespace affskel::worker

@@ -41,6 +41,7 @@ v1::SkeletonPoints eroded_points(const FinishedField& field, const v1::ErodedPar
 v1::TriangleMesh eroded_surface(const FinishedField& field, const v1::ErodedParams& params) {
   core::ErodedSurfaceOptions options;
   options.level = level_of(field, params);
+  options.context = field.context();
   const core::ErodedSurface surface =
       core::eroded_surface(field.job().solid(), field.lattice(), field.in_frame(), options);
   v1::TriangleMesh message;

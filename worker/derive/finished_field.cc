@@ -4,8 +4,9 @@
 
 namespace affskel::worker {
 
-FinishedField::FinishedField(const PreparedJob& job, std::string_view stored)
+FinishedField::FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context)
     : job_(job),
+      context_(context),
       values_(unpack_field(stored, job.lattice().points)),
       frame_directions_(core::frame_directions(job.lattice(), job.directions())),
       places_(job.solid(), job.lattice()) {}

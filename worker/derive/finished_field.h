@@ -13,10 +13,14 @@ namespace affskel::worker {
 class FinishedField {
  public:
   /// @param stored the server's bytes, see ARTIFACT_KIND_FIELD.
+  /// @param context of the task, may be null; must outlive this.
   /// @throws core::CoreError kInternal when their number does not fit the job.
-  FinishedField(const PreparedJob& job, std::string_view stored);
+  FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context = nullptr);
 
   const PreparedJob& job() const { return job_; }
+  core::ExecutionContext* context() const { return context_; }
+  /// Between the steps of a derivation.  @throws core::CoreError kCancelled when the task is to stop.
+  void throw_if_stopped() const { core::throw_if_stopped(context_); }
   const core::Lattice& lattice() const { return job_.lattice(); }
   /// Per sample point, mesh units.
   const std::vector<core::FieldValue>& values() const { return values_; }
@@ -37,6 +41,7 @@ class FinishedField {
 
  private:
   const PreparedJob& job_;
+  core::ExecutionContext* context_;
   std::vector<core::FieldValue> values_;
   core::DirectionSet frame_directions_;
   core::SamplePlaces places_;

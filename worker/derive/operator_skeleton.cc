@@ -33,7 +33,10 @@ core::ShockOperator core_operator(v1::Operator which) {
 }
 
 std::vector<double> divergence_of(const FinishedField& field, core::ShockOperator which) {
-  return core::divergence(which, field.lattice(), field.frame_directions(), field.optimal());
+  std::vector<double> values =
+      core::divergence(which, field.lattice(), field.frame_directions(), field.optimal(), field.context());
+  field.throw_if_stopped();
+  return values;
 }
 
 double threshold_of(const FinishedField& field, const v1::SkeletonParams& params) {
@@ -62,6 +65,7 @@ v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::Skele
     append_point(field, kept[i].point, places[i], message);
     message.add_divergence(kept[i].divergence);
   }
+  field.throw_if_stopped();
   *message.mutable_quality() = quality_message(core::skeleton_quality(
       field.job().solid(), field.lattice(), field.optimal(), divergence, {which, threshold}));
   message.mutable_quality()->set_threshold(threshold);
@@ -74,6 +78,7 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
                             {threshold_of(field, params.skeleton())});
   std::vector<core::Vec3> points;
   for (const core::LatticePlace& place : places_of(field, kept)) points.push_back(field.in_frame(place));
+  field.throw_if_stopped();
   core::AlphaSurfaceOptions options;
   options.alpha = params.alpha();
   options.spacing = field.lattice().spacing;

@@ -9,6 +9,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
+#include "core/stopping_context.h"
 #include "sample_job.h"
 
 namespace affskel::worker {
@@ -41,6 +42,22 @@ class DeriveTest : public ::testing::Test {
   PreparedJob prepared_;
   std::string field_;
 };
+
+TEST_F(DeriveTest, StopsWhereverItIsAsked) {
+  for (const v1::Operator which : {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_CHORDS}) {
+    for (const v1::TaskKind kind : {v1::TASK_KIND_SKELETON, v1::TASK_KIND_SURFACE}) {
+      v1::Lease lease = lease_of(kind);
+      lease.mutable_skeleton()->set_operator_(which);
+      lease.mutable_surface()->mutable_skeleton()->set_operator_(which);
+      core::expect_stops_wherever_it_is_asked(
+          5, [&](core::ExecutionContext* context) { derive(lease, prepared_, field_, context); });
+    }
+  }
+  const v1::Lease eroded = lease_of(v1::TASK_KIND_ERODED_SURFACE);
+  core::expect_stops_wherever_it_is_asked(
+      prepared_.lattice().frame.dims[0],
+      [&](core::ExecutionContext* context) { derive(eroded, prepared_, field_, context); });
+}
 
 TEST_F(DeriveTest, DivergenceAndSkeletonAgree) {
   for (const v1::Operator which : {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_INTERMEDIATE,

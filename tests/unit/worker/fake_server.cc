@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "wire/sha256.h"
 
@@ -50,6 +51,21 @@ void FakeServer::fail_next(const std::string& method, const grpc::Status& status
   for (int i = 0; i < times; ++i) failures_to_come_.emplace_back(method, status);
 }
 
+void FakeServer::hold_next_fetch() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  hold_next_ = true;
+}
+
+void FakeServer::cancel_next_renewal() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  cancel_next_renewal_ = true;
+}
+
+bool FakeServer::take_hold() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  return std::exchange(hold_next_, false);
+}
+
 void FakeServer::damage_next_fetch() {
   const std::lock_guard<std::mutex> guard(mutex_);
   damage_next_ = true;
@@ -80,6 +96,11 @@ std::vector<v1::LeaseTaskRequest> FakeServer::lease_requests() const {
 int FakeServer::calls(const std::string& method) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   return static_cast<int>(std::count(calls_.begin(), calls_.end(), method));
+}
+
+void FakeServer::wait_for_call(const std::string& method) const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [&] { return std::find(calls_.begin(), calls_.end(), method) != calls_.end(); });
 }
 
 void FakeServer::wait_for_idle() const {
@@ -116,8 +137,12 @@ grpc::Status FakeServer::LeaseTask(grpc::ServerContext*, const v1::LeaseTaskRequ
   return status;
 }
 
-grpc::Status FakeServer::RenewLease(grpc::ServerContext*, const v1::RenewLeaseRequest*, v1::ReportResponse*) {
-  return begin("RenewLease");
+grpc::Status FakeServer::RenewLease(grpc::ServerContext*, const v1::RenewLeaseRequest*,
+                                    v1::ReportResponse* response) {
+  const grpc::Status status = begin("RenewLease");
+  const std::lock_guard<std::mutex> guard(mutex_);
+  response->set_cancelled(std::exchange(cancel_next_renewal_, false));
+  return status;
 }
 
 grpc::Status FakeServer::ReportErosion(grpc::ServerContext*,
@@ -180,6 +205,11 @@ grpc::Status FakeServer::FetchInput(grpc::ServerContext*, const v1::FetchInputRe
                                     grpc::ServerWriter<v1::FetchArtifactResponse>* writer) {
   const grpc::Status status = begin("FetchInput" + std::to_string(request->kind()));
   if (!status.ok()) return status;
+  if (take_hold()) {
+    while (writer->Write(v1::FetchArtifactResponse())) {
+    }
+    return grpc::Status::CANCELLED;
+  }
   std::string bytes;
   {
     const std::lock_guard<std::mutex> guard(mutex_);

@@ -30,6 +30,10 @@ class FakeServer final : public v1::WorkerService::Service {
   void set_input(v1::ArtifactKind kind, const std::string& bytes);
   /// The next calls of `method` ("LeaseTask", ...) end with this status.
   void fail_next(const std::string& method, const grpc::Status& status, int times = 1);
+  /// The next FetchInput goes on, without any bytes, until the worker ends the call.
+  void hold_next_fetch();
+  /// The next RenewLease says that the task was cancelled.
+  void cancel_next_renewal();
   /// The next FetchInput flips a byte on the way.
   void damage_next_fetch();
   /// Called for every report that is accepted; its answer is sent.
@@ -49,6 +53,8 @@ class FakeServer final : public v1::WorkerService::Service {
   std::vector<v1::LeaseTaskRequest> lease_requests() const;
   /// How often a method was called, failed calls included.
   int calls(const std::string& method) const;
+  /// Waits for the first call of a method.
+  void wait_for_call(const std::string& method) const;
   /// Waits until a worker that has nothing else to do is told that there is no work.
   void wait_for_idle() const;
 
@@ -64,6 +70,8 @@ class FakeServer final : public v1::WorkerService::Service {
   grpc::Status FetchInput(grpc::ServerContext*, const v1::FetchInputRequest*,
                           grpc::ServerWriter<v1::FetchArtifactResponse>*) override;
 
+  bool take_hold();
+
   // Counts the call; the status that was asked for, or OK.
   grpc::Status begin(const std::string& method);
 
@@ -78,6 +86,8 @@ class FakeServer final : public v1::WorkerService::Service {
   std::deque<std::pair<std::string, grpc::Status>> failures_to_come_;
   std::vector<std::string> calls_;
   bool damage_next_ = false;
+  bool hold_next_ = false;
+  bool cancel_next_renewal_ = false;
   bool idle_ = false;
   std::function<v1::ReportResponse(const v1::ReportErosionHeader&)> answer_;
   std::vector<Report> reports_;

@@ -31,6 +31,13 @@ class LoopTest : public LinkTest {
   }
 
   void offer(const v1::Lease& lease) { server_.offer(lease); }
+
+  // A task that is fetching its input, and renews its lease after one millisecond.
+  static v1::Lease restless_lease(const std::string& token, v1::TaskKind kind = v1::TASK_KIND_PREPARE) {
+    v1::Lease lease = other_lease(token, kind);
+    lease.set_lease_ms(4);
+    return lease;
+  }
 };
 
 TEST_F(LoopTest, PreparesErodesAndDerives) {
@@ -79,7 +86,7 @@ TEST_F(LoopTest, ErodesBlockAfterBlock) {
 
 // The report that fails is the first block's, on its way while the second is computed.
 TEST_F(LoopTest, AFailedLastReportFailsItsOwnTask) {
-  server_.fail_next("ReportErosion", {grpc::StatusCode::INTERNAL, "the numbers do not add up"});
+  server_.fail_next("ReportErosion", {grpc::StatusCode::INVALID_ARGUMENT, "the numbers do not add up"});
   v1::Lease first = erode_lease(prepared_, "a", 0, 128), second = erode_lease(prepared_, "b", 128, 256);
   for (v1::Lease* lease : {&first, &second}) {
     lease->set_report_interval_ms(60000);  // no reports but the last
@@ -140,6 +147,61 @@ TEST_F(LoopTest, FailsATaskForGoodOnABadMeshAndParameter) {
   EXPECT_FALSE(server_.failures()[0].retryable());
   EXPECT_EQ(server_.failures()[0].error().code(), "BAD_INPUT");
   EXPECT_EQ(server_.failures()[0].error().line(), 3U);
+}
+
+// As when the server has no more files to open for a while.
+TEST_F(LoopTest, PassingTroubleOfTheServerCostsNoAttempt) {
+  server_.fail_next("FetchInput1", {grpc::StatusCode::INTERNAL, "unable to open database file"}, 3);
+  server_.fail_next("FetchInput1", {grpc::StatusCode::RESOURCE_EXHAUSTED, "full"}, 2);
+  server_.fail_next("CompleteTask", {grpc::StatusCode::UNKNOWN, "trouble"}, 1);
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.failures().empty());
+  EXPECT_EQ(server_.completions().size(), 1U);
+  EXPECT_EQ(server_.calls("FetchInput1"), 6);
+}
+
+TEST_F(LoopTest, DropsACancelledTaskWithoutWaitingForItsEnd) {
+  server_.hold_next_fetch();
+  server_.cancel_next_renewal();
+  offer(restless_lease("a"));
+  v1::Lease next = other_lease("b", v1::TASK_KIND_PREPARE);
+  next.mutable_job()->set_id("ffff");
+  offer(next);
+  const LogCapture log;
+  EXPECT_EQ(run(), 0);
+  ASSERT_EQ(server_.completions().size(), 1U);
+  EXPECT_EQ(server_.completions()[0].header.token(), "b");
+  EXPECT_TRUE(server_.failures().empty());
+  EXPECT_EQ(server_.calls("ReturnLease"), 0) << "the server has taken it already";
+  EXPECT_NE(log.text().find("cancelled"), std::string::npos) << log.text();
+  EXPECT_EQ(log.text().find("lost"), std::string::npos) << log.text();
+}
+
+TEST_F(LoopTest, DropsATaskWhoseLeaseIsLost) {
+  server_.hold_next_fetch();
+  server_.fail_next("RenewLease", {grpc::StatusCode::ABORTED, "fenced"});
+  offer(restless_lease("a", v1::TASK_KIND_SKELETON));
+  const LogCapture log;
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.completions().empty());
+  EXPECT_TRUE(server_.failures().empty());
+  EXPECT_NE(log.text().find("lease lost"), std::string::npos) << log.text();
+}
+
+TEST_F(LoopTest, GivesAPreparationBackWhenItIsToStop) {
+  server_.hold_next_fetch();
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  LeaseLoopOptions options;
+  options.server = server_.address();
+  int code = -1;
+  std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
+  server_.wait_for_call("FetchInput1");
+  stop_.request_stop();
+  loop.join();
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(server_.calls("ReturnLease"), 1);
+  EXPECT_TRUE(server_.failures().empty());
 }
 
 TEST_F(LoopTest, GivesALeaseBackBeyondMaxJobs) {

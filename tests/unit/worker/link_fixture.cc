@@ -1,10 +1,22 @@
 #include "link_fixture.h"
 
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
 #include "core/erosion/field.h"
 
 namespace affskel::worker {
+
+LogCapture::LogCapture() : before_(spdlog::default_logger()) {
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines_)));
+}
+
+LogCapture::~LogCapture() {
+  spdlog::set_default_logger(before_);
+}
 
 std::string merged(const PreparedJob& prepared, const std::vector<FakeServer::Report>& reports) {
   std::vector<core::FieldValue> field(prepared.lattice().points);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <spdlog/logger.h>
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
+#include <sstream>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -27,6 +30,21 @@ class LinkTest : public testing::Test {
   std::stop_source stop_;
   PreparedJob prepared_{sample_mesh(), sample_params()};
   LastReport last_{[](const std::string&, const std::exception_ptr&) { ADD_FAILURE() << "a report failed"; }};
+};
+
+/// Takes what is logged while it lives.
+class LogCapture {
+ public:
+  LogCapture();
+  ~LogCapture();
+  LogCapture(const LogCapture&) = delete;
+  LogCapture& operator=(const LogCapture&) = delete;
+
+  std::string text() const { return lines_.str(); }
+
+ private:
+  std::ostringstream lines_;
+  std::shared_ptr<spdlog::logger> before_;
 };
 
 /// The field's bytes after the reports, merged as the server does; expects every report to count its records.

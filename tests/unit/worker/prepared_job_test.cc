@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/stopping_context.h"
 #include "sample_job.h"
 
 namespace affskel::worker {
@@ -27,6 +28,29 @@ TEST(PreparedJob, DescribesWhatItPrepared) {
     EXPECT_EQ(lattice.run_start(r) / lattice.dims(2), (end - 1) / lattice.dims(2)) << "a run leaves its line";
   }
   EXPECT_EQ(points, summary.points());
+}
+
+TEST(PreparedJob, StopsWhereverItIsAsked) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_target_points(100000);
+  core::expect_stops_wherever_it_is_asked(
+      10, [&](core::ExecutionContext* context) { const PreparedJob job(sample_mesh(), params, 1, context); });
+}
+
+// Its erosion starts from the server's field, 20 bytes a point, which a worker holds beside its own.
+TEST(PreparedJob, RefusesWhatDoesNotFitIntoMemory) {
+  const auto fits = [](std::uint64_t available) {
+    try {
+      const PreparedJob job(sample_mesh(), sample_params(), 1, nullptr, [&] { return available; });
+      return true;
+    } catch (const core::CoreError& error) {
+      EXPECT_EQ(error.code(), core::CoreError::Code::kLimit);
+      return false;
+    }
+  };
+  const std::uint64_t points = PreparedJob(sample_mesh(), sample_params()).lattice().points;
+  EXPECT_FALSE(fits(45 * points));
+  EXPECT_TRUE(fits(70 * points));
 }
 
 TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {

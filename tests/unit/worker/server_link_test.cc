@@ -1,12 +1,7 @@
 #include "server_link.h"
 
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
 #include <cstdlib>
-#include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,16 +48,12 @@ TEST_F(LinkTest, ReachesAServerOfThisMachineWithoutTheProxyOfTheEnvironment) {
 }
 
 TEST_F(LinkTest, SaysOnceThatTheServerIsAway) {
-  std::ostringstream lines;
-  const auto before = spdlog::default_logger();
-  spdlog::set_default_logger(
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines)));
+  const LogCapture capture;
   server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 3);
   ServerLink to_server = link();
   to_server.renew("t");
   to_server.renew("t");
-  spdlog::set_default_logger(before);
-  const std::string log = lines.str();
+  const std::string log = capture.text();
   const std::size_t first = log.find("does not answer");
   EXPECT_NE(first, std::string::npos) << log;
   EXPECT_EQ(log.find("does not answer", first + 1), std::string::npos) << log;

@@ -4,7 +4,7 @@
 
 namespace affskel::core {
 
-/// Passed into long computations: they ask it between directions whether to stop, and tell it what is
+/// Passed into long computations: they ask it at short intervals whether to stop, and tell it what is
 /// finished.  Called from several threads at once.
 class ExecutionContext {
  public:
@@ -15,6 +15,31 @@ class ExecutionContext {
 
   /// Work item `item` (its place in the list given) is finished and its results are in the field.
   virtual void item_done(std::uint64_t item) { static_cast<void>(item); }
+};
+
+/// For computations that are all or nothing.
+/// @param context may be null: nobody wants to stop it. @throws CoreError kCancelled when it asks to stop.
+void throw_if_stopped(ExecutionContext* context);
+
+/// throw_if_stopped for loops whose steps are too short to ask at each of them: asks about once a
+/// millisecond.  One thread; several threads each have their own.
+class StopCheck {
+ public:
+  explicit StopCheck(ExecutionContext* context) : context_(context) {}
+
+  /// @param steps how many steps, of some nanoseconds each, were taken since the last call.
+  void did(std::uint64_t steps) {
+    done_ += steps;
+    if (done_ < kSteps) return;
+    done_ = 0;
+    throw_if_stopped(context_);
+  }
+
+ private:
+  static constexpr std::uint64_t kSteps = 1 << 16;
+
+  ExecutionContext* context_;
+  std::uint64_t done_ = 0;
 };
 
 }  // namespace affskel::core

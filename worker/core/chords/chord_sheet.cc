@@ -67,11 +67,12 @@ class Contouring {
         slabs_(lattice),
         interior_(parts, lattice) {}
 
-  void run(ChordSheet& sheet) {
+  void run(ChordSheet& sheet, ExecutionContext* context) {
     sheet.vertices.reserve(cells_.size());
     std::int64_t reached = -1;
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
-      while (reached < cells_.place[cell][0]) slabs_.move_to(static_cast<std::uint32_t>(++reached));
+      for (; reached < cells_.place[cell][0]; slabs_.move_to(static_cast<std::uint32_t>(++reached)))
+        throw_if_stopped(context);
       sheet.vertices.push_back(vertex(cell));
     }
     for (const auto& ring : cells_.ring) add_quad(ring, sheet);
@@ -224,18 +225,21 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   }
   const SolidParts parts(solid, lattice);
   std::vector<ChordShock> candidates = chord_shocks(lattice, field, options.shocks);
+  throw_if_stopped(options.context);
   measure_turns(lattice, parts, field, candidates, options.turns);
+  throw_if_stopped(options.context);
   ChordPruningOptions pruning = options.pruning;
   pruning.strong_turn = strong_turn(candidates, options);
   SignificantShocks kept = significant_shocks(lattice, parts, candidates, pruning);
   ChordSheet sheet;
   sheet.shocks = std::move(kept.shocks);
+  throw_if_stopped(options.context);
   close_pinholes(lattice, parts, field, sheet.shocks);
   sheet.pieces = std::move(kept.pieces);
   sheet.bridges = kept.bridges;
   sheet.strong_turn = pruning.strong_turn;
   sheet.census = kept.census;
-  Contouring(lattice, parts, sheet.shocks, options.regularisation).run(sheet);
+  Contouring(lattice, parts, sheet.shocks, options.regularisation).run(sheet, options.context);
   return sheet;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/chords/chord_pruning.h"
 #include "core/chords/chord_shocks.h"
 #include "core/chords/chord_turns.h"
@@ -23,6 +24,7 @@ struct ChordSheetOptions {
   double least_strong_turn = 0.1;  ///< ... but no less than this takes its place, 0 .. 1
   /// Pull of the shocks' mean on a vertex, against 1 for all tangent planes together, > 0.
   double regularisation = 0.05;
+  ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers
 };
 
 struct ChordSheetVertex {

@@ -13,6 +13,9 @@
 
 namespace affskel::core {
 
+/// What an erosion takes in memory for every sample point, bytes: the field and what sweeps know of runs.
+constexpr double kErosionBytesPerPoint = 22;
+
 struct ErosionOptions {
   unsigned threads = 1;        ///< >= 1
   bool track_changes = false;  ///< see ErosionField::take_changes

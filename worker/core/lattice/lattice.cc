@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "core/base/cube_root.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
+#include "core/lattice/lattice_memory.h"
 #include "core/lattice/point_spacing.h"
 #include "core/lattice/scan_conversion.h"
 
@@ -19,18 +21,21 @@ constexpr double kMaxLines = 4e8;
 
 class LatticeBuilder {
  public:
-  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, unsigned threads)
-      : mesh_(solid.mesh), threads_(threads) {
+  // Of the options those that do not say where the points are.
+  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, const LatticeOptions& options)
+      : mesh_(solid.mesh), options_(options), threads_(options.threads), context_(options.context) {
     lattice_.frame = frame;
+    const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
+    lattice_.spacing = solid.scale() * cube_root(std::abs(cell));
   }
 
   std::uint32_t count() {
-    fill_axis_2();
+    if (lattice_.points == 0) fill_axis_2();
     return lattice_.points;
   }
 
   Lattice run() {
-    fill_axis_2();
+    require_memory(count());
     parallel_for(threads_, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
     return std::move(lattice_);
   }
@@ -59,16 +64,24 @@ class LatticeBuilder {
     return lines.crossings[c].triangle;
   }
 
+  void require_memory(double points) const {
+    const double lines = static_cast<double>(lattice_.frame.dims[0]) * lattice_.frame.dims[1];
+    require_lattice_memory({points, lines, lattice_.spacing}, options_.point_bytes, options_.memory_budget);
+  }
+
   // Axis 2 decides what is inside and numbers the points.
   void fill_axis_2() {
+    require_memory(0);
     const LatticeFrame& frame = lattice_.frame;
-    const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_);
+    const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_, context_);
+    StopCheck stop(context_);
     std::uint64_t points = 0;
     for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
       for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
         const std::size_t line = std::size_t{i} * frame.dims[1] + j;
         const std::uint64_t last = lines.begin[line + 1];
         Passage passage;
+        stop.did(1 + last - lines.begin[line]);
         for (std::uint64_t c = lines.begin[line]; c + 1 < last; ++c) {
           const Crossing &low = lines.crossings[c], &high = lines.crossings[c + 1];
           passage.pass(low);
@@ -99,15 +112,19 @@ class LatticeBuilder {
   // Sorts the points into the lines of another axis and cuts these into runs.
   void fill_axis(int axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const LineCrossings lines = scan_convert(mesh_, lattice_.frame, axis);
+    const LineCrossings lines = scan_convert(mesh_, lattice_.frame, axis, 1, context_);
     const std::size_t line_count = lines.begin.size() - 1;
-    std::vector<std::uint32_t> begin(line_count + 1, 0), run_of(lattice_.points);
+    std::vector<std::uint32_t> begin(line_count + 1, 0);
     for_each_point([&](std::uint32_t, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
       static_cast<void>(run);
       ++begin[line_of(axis, at) + 1];
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    std::vector<std::uint32_t> order(lattice_.points), cursor(begin.begin(), begin.end() - 1);
+    std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
+    // Not filled first: with a great many points that alone takes seconds, in which nobody asks whether to
+    // stop.
+    const auto run_of = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
+    const auto order = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
     const LatticeRun* first_run = lattice_.axis[2].runs.data();
     for_each_point([&](std::uint32_t point, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
       order[cursor[line_of(axis, at)]++] = point;
@@ -115,8 +132,10 @@ class LatticeBuilder {
     });
     std::vector<std::uint32_t>& kept = lattice_.axis[a].order;
     kept.reserve(lattice_.points);
+    StopCheck stop(context_);
     for (std::size_t line = 0; line < line_count; ++line) {
-      cut_line(a, lines, line, order, begin[line], begin[line + 1], run_of);
+      stop.did(1 + begin[line + 1] - begin[line]);
+      cut_line(a, lines, line, order.get(), begin[line], begin[line + 1], run_of.get());
     }
   }
 
@@ -128,16 +147,17 @@ class LatticeBuilder {
 
   template <class Visit>
   void for_each_point(Visit visit) const {
+    StopCheck stop(context_);
     for (const LatticeRun& run : lattice_.axis[2].runs) {
+      stop.did(run.length);
       std::array<std::uint32_t, 3> at = run.start;
       for (std::uint32_t p = run.first; p < run.first + run.length; ++p, ++at[2]) visit(p, run, at);
     }
   }
 
   // Points come in lattice order, so each line's are ascending along the axis.
-  void cut_line(std::size_t a, const LineCrossings& lines, std::size_t line,
-                const std::vector<std::uint32_t>& order, std::uint32_t from, std::uint32_t to,
-                const std::vector<std::uint32_t>& run_of) {
+  void cut_line(std::size_t a, const LineCrossings& lines, std::size_t line, const std::uint32_t* order,
+                std::uint32_t from, std::uint32_t to, const std::uint32_t* run_of) {
     std::uint64_t next = lines.begin[line];
     const std::uint64_t end = lines.begin[line + 1];
     Passage passage;
@@ -168,7 +188,9 @@ class LatticeBuilder {
   }
 
   const Mesh& mesh_;
+  LatticeOptions options_;
   unsigned threads_;
+  ExecutionContext* context_;
   Lattice lattice_;
 };
 
@@ -210,10 +232,10 @@ struct Plan {
   bool fits = false;    // within the limits; only then there is a frame
 };
 
-// An even number, or one: the middle planes of the box, where solids that are their own mirror images have their
-// skeletons, lie half-way between sample points.  At a point in the skeleton two chords are equal, and which
-// of them rounding takes for the lesser one would be chance.  None on the box itself, nor within rounding of
-// it.
+// An even number, or one: the middle planes of the box, where solids that are their own mirror images have
+// their skeletons, lie half-way between sample points.  At a point in the skeleton two chords are equal, and
+// which of them rounding takes for the lesser one would be chance.  None on the box itself, nor within
+// rounding of it.
 double points_per_side(double steps) {
   constexpr double kShrunk = 1 - 1e-9;
   return steps * kShrunk > 1 ? 2 * std::ceil((steps * kShrunk - 1) / 2) : 1;
@@ -243,15 +265,16 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
 
 }  // namespace
 
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads) {
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads,
+                     ExecutionContext* context) {
   for (std::uint32_t n : frame.dims) {
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
-  Lattice lattice = LatticeBuilder(solid, frame, threads).run();
-  const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
-  lattice.spacing = solid.scale() * cube_root(std::abs(cell));
-  return lattice;
+  LatticeOptions options;
+  options.threads = threads;
+  options.context = context;
+  return LatticeBuilder(solid, frame, options).run();
 }
 
 namespace {
@@ -265,7 +288,7 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
                         rounded(static_cast<double>(options.max_points), 3) + " points on " +
                         rounded(kMaxLines, 3) + " lines are supported");
   }
-  Lattice lattice = make_lattice(solid, plan.frame, options.threads);
+  Lattice lattice = LatticeBuilder(solid, plan.frame, options).run();
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
@@ -280,7 +303,7 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);
   if (!plan.fits) return std::nullopt;
-  return LatticeBuilder(solid, plan.frame, options.threads).count();
+  return LatticeBuilder(solid, plan.frame, options).count();
 }
 
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
@@ -290,9 +313,12 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   // Too many points by their volume are refused; lines that a thin solid would not need are not.
   if (options.spacing == 0 && plan.estimate <= static_cast<double>(options.max_points)) {
     if (plan.fits && !is_foil(solid, spacing)) {
-      Lattice lattice = make_lattice(solid, plan.frame, options.threads);
-      lattice.spacing = spacing;
-      if (is_near(lattice.points, options.target_points)) return lattice;
+      LatticeBuilder builder(solid, plan.frame, options);
+      if (is_near(builder.count(), options.target_points)) {
+        Lattice lattice = builder.run();
+        lattice.spacing = spacing;
+        return lattice;
+      }
     }
     return lattice_at(solid, box, options, spacing_for_points(solid, options, spacing));
   }

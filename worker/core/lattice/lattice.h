@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/base/matrix3.h"
 #include "core/base/vec3.h"
 #include "core/solid/solid.h"
@@ -72,6 +73,10 @@ struct LatticeOptions {
   Matrix3 frame = kIdentity3;                         ///< F of det 1, see solid_frame
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
   unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
+  ExecutionContext* context = nullptr;                ///< asked whether to stop
+  /// Bytes that the lattice, and what the caller is going to keep beside it, may take; 0 = no bound.
+  std::uint64_t memory_budget = 0;
+  double point_bytes = 0;  ///< that the caller is going to take for every sample point
 };
 
 /// Lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
@@ -84,7 +89,8 @@ struct LatticeOptions {
 /// box by more than 5e-10 of its side; where a side is at most dT, in its middle plane.  So no point lies in
 /// the middle planes of other solids: there a symmetric one has its skeleton.
 /// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
-///   more than max_points would.
+///   more than max_points would, or before they take more than the memory budget; kCancelled when the context
+///   asks to stop.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
 /// How many sample points make_lattice would give for options.spacing, by one scan conversion; nothing when
@@ -92,6 +98,7 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1);
+Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1,
+                     ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -22,8 +22,8 @@ struct Corner {
 
 class Scanner {
  public:
-  Scanner(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads)
-      : mesh_(mesh), threads_(threads), u_((axis + 1) % 3), v_((axis + 2) % 3), w_(axis) {
+  Scanner(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads, ExecutionContext* context)
+      : mesh_(mesh), threads_(threads), context_(context), u_((axis + 1) % 3), v_((axis + 2) % 3), w_(axis) {
     u_count_ = frame.dims[static_cast<std::size_t>(u_)];
     v_count_ = frame.dims[static_cast<std::size_t>(v_)];
     transform(frame);
@@ -31,6 +31,7 @@ class Scanner {
 
   LineCrossings run() {
     const std::vector<std::vector<CrossingOnLine>> found = find_crossings();
+    throw_if_stopped(context_);
     LineCrossings result;
     result.begin.assign(std::size_t{u_count_} * v_count_ + 1, 0);
     for (const std::vector<CrossingOnLine>& part : found) {
@@ -38,10 +39,12 @@ class Scanner {
     }
     for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
     result.crossings.resize(result.begin.back());
+    throw_if_stopped(context_);
     std::vector<std::uint64_t> cursor(result.begin.begin(), result.begin.end() - 1);
     for (const std::vector<CrossingOnLine>& part : found) {
       for (const CrossingOnLine& f : part) result.crossings[cursor[f.line]++] = f.crossing;
     }
+    throw_if_stopped(context_);
     sort_lines(result);
     return result;
   }
@@ -105,7 +108,9 @@ class Scanner {
 
   void sort_lines(LineCrossings& lines) const {
     parallel_ranges(threads_, lines.begin.size() - 1, [&](std::size_t first, std::size_t last) {
+      StopCheck stop(context_);
       for (std::size_t line = first; line < last; ++line) {
+        stop.did(1 + lines.begin[line + 1] - lines.begin[line]);
         std::sort(lines.crossings.data() + lines.begin[line], lines.crossings.data() + lines.begin[line + 1],
                   comes_before);
       }
@@ -114,17 +119,21 @@ class Scanner {
 
   template <class Visit>
   void scan(std::uint32_t first, std::uint32_t last, const Visit& visit) const {
+    StopCheck stop(context_);
     for (std::uint32_t t = first; t < last; ++t) {
       const Triangle& c = mesh_.triangles[t];
       const std::array<Corner, 3> p = {corner(c[0]), corner(c[1]), corner(c[2])};
       const auto rows =
           integers_in(std::min({p[0].v, p[1].v, p[2].v}), std::max({p[0].v, p[1].v, p[2].v}), v_count_);
-      for (std::int64_t row = rows[0]; row < rows[1]; ++row) scan_row(t, p, row, visit);
+      stop.did(1);
+      for (std::int64_t row = rows[0]; row < rows[1]; ++row) stop.did(scan_row(t, p, row, visit));
     }
   }
 
+  // Returns the number of lines that it looked at.
   template <class Visit>
-  void scan_row(std::uint32_t t, const std::array<Corner, 3>& p, std::int64_t row, const Visit& visit) const {
+  std::uint64_t scan_row(std::uint32_t t, const std::array<Corner, 3>& p, std::int64_t row,
+                         const Visit& visit) const {
     std::array<RowHit, 2> hit;
     std::size_t hits = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -135,7 +144,7 @@ class Scanner {
       const double s = (v - low.v) / (high.v - low.v);
       hit[hits++] = {low.u + s * (high.u - low.u), low.w + s * (high.w - low.w), a.v < b.v};
     }
-    if (hits != 2) return;
+    if (hits != 2) return 1;
     if (hit[1].u < hit[0].u) std::swap(hit[0], hit[1]);
     // Seen from the tip of the axis a triangle is counter-clockwise, hence faces up, when its right edge
     // runs towards greater v.
@@ -147,10 +156,12 @@ class Scanner {
       visit(static_cast<std::uint64_t>(column) * v_count_ + static_cast<std::uint64_t>(row),
             Crossing{depth, t, exits});
     }
+    return static_cast<std::uint64_t>(1 + columns[1] - columns[0]);
   }
 
   const Mesh& mesh_;
   unsigned threads_;
+  ExecutionContext* context_;
   int u_, v_, w_;
   std::uint32_t u_count_ = 0, v_count_ = 0;
   bool left_handed_ = false;
@@ -159,12 +170,14 @@ class Scanner {
 
 }  // namespace
 
-LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads) {
-  return Scanner(mesh, frame, axis, threads).run();
+LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads,
+                           ExecutionContext* context) {
+  return Scanner(mesh, frame, axis, threads, context).run();
 }
 
-std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeFrame& frame, int axis) {
-  return Scanner(mesh, frame, axis, 1).run_lines_met();
+std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeFrame& frame, int axis,
+                                                   ExecutionContext* context) {
+  return Scanner(mesh, frame, axis, 1, context).run_lines_met();
 }
 
 }  // namespace affskel::core

@@ -14,7 +14,8 @@ namespace {
 
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const ReadOffOptions& options) : rows_(bytes), options_(options) {}
+  OffReader(std::string_view bytes, const ReadOffOptions& options)
+      : rows_(bytes), options_(options), stop_(options.context) {}
 
   OffMesh run() {
     read_header();
@@ -92,6 +93,7 @@ class OffReader {
     result_.vertex_line.reserve(vertex_count_);
     const std::size_t base = 3 + (normal_ ? 3U : 0U) + (texture_ ? 2U : 0U);
     for (std::uint64_t v = 0; v < vertex_count_; ++v) {
+      stop_.did(kStepsPerRow);
       if (!rows_.next()) ends_early("vertex", v, vertex_count_);
       const auto& words = rows_.words();
       const bool fits = colour_ ? words.size() == base + 3 || words.size() == base + 4 : words.size() == base;
@@ -115,6 +117,7 @@ class OffReader {
     result_.mesh.triangles.reserve(face_count_);
     result_.triangle_line.reserve(face_count_);
     for (std::uint64_t f = 0; f < face_count_; ++f) {
+      stop_.did(kStepsPerRow);
       if (!rows_.next()) ends_early("face", f, face_count_);
       read_face(f);
     }
@@ -180,8 +183,11 @@ class OffReader {
                                    " " + what + " rows");
   }
 
+  static constexpr std::uint64_t kStepsPerRow = 64;
+
   TextRows rows_;
   ReadOffOptions options_;
+  StopCheck stop_;
   bool texture_ = false, colour_ = false, normal_ = false;
   std::uint64_t vertex_count_ = 0, face_count_ = 0;
   std::vector<std::uint32_t> corners_, sorted_;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -13,6 +14,7 @@ namespace affskel::core {
 struct ReadOffOptions {
   /// Refuse announced counts above this before anything is allocated.
   std::uint64_t max_elements = std::uint64_t{1} << 28;
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 /// A mesh with the lines it came from, so that later messages can name the place.
@@ -30,7 +32,7 @@ struct OffMesh {
 /// into fans (the shorter diagonal for quadrilaterals).  The file must end after the last face.
 /// @throws CoreError kBadInput with line and cause for everything else (binary, 4OFF, nOFF, decimal
 ///   commas, NUL bytes, lone CR, trailing rows, indices out of range or not integral, NaN, infinity);
-///   kLimit when a count exceeds the options.
+///   kLimit when a count exceeds the options; kCancelled when the context asks to stop.
 OffMesh read_off(std::string_view bytes, const ReadOffOptions& options = {});
 
 /// Text of an OFF file with the shortest decimals that read back exactly.

@@ -134,12 +134,14 @@ class Search {
     parallel_ranges(options_.threads, count, [this](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) degenerate_[i] = meet_.degenerate(mesh_.triangles[i]);
     });
+    throw_if_stopped(options_.context);
     boxes_ = boxes_of(mesh_);
     const CloseTriangles close(mesh_, boxes_, options_.threads);
     std::vector<Pairs> found((count + kBlock - 1) / kBlock);
     std::atomic<std::size_t> pairs{0};
     parallel_for(options_.threads, found.size(), [&](std::size_t block) {
       if (pairs >= options_.max_pairs) return;
+      throw_if_stopped(options_.context);
       find(close, block * kBlock, std::min(count, (block + 1) * kBlock), found[block]);
       pairs += found[block].size();
     });
@@ -148,14 +150,17 @@ class Search {
 
  private:
   static constexpr std::size_t kBlock = 2048;
+  static constexpr std::uint64_t kStepsPerCandidate = 64;
 
   void find(const CloseTriangles& close, std::size_t begin, std::size_t end, Pairs& pairs) const {
     std::vector<std::uint32_t> candidates;
+    StopCheck stop(options_.context);
     for (auto i = static_cast<std::uint32_t>(begin); i < end && pairs.size() < options_.max_pairs; ++i) {
       if (degenerate_[i] != 0) {
         if (options_.degenerate_triangles) pairs.emplace_back(i, i);
         continue;
       }
+      stop.did(candidates.size() * kStepsPerCandidate);
       candidates.clear();
       close.visit_above(i, [&](std::uint32_t j) {
         if (meet_.may_meet(i, j)) candidates.push_back(j);

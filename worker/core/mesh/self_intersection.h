@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -14,7 +15,8 @@ struct SelfIntersectionOptions {
   /// Also report every degenerate triangle (corners equal or on one line) as a pair with itself, as CGAL
   /// does.
   bool degenerate_triangles = false;
-  unsigned threads = 1;  ///< >= 1; the pairs do not depend on it
+  unsigned threads = 1;                 ///< >= 1; the pairs do not depend on it
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 /// The first `options.max_pairs` pairs (i, j), in lexicographic order, of triangles that share a point
@@ -26,7 +28,8 @@ struct SelfIntersectionOptions {
 /// Any mesh will do: open, not manifold, with unused vertices.  Decisions are exact (CGAL's exact
 /// predicates; the rules are those of Polygon_mesh_processing::self_intersections).  Time grows with the
 /// pairs of overlapping bounding boxes; slivers and large fans have boxes of their own (see CloseTriangles).
-/// @throws CoreError kBadInput when a used coordinate is not finite or an index is out of range.
+/// @throws CoreError kBadInput when a used coordinate is not finite or an index is out of range; kCancelled
+///   when the context asks to stop.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options = {});
 

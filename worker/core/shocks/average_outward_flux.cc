@@ -26,8 +26,8 @@ double mean_flux(const Neighbourhood& normals) {
 }  // namespace
 
 std::vector<double> average_outward_flux(const Lattice& lattice, const DirectionSet& directions,
-                                         const OptimalDirections& optimal) {
-  return at_every_point(lattice, directions, optimal, mean_flux);
+                                         const OptimalDirections& optimal, ExecutionContext* context) {
+  return at_every_point(lattice, directions, optimal, context, mean_flux);
 }
 
 }  // namespace affskel::core

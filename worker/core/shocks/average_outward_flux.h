@@ -20,6 +20,7 @@ constexpr double kAverageOutwardFluxThreshold = 7.0 / 26;
 /// @param directions unit normals in the lattice's frame (see frame_directions).
 /// Returns one value per point; |H| <= 1.
 std::vector<double> average_outward_flux(const Lattice& lattice, const DirectionSet& directions,
-                                         const OptimalDirections& optimal);
+                                         const OptimalDirections& optimal,
+                                         ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -20,6 +20,7 @@ inline double intermediate_difference_threshold(double spacing) {
 /// @param directions unit normals in the lattice's frame (see frame_directions).
 /// Returns one value per point, per mesh unit; |H| <= 3 * 2 / spacing.
 std::vector<double> intermediate_difference_divergence(const Lattice& lattice, const DirectionSet& directions,
-                                                       const OptimalDirections& optimal);
+                                                       const OptimalDirections& optimal,
+                                                       ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -105,15 +105,16 @@ class Neighbourhood {
 };
 
 /// `value(const Neighbourhood&)` at every sample point, in lattice order.
+/// @throws CoreError kCancelled when the context, if there is one, asks to stop: asked at every layer.
 template <class Value>
 std::vector<double> at_every_point(const Lattice& lattice, const DirectionSet& directions,
-                                   const OptimalDirections& optimal, Value value) {
+                                   const OptimalDirections& optimal, ExecutionContext* context, Value value) {
   std::vector<double> result(lattice.points, 0);
   SlabIndex slabs(lattice);
   std::uint32_t reached = SlabIndex::kOutside;
   Neighbourhood normals(directions, optimal, slabs);
   for (const LatticeRun& run : lattice.axis[2].runs) {
-    while (reached != run.start[0]) slabs.move_to(++reached);
+    for (; reached != run.start[0]; slabs.move_to(++reached)) throw_if_stopped(context);
     normals.start(run.start[0], run.start[1], run.start[2]);
     for (std::uint32_t p = run.first; p < run.first + run.length; ++p) {
       if (p != run.first) normals.advance();

@@ -56,18 +56,19 @@ double next_threshold(double threshold) {
 }
 
 std::vector<double> divergence(ShockOperator shock_operator, const Lattice& lattice,
-                               const DirectionSet& directions, const OptimalDirections& optimal) {
+                               const DirectionSet& directions, const OptimalDirections& optimal,
+                               ExecutionContext* context) {
   switch (shock_operator) {
     case ShockOperator::kIntermediate:
-      return intermediate_difference_divergence(lattice, directions, optimal);
+      return intermediate_difference_divergence(lattice, directions, optimal, context);
     case ShockOperator::kCentral:
-      return central_difference_divergence(lattice, directions, optimal);
+      return central_difference_divergence(lattice, directions, optimal, context);
     case ShockOperator::kZuckerHummel:
-      return zucker_hummel_divergence(lattice, directions, optimal);
+      return zucker_hummel_divergence(lattice, directions, optimal, {}, context);
     case ShockOperator::kSobel:
-      return sobel_divergence(lattice, directions, optimal);
+      return sobel_divergence(lattice, directions, optimal, {}, context);
     case ShockOperator::kFlux:
-      return average_outward_flux(lattice, directions, optimal);
+      return average_outward_flux(lattice, directions, optimal, context);
   }
   unknown();
 }

@@ -23,7 +23,10 @@ double next_threshold(double threshold);
 
 /// H at every sample point by the given operator with its default options.
 /// @param directions unit normals in the lattice's frame (see frame_directions).
+/// @param context asked at every layer of the lattice whether to stop; may be null.
+/// @throws CoreError kCancelled when the context asks to stop.
 std::vector<double> divergence(ShockOperator shock_operator, const Lattice& lattice,
-                               const DirectionSet& directions, const OptimalDirections& optimal);
+                               const DirectionSet& directions, const OptimalDirections& optimal,
+                               ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -5,8 +5,9 @@
 namespace affskel::core {
 
 std::vector<double> sobel_divergence(const Lattice& lattice, const DirectionSet& directions,
-                                     const OptimalDirections& optimal, const SobelOptions& options) {
-  return at_every_point(lattice, directions, optimal, [&](const Neighbourhood& normals) {
+                                     const OptimalDirections& optimal, const SobelOptions& options,
+                                     ExecutionContext* context) {
+  return at_every_point(lattice, directions, optimal, context, [&](const Neighbourhood& normals) {
     return weighted_plane_differences(normals,
                                       {options.face_weight, options.edge_weight, options.corner_weight});
   });

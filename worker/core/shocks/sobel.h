@@ -26,6 +26,7 @@ struct SobelOptions {
 /// @param directions unit normals in the lattice's frame (see frame_directions).
 /// Returns one value per point; |H| <= 3 * 2 * 16.
 std::vector<double> sobel_divergence(const Lattice& lattice, const DirectionSet& directions,
-                                     const OptimalDirections& optimal, const SobelOptions& options = {});
+                                     const OptimalDirections& optimal, const SobelOptions& options = {},
+                                     ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

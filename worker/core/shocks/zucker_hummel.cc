@@ -6,8 +6,8 @@ namespace affskel::core {
 
 std::vector<double> zucker_hummel_divergence(const Lattice& lattice, const DirectionSet& directions,
                                              const OptimalDirections& optimal,
-                                             const ZuckerHummelOptions& options) {
-  return at_every_point(lattice, directions, optimal, [&](const Neighbourhood& normals) {
+                                             const ZuckerHummelOptions& options, ExecutionContext* context) {
+  return at_every_point(lattice, directions, optimal, context, [&](const Neighbourhood& normals) {
     return weighted_plane_differences(normals,
                                       {options.face_weight, options.edge_weight, options.corner_weight});
   });

@@ -26,6 +26,7 @@ struct ZuckerHummelOptions {
 /// Returns one value per point; |H| <= 3 * 2 * (1 + 2 sqrt(2) + 4 sqrt(3)/3).
 std::vector<double> zucker_hummel_divergence(const Lattice& lattice, const DirectionSet& directions,
                                              const OptimalDirections& optimal,
-                                             const ZuckerHummelOptions& options = {});
+                                             const ZuckerHummelOptions& options = {},
+                                             ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -52,18 +52,23 @@ class SolidBuilder {
     if (solid_.mesh.triangles.empty()) refuse("the mesh has no triangles");
     check_points();
     drop_unused_vertices();
+    throw_if_stopped(options_.context);
     const TrianglePlace where = [this](std::uint32_t t) { return place(t); };
     HalfEdges mates;
     if (!find_mates_if_closed(solid_.mesh, options_.threads, mates)) {
       if (!every_edge_is_shared(solid_.mesh)) weld();
       mates = find_mates(solid_.mesh, where);
     }
+    throw_if_stopped(options_.context);
     make_orientation_agree(mates, where);
     note_split(split_pinched_vertices(solid_.mesh, mates));
+    throw_if_stopped(options_.context);
     normalise();
     count_degenerate();
     find_shells(mates);
+    throw_if_stopped(options_.context);
     face_outward();
+    throw_if_stopped(options_.context);
     const std::vector<double> volumes = inner_volumes();
     const std::vector<std::uint8_t> specks = find_specks(solid_, volumes);
     if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks, volumes);
@@ -345,6 +350,7 @@ class SolidBuilder {
     // Folded noise has a few per triangle.  More could fill the memory, and would say nothing new.
     options.max_pairs = 32 * solid_.mesh.triangles.size();
     options.threads = options_.threads;
+    options.context = options_.context;
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;

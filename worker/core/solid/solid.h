@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -13,7 +14,8 @@ struct SolidOptions {
   /// Weld equal vertices, turn faces to agree, drop what nothing uses, leave out specks; false: refuse.
   bool repair = true;
   bool check_self_intersections = true;
-  unsigned threads = 1;  ///< >= 1; the solid does not depend on it
+  unsigned threads = 1;                 ///< >= 1; the solid does not depend on it
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 /// One thing worth telling about a mesh.
@@ -62,7 +64,7 @@ struct Solid {
 /// @param vertex_line, triangle_line lines for messages (see OffMesh); may be empty.
 /// @throws CoreError kBadInput with the first place and cause: no triangles, open edges, edges with more
 ///   than two triangles, repeated triangles, not orientable, zero volume (but see find_specks), coordinates
-///   so large or small that the volume is not a normal double.
+///   so large or small that the volume is not a normal double.  kCancelled when the context asks to stop.
 Solid make_solid(const Mesh& mesh, const SolidOptions& options = {},
                  const std::vector<std::uint32_t>& vertex_line = {},
                  const std::vector<std::uint32_t>& triangle_line = {});

@@ -55,8 +55,9 @@ class Marcher {
   }
 
   /// In lattice coordinates.
-  Mesh run() {
+  Mesh run(ExecutionContext* context) {
     for (at_[0] = -1; at_[0] < dims_[0]; ++at_[0]) {
+      throw_if_stopped(context);
       places_.move_to(at_[0]);
       if (at_[0] + 1 < dims_[0]) ranks_.move_to(static_cast<std::uint32_t>(at_[0] + 1));
       // clear() would touch all the buckets that the fullest layer needed.
@@ -334,7 +335,8 @@ ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const F
                              const ErodedSurfaceOptions& options) {
   check(lattice, field, options);
   ErodedSurface result;
-  result.mesh = Marcher(solid, lattice, field, options.level).run();
+  result.mesh = Marcher(solid, lattice, field, options.level).run(options.context);
+  throw_if_stopped(options.context);
   if (options.shortest_edge > 0) {
     result.mesh = tidy_mesh(result.mesh, {.shortest_edge = options.shortest_edge});
   }

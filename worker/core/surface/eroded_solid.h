@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
@@ -17,6 +18,7 @@ struct ErodedSurfaceOptions {
   double level = 0;  ///< E of the surface, mesh units cubed, >= 0
   /// Shorter ones are collapsed where the shape allows it; spacings, < 1; 0 = none.
   double shortest_edge = 0.4;
+  ExecutionContext* context = nullptr;  ///< asked whether to stop, at every layer
 };
 
 struct ErodedSurface {

@@ -9,6 +9,7 @@
 #include "core/lattice/scan_conversion.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -194,6 +195,37 @@ TEST(ScanConversion, TakesObliqueAndLeftHandedFrames) {
   const double cell = std::abs(dot(frame.axes[0], cross(frame.axes[1], frame.axes[2])));
   const double inner_volume = solid.volume / std::pow(solid.scale(), 3);
   EXPECT_NEAR(make_lattice(solid, frame).points * cell / inner_volume, 1, 0.02);
+}
+
+TEST(MakeLattice, StopsWhereverItIsAsked) {
+  const Solid solid = make_solid(make_sphere(3000, 1280));
+  LatticeOptions options;
+  options.target_points = 300000;
+  expect_stops_wherever_it_is_asked(20, [&](ExecutionContext* context) {
+    options.context = context;
+    make_lattice(solid, options);
+  });
+}
+
+TEST(MakeLattice, IsTheSameWithAContext) {
+  const Solid solid = make_solid(make_torus(3, 1, 512));
+  LatticeOptions options;
+  options.spacing = 0.03;
+  options.threads = 2;
+  const Lattice plain = make_lattice(solid, options);
+  StoppingContext context;
+  options.context = &context;
+  const Lattice asked = make_lattice(solid, options);
+  EXPECT_GT(context.asked(), 10U);
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_TRUE(plain.axis[a].order == asked.axis[a].order);
+    ASSERT_EQ(plain.axis[a].runs.size(), asked.axis[a].runs.size());
+    for (std::size_t r = 0; r < plain.axis[a].runs.size(); ++r) {
+      const LatticeRun &p = plain.axis[a].runs[r], &q = asked.axis[a].runs[r];
+      ASSERT_TRUE(p.first == q.first && p.length == q.length && p.low == q.low && p.high == q.high &&
+                  p.start == q.start);
+    }
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -107,6 +108,17 @@ TEST(SpacingForPoints, CountsAsTheLatticeDoes) {
   options.target_points = 100000;
   options.spacing = 0;
   EXPECT_THROW(make_lattice(solid, options), CoreError) << "10 points are not near 100000";
+}
+
+// A plate half a spacing thick takes several lattices, each of which asks three times at least.
+TEST(SpacingForPoints, StopsBetweenAndWithinItsLattices) {
+  const Solid solid = make_solid(make_box(100, 100, 0.5));
+  LatticeOptions options;
+  options.target_points = 5000;
+  expect_stops_wherever_it_is_asked(7, [&](ExecutionContext* context) {
+    options.context = context;
+    spacing_for_points(solid, options, 1);
+  });
 }
 
 }  // namespace

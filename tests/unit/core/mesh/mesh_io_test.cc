@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -131,6 +132,15 @@ TEST(WriteOff, ReadsBackTheSameBits) {
   const OffMesh off = read_off(write_off(mesh));
   EXPECT_EQ(off.mesh.points, mesh.points);
   EXPECT_EQ(off.mesh.triangles, mesh.triangles);
+}
+
+TEST(ReadOff, StopsWhereverItIsAsked) {
+  const std::string text = write_off(make_sphere(1, 5120));
+  ReadOffOptions options;
+  expect_stops_wherever_it_is_asked(5, [&](ExecutionContext* context) {
+    options.context = context;
+    read_off(text, options);
+  });
 }
 
 }  // namespace

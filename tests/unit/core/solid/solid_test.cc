@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/mesh/perturb.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -264,6 +266,18 @@ TEST(MakeSolid, RefusesWhatIsNothingButSpecksOrThinnerThanRounding) {
   EXPECT_NE(refusal(skin).find("no volume"), std::string::npos);
   const Mesh cubes = joined(moved(cube, {5, 0, 0}), moved(cube, {-5, 0, 0}));
   EXPECT_NE(refusal(joined(skin, cubes)).find("solid 0 of 3"), std::string::npos);
+}
+
+// Noise of this size folds the surface over: most of the time goes into looking for its self-intersections.
+TEST(MakeSolid, StopsWhereverItIsAsked) {
+  PerturbOptions noise;
+  noise.sigma = 0.01;
+  const Mesh mesh = perturb(make_sphere(1, 20480), noise);
+  SolidOptions options;
+  expect_stops_wherever_it_is_asked(20, [&](ExecutionContext* context) {
+    options.context = context;
+    make_solid(mesh, options);
+  });
 }
 
 }  // namespace

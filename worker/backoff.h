@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "core/base/split_mix64.h"
+
+namespace affskel::worker {
+
+/// Pauses between attempts: each about twice the one before, up to a longest one, and each between half of
+/// that and all of it by chance, so that workers that failed together do not come back together.
+class Backoff {
+ public:
+  Backoff(std::chrono::milliseconds first, std::chrono::milliseconds longest, std::uint64_t seed)
+      : first_(first), longest_(longest), next_(first), random_{seed} {}
+
+  std::chrono::milliseconds next();
+
+  /// After a success: the next pause is a first one.
+  void reset() { next_ = first_; }
+
+ private:
+  std::chrono::milliseconds first_, longest_, next_;
+  core::SplitMix64 random_;
+};
+
+}  // namespace affskel::worker
