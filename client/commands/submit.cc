@@ -7,6 +7,8 @@
 #include "client/input_file.h"
 #include "client/job_json.h"
 #include "client/utf8.h"
+#include "core/erosion/directions.h"
+#include "core/lattice/lattice.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -93,13 +95,28 @@ void check_size(Context& context, const InputFile& input) {
   }
 }
 
+// What a worker would refuse, before anything is sent.
+void check_mesh(const InputFile& input, const SubmitOptions& options, Console& console) {
+  const core::Solid solid = check_solid(input, options.repair == "auto");
+  tell_notes(solid, input, console);
+  try {
+    core::LatticeOptions lattice;
+    lattice.spacing = options.spacing;
+    lattice.target_points = options.points;
+    core::check_lattice(solid, core::parse_frame(options.frame), lattice);
+    core::check_directions(solid, options.directions);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, input.path);
+  }
+}
+
 }  // namespace
 
 void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const InputFile input = read_input(options.file);
   tell_conversion(input, console);
-  tell_notes(check_solid(input, options.repair == "auto"), input, console);
+  check_mesh(input, options, console);
   const v1::SubmitJobHeader header = header_for(options, input, user_name(context.environment()));
   prepare_output_dir(options.output_dir);
   check_size(context, input);

@@ -37,6 +37,52 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
 }
 
+// Nothing is sent: there is no server.
+TEST_F(ClientTest, SubmitRefusesWhatIsBeyondTheCoresLimits) {
+  const std::string file = dir_ / "cube.off", nowhere = "unix:/nowhere/s";
+  for (const char* frame : {"axis", "affine"}) {
+    const Outcome fine = run({"submit", file, "--spacing", "1e-9", "--frame", frame}, nowhere);
+    EXPECT_EQ(fine.exit_code, 8);
+    EXPECT_EQ(fine.out, "");
+    for (const char* part :
+         {"cube.off: spacing 1e-09 would give about ", " sample points on ", " lattice lines; ",
+          "at most 2.15e+09 points on 4e+08 lines", "take a spacing of "}) {
+      EXPECT_NE(fine.err.find(part), std::string::npos) << part << "\n" << fine.err;
+    }
+  }
+  const Outcome many = run({"submit", file, "--directions", "triangles+sphere:16777205"}, nowhere);
+  EXPECT_EQ(many.exit_code, 8);
+  EXPECT_NE(many.err.find(
+                "cube.off: directions 'triangles+sphere:16777205': 16777217 directions; at most 16777216"),
+            std::string::npos)
+      << many.err;
+  const Outcome as_json = run({"--json", "submit", file, "--spacing", "1e-300"}, nowhere);
+  EXPECT_EQ(as_json.exit_code, 8);
+  const json error = json::parse(as_json.err).at("error");
+  EXPECT_EQ(error.at("code"), "LIMIT");
+  EXPECT_EQ(error.at("file"), file);
+  EXPECT_TRUE(
+      error.at("message").get<std::string>().starts_with("spacing 1e-300 would give more than 1e+308"));
+}
+
+TEST_F(ClientTest, SubmitSendsWhatIsWithinTheCoresLimits) {
+  const std::string file = dir_ / "cube.off";
+  const std::string refusal = run({"submit", file, "--spacing", "1e-9"}).err;
+  EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+  const std::string before = "take a spacing of ";
+  std::string least = refusal.substr(refusal.find(before) + before.size());
+  least.resize(least.find(' '));
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--spacing", least},
+                                                  {"--spacing", least, "--frame", "obb"},
+                                                  {"--points", "2147483648"},
+                                                  {"--directions", "triangles+sphere:16777204"}}) {
+    std::vector<std::string> arguments = {"submit", file};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome sent = run(arguments);
+    EXPECT_EQ(sent.exit_code, 0) << sent.err;
+  }
+}
+
 TEST_F(ClientTest, SubmitAimsAtAHundredThousandPointsByDefault) {
   EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 0);
   EXPECT_EQ(service_.submitted.params().sampling().target_points(), 100000u);

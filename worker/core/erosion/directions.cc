@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/base/split_mix64.h"
 #include "core/shapes/icosahedron.h"
 
@@ -132,10 +133,8 @@ void map_from_frame(const Matrix3& frame, std::size_t first, DirectionSet& set) 
   for (std::size_t i = first; i < set.size(); ++i) set[i] = unit(map * set[i]);
 }
 
-}  // namespace
-
-DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options) {
-  const std::vector<Part> parts = parse(spec);
+void require_affordable(const Solid& solid, const std::vector<Part>& parts, std::string_view spec,
+                        const DirectionOptions& options) {
   double total = 0;
   for (const Part& part : parts) {
     total += part.kind == Part::Kind::kTriangles ? static_cast<double>(solid.mesh.triangles.size())
@@ -143,8 +142,20 @@ DirectionSet make_directions(const Solid& solid, std::string_view spec, const Di
   }
   if (total > static_cast<double>(options.max_directions)) {
     throw CoreError(CoreError::Code::kLimit, "directions '" + std::string(spec.substr(0, 100)) +
-                                                 "': more than " + std::to_string(options.max_directions));
+                                                 "': " + rounded(total, 10) + " directions; at most " +
+                                                 std::to_string(options.max_directions) + " are supported");
   }
+}
+
+}  // namespace
+
+void check_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options) {
+  require_affordable(solid, parse(spec), spec, options);
+}
+
+DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options) {
+  const std::vector<Part> parts = parse(spec);
+  require_affordable(solid, parts, spec, options);
   DirectionSet set;
   for (const Part& part : parts) {
     const std::size_t before = set.size();

@@ -19,7 +19,7 @@ using DirectionSet = std::vector<Vec3>;
 using OptimalDirections = std::vector<std::uint32_t>;
 
 struct DirectionOptions {
-  std::uint64_t max_directions = std::uint64_t{1} << 24;  ///< refuse larger sets
+  std::uint64_t max_directions = std::uint64_t{1} << 24;  ///< refuse larger sets; sphere:N counts as N
   Matrix3 frame = kIdentity3;                             ///< F of sphere and random, see solid_frame
 };
 
@@ -33,5 +33,8 @@ struct DirectionOptions {
 /// Only +, -, *, / and sqrt are used, so that all machines agree on every bit.
 /// @throws CoreError kBadInput for a spec that does not parse; kLimit for too many directions.
 DirectionSet make_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options = {});
+
+/// Throws at once what make_directions would throw.
+void check_directions(const Solid& solid, std::string_view spec, const DirectionOptions& options = {});
 
 }  // namespace affskel::core

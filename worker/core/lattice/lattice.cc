@@ -16,8 +16,8 @@
 namespace affskel::core {
 namespace {
 
-// Lines beyond this would fill the memory before any point is found (16 bytes of bookkeeping each).
-constexpr double kMaxLines = 4e8;
+// So that max_points can be aimed at: v0 / dT^3 rounds.
+constexpr double kRounding = 1 + 1e-12;
 
 class LatticeBuilder {
  public:
@@ -248,7 +248,8 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
                (sides.y / spacing + 1) * (sides.z / spacing + 1) +
                (sides.z / spacing + 1) * (sides.x / spacing + 1);
   plan.estimate = solid.volume / spacing / spacing / spacing;
-  plan.fits = plan.estimate <= static_cast<double>(options.max_points) && plan.lines <= kMaxLines;
+  plan.fits = plan.estimate <= kRounding * static_cast<double>(options.max_points) &&
+              plan.lines <= static_cast<double>(options.max_lines);
   if (!plan.fits) return plan;
   const double step = std::ldexp(spacing, -solid.exponent);
   plan.frame.axes = step * options.frame;
@@ -261,6 +262,41 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
   const Vec3 corner{origin[0], origin[1], origin[2]};
   plan.frame.origin = box.centre + options.frame * corner;
   return plan;
+}
+
+// The least spacing that is within the limits: (v0 / points)^(1/3), or where dT^-1 has so many lines.
+double least_spacing(const Solid& solid, const FrameBox& box, const LatticeOptions& options) {
+  const double by_points = cube_root(solid.volume / static_cast<double>(options.max_points));
+  const double longest = std::max({box.sides.x, box.sides.y, box.sides.z});
+  const Vec3 s = (1 / longest) * box.sides;
+  const double sum = s.x + s.y + s.z, area = s.x * s.y + s.y * s.z + s.z * s.x;
+  const double lines = static_cast<double>(options.max_lines) - 3;
+  return std::max(by_points, longest * (sum + std::sqrt(sum * sum + area * lines)) / lines);
+}
+
+// "about 1200", for what need not be a double any more.
+std::string about(double number) {
+  return std::isfinite(number) ? "about " + rounded(number, 3) : "more than 1e+308";
+}
+
+// The plan of a lattice within the limits.
+Plan fitting_plan(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
+  const Plan plan = plan_lattice(solid, box, options, spacing);
+  if (plan.fits) return plan;
+  // Rounded up.
+  const std::string least = rounded(1.00051 * least_spacing(solid, box, options), 4);
+  throw CoreError(CoreError::Code::kLimit,
+                  "spacing " + rounded(spacing, 3) + " would give " + about(plan.estimate) +
+                      " sample points on " + about(plan.lines) + " lattice lines; at most " +
+                      rounded(static_cast<double>(options.max_points), 3) + " points on " +
+                      rounded(static_cast<double>(options.max_lines), 3) +
+                      " lines are supported: take a spacing of " + least + " or more");
+}
+
+// Whether a lattice of so many points is to be searched for.  Too many by the volume are refused; lines that
+// a thin solid would not need are not.
+bool may_search(const Plan& plan, const LatticeOptions& options) {
+  return options.spacing == 0 && plan.estimate <= kRounding * static_cast<double>(options.max_points);
 }
 
 }  // namespace
@@ -280,14 +316,7 @@ Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned thr
 namespace {
 
 Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
-  const Plan plan = plan_lattice(solid, box, options, spacing);
-  if (!plan.fits) {
-    throw CoreError(CoreError::Code::kLimit,
-                    "spacing " + rounded(spacing, 3) + " would give about " + rounded(plan.estimate, 3) +
-                        " sample points on " + rounded(plan.lines, 3) + " lattice lines; at most " +
-                        rounded(static_cast<double>(options.max_points), 3) + " points on " +
-                        rounded(kMaxLines, 3) + " lines are supported");
-  }
+  const Plan plan = fitting_plan(solid, box, options, spacing);
   Lattice lattice = LatticeBuilder(solid, plan.frame, options).run();
   lattice.spacing = spacing;
   if (lattice.points == 0) {
@@ -306,12 +335,21 @@ std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOpt
   return LatticeBuilder(solid, plan.frame, options).count();
 }
 
+void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options) {
+  const double spacing = wanted_spacing(solid, options);
+  // However the solid is turned, no side of its box is longer than this.  Some frames take minutes to find.
+  const double diagonal = kRounding * norm(solid.bbox_max - solid.bbox_min);
+  const Plan largest = plan_lattice(solid, {{diagonal, diagonal, diagonal}, {}}, options, spacing);
+  if (may_search(largest, options) || (largest.fits && kind != FrameKind::kAffine)) return;
+  options.frame = solid_frame(solid, kind);
+  fitting_plan(solid, box_in(solid, options.frame), options, spacing);
+}
+
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   const double spacing = wanted_spacing(solid, options);
   const FrameBox box = box_in(solid, options.frame);
   const Plan plan = plan_lattice(solid, box, options, spacing);
-  // Too many points by their volume are refused; lines that a thin solid would not need are not.
-  if (options.spacing == 0 && plan.estimate <= static_cast<double>(options.max_points)) {
+  if (may_search(plan, options)) {
     if (plan.fits && !is_foil(solid, spacing)) {
       LatticeBuilder builder(solid, plan.frame, options);
       if (is_near(builder.count(), options.target_points)) {

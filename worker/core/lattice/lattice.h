@@ -9,6 +9,7 @@
 #include "core/base/matrix3.h"
 #include "core/base/vec3.h"
 #include "core/solid/solid.h"
+#include "core/solid/solid_frame.h"
 
 namespace affskel::core {
 
@@ -72,6 +73,8 @@ struct LatticeOptions {
   std::uint64_t target_points = 0;                    ///< sets dT, see spacing_for_points
   Matrix3 frame = kIdentity3;                         ///< F of det 1, see solid_frame
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
+  /// The same for its lines, along all axes: each takes 16 bytes before any point is found.
+  std::uint64_t max_lines = 400'000'000;
   unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
   ExecutionContext* context = nullptr;                ///< asked whether to stop
   /// Bytes that the lattice, and what the caller is going to keep beside it, may take; 0 = no bound.
@@ -88,10 +91,16 @@ struct LatticeOptions {
 /// Points lie half a dT, 3/2 dT, ... to either side of the box's middle planes as long as they are inside the
 /// box by more than 5e-10 of its side; where a side is at most dT, in its middle plane.  So no point lies in
 /// the middle planes of other solids: there a symmetric one has its skeleton.
-/// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit when
-///   more than max_points would, or before they take more than the memory budget; kCancelled when the context
-///   asks to stop.
+/// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit, naming
+///   the least spacing within the limits, when more than max_points would, or there are more than max_lines, or
+///   before they take more than the memory budget; kCancelled when the context asks to stop.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
+
+/// Throws what make_lattice would throw in this frame for options beyond its limits, before it is made; the
+/// frame is looked for only where that depends on it.  Whether any point falls inside, and whether a spacing
+/// is found for target_points in few enough lines, only make_lattice can tell.
+/// @param options `frame` is not used.
+void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 
 /// How many sample points make_lattice would give for options.spacing, by one scan conversion; nothing when
 /// it would refuse them as too many, or too many lines.

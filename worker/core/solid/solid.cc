@@ -67,11 +67,13 @@ class SolidBuilder {
     count_degenerate();
     find_shells(mates);
     throw_if_stopped(options_.context);
-    face_outward();
+    nest();
     throw_if_stopped(options_.context);
     const std::vector<double> volumes = inner_volumes();
+    // Before surfaces are turned: which way those of specks face may be rounding.
     const std::vector<std::uint8_t> specks = find_specks(solid_, volumes);
-    if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks, volumes);
+    if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks);
+    face_outward();
     set_volumes(volumes);
     if (options_.check_self_intersections) look_for_self_intersections();
     return std::move(solid_);
@@ -233,20 +235,39 @@ class SolidBuilder {
     }
   }
 
-  // Turns shells so that those at even depth have positive volume, the cavities in them negative.
-  void face_outward() {
+  // Shells at odd depth are cavities of the solid around them.
+  void nest() {
     const auto count = static_cast<std::uint32_t>(solid_.shells.size());
     const ShellNesting nesting = nest_shells(solid_.mesh, solid_.triangle_shell, count);
-    std::vector<std::uint8_t> wrong(count, 0);
-    std::uint32_t number = 0;
+    std::uint32_t solids = 0;
+    for (std::uint32_t s = 0; s < count; ++s) {
+      solid_.shells[s].cavity = nesting.depth[s] % 2 == 1;
+      if (!solid_.shells[s].cavity) solid_.shells[s].solid = solids++;
+    }
+    solid_.solid_volume.assign(solids, 0);
     for (std::uint32_t s = 0; s < count; ++s) {
       Shell& shell = solid_.shells[s];
-      shell.cavity = nesting.depth[s] % 2 == 1;
-      wrong[s] = (shell.volume < 0) != shell.cavity;
-      number += wrong[s];
+      if (shell.cavity) shell.solid = solid_.shells[nesting.parent[s]].solid;
     }
+  }
+
+  // Per solid, its cavities subtracted; whichever way the surfaces face.
+  std::vector<double> inner_volumes() const {
+    std::vector<CompensatedSum> sums(solid_.solid_volume.size());
+    for (const Shell& shell : solid_.shells) {
+      sums[shell.solid].add(shell.cavity ? -std::abs(shell.volume) : std::abs(shell.volume));
+    }
+    std::vector<double> volumes;
+    for (const CompensatedSum& sum : sums) volumes.push_back(sum.value());
+    return volumes;
+  }
+
+  // Turns shells so that cavities have negative volume, the others positive.
+  void face_outward() {
+    std::vector<std::uint8_t> wrong;
+    for (const Shell& shell : solid_.shells) wrong.push_back((shell.volume < 0) != shell.cavity ? 1 : 0);
+    const auto number = static_cast<std::uint32_t>(std::count(wrong.begin(), wrong.end(), 1));
     if (number != 0) turn_shells(wrong, number);
-    assign_solids(nesting);
   }
 
   void turn_shells(const std::vector<std::uint8_t>& wrong, std::uint32_t number) {
@@ -265,36 +286,15 @@ class SolidBuilder {
                                " surfaces faced inward and were turned, the first at " + place(first));
   }
 
-  void assign_solids(const ShellNesting& nesting) {
-    std::uint32_t solids = 0;
-    for (Shell& shell : solid_.shells) {
-      if (!shell.cavity) shell.solid = solids++;
-    }
-    solid_.solid_volume.assign(solids, 0);
-    for (std::size_t s = 0; s < solid_.shells.size(); ++s) {
-      Shell& shell = solid_.shells[s];
-      if (shell.cavity) shell.solid = solid_.shells[nesting.parent[s]].solid;
-    }
-  }
-
-  // Per solid, its cavities subtracted.
-  std::vector<double> inner_volumes() const {
-    std::vector<CompensatedSum> sums(solid_.solid_volume.size());
-    for (const Shell& shell : solid_.shells) sums[shell.solid].add(shell.volume);
-    std::vector<double> volumes;
-    for (const CompensatedSum& sum : sums) volumes.push_back(sum.value());
-    return volumes;
-  }
-
   // What the input is without these solids.  From the beginning: the box, and with it all inner coordinates,
   // may be another one.
-  Solid without(const std::vector<std::uint8_t>& specks, const std::vector<double>& volumes) {
+  Solid without(const std::vector<std::uint8_t>& specks) {
     std::vector<std::uint32_t> kept, left_out;
     for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
       const bool speck = specks[solid_.shells[solid_.triangle_shell[t]].solid] != 0;
       (speck ? left_out : kept).push_back(t);
     }
-    note_specks(specks, volumes, left_out);
+    note_specks(specks, left_out);
     for (std::uint32_t& t : kept) t = triangle_source_[t];
     SolidBuilder rest(input_, std::move(kept), options_, vertex_line_, triangle_line_);
     rest.again_ = true;
@@ -309,16 +309,15 @@ class SolidBuilder {
     return rest.run();
   }
 
-  void note_specks(const std::vector<std::uint8_t>& specks, const std::vector<double>& volumes,
-                   const std::vector<std::uint32_t>& triangles) {
+  void note_specks(const std::vector<std::uint8_t>& specks, const std::vector<std::uint32_t>& triangles) {
     const auto count = std::count(specks.begin(), specks.end(), 1);
     const std::uint32_t solid = solid_.shells[solid_.triangle_shell[triangles.front()]].solid;
-    const std::string volume = to_text(volumes[solid] * std::ldexp(1.0, 3 * solid_.exponent));
+    const double volume = solid_sizes(solid_)[solid].volume * std::ldexp(1.0, 3 * solid_.exponent);
     const std::string message = std::to_string(count) + " of " + std::to_string(specks.size()) + " solids (" +
                                 std::to_string(triangles.size()) +
                                 " triangles) bound too little volume beside the mesh's size to tell from "
                                 "rounding; the first, of volume " +
-                                volume + ", begins with " + place(triangles.front());
+                                rounded(volume, 3) + ", begins with " + place(triangles.front());
     if (!options_.repair) refuse(message + " (repair is off)");
     note(MeshNote::Severity::kWarning, "specks", message + "; left out");
   }
@@ -326,11 +325,7 @@ class SolidBuilder {
   void set_volumes(const std::vector<double>& volumes) {
     const double unit = std::ldexp(1.0, 3 * solid_.exponent);
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-      if (!(volumes[i] > kLeastInnerVolume)) {
-        refuse("the mesh bounds no volume: solid " + std::to_string(i) + " of " +
-               std::to_string(volumes.size()) + " has volume " + to_text(volumes[i] * unit) +
-               (volumes[i] > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
-      }
+      if (!(volumes[i] > kLeastInnerVolume)) refuse_volume(i, volumes[i] * unit);
       solid_.solid_volume[i] = volumes[i] * unit;
     }
     CompensatedSum total;
@@ -343,6 +338,25 @@ class SolidBuilder {
              ": its volume is " + to_text(solid_.volume) +
              ", which leaves no room for that of its parts in double precision; change the unit of length");
     }
+  }
+
+  [[noreturn]] void refuse_volume(std::size_t solid, double volume) const {
+    const std::string which =
+        "solid " + std::to_string(solid) + " of " + std::to_string(solid_.solid_volume.size());
+    const SolidSize size = solid_sizes(solid_)[solid];
+    if (size.longest_side() < kLeastInnerSide) {
+      refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
+             place(size.first_triangle) + ", is " + rounded(size.longest_side() * solid_.scale(), 3) +
+             " long, the whole mesh " + rounded(extent(), 3) + "; take them one by one");
+    }
+    refuse("the mesh bounds no volume: " + which + " has volume " + to_text(volume) +
+           (volume > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
+  }
+
+  // The longest side of the box.
+  double extent() const {
+    const Vec3 sides = solid_.bbox_max - solid_.bbox_min;
+    return std::max({sides.x, sides.y, sides.z});
   }
 
   void look_for_self_intersections() {

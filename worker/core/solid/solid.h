@@ -63,8 +63,9 @@ struct Solid {
 /// Checks that the mesh bounds a solid and normalises it.
 /// @param vertex_line, triangle_line lines for messages (see OffMesh); may be empty.
 /// @throws CoreError kBadInput with the first place and cause: no triangles, open edges, edges with more
-///   than two triangles, repeated triangles, not orientable, zero volume (but see find_specks), coordinates
-///   so large or small that the volume is not a normal double.  kCancelled when the context asks to stop.
+///   than two triangles, repeated triangles, not orientable, zero volume (but see find_specks), solids so far
+///   apart that their volumes cannot be told from rounding, coordinates so large or small that the volume is
+///   not a normal double.  kCancelled when the context asks to stop.
 Solid make_solid(const Mesh& mesh, const SolidOptions& options = {},
                  const std::vector<std::uint32_t>& vertex_line = {},
                  const std::vector<std::uint32_t>& triangle_line = {});

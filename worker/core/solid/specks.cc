@@ -4,52 +4,81 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/box_tree.h"
-
 namespace affskel::core {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Box kNothing = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
-// The cube of the length that is 1 in the inner coordinates of a mesh with this box, in those at hand.
-double inner_unit_cubed(const Box& box) {
-  const double side =
-      std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
-  return std::ldexp(1.0, 3 * static_cast<int>(std::ceil(std::log2(side))));
+double longest_side_of(const Box& box) {
+  return std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
 }
 
-std::vector<Box> boxes_of_solids(const Solid& solid, std::size_t count) {
-  std::vector<Box> boxes(count, kNothing);
-  for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
-    boxes[solid.shells[solid.triangle_shell[t]].solid].include(box_of(solid.mesh, solid.mesh.triangles[t]));
-  }
-  return boxes;
+// Whether so much could be told from rounding in a mesh with this box.
+bool counts_in(const Box& box, double volume) {
+  int exponent = 0;  // of the cube that would be 1 in inner coordinates
+  if (std::frexp(longest_side_of(box), &exponent) == 0.5) --exponent;
+  return volume > std::ldexp(kLeastInnerVolume, 3 * exponent);
+}
+
+bool is_larger(const SolidSize& a, const SolidSize& b) {
+  return a.volume > b.volume;
 }
 
 }  // namespace
 
+double SolidSize::longest_side() const {
+  return longest_side_of(box);
+}
+
+std::vector<SolidSize> solid_sizes(const Solid& solid) {
+  const std::vector<Vec3>& points = solid.mesh.points;
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> corner(solid.shells.size(), kNone);
+  std::vector<double> shell_volume(solid.shells.size(), 0);
+  std::vector<SolidSize> sizes(solid.solid_volume.size(), {kNothing, 0, 0, kNone});
+  for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
+    const Triangle& c = solid.mesh.triangles[t];
+    const std::uint32_t shell = solid.triangle_shell[t];
+    if (corner[shell] == kNone) corner[shell] = c[0];
+    const Vec3& o = points[corner[shell]];
+    shell_volume[shell] += dot(points[c[0]] - o, cross(points[c[1]] - o, points[c[2]] - o)) / 6;
+    SolidSize& size = sizes[solid.shells[shell].solid];
+    size.box.include(box_of(solid.mesh, c));
+    size.first_triangle = std::min(size.first_triangle, t);
+  }
+  for (std::size_t s = 0; s < solid.shells.size(); ++s) {
+    SolidSize& size = sizes[solid.shells[s].solid];
+    const double volume = std::abs(shell_volume[s]);
+    size.volume += solid.shells[s].cavity ? -volume : volume;
+    size.bulk = std::max(size.bulk, volume);
+  }
+  return sizes;
+}
+
 std::vector<std::uint8_t> find_specks(const Solid& solid, const std::vector<double>& volumes) {
   std::vector<std::uint8_t> specks(volumes.size(), 0);
   const auto large = [](double volume) { return volume > kLeastInnerVolume; };
-  const auto larger = std::count_if(volumes.begin(), volumes.end(), large);
-  if (larger == 0 || larger == static_cast<std::ptrdiff_t>(volumes.size())) return specks;
+  if (std::all_of(volumes.begin(), volumes.end(), large)) return specks;
 
-  for (std::size_t s = 0; s < volumes.size(); ++s) specks[s] = large(volumes[s]) ? 0 : 1;
-  for (const Shell& shell : solid.shells) {
-    if (large(std::abs(shell.volume))) specks[shell.solid] = 0;
+  const std::vector<SolidSize> sizes = solid_sizes(solid);
+  const SolidSize& largest = *std::min_element(sizes.begin(), sizes.end(), is_larger);
+  Box rest = kNothing;
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    if (large(volumes[s])) rest.include(sizes[s].box);
+  }
+  if (std::none_of(volumes.begin(), volumes.end(), large)) {
+    if (!counts_in(largest.box, largest.volume)) return specks;
+    rest = largest.box;
+  }
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    specks[s] = !large(volumes[s]) && !large(sizes[s].bulk) && sizes[s].bulk <= kSpeckShare * largest.volume;
   }
   const std::vector<std::uint8_t> candidates = specks;
-  const std::vector<Box> boxes = boxes_of_solids(solid, volumes.size());
-  Box rest = kNothing;
-  for (std::size_t s = 0; s < volumes.size(); ++s) {
-    if (large(volumes[s])) rest.include(boxes[s]);
-  }
-  for (std::size_t s = 0; s < volumes.size(); ++s) {
-    if (specks[s] == 0) continue;
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
     Box both = rest;
-    both.include(boxes[s]);
-    if (volumes[s] > kLeastInnerVolume * inner_unit_cubed(both)) specks[s] = 0;
+    both.include(sizes[s].box);
+    if (specks[s] != 0 && counts_in(both, sizes[s].volume)) specks[s] = 0;
   }
   // Solids each of which counts alone, but that lie so far apart that together they do not.
   return std::count(specks.begin(), specks.end(), 1) > 0 ? specks : candidates;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/mesh/box_tree.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
@@ -11,13 +12,37 @@ namespace affskel::core {
 /// whose side is about the mesh's longest.
 inline constexpr double kLeastInnerVolume = 1e-15;
 
-/// Specks: solids with no more than that volume, flat or tiny, beside others that have more, as scans have
-/// them.  No sample point comes to lie in them, and heights within them are rounding.
+/// The side of a cube of that volume.
+inline constexpr double kLeastInnerSide = 1e-5;
+
+/// The largest share of the largest solid's volume that a speck may have.
+inline constexpr double kSpeckShare = 1e-3;
+
+/// What a connected solid is by itself, in inner coordinates.
+struct SolidSize {
+  Box box;
+  double volume = 0;  ///< about a corner of its own: that it lies far from the centre takes no digits from it
+  double bulk = 0;    ///< the largest volume that one of its surfaces bounds
+  std::uint32_t first_triangle = 0;
+
+  double longest_side() const;
+};
+
+/// The sizes of all solids.  O(N).  @param solid with mesh, shells and triangle_shell; the surfaces may face
+/// either way.
+std::vector<SolidSize> solid_sizes(const Solid& solid);
+
+/// Specks: solids with no more than kLeastInnerVolume, flat or tiny, beside others that have more, as scans
+/// have them.  No sample point comes to lie in them, and heights within them are rounding.
 ///
-/// A solid is no speck when it has a surface of more volume, such as a skin thinner than rounding; nor when
-/// its volume counts beside the box of it and the solids that have more, as when the mesh is large only
-/// because its specks lie far away, and there are such specks.  When no solid has more, none is a speck.
-/// @param solid with mesh and shells in inner coordinates.  @param volumes of its solids, in these.
+/// Where a speck lies so far away that no solid has more in the mesh's box, the largest solid is what the
+/// others are compared with, provided that it has more in its own box.
+///
+/// A solid is no speck when its volume, or that of one of its surfaces (a skin thinner than rounding has
+/// such), is more than kSpeckShare of the largest solid's; nor when it has a surface of more than the least
+/// volume; nor when its volume counts beside the box of it and those it is compared with, as when the mesh is
+/// large only because its specks lie far away, and there are such specks.
+/// @param solid as for solid_sizes.  @param volumes of its solids, inner coordinates.
 /// @return per solid 1 for a speck.
 std::vector<std::uint8_t> find_specks(const Solid& solid, const std::vector<double>& volumes);
 

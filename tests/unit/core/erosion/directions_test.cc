@@ -88,5 +88,27 @@ TEST(MakeDirections, RefusesWhatDoesNotParse) {
   }
 }
 
+TEST(CheckDirections, RefusesWhatMakeDirectionsRefusesAndNothingElse) {
+  DirectionOptions options;
+  options.max_directions = 32;
+  const auto refusal = [&](const auto& call, const char* spec) -> std::string {
+    try {
+      call(box(), spec, options);
+      return "";
+    } catch (const CoreError& error) {
+      EXPECT_EQ(error.code(), CoreError::Code::kLimit);
+      return error.what();
+    }
+  };
+  for (const char* spec :
+       {"triangles", "sphere:20", "sphere:21", "triangles+sphere:20", "triangles+random:20:1+sphere:1",
+        "random:32:1", "random:33:1", "sphere:18446744073709551615+random:18446744073709551615:1"}) {
+    EXPECT_EQ(refusal(check_directions, spec), refusal(make_directions, spec)) << spec;
+  }
+  EXPECT_EQ(refusal(check_directions, "triangles+sphere:20"), "");
+  EXPECT_EQ(refusal(check_directions, "triangles+sphere:20+random:1:7"),
+            "directions 'triangles+sphere:20+random:1:7': 33 directions; at most 32 are supported");
+}
+
 }  // namespace
 }  // namespace affskel::core

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/perturb.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/shapes.h"
@@ -278,6 +279,66 @@ TEST(MakeSolid, StopsWhereverItIsAsked) {
     options.context = context;
     make_solid(mesh, options);
   });
+}
+
+// As of the body alone, bit for bit, and so is all that is made of it.
+void expect_same_solid(const Solid& solid, const Solid& alone) {
+  EXPECT_EQ(solid.mesh.points, alone.mesh.points);
+  EXPECT_EQ(solid.mesh.triangles, alone.mesh.triangles);
+  EXPECT_EQ(solid.centre, alone.centre);
+  EXPECT_EQ(solid.exponent, alone.exponent);
+  EXPECT_EQ(solid.solid_volume, alone.solid_volume);
+}
+
+TEST(MakeSolid, LeavesASpeckFarAwayOut) {
+  const Mesh body = shaken(make_torus(0.4, 0.15, 200), 0, 1);
+  for (const double distance : {1e5, 1e6, 1e9, 1e12}) {
+    const Vec3 away = distance * Vec3{0.31, -0.7, 0.9};
+    for (const double size : {1e-6, 1e-3, 0.02}) {
+      const Mesh speck = scaled(make_tetrahedron(1), size);
+      for (const Mesh& there : {body, moved(body, away)}) {
+        const Solid alone = make_solid(there);
+        const Mesh other = there.points == body.points ? moved(speck, away) : speck;
+        for (const Mesh& mesh : {joined(there, other), joined(reversed(other), there)}) {
+          const Solid solid = make_solid(mesh);
+          expect_same_solid(solid, alone);
+          EXPECT_TRUE(has_note(solid, "specks")) << distance << " " << size;
+          EXPECT_NE(refusal(mesh, false).find("1 of 2 solids (4 triangles)"), std::string::npos);
+        }
+      }
+    }
+  }
+}
+
+TEST(MakeSolid, KeepsSolidsNearTheBodyWhenASpeckIsFarAway) {
+  const Mesh small = moved(make_box(0.01, 0.01, 0.01), {2, 0, 0}),
+             other = moved(make_box(1, 1, 0.5), {0, 2, 0});
+  const Mesh body = joined(joined(small, make_box(1, 1, 1)), other);
+  const Mesh speck = moved(make_box(1e-3, 1e-3, 1e-3), {3e6, -1e6, 2e6});
+  expect_same_solid(make_solid(joined(speck, body)), make_solid(body));
+  // Far away, but together no less than the body: no specks.
+  const std::string cause = refusal(joined(body, moved(body, {3e6, -1e6, 2e6})));
+  EXPECT_NE(cause.find("too far apart"), std::string::npos) << cause;
+}
+
+TEST(MakeSolid, RefusesSolidsTooFarApartAndSaysSo) {
+  const Mesh cube = make_box(1, 1, 1);
+  for (const double distance : {6e4, 1e6, 1e15}) {
+    for (const double side : {0.2, 0.5}) {
+      const Mesh mesh = joined(cube, moved(make_box(side, side, side), {0, distance, 0}));
+      const std::string cause = refusal(mesh);
+      EXPECT_NE(cause.find("too far apart"), std::string::npos) << cause;
+      EXPECT_NE(cause.find(distance < 1e5 ? "solid 1 of 2, which begins with triangle 12, is " + to_text(side)
+                                          : "solid 0 of 2, which begins with triangle 0, is 1 long"),
+                std::string::npos)
+          << cause;
+      EXPECT_NE(cause.find("the whole mesh " + to_text(distance)), std::string::npos) << cause;
+    }
+  }
+  // Nor is a large skin a speck, although it has no volume.
+  const Mesh centred = moved(make_box(2, 2, 2), {-1, -1, -1});
+  const Mesh skin = joined(centred, scaled(reversed(centred), std::nextafter(1.0, 0.0)));
+  EXPECT_NE(refusal(joined(cube, moved(skin, {0, 1e6, 0}))).find("too far apart"), std::string::npos);
 }
 
 }  // namespace
