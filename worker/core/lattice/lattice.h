@@ -75,8 +75,8 @@ struct LatticeOptions {
   std::uint64_t max_points = std::uint64_t{1} << 31;  ///< refuse lattices that would give more
   /// The same for its lines, along all axes: each takes 16 bytes before any point is found.
   std::uint64_t max_lines = 400'000'000;
-  unsigned threads = 1;                               ///< >= 1; the lattice does not depend on it
-  ExecutionContext* context = nullptr;                ///< asked whether to stop
+  unsigned threads = 1;                 ///< >= 1; the lattice does not depend on it
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
   /// Bytes that the lattice, and what the caller is going to keep beside it, may take; 0 = no bound.
   std::uint64_t memory_budget = 0;
   double point_bytes = 0;  ///< that the caller is going to take for every sample point
@@ -92,8 +92,8 @@ struct LatticeOptions {
 /// box by more than 5e-10 of its side; where a side is at most dT, in its middle plane.  So no point lies in
 /// the middle planes of other solids: there a symmetric one has its skeleton.
 /// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit, naming
-///   the least spacing within the limits, when more than max_points would, or there are more than max_lines, or
-///   before they take more than the memory budget; kCancelled when the context asks to stop.
+///   the least spacing within the limits, when more than max_points would, or there are more than max_lines,
+///   or before they take more than the memory budget; kCancelled when the context asks to stop.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
 /// Throws what make_lattice would throw in this frame for options beyond its limits, before it is made; the
