@@ -18,8 +18,7 @@ double lattice_memory(const LatticeSize& size, double point_bytes);
 
 /// @param budget bytes; 0 = no bound.
 /// @throws CoreError kLimit when the lattice takes more than the budget, naming its points, what they take,
-/// the
-///   budget, and a spacing and a number of points that would fit.
+///   the budget, and a spacing and a number of points that would fit.
 void require_lattice_memory(const LatticeSize& size, double point_bytes, std::uint64_t budget);
 
 }  // namespace affskel::core
