@@ -61,15 +61,7 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
     if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
   }
   const auto centre = [&](std::uint32_t i) { return boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2; };
-  const auto begin = items_.begin() + first;
-  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t i, std::uint32_t j) {
-    return std::pair(centre(i), i) < std::pair(centre(j), j);
-  });
-  const std::uint32_t left = count / 2, right_node = index + 1 + halving_nodes(left, kLeaf);
-  nodes_[index].right = right_node;
-  parallel_halves(
-      threads, [&](unsigned share) { build(index + 1, first, left, share); },
-      [&](unsigned share) { build(right_node, first + left, count - left, share); });
+  halve_node(nodes_, index, items_, kLeaf, threads, centre, [this](auto... half) { build(half...); });
 }
 
 }  // namespace affskel::core

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/mesh/halved_nodes.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -52,11 +53,9 @@ class BoxTree {
   }
 
  private:
-  /// A node covers items_[first, first + count); its left half is the next node, its right half `right`.
   struct Node {
     Box box;
-    std::uint32_t first, count;
-    std::uint32_t right;     // 0: a leaf
+    std::uint32_t first, count, right;
     std::uint32_t greatest;  // of the indices below
   };
 
@@ -64,23 +63,12 @@ class BoxTree {
 
   template <class Query = Box, class Visit>
   void walk(const Query& query, std::int64_t above, Visit visit) const {
-    if (nodes_.empty()) return;
-    std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-      const std::uint32_t index = stack[--depth];
-      const Node& node = nodes_[index];
-      if (node.greatest <= above || !query.meets(node.box)) continue;
-      if (node.right != 0) {
-        stack[depth++] = node.right;
-        stack[depth++] = index + 1;
-        continue;
-      }
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        if (items_[i] > above && query.meets(boxes_[items_[i]])) visit(items_[i]);
-      }
-    }
+    walk_halved_nodes(
+        nodes_, [&](const Node& node) { return node.greatest > above && query.meets(node.box); },
+        [&](std::uint32_t place) {
+          const std::uint32_t item = items_[place];
+          if (item > above && query.meets(boxes_[item])) visit(item);
+        });
   }
 
   std::vector<Box> boxes_;

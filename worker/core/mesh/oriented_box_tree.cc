@@ -35,14 +35,7 @@ void OrientedBoxTree::build(std::uint32_t index, std::uint32_t first, std::uint3
   // By their centroids: slivers side by side all reach as far, in boxes much longer than wide.
   const int axis = longest_axis(first, count);
   const auto place = [&](std::uint32_t i) { return corner_sum(triangles_.corners(i))[axis]; };
-  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t i, std::uint32_t j) {
-    return std::pair(place(i), i) < std::pair(place(j), j);
-  });
-  const std::uint32_t left = count / 2, right_node = index + 1 + halving_nodes(left, kLeaf);
-  nodes_[index].right = right_node;
-  parallel_halves(
-      threads, [&](unsigned share) { build(index + 1, first, left, share); },
-      [&](unsigned share) { build(right_node, first + left, count - left, share); });
+  halve_node(nodes_, index, members_, kLeaf, threads, place, [this](auto... half) { build(half...); });
 }
 
 // Along the principal axes of the corners.

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/mesh/halved_nodes.h"
 #include "core/mesh/oriented_box.h"
 
 namespace affskel::core {
@@ -22,32 +22,21 @@ class OrientedBoxTree {
   /// @param corners, box of triangle i, a member or not.
   template <class Visit>
   void visit_above(std::uint32_t i, const Corners& corners, const OrientedBox& box, Visit visit) const {
-    if (nodes_.empty()) return;
-    std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-      const std::uint32_t index = stack[--depth];
-      const Node& node = nodes_[index];
-      if (node.greatest <= i || surely_apart(node.box, corners) || surely_apart(box, node.box)) continue;
-      if (node.right != 0) {
-        stack[depth++] = node.right;
-        stack[depth++] = index + 1;
-        continue;
-      }
-      for (std::uint32_t m = node.first; m < node.first + node.count; ++m) {
-        const std::uint32_t j = members_[m];
-        if (j > i && !surely_apart(box, triangles_.corners(j))) visit(j);
-      }
-    }
+    walk_halved_nodes(
+        nodes_,
+        [&](const Node& node) {
+          return node.greatest > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
+        },
+        [&](std::uint32_t place) {
+          const std::uint32_t j = members_[place];
+          if (j > i && !surely_apart(box, triangles_.corners(j))) visit(j);
+        });
   }
 
  private:
-  /// A node covers members_[first, first + count); its left half is the next node, its right half `right`.
   struct Node {
     OrientedBox box;
-    std::uint32_t first, count;
-    std::uint32_t right;     // 0: a leaf
+    std::uint32_t first, count, right;
     std::uint32_t greatest;  // of the members below
   };
 

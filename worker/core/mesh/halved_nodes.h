@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+
+// What the balanced trees of boxes have in common.  Their nodes lie in one array, the root first; a node
+// covers the items [first, first + count), its left half is the next node, its right half the node `right`, 0
+// for a leaf.  See halving_nodes for their number.
+
+namespace affskel::core {
+
+/// Calls `visit(place)` for the places of items in all leaves that `enter(node)` lets in, with all nodes
+/// above.
+template <class Node, class Enter, class Visit>
+void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit) {
+  if (nodes.empty()) return;
+  std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes[index];
+    if (!enter(node)) continue;
+    if (node.right != 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (std::uint32_t place = node.first; place < node.first + node.count; ++place) visit(place);
+  }
+}
+
+/// Halves the items of nodes[index], which is set but for `right`, by (key(item), item), and calls
+/// `build(index, first, count, threads)` for both halves, side by side.
+template <class Node, class Key, class Build>
+void halve_node(std::vector<Node>& nodes, std::uint32_t index, std::vector<std::uint32_t>& items,
+                std::uint32_t leaf, unsigned threads, Key key, Build build) {
+  const std::uint32_t first = nodes[index].first, count = nodes[index].count, left = count / 2;
+  const auto begin = items.begin() + first;
+  std::nth_element(begin, begin + left, begin + count, [&](std::uint32_t i, std::uint32_t j) {
+    return std::pair(key(i), i) < std::pair(key(j), j);
+  });
+  const std::uint32_t right = index + 1 + halving_nodes(left, leaf);
+  nodes[index].right = right;
+  parallel_halves(
+      threads, [&](unsigned share) { build(index + 1, first, left, share); },
+      [&](unsigned share) { build(right, first + left, count - left, share); });
+}
+
+}  // namespace affskel::core
