@@ -23,9 +23,9 @@ struct ChordPruningOptions {
   /// dropped, 0 <= significance <= 1; 0 (and any tiny number, 1e-9 say, where 0 stands for the default) keeps
   /// all strong shocks, 1 the only piece if there is but one.  Trunk, legs and arms of a body weigh a tenth
   /// and more each, heads and feet that stand alone a few hundredths, specks a hundredth and less.  Measured
-  /// at a body's height / 180 as spacing on 11 bodies of 292 to 8560 triangles: the default leaves one
-  /// component on all of them in the `axis` frame, on eight of them in the `affine` frame, which makes a
-  /// standing body as thick as high, and two on the others.
+  /// at a body's height / 190 as spacing on 11 bodies of 292 to 8560 triangles: the default leaves one
+  /// component on all of them in the `axis` frame, on nine of them in the `affine` frame, which makes a
+  /// standing body as thick as high, and 0.02 one on all of them in both.
   double significance = 0.005;
   /// Least turn of a strong shock; 1/2 is a right angle between the normals on the two sides of the band that
   /// measure_turns() looks at.

@@ -226,7 +226,9 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const SolidParts parts(solid, lattice);
   std::vector<ChordShock> candidates = chord_shocks(lattice, field, options.shocks);
   throw_if_stopped(options.context);
-  measure_turns(lattice, parts, field, candidates, options.turns);
+  ChordTurnOptions turns = options.turns;
+  turns.context = options.context;
+  measure_turns(lattice, parts, field, candidates, turns);
   throw_if_stopped(options.context);
   ChordPruningOptions pruning = options.pruning;
   pruning.strong_turn = strong_turn(candidates, options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -14,7 +15,10 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-constexpr std::uint32_t kMost = 16;
+constexpr std::uint32_t kMostRounds = 16;
+// Edges to either side of a shock's own: more are a depth of 183 spacings and more, in bodies of a billion
+// sample points, or chords through a neck that cut off much more than is near them.
+constexpr double kMostReach = 64;
 // What a mean may make of a turn: twice as much.  Edges that lie in a sheet, between two facets of one of its
 // sides, have the sheet's own shocks round them.
 constexpr double kMostGain = 2;
@@ -27,12 +31,15 @@ class TurnGauge {
         field_(field),
         cells_(cells),
         shocks_(shocks),
-        reach_(options.reach),
-        least_share_(options.least_share),
+        options_(options),
         speaks_(shocks.size(), false) {}
 
   void measure() {
-    for (ChordShock& shock : shocks_) shock.turn = shock.opening;
+    reach_.reserve(shocks_.size());
+    for (ChordShock& shock : shocks_) {
+      shock.turn = shock.opening;
+      reach_.push_back(reach_of(shock));
+    }
     find_largest_jumps();
     for (std::uint8_t axis = 0; axis < 3; ++axis) walk(axis);
   }
@@ -57,14 +64,35 @@ class TurnGauge {
   }
 
  private:
-  // Per cell: the largest jump at most `reach` cells away.
+  static double length(const Vec3& v) { return std::ldexp(norm(near_one(v)), largest_exponent(v)); }
+
+  // q, in edges.
+  double reach_of(const ChordShock& shock) const {
+    const double area = 0.5 * length(shock.gradient_low) + 0.5 * length(shock.gradient_high);
+    const double depth = shock.erosion / area / field_.spacing;
+    return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMostReach);
+  }
+
+  std::uint32_t whole_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
+
+  // Per shock: the largest jump at most as many cells away as its band reaches.
   void find_largest_jumps() {
-    largest_.assign(cells_.size(), 0);
-    for (std::uint32_t s = 0; s < shocks_.size(); ++s) raise(largest_, s, jump(s));
-    for (std::uint32_t step = 0; step < reach_; ++step) {
-      std::vector<double> wider = largest_;
-      for (std::uint32_t s = 0; s < shocks_.size(); ++s) raise(wider, s, largest_at(s));
-      largest_ = std::move(wider);
+    std::vector<double> by_cell(cells_.size(), 0);
+    std::uint32_t most = 0;
+    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+      raise(by_cell, s, jump(s));
+      most = std::max(most, whole_reach(s));
+    }
+    largest_.resize(shocks_.size());
+    for (std::uint32_t step = 0;; ++step) {
+      throw_if_stopped(options_.context);
+      for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
+        if (whole_reach(s) >= step) largest_[s] = largest_round(by_cell, s);
+      }
+      if (step == most) return;
+      std::vector<double> wider = by_cell;
+      for (std::uint32_t s = 0; s < shocks_.size(); ++s) raise(wider, s, largest_round(by_cell, s));
+      by_cell = std::move(wider);
     }
   }
 
@@ -72,17 +100,14 @@ class TurnGauge {
     for (std::uint32_t cell : cells_.ring[s]) by_cell[cell] = std::max(by_cell[cell], value);
   }
 
-  double largest_at(std::uint32_t s) const {
+  double largest_round(const std::vector<double>& by_cell, std::uint32_t s) const {
     const auto& [a, b, c, d] = cells_.ring[s];
-    return std::max({largest_[a], largest_[b], largest_[c], largest_[d]});
+    return std::max({by_cell[a], by_cell[b], by_cell[c], by_cell[d]});
   }
 
-  double jump(std::uint32_t s) const {
-    const Vec3 difference = shocks_[s].gradient_low - shocks_[s].gradient_high;
-    return std::ldexp(norm(near_one(difference)), largest_exponent(difference));
-  }
+  double jump(std::uint32_t s) const { return length(shocks_[s].gradient_low - shocks_[s].gradient_high); }
 
-  bool is_among_largest(std::uint32_t s) const { return jump(s) >= least_share_ * largest_at(s); }
+  bool is_among_largest(std::uint32_t s) const { return jump(s) >= options_.least_share * largest_[s]; }
 
   // A line of sample points in the solid, and the shock on each edge from one to the next.
   void walk(std::uint8_t axis) {
@@ -106,16 +131,25 @@ class TurnGauge {
     const std::uint32_t s = on_line_[n];
     if (s == kNone || !is_greatest(n) || !is_among_largest(s)) return;
     speaks_[s] = true;
-    const auto last = static_cast<std::uint32_t>(line_.size() - 1);
-    const std::uint32_t x = line_[n - std::min(n, reach_)], y = line_[std::min(n + 1 + reach_, last)];
-    const double turn = opening_of(field_.gradient[x], field_.gradient[y]);
+    const auto whole = static_cast<std::uint32_t>(reach_[s]);
+    const double rest = reach_[s] - whole;
+    double turn = turn_over(n, whole);
+    if (rest > 0) turn += rest * (turn_over(n, whole + 1) - turn);
     if (turn > shocks_[s].turn) shocks_[s].turn = turn;
+  }
+
+  // Between the points so many edges beyond the ends of the line's n-th edge.
+  double turn_over(std::uint32_t n, std::uint32_t reach) const {
+    const auto last = static_cast<std::uint32_t>(line_.size() - 1);
+    const std::uint32_t x = line_[n - std::min(n, reach)], y = line_[std::min(n + 1 + reach, last)];
+    return opening_of(field_.gradient[x], field_.gradient[y]);
   }
 
   bool is_greatest(std::uint32_t n) const {
     const double mine = kink(on_line_[n]);
-    const auto end = std::min<std::size_t>(on_line_.size(), std::size_t{n} + reach_ + 1);
-    for (std::size_t m = n - std::min(n, reach_); m < end; ++m) {
+    const std::uint32_t reach = whole_reach(on_line_[n]);
+    const auto end = std::min<std::size_t>(on_line_.size(), std::size_t{n} + reach + 1);
+    for (std::size_t m = n - std::min(n, reach); m < end; ++m) {
       if (m == n || on_line_[m] == kNone) continue;
       const double other = kink(on_line_[m]);
       if (m < n ? other >= mine : other > mine) return false;
@@ -133,10 +167,10 @@ class TurnGauge {
   const FrameField& field_;
   const ChordCells& cells_;
   std::vector<ChordShock>& shocks_;
-  std::uint32_t reach_;
-  double least_share_;
+  const ChordTurnOptions& options_;
   std::vector<bool> speaks_;                   // per shock: for those round it
-  std::vector<double> largest_;                // per cell, see find_largest_jumps
+  std::vector<double> reach_;                  // per shock: q
+  std::vector<double> largest_;                // per shock, see find_largest_jumps
   std::vector<std::uint32_t> line_, on_line_;  // of one stretch
 };
 
@@ -144,9 +178,11 @@ class TurnGauge {
 
 void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
                    std::vector<ChordShock>& shocks, const ChordTurnOptions& options) {
-  if (options.reach > kMost || options.rounds > kMost) {
-    throw CoreError(CoreError::Code::kBadInput, "reach and rounds of the turns must lie between 0 and 16");
+  if (options.rounds > kMostRounds) {
+    throw CoreError(CoreError::Code::kBadInput, "the rounds of averaging turns must lie between 0 and 16");
   }
+  require_within(options.width, 0, std::numeric_limits<double>::max(),
+                 "the width of the band must be a finite number >= 0");
   require_within(options.least_share, 0, 1, "the least share of the jump must lie between 0 and 1");
   const ChordCells cells = chord_cells(lattice, parts, shocks);
   TurnGauge gauge(lattice, field, cells, shocks, options);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/chords/chord_fields.h"
@@ -37,8 +39,11 @@ std::vector<ChordShock> turned(const BoxLattice& box, const FrameField& field,
   return shocks;
 }
 
-ChordTurnOptions unaveraged() {
+// E is 10 to 13 in these fields, |g| and h are 1, so that the depth d is 10 to 13, too: 0.45 of it are about 5
+// edges, the shock's own and (rounded) two to either side.
+ChordTurnOptions unaveraged(double width = 0.45) {
   ChordTurnOptions options;
+  options.width = width;
   options.rounds = 0;
   return options;
 }
@@ -66,12 +71,33 @@ TEST(ChordTurns, TheBandCrossesSurfacesInsideTheSolid) {
   expect_the_middle_to_speak(box);
 }
 
-TEST(ChordTurns, WithoutReachATurnIsTheOpening) {
+TEST(ChordTurns, WithoutWidthATurnIsTheOpening) {
   const BoxLattice box(5, 5, 9);
   const FrameField field = layered(box.lattice, {0.9, 0.9, 0.9, 0.5, -0.5, -0.9, -0.9, -0.9, -0.9});
-  ChordTurnOptions options = unaveraged();
-  options.reach = 0;
-  for (const ChordShock& shock : turned(box, field, options)) EXPECT_EQ(shock.turn, shock.opening);
+  for (const ChordShock& shock : turned(box, field, unaveraged(0))) EXPECT_EQ(shock.turn, shock.opening);
+}
+
+// The band is a share of E / |g|, edges in proportion: with the volume it grows from the shock's own edge (60
+// degrees) to three edges (120) and not beyond what turns.
+TEST(ChordTurns, TheBandIsAShareOfTheDepth) {
+  const BoxLattice box(5, 5, 9);
+  const double d = kPi / 180;
+  FrameField field =
+      layered(box.lattice, {60 * d, 60 * d, 60 * d, 60 * d, 30 * d, -30 * d, -60 * d, -60 * d, -60 * d});
+  const auto turn_in_the_middle = [&](double width) {
+    for (const ChordShock& shock : turned(box, field, unaveraged(width))) {
+      if (shock.place[2] == 4) return std::pair{shock.turn, width * shock.erosion};
+    }
+    return std::pair{-1.0, 0.0};
+  };
+  for (const double width : {0.05, 0.1, 0.15, 0.2, 0.3, 0.6}) {
+    const auto [turn, edges] = turn_in_the_middle(width);
+    EXPECT_NEAR(turn, 0.25 + 0.5 * std::clamp((edges - 1) / 2, 0.0, 1.0), 1e-12) << width;
+  }
+  for (double& erosion : field.erosion) erosion += 20;
+  const auto [turn, edges] = turn_in_the_middle(0.05);
+  EXPECT_GT(edges, 1.5);
+  EXPECT_NEAR(turn, 0.25 + 0.25 * (edges - 1), 1e-12);
 }
 
 // A gap of one in a sheet of opposite normals: its cells' means raise it, and lower those beside it.
@@ -113,8 +139,8 @@ TEST(ChordTurns, RefusesOptionsOutOfRange) {
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
   std::vector<ChordShock> none;
   for (const ChordTurnOptions& options :
-       {ChordTurnOptions{17, 0.4, 1}, ChordTurnOptions{2, 1.1, 1}, ChordTurnOptions{2, std::nan(""), 1},
-        ChordTurnOptions{2, 0.4, 17}}) {
+       {ChordTurnOptions{-1, 0.4, 1}, ChordTurnOptions{std::nan(""), 0.4, 1}, ChordTurnOptions{0.7, 1.1, 1},
+        ChordTurnOptions{0.7, std::nan(""), 1}, ChordTurnOptions{0.7, 0.4, 17}}) {
     EXPECT_THROW(measure_turns(box.lattice, SolidParts(box.solid, box.lattice), field, none, options),
                  CoreError);
   }
