@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/vec3.h"
 #include "core/chords/chord_shocks.h"
@@ -51,6 +52,11 @@ void for_each_edge(const Lattice& lattice, Visit visit) {
     });
   }
 }
+
+/// The ends of one such edge, ranks of the lower and the upper, by its lower end's lattice indices; nothing
+/// where for_each_edge visits none.  O(log runs).
+std::optional<std::array<std::uint32_t, 2>> ends_of_edge(const Lattice& lattice, std::uint8_t axis,
+                                                         const std::array<std::uint32_t, 3>& place);
 
 /// The order of lists of shocks: by (point, axis).
 inline bool by_edge(const ChordShock& a, const ChordShock& b) {

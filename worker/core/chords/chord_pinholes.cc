@@ -35,19 +35,22 @@ std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const Ch
 
 std::vector<ChordShock> pinhole_shocks(const Lattice& lattice, const SolidParts& parts,
                                        const FrameField& field, std::span<const ChordShock> shocks) {
-  const std::vector<LatticeElement> holes = pinholes(parts, shocks);
   std::vector<ChordShock> result;
-  if (holes.empty()) return result;
-  for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
-    if (field.direction[x] == field.direction[y]) return;
-    const LatticeElement edge{{place[0], place[1], place[2]}, axis, parts.of_point(x)};
-    if (!std::binary_search(holes.begin(), holes.end(), edge)) return;
+  for (const LatticeElement& hole : pinholes(parts, shocks)) {
+    if (std::min({hole.place[0], hole.place[1], hole.place[2]}) < 0) continue;
+    std::array<std::uint32_t, 3> place{};
+    for (std::size_t k = 0; k < 3; ++k) place[k] = static_cast<std::uint32_t>(hole.place[k]);
+    const auto axis = static_cast<std::uint8_t>(hole.axis);
+    const auto ends = ends_of_edge(lattice, axis, place);
+    if (!ends || parts.of_point(ends->front()) != hole.part) continue;
+    const auto [x, y] = *ends;
+    if (field.direction[x] == field.direction[y]) continue;
     ChordShock shock = tangents_on_edge(field, x, y, axis, place);
     if (!(shock.strength > 0)) shock.strength = 0;
     settle_on_edge(field, shock);
     shock.turn = shock.opening;
     result.push_back(shock);
-  });
+  }
   std::sort(result.begin(), result.end(), by_edge);
   return result;
 }

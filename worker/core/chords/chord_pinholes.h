@@ -23,7 +23,8 @@ namespace affskel::core {
 /// Edges whose ends have the same optimal direction stay open: no two chords are equal there.
 /// @param parts of the solid in this lattice.
 /// @param shocks of this lattice, each edge once.
-/// Returns the missing ones by (point, axis), their turn that of the edge alone.  O(R + n log n).
+/// Returns the missing ones by (point, axis), their turn that of the edge alone.  O(n log n + n log R), R the
+/// sample points.
 std::vector<ChordShock> pinhole_shocks(const Lattice& lattice, const SolidParts& parts,
                                        const FrameField& field, std::span<const ChordShock> shocks);
 
