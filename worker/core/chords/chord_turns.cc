@@ -129,7 +129,7 @@ class TurnGauge {
 
   void gauge(std::uint32_t n) {
     const std::uint32_t s = on_line_[n];
-    if (s == kNone || !is_greatest(n) || !is_among_largest(s)) return;
+    if (s == kNone || !is_greatest(n) || !is_concentrated(n) || !is_among_largest(s)) return;
     speaks_[s] = true;
     const auto whole = static_cast<std::uint32_t>(reach_[s]);
     const double rest = reach_[s] - whole;
@@ -138,11 +138,22 @@ class TurnGauge {
     if (turn > shocks_[s].turn) shocks_[s].turn = turn;
   }
 
-  // Between the points so many edges beyond the ends of the line's n-th edge.
-  double turn_over(std::uint32_t n, std::uint32_t reach) const {
+  // The gradients so many edges beyond the ends of the line's n-th edge.
+  std::pair<const Vec3&, const Vec3&> ends_of_band(std::uint32_t n, std::uint32_t reach) const {
     const auto last = static_cast<std::uint32_t>(line_.size() - 1);
-    const std::uint32_t x = line_[n - std::min(n, reach)], y = line_[std::min(n + 1 + reach, last)];
-    return opening_of(field_.gradient[x], field_.gradient[y]);
+    return {field_.gradient[line_[n - std::min(n, reach)]],
+            field_.gradient[line_[std::min(n + 1 + reach, last)]]};
+  }
+
+  double turn_over(std::uint32_t n, std::uint32_t reach) const {
+    const auto& [low, high] = ends_of_band(n, reach);
+    return opening_of(low, high);
+  }
+
+  bool is_concentrated(std::uint32_t n) const {
+    const std::uint32_t s = on_line_[n], axis = shocks_[s].axis;
+    const auto& [low, high] = ends_of_band(n, whole_reach(s));
+    return kink(s) >= options_.least_concentration * (low[axis] - high[axis]);
   }
 
   bool is_greatest(std::uint32_t n) const {
@@ -184,6 +195,7 @@ void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameF
   require_within(options.width, 0, std::numeric_limits<double>::max(),
                  "the width of the band must be a finite number >= 0");
   require_within(options.least_share, 0, 1, "the least share of the jump must lie between 0 and 1");
+  require_within(options.least_concentration, 0, 1, "the least concentration must lie between 0 and 1");
   const ChordCells cells = chord_cells(lattice, parts, shocks);
   TurnGauge gauge(lattice, field, cells, shocks, options);
   gauge.measure();

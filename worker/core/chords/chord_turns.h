@@ -22,6 +22,10 @@ struct ChordTurnOptions {
   /// candidates lead to within as many cells as the band reaches, 0 .. 1.  Beside a sheet the normals turn fast along it, too,
   /// where it ends or where chords hang on to a few directions; the sheet itself jumps more.
   double least_share = 0.4;
+  /// Least kink s of a shock that speaks, as a share of the change of slope over its band, 0 .. 1.  Round the
+  /// centre of a ball the normals turn by a right angle within the band, too, but evenly, in the many small
+  /// steps of the direction set.
+  double least_concentration = 0.2;
   /// Rounds of averaging along the sheet, at most 16.
   std::uint32_t rounds = 1;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
@@ -35,8 +39,8 @@ struct ChordTurnOptions {
 /// each other (rounded) the one with the largest kink s (the first of equal ones) speaks for all: its turn is
 /// the opening between the places q edges beyond both of its ends (in the solid, as far as the line stays in
 /// it; between two sample points in proportion), at least its own.  The others keep their own opening, and so
-/// does one beside a sheet that jumps much more (least_share): the sheet stays one layer (non-maximum
-/// suppression, as in Canny 1986).
+/// do one where the normals turn evenly (least_concentration) and one beside a sheet that jumps much more
+/// (least_share): the sheet stays one layer (non-maximum suppression, as in Canny 1986).
 ///
 /// The band goes with the solid's own size at the place, not with the lattice: where the spacing is halved it
 /// spans twice as many edges, and the sheet stays where it is, in ridges that turn within a share of the
@@ -54,7 +58,8 @@ struct ChordTurnOptions {
 /// 360 to the height) moves what lies two coarse spacings and more from the rim by at most 0.21 coarse spacings;
 /// with a band of five spacings a third of the sheet that lies a spacing from the rim is lost.
 ///
-/// Invariance: E, |g| and so the band that of the frame's metric, as for the opening (see chord_shocks.h).
+/// Invariance: kinks and their ratios are affinely invariant, the jump, the depth and with it the band in
+/// the frame's metric only, as the opening is (see chord_shocks.h).
 /// @param parts of the solid in this lattice.
 /// @param shocks of this lattice and field, by (point, axis), each edge once.
 /// @throws CoreError kBadInput when an option is out of range; kLimit for 2^30 shocks and more; kCancelled when

@@ -100,6 +100,23 @@ TEST(ChordTurns, TheBandIsAShareOfTheDepth) {
   EXPECT_NEAR(turn, 0.25 + 0.25 * (edges - 1), 1e-12);
 }
 
+// 110 degrees in eleven steps, as round the centre of a ball: nothing speaks, unless one step is wider.
+TEST(ChordTurns, EvenTurningIsNoShock) {
+  const BoxLattice box(5, 5, 12);
+  const double d = kPi / 180;
+  std::vector<double> angle;
+  for (int k = 0; k < 12; ++k) angle.push_back((55 - 10 * k) * d);
+  for (const ChordShock& shock : turned(box, layered(box.lattice, angle), unaveraged(1)))
+    EXPECT_EQ(shock.turn, shock.opening);
+  for (std::size_t k = 0; k < 6; ++k) angle[k] += 20 * d;
+  std::size_t speak = 0;
+  for (const ChordShock& shock : turned(box, layered(box.lattice, angle), unaveraged(1))) {
+    EXPECT_EQ(shock.turn > shock.opening, shock.place[2] == 5);
+    speak += shock.turn > 0.5 ? 1 : 0;
+  }
+  EXPECT_EQ(speak, 25U);
+}
+
 // A gap of one in a sheet of opposite normals: its cells' means raise it, and lower those beside it.
 TEST(ChordTurns, AveragingCarriesTheTurnAlongTheSheet) {
   const BoxLattice box(7, 7, 6);
@@ -139,8 +156,9 @@ TEST(ChordTurns, RefusesOptionsOutOfRange) {
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
   std::vector<ChordShock> none;
   for (const ChordTurnOptions& options :
-       {ChordTurnOptions{-1, 0.4, 1}, ChordTurnOptions{std::nan(""), 0.4, 1}, ChordTurnOptions{0.7, 1.1, 1},
-        ChordTurnOptions{0.7, std::nan(""), 1}, ChordTurnOptions{0.7, 0.4, 17}}) {
+       {ChordTurnOptions{-1, 0.4, 0.2, 1}, ChordTurnOptions{std::nan(""), 0.4, 0.2, 1},
+        ChordTurnOptions{0.7, 1.1, 0.2, 1}, ChordTurnOptions{0.7, std::nan(""), 0.2, 1},
+        ChordTurnOptions{0.7, 0.4, -0.1, 1}, ChordTurnOptions{0.7, 0.4, 0.2, 17}}) {
     EXPECT_THROW(measure_turns(box.lattice, SolidParts(box.solid, box.lattice), field, none, options),
                  CoreError);
   }
