@@ -53,10 +53,10 @@ struct ChordTurnOptions {
 ///
 /// Measured on mh_man of 292, 1000 and 5000 triangles at a body's height / 180 as spacing: share of the
 /// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the diagonal,
-/// and back, means of 8 seeds: 93.7/94.4 %; by a band of five spacings 94.2/93.6 %, with twice as many
+/// and back, means of 8 seeds: 93.7/94.3 %; by a band of five spacings 94.2/93.6 %, with twice as many
 /// tunnels; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
-/// 360 to the height) moves what lies two coarse spacings and more from the rim by at most 0.21 coarse spacings;
-/// with a band of five spacings a third of the sheet that lies a spacing from the rim is lost.
+/// 360 to the height) moves what lies two coarse spacings and more from the rim by at most 0.21 coarse
+/// spacings; with a band of five spacings a third of that is lost.
 ///
 /// Invariance: kinks and their ratios are affinely invariant, the jump, the depth and with it the band in
 /// the frame's metric only, as the opening is (see chord_shocks.h).
