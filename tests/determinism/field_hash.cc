@@ -1,4 +1,5 @@
-// Prints a hash of every bit of the fields of some solids: equal output means equal fields.
+// Prints hashes of every bit of the fields of some solids, and of their sheets of chords: equal output means
+// equal fields and sheets.
 // Usage: field_hash [THREADS]
 #include <bit>
 #include <cstdint>
@@ -8,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/chords/chord_sheet.h"
 #include "core/erosion/erosion.h"
+#include "core/erosion/frame_field.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/shocks/zucker_hummel.h"
@@ -39,6 +42,27 @@ Mesh hollow_ball() {
   return mesh;
 }
 
+std::uint64_t sheet_hash(const affskel::core::Solid& solid, const affskel::core::Lattice& lattice,
+                         const affskel::core::FrameField& field) {
+  using namespace affskel::core;
+  const ChordSheet sheet = chord_sheet(solid, lattice, field);
+  Hash hash;
+  for (const ChordShock& shock : sheet.shocks) {
+    hash.add(std::uint64_t{shock.point});
+    hash.add(shock.turn);
+  }
+  for (const ChordSheetVertex& vertex : sheet.vertices) {
+    for (const Vec3& v : {vertex.position, vertex.normal_a, vertex.normal_b}) {
+      for (int k = 0; k < 3; ++k) hash.add(v[k]);
+    }
+    for (const double value : {vertex.erosion, vertex.strength, vertex.area}) hash.add(value);
+  }
+  for (const Triangle& triangle : sheet.triangles) {
+    for (const std::uint32_t corner : triangle) hash.add(std::uint64_t{corner});
+  }
+  return hash.value();
+}
+
 void print_hash(const char* name, const Mesh& mesh, const std::string& directions, unsigned threads,
                 affskel::core::FrameKind frame = affskel::core::FrameKind::kAxis) {
   using namespace affskel::core;
@@ -63,16 +87,20 @@ void print_hash(const char* name, const Mesh& mesh, const std::string& direction
     for (int k = 0; k < 3; ++k) hash.add(axis[k]);
   }
   OptimalDirections optimal;
+  std::vector<FieldValue> values;
+  const double scale = solid.scale();
   for (std::uint32_t p = 0; p < lattice.points; ++p) {
     const FieldValue value = erosion.field().value(p);
     hash.add(value.erosion);
     hash.add(value.area);
     hash.add(std::uint64_t{value.direction});
     optimal.push_back(value.direction);
+    values.push_back({scale * scale * scale * value.erosion, scale * scale * value.area, value.direction});
   }
   for (double h : zucker_hummel_divergence(lattice, set, optimal)) hash.add(h);
-  std::printf("%-12s R=%u K=%zu %016llx\n", name, lattice.points, set.size(),
-              static_cast<unsigned long long>(hash.value()));
+  const std::uint64_t sheet = sheet_hash(solid, lattice, frame_field(lattice, set, values));
+  std::printf("%-12s R=%u K=%zu %016llx %016llx\n", name, lattice.points, set.size(),
+              static_cast<unsigned long long>(hash.value()), static_cast<unsigned long long>(sheet));
 }
 
 }  // namespace
