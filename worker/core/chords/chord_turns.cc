@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr std::uint32_t kMostRounds = 16;
-// Edges to either side of a shock's own: more are a depth of 183 spacings and more, in bodies of a billion
+// Edges to either side of a shock's own: more are a depth of 184 spacings and more, in bodies of a billion
 // sample points, or chords through a neck that cut off much more than is near them.
 constexpr double kMostReach = 64;
 // What a mean may make of a turn: twice as much.  Edges that lie in a sheet, between two facets of one of its

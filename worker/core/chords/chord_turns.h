@@ -43,8 +43,9 @@ struct ChordTurnOptions {
 /// (least_share): the sheet stays one layer (non-maximum suppression, as in Canny 1986).
 ///
 /// The band goes with the solid's own size at the place, not with the lattice: where the spacing is halved it
-/// spans twice as many edges, and the sheet stays where it is, in ridges that turn within a share of the
-/// depth as well as at true shocks.
+/// spans twice as many edges, and the sheet at true shocks stays where it is.  A ridge, where the normals turn
+/// fast without a jump (the middle plane of a box seen by very many directions), comes apart as the spacing
+/// falls: its largest step becomes a small share of its turn.
 ///
 /// Then the turns of those that speak are averaged along the sheet, over the cells of the lattice that they
 /// bound: each cell has the mean turn of its shocks, weighted by turn and area (|N_a|, see chord_pruning.h),
@@ -55,8 +56,8 @@ struct ChordTurnOptions {
 /// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the diagonal,
 /// and back, means of 8 seeds: 93.7/94.3 %; by a band of five spacings 94.2/93.6 %, with twice as many
 /// tunnels; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
-/// 360 to the height) moves what lies two coarse spacings and more from the rim by at most 0.21 coarse
-/// spacings; with a band of five spacings a third of that is lost.
+/// 360 to the height) moves 98 % and more of what lies two coarse spacings from the rim by less than half a
+/// coarse spacing; with a band of five spacings a third of that is lost.
 ///
 /// Invariance: kinks and their ratios are affinely invariant, the jump, the depth and with it the band in
 /// the frame's metric only, as the opening is (see chord_shocks.h).

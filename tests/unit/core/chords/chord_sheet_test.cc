@@ -12,6 +12,7 @@
 #include "core/chords/chord_cells.h"
 #include "core/chords/chord_fields.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/perturb.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid_membership.h"
 #include "core/test_solids.h"
@@ -242,6 +243,7 @@ TEST(ChordSheet, BallAndEllipsoidShrinkToTheirCentres) {
   }
 }
 
+// At this spacing: seen by all directions it is a ridge, and no shock (see measure_turns).
 TEST(ChordSheet, ABoxGivesTheMiddleOfItsLargestFaces) {
   const ErodedSolid box(make_box(3, 2, 1), axes(0.1), "triangles+sphere:2000");
   const ChordSheet sheet = chord_sheet(box.solid, box.lattice, box.field);
@@ -255,6 +257,35 @@ TEST(ChordSheet, ABoxGivesTheMiddleOfItsLargestFaces) {
   }
   EXPECT_EQ(topology(sheet).euler, 1);
   EXPECT_EQ(topology(sheet).components, 1U);
+}
+
+// The chords of a box by its own six directions meet at right angles, and what is one to rounding must not be
+// for rounding to decide: neither turning the box nor a few last bits take walls away.
+TEST(ChordSheet, RightAnglesAreNotForRoundingToDecide) {
+  const Mesh box = make_box(3, 2, 1);
+  const auto sheet_of = [](const Mesh& mesh) {
+    const ErodedSolid solid(mesh, axes(0.07), "triangles");
+    return chord_sheet(solid.solid, solid.lattice, solid.field);
+  };
+  const auto expect_whole = [](const ChordSheet& sheet) {
+    // Twelve triangles, from the centre to the edges: half an edge times its distance.  The sheet ends a
+    // spacing or so before the edges.
+    const double whole = 2 * (std::hypot(1.5, 1) + 2 * std::hypot(1.5, 0.5) + 3 * std::hypot(1, 0.5));
+    EXPECT_GT(area(sheet), 0.85 * whole);
+    EXPECT_LT(area(sheet), 1.01 * whole);
+    EXPECT_EQ(topology(sheet).components, 1U);
+  };
+  expect_whole(sheet_of(box));
+  for (const double turn : {0.2, 0.5, 0.785398163397448, 1.1}) {
+    SCOPED_TRACE(turn);
+    Mesh turned = box;
+    for (Vec3& p : turned.points) {
+      p = {std::cos(turn) * p.x - std::sin(turn) * p.y, std::sin(turn) * p.x + std::cos(turn) * p.y, p.z};
+      p = {p.x, std::cos(0.3) * p.y - std::sin(0.3) * p.z, std::sin(0.3) * p.y + std::cos(0.3) * p.z};
+    }
+    expect_whole(sheet_of(turned));
+  }
+  expect_whole(sheet_of(perturb(box, {1e-15, 1})));
 }
 
 // A quarter of a step apart, so that cells reach over the gap: a sheet each, and the one that it has alone.
