@@ -175,6 +175,9 @@ JobRow get_job(Database& db, const std::string& id) {
 
 std::string resolve_job(Database& db, const std::string& reference) {
   if (reference == "@last") {
+    Statement repeated = db.query(
+        "SELECT j.id FROM server_state s JOIN jobs j ON j.id = s.value WHERE s.key = 'repeated_job'");
+    if (repeated.step()) return repeated.text(0);
     Statement row = db.query("SELECT id FROM jobs ORDER BY seq DESC LIMIT 1");
     if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job @last: there are no jobs");
     return row.text(0);

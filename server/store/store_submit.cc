@@ -47,6 +47,15 @@ void remember_request(Tx& tx, const Submission& submission, const std::string& j
             submission.header.request_id(), job_id);
 }
 
+// "@last" is the job that was last told to a submitter: the newest, unless one was submitted again since.
+void remember_repeated(Tx& tx, const std::string& job_id) {
+  if (resolve_job(tx.db, "@last") == job_id) return;
+  tx.db.run(
+      "INSERT INTO server_state (key, value) VALUES ('repeated_job', ?)"
+      " ON CONFLICT (key) DO UPDATE SET value = excluded.value",
+      job_id);
+}
+
 std::string insert_job(Tx& tx, const Submission& submission, std::string_view mesh) {
   const v1::SubmitJobHeader& header = submission.header;
   put_mesh(tx, header.mesh_sha256(), mesh);
@@ -61,6 +70,7 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
       " VALUES (?, ?, ?, ?, 'queued', 'prepare', ?, ?, ?, ?)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
       submission.skeleton_key, tx.wall_ms);
+  tx.db.run("DELETE FROM server_state WHERE key = 'repeated_job'");
   tx.changes.jobs.insert(id);
   tx.changes.log.push_back("event=submitted job=" + id + " mesh=" + header.mesh_sha256() +
                            " bytes=" + std::to_string(mesh.size()) + " " + submission.params_key);
@@ -92,6 +102,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
         tx.changes.jobs.insert(earlier);
       }
       remember_request(tx, submission, earlier);
+      remember_repeated(tx, earlier);
       return {job_message(tx.db, earlier), true};
     }
     tx.require_room();

@@ -246,6 +246,21 @@ TEST_F(SubmitTest, FindsJobsByPrefixAndLast) {
   EXPECT_STORE_ERROR(store_->resolve(std::string(32, first[0] == '0' ? '1' : '0')), kNotFound);
 }
 
+TEST_F(SubmitTest, LastIsWhatWasLastToldToASubmitter) {
+  const std::string first = submit("OFF 1").id(), second = submit("OFF 2").id();
+  EXPECT_EQ(store_->submit(submit_header("OFF 1"), "OFF 1").job.id(), first);
+  EXPECT_EQ(store_->resolve("@last"), first);
+  EXPECT_EQ(store_->submit(submit_header("OFF 2"), "OFF 2").job.id(), second);
+  EXPECT_EQ(store_->resolve("@last"), second);
+  EXPECT_EQ(store_->submit(submit_header("OFF 1"), "OFF 1").job.id(), first);
+  const std::string third = submit("OFF 3").id();
+  EXPECT_EQ(store_->resolve("@last"), third);
+  EXPECT_EQ(store_->submit(submit_header("OFF 1"), "OFF 1").job.id(), first);
+  store_->cancel(first);
+  store_->remove(first);
+  EXPECT_EQ(store_->resolve("@last"), third);
+}
+
 TEST_F(SubmitTest, PagesStayRightWhileJobsComeAndGo) {
   std::vector<std::string> ids;
   for (int i = 0; i < 7; ++i) ids.push_back(submit("OFF " + std::to_string(i)).id());
