@@ -26,8 +26,10 @@ void add_fetch(CLI::App& app, Options& options) {
       ->required()
       ->check(CLI::IsMember({"field", "divergence", "skeleton", "surface", "eroded", "mesh"}))
       ->type_name("");
+  std::vector<std::string> with_divergence = operator_names();
+  std::erase(with_divergence, "chords");
   sub->add_option("--operator", options.job.skeleton.operator_name, "Of the divergence (default: the job's)")
-      ->check(CLI::IsMember(operator_names()))
+      ->check(CLI::IsMember(with_divergence))
       ->type_name("OP");
   sub->callback([sub, &options] {
     options.command = Command::kFetch;

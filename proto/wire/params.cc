@@ -117,7 +117,7 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
         "the skeleton threshold must be a finite number > 0, or 0 for the default, not " +
         shortest(params.threshold()));
   }
-  if (result.operator_() == v1::OPERATOR_CHORDS && params.threshold() >= 1) {
+  if (result.operator_() == v1::OPERATOR_CHORDS && params.threshold() > 1) {
     throw std::invalid_argument(
         "the threshold of chords is the least share of the skeleton that a piece of it has, between 0 and 1, "
         "not " +

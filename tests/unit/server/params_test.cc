@@ -101,6 +101,8 @@ TEST(ParamsTest, OperatorsOtherThanTheFirstKeepTheirDefaultOpen) {
   EXPECT_NE(cache_key(canonical(params)), cache_key(canonical(v1::SkeletonParams())));
   params.set_operator_(v1::OPERATOR_CHORDS);
   params.set_threshold(1);
+  EXPECT_EQ(canonical(params).threshold(), 1);
+  params.set_threshold(std::nextafter(1.0, 2.0));
   EXPECT_THROW(canonical(params), std::invalid_argument) << "a share";
   params.set_threshold(0);
   params.set_operator_(static_cast<v1::Operator>(99));
