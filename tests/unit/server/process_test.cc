@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -151,6 +153,10 @@ TEST(DataDirTest, TellsItsHolder) {
     EXPECT_THROW(DataDir(path, std::chrono::milliseconds(0)), DataDirInUse);
   }
   EXPECT_EQ(data_dir_holder(path), std::nullopt);
+  const int asking = open((path + "/server.lock").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(asking, LOCK_SH), 0);
+  EXPECT_EQ(data_dir_holder(path), std::nullopt) << "another one who asks is no server";
+  close(asking);
   EXPECT_NO_THROW(DataDir(path, std::chrono::milliseconds(0))) << "whoever asks holds nothing";
 }
 
