@@ -36,7 +36,7 @@ std::string make_directory(const std::string& path) {
 std::string read_pid(int fd) {
   std::array<char, 32> text{};
   const ssize_t size = pread(fd, text.data(), text.size() - 1, 0);
-  return size > 0 ? std::string(text.data(), std::strcspn(text.data(), "\n")) : "unknown";
+  return "pid " + (size > 0 ? std::string(text.data(), std::strcspn(text.data(), "\n")) : "unknown");
 }
 
 // False with errno set when it cannot be locked in time.
@@ -52,16 +52,27 @@ bool lock_within(int fd, std::chrono::milliseconds patience) {
 
 }  // namespace
 
+std::optional<std::string> data_dir_holder(const std::string& path) {
+  const int fd = open((path + "/server.lock").c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return std::nullopt;
+  // Shared, so that two who ask at once do not take each other for a server; given back with the descriptor.
+  // A server that starts in between waits a little longer than that.
+  const bool held = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const std::string holder = read_pid(fd);
+  close(fd);
+  return held ? std::optional(holder) : std::nullopt;
+}
+
 DataDir::DataDir(const std::string& path, std::chrono::milliseconds patience) : path_(make_directory(path)) {
   const std::string file = path_ + "/server.lock";
   lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (lock_ < 0) refuse(path_, "server.lock: " + std::string(std::strerror(errno)));
   if (!lock_within(lock_, patience)) {
-    const std::string why = errno == EWOULDBLOCK
-                                ? "another affskel-server uses it (pid " + read_pid(lock_) + ")"
-                                : "server.lock: " + std::string(std::strerror(errno));
+    const int error = errno;
+    const std::string holder = read_pid(lock_);
     close(lock_);
-    refuse(path_, why);
+    if (error != EWOULDBLOCK) refuse(path_, "server.lock: " + std::string(std::strerror(error)));
+    throw DataDirInUse("data directory " + path_ + ": another affskel-server uses it (" + holder + ")");
   }
   // For people and for the message above only; the lock itself is what counts.
   const std::string pid = std::to_string(getpid()) + "\n";

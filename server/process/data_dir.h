@@ -2,17 +2,29 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace affskel::server {
+
+/// Another process holds the data directory.
+class DataDirInUse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The process that holds a data directory, as a message calls it ("pid 123"); nothing when none does.
+/// Changes nothing there.
+std::optional<std::string> data_dir_holder(const std::string& path);
 
 /// The data directory, held by this process alone: server.lock is locked as long as the object lives.
 class DataDir {
  public:
   /// Makes the directory (mode 0700) when it is absent, and locks it.
   /// @param patience how long another server may hold it: one that is about to leave does so in a moment.
-  /// @throws std::runtime_error naming the directory: not usable, or held by another server.
+  /// @throws DataDirInUse when another server holds it; std::runtime_error when it is not usable, naming it.
   explicit DataDir(const std::string& path, std::chrono::milliseconds patience = std::chrono::seconds(3));
   ~DataDir();
   DataDir(const DataDir&) = delete;

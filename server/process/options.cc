@@ -6,12 +6,12 @@
 #include <iostream>
 #include <thread>
 
+#include "process/exit_code.h"
 #include "wire/version.h"
 
 namespace affskel::server {
 namespace {
 
-constexpr int kUsageError = 2;
 constexpr unsigned kMaxWorkers = 1024;
 
 constexpr const char* kFooter = R"(
@@ -19,11 +19,49 @@ Examples:
   affskel-server --data-dir /var/lib/affskel --workers auto
   affskel-server --data-dir data --listen 127.0.0.1:7060 --listen unix:/run/affskel.sock
   affskel-client --server unix:data/server.sock submit body.off --wait
+  affskel-server check --data-dir data
+  affskel-server backup --data-dir data -o affskel-backup.db
+  affskel-server migrate --data-dir data
 
 SIGTERM and SIGINT drain: nothing more is leased, workers report and give their leases back, exit 0.
 DATA_DIR/server.json names process, version and the addresses actually bound while the server runs.
 DATA_DIR/reserve is room kept for a full disk: there jobs wait, and can still be cancelled and deleted.
-Exit codes: 0 stopped; 2 usage, address or data directory; 8 disk full; 70 internal error.)";
+Exit codes: 0 stopped; 2 usage, address or data directory; 8 disk full; 70 internal error. Those of the commands
+are in their help: affskel-server check --help.)";
+
+constexpr const char* kCheckFooter = R"(
+Reads the database as of one moment, beside a running server or without one, and changes nothing in it: the file
+itself, references, sizes and SHA-256 of meshes and artefacts, fields, progress, jobs and their tasks. Every
+fault goes to stderr, with its place.
+
+Examples:
+  affskel-server check --data-dir /var/lib/affskel
+  affskel-server check --data-dir data --json
+
+Exit codes: 0 sound; 1 faults found; 2 usage; 3 no database of affskel-server, or of a newer one; 70 internal
+error.)";
+
+constexpr const char* kBackupFooter = R"(
+Copies the database as of one moment, beside a running server or without one; nothing that was acknowledged
+before is missing. FILE appears complete or not at all, readable by its owner alone. It is all that a data
+directory needs: to restore, put it as affskel.db into an empty directory and start a server there; jobs go on.
+
+Examples:
+  affskel-server backup --data-dir /var/lib/affskel -o affskel-backup.db
+  mkdir -m 700 restored && cp affskel-backup.db restored/affskel.db && affskel-server --data-dir restored
+
+Exit codes: 0 done; 2 usage; 3 no database of affskel-server, or FILE cannot be written; 6 interrupted; 7 FILE
+exists; 8 disk full; 70 internal error.)";
+
+constexpr const char* kMigrateFooter = R"(
+A server does the same when it starts; this does it without one, and is refused while one runs. Make a backup
+first: there is no way back to an older version.
+
+Examples:
+  affskel-server migrate --data-dir /var/lib/affskel
+
+Exit codes: 0 up to date; 2 usage; 3 no database of affskel-server, or of a newer one; 7 a server runs; 8 disk
+full; 70 internal error.)";
 
 unsigned worker_count(const std::string& text) {
   if (text == "auto") return std::max(1U, std::thread::hardware_concurrency());
@@ -96,6 +134,42 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
       ->type_name("FILE");
 }
 
+/// Adds a command that works on the data directory by itself.
+CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* what, Command command) {
+  CLI::App* sub = app.add_subcommand(name, what);
+  sub->add_option("--data-dir", options.data_dir, "Data directory of a server, running or not")
+      ->required()
+      ->type_name("DIR");
+  sub->add_flag("--json", options.json, "One JSON document on stdout, errors as JSON on stderr");
+  // The server's options, its data directory among them, are not those of its commands.
+  sub->preparse_callback([&app](std::size_t) { app.get_option("--data-dir")->required(false); });
+  sub->callback([&options, command] { options.command = command; });
+  return sub;
+}
+
+void add_commands(CLI::App& app, Options& options) {
+  app.require_subcommand(0, 1);
+  add_command(app, options, "check", "Check whether the database is sound", Command::kCheck)
+      ->footer(kCheckFooter);
+  CLI::App* backup = add_command(app, options, "backup", "Copy the database to a file", Command::kBackup);
+  backup->footer(kBackupFooter);
+  backup->add_option("-o,--output", options.output, "Where to write the copy")->required()->type_name("FILE");
+  backup->add_flag("--force", options.force, "Replace FILE when it exists");
+  add_command(app, options, "migrate", "Bring the database up to date with this version", Command::kMigrate)
+      ->footer(kMigrateFooter);
+}
+
+/// What would be ignored is a mistake.
+void refuse_server_options(const CLI::App& app) {
+  if (app.get_subcommands().empty()) return;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0) continue;
+    throw CLI::ValidationError(
+        option->get_name(),
+        "goes with no command; options of '" + app.get_subcommands().front()->get_name() + "' follow it");
+  }
+}
+
 }  // namespace
 
 ParsedOptions parse_options(int argc, char** argv) {
@@ -105,14 +179,16 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_version_flag("--version", std::string("affskel-server ") + wire::kVersion);
   app.footer(kFooter);
   add_options(app, parsed.options, workers);
+  add_commands(app, parsed.options);
   try {
     app.parse(argc, argv);
+    refuse_server_options(app);
     parsed.options.workers = worker_count(workers);
     if (parsed.options.report_interval_ms >= parsed.options.lease_ms) {
       throw CLI::ValidationError("--report-interval-ms", "must be less than --lease-ms");
     }
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : kUsageError;
+    parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
   return parsed;
 }

@@ -8,8 +8,12 @@
 
 namespace affskel::server {
 
+/// What affskel-server is asked for.
+enum class Command { kServe, kCheck, kBackup, kMigrate };
+
 /// The command line of affskel-server, checked for form.
 struct Options {
+  Command command = Command::kServe;
   std::string data_dir;
   std::vector<std::string> listen;  ///< empty = unix:DATA_DIR/server.sock
   unsigned workers = 0;
@@ -20,6 +24,9 @@ struct Options {
   std::int64_t report_interval_ms = 1000;
   std::uint64_t max_mesh_mb = 1024;
   std::string log_level = "info";
+  bool json = false;   ///< of the commands: one JSON document instead of lines
+  std::string output;  ///< of backup
+  bool force = false;  ///< of backup
 };
 
 /// Parses the command line.  Prints help, version or what is wrong; then `exit_code` is set: 0 or 2.

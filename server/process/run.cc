@@ -15,8 +15,10 @@
 #include <thread>
 
 #include "process/data_dir.h"
+#include "process/exit_code.h"
 #include "process/file_limit.h"
 #include "process/log_format.h"
+#include "process/maintenance.h"
 #include "process/supervisor.h"
 #include "rpc/server.h"
 #include "store/errors.h"
@@ -25,10 +27,6 @@
 
 namespace affskel::server {
 namespace {
-
-constexpr int kConfigurationError = 2;
-constexpr int kDiskFull = 8;
-constexpr int kInternalError = 70;
 
 // Between looks at workers that are due and at idleness; signals are noticed at once.
 constexpr long kTickNs = 100'000'000;
@@ -101,7 +99,7 @@ void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
                 data_dir.path());
   spdlog::default_logger()->flush();
   supervisor.terminate(std::chrono::milliseconds(0));
-  std::_Exit(kConfigurationError);
+  std::_Exit(static_cast<int>(ExitCode::kUsage));
 }
 
 /// Until a signal says so, or nobody needs the server any more.
@@ -163,44 +161,45 @@ void run_server(const Options& options) {
 }
 
 /// A file that is damaged, foreign or closed to us is no bug of this program.
-int exit_code_of(const SqliteError& error) {
+ExitCode exit_code_of(const SqliteError& error) {
   switch (error.primary_code()) {
     case SQLITE_FULL:
-      return kDiskFull;
+      return ExitCode::kLimit;
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_AUTH:
-      return kConfigurationError;
+      return ExitCode::kUsage;
     default:
-      return kInternalError;
+      return ExitCode::kInternal;
   }
 }
 
-int fail(int code, const std::exception& error) {
+int fail(ExitCode code, const std::exception& error) {
   std::cerr << "affskel-server: " << error.what() << '\n';
-  return code;
+  return static_cast<int>(code);
 }
 
 }  // namespace
 
 int run(const Options& options) {
   start_logging(options.log_level);
+  if (options.command != Command::kServe) return run_maintenance(options);
   try {
     run_server(options);
     return 0;
   } catch (const StoreError& error) {
-    return fail(kConfigurationError, error);
+    return fail(ExitCode::kUsage, error);
   } catch (const SqliteError& error) {
     return fail(exit_code_of(error), error);
   } catch (const std::runtime_error& error) {
-    return fail(kConfigurationError, error);
+    return fail(ExitCode::kUsage, error);
   } catch (const std::invalid_argument& error) {
-    return fail(kConfigurationError, error);
+    return fail(ExitCode::kUsage, error);
   } catch (const std::exception& error) {
-    return fail(kInternalError, error);
+    return fail(ExitCode::kInternal, error);
   }
 }
 

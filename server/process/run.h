@@ -4,7 +4,8 @@
 
 namespace affskel::server {
 
-/// Runs a server with its workers until a signal or idleness ends it.  Returns the exit code.
+/// Runs what the command line asks for: a server with its workers, until a signal or idleness ends it, or a
+/// command on a data directory.  Returns the exit code.
 int run(const Options& options);
 
 }  // namespace affskel::server

@@ -12,6 +12,7 @@
 
 #include "rpc/listen.h"
 #include "rpc/status.h"
+#include "store/database_file.h"
 #include "wire/identity.h"
 
 namespace affskel::server {
@@ -48,7 +49,7 @@ Server::Server(const ServerOptions& options)
       uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
   hold_grpc();
   prepare_addresses(options.listen);
-  store_ = std::make_unique<Store>(options.data_dir + "/affskel.db", options.store, clock_, &hub_);
+  store_ = std::make_unique<Store>(database_file(options.data_dir), options.store, clock_, &hub_);
   release_dead_workers(*store_);
   queue_ = std::make_unique<LeaseQueue>(*store_, registry_);
   worker_service_ = std::make_unique<WorkerServiceImpl>(*store_, registry_, *queue_, uploads_);

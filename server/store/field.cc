@@ -39,10 +39,6 @@ constexpr std::uint64_t kMostReserved = std::uint64_t{1} << 22;
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
 
-std::size_t chunk_points(std::int64_t points, std::int64_t index) {
-  return static_cast<std::size_t>(std::min(kChunkPoints, points - index * kChunkPoints));
-}
-
 std::string empty_chunk(std::size_t count) {
   char record[kRecordBytes] = {};
   const double infinity = std::numeric_limits<double>::infinity();
@@ -186,7 +182,7 @@ void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t point
     } else {
       // An INSERT would make the open handle stale.
       blob.reset();
-      chunk = empty_chunk(chunk_points(points, index));
+      chunk = empty_chunk(field_chunk_points(points, index));
       merge_into(chunk, index, begin, end);
       db.run("INSERT INTO field_chunks (erosion_id, idx, data) VALUES (?, ?, ?)", erosion_id, index,
              Blob{chunk});
@@ -245,6 +241,10 @@ std::int64_t field_chunk_count(std::int64_t points) {
   return (points + kChunkPoints - 1) / kChunkPoints;
 }
 
+std::size_t field_chunk_points(std::int64_t points, std::int64_t index) {
+  return static_cast<std::size_t>(std::min(kChunkPoints, points - index * kChunkPoints));
+}
+
 FieldView::FieldView(Database& db, std::int64_t erosion_id, std::int64_t points)
     : db_(db), erosion_id_(erosion_id), points_(points), log_(read_log(db, erosion_id)) {
   sort_by_chunk(log_);
@@ -253,7 +253,7 @@ FieldView::FieldView(Database& db, std::int64_t erosion_id, std::int64_t points)
 std::string FieldView::chunk(std::int64_t index) const {
   Statement row =
       db_.query("SELECT data FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id_, index);
-  std::string bytes = row.step() ? std::string(row.blob(0)) : empty_chunk(chunk_points(points_, index));
+  std::string bytes = row.step() ? std::string(row.blob(0)) : empty_chunk(field_chunk_points(points_, index));
   const auto [begin, end] = std::equal_range(log_.begin(), log_.end(), index, ByChunk{});
   merge_into(bytes, index, begin, end);
   return bytes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,6 +56,9 @@ void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points);
 
 /// Number of chunks of a field.
 std::int64_t field_chunk_count(std::int64_t points);
+
+/// Points of one of its chunks.
+std::size_t field_chunk_points(std::int64_t points, std::int64_t index);
 
 /// A field as it is in the database's transaction, the log included (at most 32 MiB of it, kept in memory).
 class FieldView {

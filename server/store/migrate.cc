@@ -11,21 +11,6 @@ int schema_version(Database& db) {
   return static_cast<int>(db.integer("PRAGMA user_version").value_or(0));
 }
 
-void check_ours(Database& db, int newest) {
-  const std::int64_t application = db.integer("PRAGMA application_id").value_or(0);
-  const bool empty = db.integer("SELECT count(*) FROM sqlite_schema") == 0;
-  if (application != kApplicationId && !(application == 0 && empty)) {
-    throw StoreError(StoreError::Code::kUnusable, db.file() + ": not a database of affskel-server");
-  }
-  const int version = schema_version(db);
-  if (version > newest) {
-    throw StoreError(StoreError::Code::kUnusable, db.file() + ": written by a newer affskel-server (schema " +
-                                                      std::to_string(version) + ", this one knows up to " +
-                                                      std::to_string(newest) +
-                                                      "); start that version instead");
-  }
-}
-
 // Tables that are made anew would take along what refers to them, so that foreign keys rest meanwhile.
 class ForeignKeysOff {
  public:
@@ -52,9 +37,28 @@ class ForeignKeysOff {
 
 }  // namespace
 
+int newest_schema(const std::vector<Migration>& migrations) {
+  return migrations.empty() ? 0 : migrations.back().number;
+}
+
+int checked_schema(Database& db, int newest) {
+  const std::int64_t application = db.integer("PRAGMA application_id").value_or(0);
+  const bool empty = db.integer("SELECT count(*) FROM sqlite_schema") == 0;
+  if (application != kApplicationId && !(application == 0 && empty)) {
+    throw StoreError(StoreError::Code::kUnusable, db.file() + ": not a database of affskel-server");
+  }
+  const int version = schema_version(db);
+  if (version > newest) {
+    throw StoreError(StoreError::Code::kUnusable, db.file() + ": written by a newer affskel-server (schema " +
+                                                      std::to_string(version) + ", this one knows up to " +
+                                                      std::to_string(newest) +
+                                                      "); start that version instead");
+  }
+  return version;
+}
+
 int migrate(Database& db, const std::vector<Migration>& migrations) {
-  const int newest = migrations.empty() ? 0 : migrations.back().number;
-  check_ours(db, newest);
+  checked_schema(db, newest_schema(migrations));
   const ForeignKeysOff keys(db);
   for (const Migration& step : migrations) {
     Transaction transaction(db);

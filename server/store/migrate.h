@@ -21,6 +21,13 @@ inline constexpr std::int64_t kApplicationId = 0x4146534B;
 /// The migrations compiled into this program, in order.
 const std::vector<Migration>& embedded_migrations();
 
+/// The schema that this program brings databases to.
+int newest_schema(const std::vector<Migration>& migrations = embedded_migrations());
+
+/// The schema of a database; 0 of an empty one.
+/// @throws StoreError kUnusable when the file is not ours or was written by a newer server; SqliteError.
+int checked_schema(Database& db, int newest = newest_schema());
+
 /// Brings the schema up to date, each step in a transaction of its own.  Returns the version reached.
 /// @throws StoreError kUnusable when the file is not ours or was written by a newer server; SqliteError.
 int migrate(Database& db, const std::vector<Migration>& migrations = embedded_migrations());

@@ -20,6 +20,9 @@ constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
 // What a connection that only reads keeps of it; there may be many, and clients let them wait.
 constexpr int kReaderCacheKib = 256;
 
+// Copied between two looks at whether to go on.
+constexpr int kPagesCopied = 1024;
+
 // The database file grows in steps of this size.
 constexpr int kGrowthBytes = 1 << 20;
 
@@ -124,8 +127,9 @@ bool Statement::is_null(int column) const {
 }
 
 Database::Database(const std::string& file, Mode mode) : file_(file) {
-  const int access =
-      mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int access = mode == Mode::kReadWrite   ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
+                     : mode == Mode::kQueryOnly ? SQLITE_OPEN_READWRITE
+                                                : SQLITE_OPEN_READONLY;
   try {
     if (sqlite3_open_v2(file.c_str(), &handle_, access | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE,
                         nullptr) != SQLITE_OK) {
@@ -134,29 +138,40 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
     sqlite3_extended_result_codes(handle_, 1);
     sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
     execute("PRAGMA foreign_keys = ON");
-    // Readers go through what they read once.
-    if (mode == Mode::kReadOnly) execute("PRAGMA cache_size = " + std::to_string(-kReaderCacheKib));
     if (mode == Mode::kReadWrite) {
-      // FULL: a commit is on the disk when it is acknowledged.
-      // Secure deletion, which Debian switches on, writes every page that is freed: a delete would need as
-      // much room in the log as it is to make.
-      // Temporary files may lie on another disk, which would be taken for this one when it is full.
-      // Given to a file that is there already, the first two would do nothing, or write for nothing.
-      if (integer("PRAGMA page_count") == 0) {
-        execute("PRAGMA page_size = " + std::to_string(kPageBytes) + "; PRAGMA auto_vacuum = INCREMENTAL");
-      }
-      execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
-              std::to_string(kJournalBytes) +
-              "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF"
-              "; PRAGMA temp_store = MEMORY");
-      int step = kGrowthBytes;
-      sqlite3_file_control(handle_, "main", SQLITE_FCNTL_CHUNK_SIZE, &step);
-      set_usual_log_limit();
+      set_up_writing();
+    } else {
+      set_up_reading();
     }
   } catch (...) {
     close();
     throw;
   }
+}
+
+void Database::set_up_reading() {
+  // The last to close a file would copy the log into it.
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  // Readers go through what they read once.
+  execute("PRAGMA query_only = ON; PRAGMA cache_size = " + std::to_string(-kReaderCacheKib));
+}
+
+void Database::set_up_writing() {
+  // FULL: a commit is on the disk when it is acknowledged.
+  // Secure deletion, which Debian switches on, writes every page that is freed: a delete would need as
+  // much room in the log as it is to make.
+  // Temporary files may lie on another disk, which would be taken for this one when it is full.
+  // Given to a file that is there already, the first two would do nothing, or write for nothing.
+  if (integer("PRAGMA page_count") == 0) {
+    execute("PRAGMA page_size = " + std::to_string(kPageBytes) + "; PRAGMA auto_vacuum = INCREMENTAL");
+  }
+  execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
+          std::to_string(kJournalBytes) +
+          "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF"
+          "; PRAGMA temp_store = MEMORY");
+  int step = kGrowthBytes;
+  sqlite3_file_control(handle_, "main", SQLITE_FCNTL_CHUNK_SIZE, &step);
+  set_usual_log_limit();
 }
 
 Database::~Database() {
@@ -214,6 +229,51 @@ void Database::set_log_limit(std::int64_t bytes) {
 
 void Database::set_usual_log_limit() {
   set_log_limit(kJournalBytes);
+}
+
+namespace {
+
+/// A file that is only written, from its first page to its last: a journal would be of no use.
+class CopyTarget {
+ public:
+  CopyTarget(const std::string& file, const std::string& context) : context_(context) {
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
+    const char* settings = "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF";
+    if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) == SQLITE_OK &&
+        sqlite3_exec(handle_, settings, nullptr, nullptr, nullptr) == SQLITE_OK) {
+      return;
+    }
+    const Closer closer{handle_};
+    raise(handle_, context_);
+  }
+  ~CopyTarget() { sqlite3_close_v2(handle_); }
+  CopyTarget(const CopyTarget&) = delete;
+  CopyTarget& operator=(const CopyTarget&) = delete;
+
+  bool fill_from(sqlite3* source, const std::function<bool()>& go_on) {
+    sqlite3_backup* copy = sqlite3_backup_init(handle_, "main", source, "main");
+    if (copy == nullptr) raise(handle_, context_);
+    int code = SQLITE_OK;
+    while (code == SQLITE_OK && go_on()) code = sqlite3_backup_step(copy, kPagesCopied);
+    // It leaves the error that a step met, if any, with the target.
+    if (sqlite3_backup_finish(copy) != SQLITE_OK) raise(handle_, context_);
+    return code == SQLITE_DONE;
+  }
+
+ private:
+  struct Closer {
+    sqlite3* handle;
+    ~Closer() { sqlite3_close_v2(handle); }
+  };
+  sqlite3* handle_ = nullptr;
+  std::string context_;
+};
+
+}  // namespace
+
+bool Database::copy_to(const std::string& file, const std::function<bool()>& go_on) {
+  CopyTarget target(file, file_ + " to " + file);
+  return target.fill_from(handle_, go_on);
 }
 
 void Database::execute(const std::string& script) {

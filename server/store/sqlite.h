@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -81,9 +82,14 @@ class Statement {
 /// One connection.  Not thread-safe: its user holds a lock.
 class Database {
  public:
-  enum class Mode { kReadWrite, kReadOnly };
+  enum class Mode {
+    kReadWrite,
+    kReadOnly,
+    kQueryOnly,  ///< for checking: SQLite does not know the CHECK constraints of files that are read-only
+  };
 
   /// Opens (and creates, when read-write) a file in WAL mode with full synchronisation and foreign keys.
+  /// Otherwise nothing is written to it or its log.
   /// @throws SqliteError naming the file.
   Database(const std::string& file, Mode mode);
   ~Database();
@@ -133,6 +139,12 @@ class Database {
   void set_log_limit(std::int64_t bytes);
   void set_usual_log_limit();
 
+  /// Copies the database, page by page and as the open transaction sees it, to `file`, which must be there
+  /// and empty.  Does not sync it.
+  /// @param go_on asked every few megabytes; false breaks off.  @returns whether all was copied.
+  /// @throws SqliteError naming both files.
+  bool copy_to(const std::string& file, const std::function<bool()>& go_on);
+
   /// Runs a script of statements without parameters.
   void execute(const std::string& script);
 
@@ -144,6 +156,8 @@ class Database {
   struct Cached;
   Statement prepare(const char* sql);
   sqlite3_stmt* compile(const char* sql);
+  void set_up_reading();
+  void set_up_writing();
   void close() noexcept;
 
   std::string file_;

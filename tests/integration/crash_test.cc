@@ -50,6 +50,8 @@ class CrashTest : public testing::Test {
     const Output fetched = lab_.client({"fetch", id, "field", "-o", lab_.path("field.csv")});
     ASSERT_EQ(fetched.exit_code, 0) << fetched.err;
     EXPECT_TRUE(lab_.read("field.csv") == lab_.read("plain.csv")) << "the fields differ";
+    const Output checked = lab_.run({AFFSKEL_SERVER_BINARY, "check", "--data-dir", lab_.path("data")});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
   }
 
   // Kills the worker at each of the moments and starts another in its place.

@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -76,6 +78,36 @@ TEST(OptionsTest, UsageErrorsExitWithTwo) {
   EXPECT_EQ(parse({"--version"}).exit_code, 0);
 }
 
+TEST(OptionsTest, CommandsHaveOptionsOfTheirOwn) {
+  EXPECT_EQ(parse({"--data-dir", "d"}).options.command, Command::kServe);
+  const ParsedOptions check = parse({"check", "--data-dir", "d", "--json"});
+  ASSERT_FALSE(check.exit_code);
+  EXPECT_EQ(check.options.command, Command::kCheck);
+  EXPECT_EQ(check.options.data_dir, "d");
+  EXPECT_TRUE(check.options.json);
+  const ParsedOptions backup = parse({"backup", "--data-dir", "d", "--output", "f", "--force"});
+  ASSERT_FALSE(backup.exit_code);
+  EXPECT_EQ(backup.options.command, Command::kBackup);
+  EXPECT_EQ(backup.options.output, "f");
+  EXPECT_TRUE(backup.options.force);
+  EXPECT_FALSE(parse({"backup", "--data-dir", "d", "-o", "f"}).options.force);
+  EXPECT_EQ(parse({"migrate", "--data-dir", "d"}).options.command, Command::kMigrate);
+}
+
+TEST(OptionsTest, MisusedCommandsExitWithTwo) {
+  for (const char* command : {"check", "backup", "migrate"}) {
+    EXPECT_EQ(parse({command}).exit_code, 2) << command;
+    EXPECT_EQ(parse({command, "--help"}).exit_code, 0) << command;
+    EXPECT_EQ(parse({"--workers", "2", command, "--data-dir", "d", "-o", "f"}).exit_code, 2) << command;
+  }
+  EXPECT_EQ(parse({"backup", "--data-dir", "d"}).exit_code, 2);
+  EXPECT_EQ(parse({"check", "--data-dir", "d", "--force"}).exit_code, 2);
+  EXPECT_EQ(parse({"check", "migrate", "--data-dir", "d"}).exit_code, 2);
+  EXPECT_EQ(parse({"check", "--data-dir", "d", "--workers", "2"}).exit_code, 2);
+  // Ignored, it would be another directory than the one that was meant.
+  EXPECT_EQ(parse({"--data-dir", "d", "check", "--data-dir", "e"}).exit_code, 2);
+}
+
 TEST(RunTest, DamagedDatabaseIsNoInternalError) {
   const TemporaryDirectory directory;
   Options options;
@@ -108,6 +140,24 @@ TEST(DataDirTest, IsHeldByOneServer) {
     }
   }
   EXPECT_NO_THROW(DataDir again(path));
+}
+
+TEST(DataDirTest, TellsItsHolder) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.path().string();
+  EXPECT_EQ(data_dir_holder(path), std::nullopt);
+  EXPECT_TRUE(std::filesystem::is_empty(path)) << "asking changes nothing";
+  {
+    const DataDir held(path);
+    EXPECT_EQ(data_dir_holder(path), "pid " + std::to_string(getpid()));
+    EXPECT_THROW(DataDir(path, std::chrono::milliseconds(0)), DataDirInUse);
+  }
+  EXPECT_EQ(data_dir_holder(path), std::nullopt);
+  const int asking = open((path + "/server.lock").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(asking, LOCK_SH), 0);
+  EXPECT_EQ(data_dir_holder(path), std::nullopt) << "another one who asks is no server";
+  close(asking);
+  EXPECT_NO_THROW(DataDir(path, std::chrono::milliseconds(0))) << "whoever asks holds nothing";
 }
 
 // As when a client starts a private server while the idle one is leaving.

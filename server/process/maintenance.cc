@@ -1,0 +1,250 @@
+#include "process/maintenance.h"
+
+#include <sqlite3.h>
+
+#include <cerrno>
+#include <csignal>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "process/data_dir.h"
+#include "process/exit_code.h"
+#include "store/backup.h"
+#include "store/check_database.h"
+#include "store/database_file.h"
+#include "store/errors.h"
+#include "store/migrate.h"
+#include "store/sqlite.h"
+
+namespace affskel::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Errors by the names that the client gives them.
+const char* name_of(ExitCode code) {
+  switch (code) {
+    case ExitCode::kFaults:
+      return "FAULT";
+    case ExitCode::kUsage:
+      return "USAGE";
+    case ExitCode::kBadInput:
+      return "BAD_INPUT";
+    case ExitCode::kCancelled:
+      return "CANCELLED";
+    case ExitCode::kNotAllowed:
+      return "NOT_ALLOWED";
+    case ExitCode::kLimit:
+      return "LIMIT";
+    default:
+      return "INTERNAL";
+  }
+}
+
+// Paths and damaged rows may hold any bytes.
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Each message is one line, whatever it quotes.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return text;
+}
+
+class Console {
+ public:
+  explicit Console(bool json) : json_(json) {}
+
+  void result(const Json& document) const {
+    if (json_) {
+      std::cout << dump(document) << '\n';
+    } else {
+      for (const auto& [key, value] : document.items()) std::cout << key << ": " << text_of(value) << '\n';
+    }
+    std::cout.flush();
+  }
+
+  void error(ExitCode code, const std::string& message) const {
+    if (json_) {
+      std::cerr << dump({{"error", {{"code", name_of(code)}, {"message", message}}}}) << '\n';
+    } else {
+      std::cerr << "affskel-server: " << one_line(message) << '\n';
+    }
+  }
+
+  /// For people only.
+  void note(const std::string& message) const {
+    if (!json_) std::cerr << "affskel-server: " << message << '\n';
+  }
+
+ private:
+  static std::string text_of(const Json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return value.is_string() ? one_line(value.get<std::string>()) : dump(value);
+  }
+
+  bool json_;
+};
+
+ExitCode check_command(const Options& options, const Console& console) {
+  const auto on_fault = [&](const Fault& fault) {
+    console.error(ExitCode::kFaults, fault.where + ": " + fault.what);
+  };
+  const std::string server = data_dir_holder(options.data_dir).value_or("none");
+  const CheckResult found = check_database(options.data_dir, on_fault);
+  if (found.schema > 0 && found.schema < newest_schema()) {
+    console.note("schema " + std::to_string(found.schema) + " is older than this program's, " +
+                 std::to_string(newest_schema()) +
+                 ": its content was not checked; affskel-server migrate brings it up to date");
+  }
+  console.result({{"database", database_file(options.data_dir)},
+                  {"server", server},
+                  {"schema", found.schema},
+                  {"newest_schema", newest_schema()},
+                  {"complete", found.complete},
+                  {"jobs", found.jobs},
+                  {"meshes", found.meshes},
+                  {"fields", found.fields},
+                  {"artifacts", found.artifacts},
+                  {"faults", found.faults},
+                  {"sound", found.faults == 0}});
+  return found.faults == 0 ? ExitCode::kDone : ExitCode::kFaults;
+}
+
+/// Signals that would end the program wait, so that nothing half-written stays behind.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigemptyset(&set_);
+    for (int number : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&set_, number);
+    pthread_sigmask(SIG_BLOCK, &set_, &before_);
+  }
+  ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+  /// Takes one that waits, if there is one.
+  bool take() const {
+    const timespec at_once{};
+    return sigtimedwait(&set_, nullptr, &at_once) > 0;
+  }
+
+ private:
+  sigset_t set_{};
+  sigset_t before_{};
+};
+
+ExitCode backup_command(const Options& options, const Console& console) {
+  const HeldSignals signals;
+  const Backup backup =
+      back_up(options.data_dir, options.output, {options.force, [&] { return !signals.take(); }});
+  if (!backup.complete) {
+    console.error(ExitCode::kCancelled, "interrupted; " + options.output + " was not written");
+    return ExitCode::kCancelled;
+  }
+  console.result({{"backup", options.output}, {"bytes", backup.bytes}, {"schema", backup.schema}});
+  return ExitCode::kDone;
+}
+
+/// Refused before anything is changed: opening a database for writing changes its journal mode.
+int schema_before(const std::string& file) {
+  Database db(file, Database::Mode::kReadOnly);
+  return checked_schema(db);
+}
+
+ExitCode migrate_command(const Options& options, const Console& console) {
+  // Looked for first: taking hold of the directory would make it.
+  const std::string file = existing_database_file(options.data_dir);
+  const DataDir held(options.data_dir);
+  const int from = schema_before(file);
+  if (from == newest_schema()) {
+    console.note("the schema is up to date, nothing to do");
+    console.result({{"database", file}, {"from", from}, {"to", from}});
+    return ExitCode::kDone;
+  }
+  Database db(file, Database::Mode::kReadWrite);
+  console.result({{"database", file}, {"from", from}, {"to", migrate(db)}});
+  return ExitCode::kDone;
+}
+
+ExitCode run_command(const Options& options, const Console& console) {
+  switch (options.command) {
+    case Command::kCheck:
+      return check_command(options, console);
+    case Command::kBackup:
+      return backup_command(options, console);
+    case Command::kMigrate:
+      return migrate_command(options, console);
+    case Command::kServe:
+      break;
+  }
+  throw std::logic_error("not a command on a data directory");
+}
+
+ExitCode code_of(const SqliteError& error) {
+  switch (error.primary_code()) {
+    case SQLITE_FULL:
+      return ExitCode::kLimit;
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return ExitCode::kNotAllowed;
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+    case SQLITE_IOERR:
+      return ExitCode::kBadInput;
+    default:
+      return ExitCode::kInternal;
+  }
+}
+
+ExitCode code_of(const std::system_error& error) {
+  switch (error.code().value()) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return ExitCode::kLimit;
+    case EEXIST:
+      return ExitCode::kNotAllowed;
+    default:
+      return ExitCode::kBadInput;
+  }
+}
+
+}  // namespace
+
+int run_maintenance(const Options& options) {
+  const Console console(options.json);
+  const auto fail = [&](ExitCode code, const std::exception& error) {
+    console.error(code, error.what());
+    return static_cast<int>(code);
+  };
+  try {
+    return static_cast<int>(run_command(options, console));
+  } catch (const StoreError& error) {
+    return fail(error.code() == StoreError::Code::kInvalid ? ExitCode::kUsage : ExitCode::kBadInput, error);
+  } catch (const SqliteError& error) {
+    return fail(code_of(error), error);
+  } catch (const DataDirInUse& error) {
+    return fail(ExitCode::kNotAllowed, error);
+  } catch (const std::system_error& error) {
+    const ExitCode code = code_of(error);
+    const char* remedy = code == ExitCode::kNotAllowed ? "; --force replaces it" : "";
+    console.error(code, error.what() + std::string(remedy));
+    return static_cast<int>(code);
+  } catch (const std::runtime_error& error) {  // a directory that cannot be used
+    return fail(ExitCode::kBadInput, error);
+  } catch (const std::exception& error) {
+    return fail(ExitCode::kInternal, error);
+  }
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,136 @@
+#include "store/check_rules.h"
+
+namespace affskel::server {
+namespace {
+
+// Each names where and what for every fault of its kind.
+
+// Who needs what, and what goes when nobody does: store_space.cc.
+constexpr const char* kOwnership[] = {
+    "SELECT 'erosion ' || e.id, 'is marked for deletion, but job ' || j.id || ' needs it'"
+    " FROM erosions e JOIN jobs j ON j.erosion_id = e.id WHERE e.dropped = 1",
+
+    "SELECT 'erosion ' || id, 'no job needs it, and it is not marked for deletion'"
+    " FROM erosions WHERE dropped = 0 AND id NOT IN (SELECT erosion_id FROM jobs)",
+
+    "SELECT 'mesh ' || d.sha256, 'is marked for deletion, but erosion ' || e.id || ' needs it'"
+    " FROM dropped_meshes d JOIN erosions e ON e.mesh_sha256 = d.sha256",
+
+    "SELECT 'mesh ' || sha256, 'nothing needs it, and it is not marked for deletion' FROM meshes"
+    " WHERE sha256 NOT IN (SELECT mesh_sha256 FROM erosions)"
+    " AND sha256 NOT IN (SELECT sha256 FROM dropped_meshes)",
+
+    "SELECT 'erosion ' || e.id, 'is not finished, but ' || count(*) || ' jobs share it'"
+    " FROM erosions e JOIN jobs j ON j.erosion_id = e.id WHERE e.finished = 0 GROUP BY e.id"
+    " HAVING count(*) > 1",
+};
+
+// What is done, and what must or must not be there by then: store_reports.cc, store_complete.cc.
+constexpr const char* kProgress[] = {
+    "SELECT 'erosion ' || id, directions_done || ' directions are counted as done, the ranges have ' || n"
+    " FROM (SELECT id, directions_done, (SELECT ifnull(sum(end_position - first_position), 0)"
+    " FROM done_ranges WHERE erosion_id = e.id) AS n FROM erosions e) WHERE n <> directions_done",
+
+    "SELECT 'erosion ' || e.id, 'positions up to ' || max(r.end_position) || ' are done, of '"
+    " || ifnull(e.directions, 0) FROM erosions e JOIN done_ranges r ON r.erosion_id = e.id"
+    " GROUP BY e.id HAVING max(r.end_position) > ifnull(e.directions, 0)",
+
+    "SELECT 'erosion ' || erosion_id, 'the done range that begins at ' || next || ' is not apart from the one"
+    " that begins at ' || first_position FROM (SELECT *, lead(first_position) OVER"
+    " (PARTITION BY erosion_id ORDER BY first_position) AS next FROM done_ranges) WHERE next <= end_position",
+
+    "SELECT 'erosion ' || id, 'is not prepared, but has a field or artefacts' FROM erosions e"
+    " WHERE core_version IS NULL AND dropped = 0 AND"
+    " (EXISTS (SELECT 1 FROM field_chunks WHERE erosion_id = e.id)"
+    " OR EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)"
+    " OR EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = e.id))",
+
+    "SELECT 'erosion ' || e.id, 'is prepared, but has no ' || k.kind FROM erosions e"
+    " JOIN (SELECT 'lattice' AS kind UNION SELECT 'directions') k"
+    " WHERE e.core_version IS NOT NULL AND e.dropped = 0 AND NOT EXISTS"
+    " (SELECT 1 FROM artifacts WHERE erosion_id = e.id AND kind = k.kind AND params_key = '')",
+
+    "SELECT 'erosion ' || id, 'is finished, but not all of its field is merged' FROM erosions e"
+    " WHERE finished = 1 AND dropped = 0 AND EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)",
+
+    "SELECT 'artefact ' || a.id, 'a ' || a.kind || ' of erosion ' || e.id || ', which is not finished'"
+    " FROM artifacts a JOIN erosions e ON e.id = a.erosion_id"
+    " WHERE a.kind NOT IN ('lattice', 'directions') AND e.finished = 0 AND e.dropped = 0",
+};
+
+// Jobs against their erosions: tasks.cc, settle_job().
+constexpr const char* kJobs[] = {
+    "SELECT 'job ' || j.id, 'is in stage ' || j.stage || ', its erosion is ' || CASE"
+    " WHEN e.finished THEN 'finished' WHEN e.core_version IS NULL THEN 'not prepared'"
+    " ELSE 'prepared and not finished' END FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
+    " WHERE j.stage NOT IN (CASE WHEN e.finished THEN 'derive' WHEN e.core_version IS NULL THEN 'prepare'"
+    " ELSE 'erode' END, iif(e.finished, 'complete', ''))",
+
+    "SELECT 'job ' || j.id, 'is done, but its skeleton is missing' FROM jobs j WHERE j.state = 'done'"
+    " AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id AND kind = 'skeleton'"
+    " AND params_key = j.skeleton_key)",
+
+    "SELECT 'job ' || j.id, 'tells of ' || j.skeleton_points || ' skeleton points, its skeleton has '"
+    " || a.items FROM jobs j JOIN artifacts a ON a.erosion_id = j.erosion_id AND a.kind = 'skeleton'"
+    " AND a.params_key = j.skeleton_key WHERE j.state = 'done' AND j.skeleton_points <> a.items",
+
+    "SELECT 'job ' || id, 'is ' || state || ', but still to be cancelled' FROM jobs"
+    " WHERE cancel_requested = 1 AND state NOT IN ('queued', 'running')",
+};
+
+// Tasks against jobs and what is done: a job without the task that it waits for would wait for ever.
+constexpr const char* kTasks[] = {
+    "SELECT 'job ' || j.id, 'is in stage prepare, but no task is left to prepare it' FROM jobs j"
+    " WHERE j.stage = 'prepare' AND NOT EXISTS (SELECT 1 FROM tasks"
+    " WHERE job_id = j.id AND kind = 'prepare' AND state IN ('pending', 'leased'))",
+
+    "SELECT 'job ' || j.id, 'is in stage derive, but no task is left to make its skeleton' FROM jobs j"
+    " WHERE j.stage = 'derive' AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = 'skeleton'"
+    " AND on_request = 0 AND params_key = j.skeleton_key AND state IN ('pending', 'leased'))",
+
+    "SELECT 'job ' || j.id, 'its blocks do not cover positions 0 to ' || e.directions || ' once' FROM jobs j"
+    " JOIN erosions e ON e.id = j.erosion_id LEFT JOIN"
+    " (SELECT job_id, first_position, end_position, lead(first_position) OVER"
+    "  (PARTITION BY job_id ORDER BY first_position) AS next FROM tasks WHERE kind = 'erode') t"
+    " ON t.job_id = j.id WHERE j.stage = 'erode' GROUP BY j.id HAVING min(t.first_position) IS NOT 0"
+    " OR max(t.end_position) IS NOT e.directions"
+    " OR sum(t.next IS NOT NULL AND t.next <> t.end_position) > 0",
+
+    "SELECT 'task ' || t.id, 'block ' || t.first_position || ' to ' || t.end_position || ' of job ' || j.id"
+    " || ' is done, but not all of its positions are' FROM tasks t JOIN jobs j ON j.id = t.job_id"
+    " WHERE t.kind = 'erode' AND t.state = 'done' AND NOT EXISTS (SELECT 1 FROM done_ranges r"
+    " WHERE r.erosion_id = j.erosion_id AND r.first_position <= t.first_position"
+    " AND r.end_position >= t.end_position)",
+
+    "SELECT 'task ' || t.id, 'is ' || t.state || ', a task to ' || t.kind || ' job ' || j.id"
+    " || ', which is in stage ' || j.stage FROM tasks t JOIN jobs j ON j.id = t.job_id"
+    " WHERE t.state <> 'done' AND (t.kind = 'prepare' AND j.stage <> 'prepare'"
+    " OR t.kind = 'erode' AND j.stage <> 'erode')",
+
+    "SELECT 'task ' || t.id, 'a ' || t.kind || ' of job ' || j.id || ', whose field is not finished'"
+    " FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
+    " WHERE t.kind NOT IN ('prepare', 'erode') AND e.finished = 0",
+
+    "SELECT 'task ' || id, 'has failed alone: it belongs to job ' || job_id || ', which fails with it'"
+    " FROM tasks WHERE state = 'failed' AND on_request = 0",
+};
+
+template <std::size_t count>
+void check_all(Database& db, FaultLog& faults, const char* const (&rules)[count]) {
+  for (const char* rule : rules) {
+    Statement row = db.query(rule);
+    while (row.step()) faults.add(row.text(0), row.text(1));
+    faults.end_kind();
+  }
+}
+
+}  // namespace
+
+void check_rules(Database& db, FaultLog& faults) {
+  check_all(db, faults, kOwnership);
+  check_all(db, faults, kProgress);
+  check_all(db, faults, kJobs);
+  check_all(db, faults, kTasks);
+}
+
+}  // namespace affskel::server

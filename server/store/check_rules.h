@@ -1,0 +1,12 @@
+#pragma once
+
+#include "store/fault_log.h"
+#include "store/sqlite.h"
+
+namespace affskel::server {
+
+/// Checks how the rows of different tables go together: what the server keeps true with every transaction and
+/// no constraint of the schema says.  Requires the newest schema.
+void check_rules(Database& db, FaultLog& faults);
+
+}  // namespace affskel::server

@@ -1,0 +1,45 @@
+#include "store/check_schema.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "store/migrate.h"
+
+namespace affskel::server {
+namespace {
+
+struct Part {
+  std::string kind;
+  std::string name;
+  friend auto operator<=>(const Part&, const Part&) = default;
+};
+
+/// All parts, sorted.
+std::vector<Part> parts_of(Database& db) {
+  Statement row = db.query(
+      "SELECT type, name FROM sqlite_schema UNION"
+      " SELECT 'column', s.name || '.' || c.name FROM sqlite_schema s, pragma_table_info(s.name) c"
+      " WHERE s.type = 'table' ORDER BY 1, 2");
+  std::vector<Part> parts;
+  while (row.step()) parts.push_back({row.text(0), row.text(1)});
+  return parts;
+}
+
+}  // namespace
+
+bool check_schema(Database& db, int schema, FaultLog& faults) {
+  Database model(":memory:", Database::Mode::kReadWrite);
+  for (const Migration& step : embedded_migrations()) {
+    if (step.number <= schema) model.execute(step.sql);
+  }
+  const std::vector<Part> found = parts_of(db);
+  bool readable = true;
+  for (const Part& part : parts_of(model)) {
+    if (std::binary_search(found.begin(), found.end(), part)) continue;
+    faults.add(part.kind + " " + part.name, "is missing");
+    readable = readable && part.kind != "table" && part.kind != "column";
+  }
+  return readable;
+}
+
+}  // namespace affskel::server
