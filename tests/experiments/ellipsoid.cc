@@ -95,8 +95,8 @@ std::string explanation() {
       "directions of a fine sphere as with the mesh's own, and it shrinks to the sphere's cluster in the "
       "affine frame, in which the ellipsoid is a sphere. The operator `chords`, which looks for equal "
       "chords and not for curvature, finds the centre within about a voxel there; in the axis frame it "
-      "too keeps a part of the flat region, where the normals of two neighbouring points differ by more "
-      "than 60 degrees.",
+      "too keeps a part of the flat region, where the normals turn by a right angle within a few points, "
+      "and loses it as the spacing falls.",
       kGain, 7 / kGain, 2 * kGain / 7);
 }
 

@@ -103,6 +103,14 @@ TEST_F(ViewTest, TakesTheJobsSkeletonOrAnother) {
   EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_CENTRAL);
 }
 
+TEST_F(ViewTest, AnEmptySkeletonIsAWarning) {
+  const std::string warning = "warning: the skeleton is empty";
+  EXPECT_EQ(run({"-o", dir_ / "p.html"}).err.find(warning), std::string::npos);
+  const Outcome done = run({"--threshold", "100", "-o", dir_ / "p.html"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find(warning), std::string::npos);
+}
+
 TEST_F(ViewTest, EveryOperatorBeginsAtItsOwnThreshold) {
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CENTRAL);
   service_.job.mutable_skeleton()->set_threshold(0.25);

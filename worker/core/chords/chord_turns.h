@@ -54,8 +54,8 @@ struct ChordTurnOptions {
 ///
 /// Measured on mh_man of 292, 1000 and 5000 triangles at a body's height / 180 as spacing: share of the
 /// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the diagonal,
-/// and back, means of 8 seeds: 93.7/94.3 %; by a band of five spacings 94.2/93.6 %, with twice as many
-/// tunnels; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
+/// and back, means of 8 seeds: 93.7/94.2 %; by a band of five spacings 94.2/93.6 %, with 51 tunnels
+/// for 29; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
 /// 360 to the height) moves 98 % and more of what lies two coarse spacings from the rim by less than half a
 /// coarse spacing; with a band of five spacings a third of that is lost.
 ///

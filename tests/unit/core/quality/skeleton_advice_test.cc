@@ -77,7 +77,7 @@ TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
 TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
   NormalBlock block({10, 10, 10});
   const std::string advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
-  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 90")) << advice;
+  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 89")) << advice;
   EXPECT_FALSE(says(advice, "--frame")) << advice;
   EXPECT_FALSE(says(advice, "--threshold")) << advice;
 }
