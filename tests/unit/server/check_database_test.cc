@@ -207,6 +207,11 @@ struct Planted {
   const char* found;  // words that only this kind of fault is told with
 };
 
+// Without it GoogleTest puts the bytes, addresses and all, into the names of the tests.
+void PrintTo(const Planted& planted, std::ostream* out) {
+  *out << planted.name;
+}
+
 /// SQL, in which EROSION(job) is the erosion of a job of that name and JOB(job) its id.
 std::function<void(Database&)> sql(std::string script) {
   for (const char* job : {"eroding", "done", "deriving", "queued"}) {

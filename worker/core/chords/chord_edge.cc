@@ -23,9 +23,9 @@ std::optional<std::array<std::uint32_t, 2>> ends_of_edge(const Lattice& lattice,
   const auto key = [u = (axis + 1U) % 3, v = (axis + 2U) % 3, axis](const std::array<std::uint32_t, 3>& at) {
     return std::array{at[u], at[v], at[axis]};
   };
-  const auto next = std::upper_bound(
-      along.runs.begin(), along.runs.end(), place,
-      [&](const auto& at, const LatticeRun& run) { return key(at) < key(run.start); });
+  const auto next =
+      std::upper_bound(along.runs.begin(), along.runs.end(), place,
+                       [&](const auto& at, const LatticeRun& run) { return key(at) < key(run.start); });
   if (next == along.runs.begin()) return {};
   const LatticeRun& run = *std::prev(next);
   const auto [u, v, w] = key(place);

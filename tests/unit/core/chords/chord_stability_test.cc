@@ -62,8 +62,7 @@ std::vector<Vec3> vertices_of(const ErodedSolid& solid, const ChordSheet& sheet,
 std::vector<Vec3> sampled(const ErodedSolid& solid, const ChordSheet& sheet) {
   std::vector<Vec3> points = vertices_of(solid, sheet, 0);
   for (const Triangle& t : sheet.triangles) {
-    const Vec3 p = solid.place(sheet.vertices[t[0]].position),
-               q = solid.place(sheet.vertices[t[1]].position),
+    const Vec3 p = solid.place(sheet.vertices[t[0]].position), q = solid.place(sheet.vertices[t[1]].position),
                r = solid.place(sheet.vertices[t[2]].position);
     for (const Vec3& middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p), (1.0 / 3) * (p + q + r)})
       points.push_back(middle);

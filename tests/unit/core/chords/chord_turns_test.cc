@@ -39,8 +39,8 @@ std::vector<ChordShock> turned(const BoxLattice& box, const FrameField& field,
   return shocks;
 }
 
-// E is 10 to 13 in these fields, |g| and h are 1, so that the depth d is 10 to 13, too: 0.45 of it are about 5
-// edges, the shock's own and (rounded) two to either side.
+// E is 10 to 13 in these fields, |g| and h are 1, so that the depth d is 10 to 13, too: 0.45 of it are about
+// 5 edges, the shock's own and (rounded) two to either side.
 ChordTurnOptions unaveraged(double width = 0.45) {
   ChordTurnOptions options;
   options.width = width;
