@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <ostream>
 
 #include "expect_store_error.h"
 #include "store/migrate.h"

@@ -180,7 +180,11 @@ TEST_P(FrameTest, ResultsComeBackFromTheFrame) {
 INSTANTIATE_TEST_SUITE_P(Derive, FrameTest,
                          ::testing::Values(InFrame{v1::FRAME_AFFINE, v1::OPERATOR_ZUCKER_HUMMEL, 3},
                                            InFrame{v1::FRAME_PCA, v1::OPERATOR_ZUCKER_HUMMEL, 5},
-                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_CHORDS, 0}));
+                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_CHORDS, 0}),
+                         [](const auto& each) {
+                           return v1::Frame_Name(each.param.frame) + "_" +
+                                  v1::Operator_Name(each.param.which);
+                         });
 
 }  // namespace
 }  // namespace affskel::worker

@@ -11,16 +11,17 @@
 
 namespace affskel::core {
 
-// Notation.  d = E / |g|, |g| the mean of the shock's two, is its depth: the mean height of the piece that its
-// chords cut off, over their section.  h is the spacing.
+// Notation.  d = E / |g|, |g| the mean of the shock's two, is its depth: the mean height of the piece that
+// its chords cut off, over their section.  h is the spacing.
 
 struct ChordTurnOptions {
   /// Width of the band across the sheet, along a lattice line, over which the normals' turn is measured, as a
   /// share of the depth d, >= 0; at least the shock's own edge, at most 64 edges to either side of it.
   double width = 0.7;
   /// Least jump |g_x - g_y| of a shock that speaks for those round it, as a share of the largest one that
-  /// candidates lead to within as many cells as the band reaches, 0 .. 1.  Beside a sheet the normals turn fast along it, too,
-  /// where it ends or where chords hang on to a few directions; the sheet itself jumps more.
+  /// candidates lead to within as many cells as the band reaches, 0 .. 1.  Beside a sheet the normals turn
+  /// fast along it, too, where it ends or where chords hang on to a few directions; the sheet itself jumps
+  /// more.
   double least_share = 0.4;
   /// Least kink s of a shock that speaks, as a share of the change of slope over its band, 0 .. 1.  Round the
   /// centre of a ball the normals turn by a right angle within the band, too, but evenly, in the many small
@@ -43,9 +44,9 @@ struct ChordTurnOptions {
 /// (least_share): the sheet stays one layer (non-maximum suppression, as in Canny 1986).
 ///
 /// The band goes with the solid's own size at the place, not with the lattice: where the spacing is halved it
-/// spans twice as many edges, and the sheet at true shocks stays where it is.  A ridge, where the normals turn
-/// fast without a jump (the middle plane of a box seen by very many directions), comes apart as the spacing
-/// falls: its largest step becomes a small share of its turn.
+/// spans twice as many edges, and the sheet at true shocks stays where it is.  A ridge, where the normals
+/// turn fast without a jump (the middle plane of a box seen by very many directions), comes apart as the
+/// spacing falls: its largest step becomes a small share of its turn.
 ///
 /// Then the turns of those that speak are averaged along the sheet, over the cells of the lattice that they
 /// bound: each cell has the mean turn of its shocks, weighted by turn and area (|N_a|, see chord_pruning.h),
@@ -53,8 +54,8 @@ struct ChordTurnOptions {
 /// gain.
 ///
 /// Measured on mh_man of 292, 1000 and 5000 triangles at a body's height / 180 as spacing: share of the
-/// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the diagonal,
-/// and back, means of 8 seeds: 93.7/94.2 %; by a band of five spacings 94.2/93.6 %, with 51 tunnels
+/// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the
+/// diagonal, and back, means of 8 seeds: 93.7/94.2 %; by a band of five spacings 94.2/93.6 %, with 51 tunnels
 /// for 29; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
 /// 360 to the height) moves 98 % and more of what lies two coarse spacings from the rim by less than half a
 /// coarse spacing; with a band of five spacings a third of that is lost.
@@ -63,7 +64,8 @@ struct ChordTurnOptions {
 /// the frame's metric only, as the opening is (see chord_shocks.h).
 /// @param parts of the solid in this lattice.
 /// @param shocks of this lattice and field, by (point, axis), each edge once.
-/// @throws CoreError kBadInput when an option is out of range; kLimit for 2^30 shocks and more; kCancelled when
+/// @throws CoreError kBadInput when an option is out of range; kLimit for 2^30 shocks and more; kCancelled
+/// when
 ///   the context asks to stop.
 void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
                    std::vector<ChordShock>& shocks, const ChordTurnOptions& options = {});
