@@ -151,7 +151,8 @@ class TurnGauge {
   }
 
   bool is_concentrated(std::uint32_t n) const {
-    const std::uint32_t s = on_line_[n], axis = shocks_[s].axis;
+    const std::uint32_t s = on_line_[n];
+    const int axis = shocks_[s].axis;
     const auto& [low, high] = ends_of_band(n, whole_reach(s));
     return kink(s) >= options_.least_concentration * (low[axis] - high[axis]);
   }
