@@ -1,6 +1,5 @@
 // The page that shows a job: fetches what it needs, hands it to client/view.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -96,7 +95,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
     divergences = fetch_divergences(context, job.id(), params, lattice.count());
   }
   const auto kept = std::count_if(divergences.begin(), divergences.end(),
-                                  [&](float h) { return std::abs(double{h}) > input.threshold; });
+                                  [&](float h) { return double{h} > input.threshold; });
   warn_if_empty(context.console(),
                 static_cast<std::uint64_t>(input.sheet_is_skeleton ? input.sheet.corners_size() / 3 : kept),
                 input.sheet.quality(), job);

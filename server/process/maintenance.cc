@@ -60,13 +60,16 @@ class Console {
  public:
   explicit Console(bool json) : json_(json) {}
 
+  /// @throws std::system_error when they cannot be written.
   void result(const Json& document) const {
+    errno = 0;
     if (json_) {
       std::cout << dump(document) << '\n';
     } else {
       for (const auto& [key, value] : document.items()) std::cout << key << ": " << text_of(value) << '\n';
     }
-    std::cout.flush();
+    if (!std::cout.flush())
+      throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), "cannot write the results");
   }
 
   void error(ExitCode code, const std::string& message) const {
@@ -97,7 +100,7 @@ ExitCode check_command(const Options& options, const Console& console) {
   };
   const std::string server = data_dir_holder(options.data_dir).value_or("none");
   const CheckResult found = check_database(options.data_dir, on_fault);
-  if (found.schema > 0 && found.schema < newest_schema()) {
+  if (found.schema < newest_schema()) {
     console.note("schema " + std::to_string(found.schema) + " is older than this program's, " +
                  std::to_string(newest_schema()) +
                  ": its content was not checked; affskel-server migrate brings it up to date");
@@ -121,7 +124,9 @@ class HeldSignals {
  public:
   HeldSignals() {
     sigemptyset(&set_);
-    for (int number : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&set_, number);
+    for (int number : {SIGTERM, SIGINT, SIGHUP}) {
+      if (!is_ignored(number)) sigaddset(&set_, number);
+    }
     pthread_sigmask(SIG_BLOCK, &set_, &before_);
   }
   ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -135,6 +140,12 @@ class HeldSignals {
   }
 
  private:
+  // By nohup, say.  Held, it would wait to be taken all the same.
+  static bool is_ignored(int number) {
+    struct sigaction now {};
+    return sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+  }
+
   sigset_t set_{};
   sigset_t before_{};
 };
@@ -148,6 +159,8 @@ ExitCode backup_command(const Options& options, const Console& console) {
     return ExitCode::kCancelled;
   }
   console.result({{"backup", options.output}, {"bytes", backup.bytes}, {"schema", backup.schema}});
+  while (signals.take()) {  // too late: it is written
+  }
   return ExitCode::kDone;
 }
 

@@ -185,7 +185,8 @@ int fail(ExitCode code, const std::exception& error) {
 }  // namespace
 
 int run(const Options& options) {
-  start_logging(options.log_level);
+  // Commands speak for themselves.
+  start_logging(options.command == Command::kServe ? options.log_level : "off");
   if (options.command != Command::kServe) return run_maintenance(options);
   try {
     run_server(options);

@@ -86,18 +86,29 @@ void refuse_left_logs(const std::string& target) {
   }
 }
 
+bool lies_in(const fs::path& file, const fs::path& directory) {
+  std::error_code error;
+  fs::path at = fs::weakly_canonical(directory_of(file), error);
+  for (; !fs::equivalent(at, directory, error); at = at.parent_path()) {
+    if (at == at.parent_path()) return false;
+  }
+  return true;
+}
+
 /// Where the backup goes: a symbolic link is followed.
 std::string checked_target(const std::string& target, const std::string& data_dir, bool force) {
   std::error_code error;
+  if (target == "-")
+    throw StoreError(StoreError::Code::kInvalid, "a backup is a file, it cannot go to the standard output");
   const bool exists = fs::exists(fs::symlink_status(target, error));
-  if (exists && !force) fail(EEXIST, target);
   if (exists && fs::is_directory(target, error)) fail(EISDIR, target);
   if (exists && !fs::is_regular_file(target, error)) {
     throw StoreError(StoreError::Code::kInvalid, target + ": only a regular file is replaced");
   }
+  if (exists && !force) fail(EEXIST, target);
   const fs::path path = exists ? fs::canonical(target) : fs::path(target);
   // It might be the database itself, or its log; and there it would be lost together with them.
-  if (fs::equivalent(directory_of(path), data_dir, error)) {
+  if (lies_in(path, data_dir)) {
     throw StoreError(StoreError::Code::kInvalid, target + ": a backup must not lie in the data directory");
   }
   refuse_left_logs(path.string());

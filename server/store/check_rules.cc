@@ -88,7 +88,8 @@ constexpr const char* kTasks[] = {
     " WHERE j.stage = 'derive' AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = 'skeleton'"
     " AND on_request = 0 AND params_key = j.skeleton_key AND state IN ('pending', 'leased'))",
 
-    "SELECT 'job ' || j.id, 'its blocks do not cover positions 0 to ' || e.directions || ' once' FROM jobs j"
+    "SELECT 'job ' || j.id, 'its blocks do not cover positions 0 to ' ||"
+    " coalesce(e.directions, '(none yet)') || ' once' FROM jobs j"
     " JOIN erosions e ON e.id = j.erosion_id LEFT JOIN"
     " (SELECT job_id, first_position, end_position, lead(first_position) OVER"
     "  (PARTITION BY job_id ORDER BY first_position) AS next FROM tasks WHERE kind = 'erode') t"

@@ -145,6 +145,10 @@ TEST_F(BackupTest, RefusesPlacesThatCannotBeWritten) {
   EXPECT_EQ(refused_with((elsewhere_.path() / "missing" / "copy.db").string()), ENOENT);
   EXPECT_EQ(refused_with(elsewhere_.path().string(), {true}), EISDIR);
   EXPECT_STORE_ERROR(back_up(directory_.path(), "/dev/null", {true}), kInvalid);
+  EXPECT_STORE_ERROR(back_up(directory_.path(), "/dev/null"), kInvalid);
+  EXPECT_STORE_ERROR(back_up(directory_.path(), "-"), kInvalid);
+  fs::create_directories(fs::path(directory_.path()) / "a/b");
+  EXPECT_STORE_ERROR(back_up(directory_.path(), fs::path(directory_.path()) / "a/b/copy.db"), kInvalid);
 }
 
 TEST_F(BackupTest, NeverWritesIntoTheDataDirectory) {

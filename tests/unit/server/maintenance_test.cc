@@ -112,6 +112,34 @@ TEST_F(MaintenanceTest, MissingForeignAndNewerDatabasesAreBadInput) {
   }
 }
 
+// SQLite deletes the log beside an empty database as soon as it opens it.
+TEST_F(MaintenanceTest, AnEmptyDatabaseIsRefusedAndItsLogLeftAlone) {
+  store_.reset();
+  std::ofstream(database(), std::ios::trunc).flush();
+  const std::string log = database() + "-wal";
+  std::ofstream(log, std::ios::trunc) << "acknowledged";
+  for (const Command command : {Command::kCheck, Command::kBackup, Command::kMigrate}) {
+    const Outcome refused = run_it(options(command));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("is empty"), std::string::npos) << refused.err;
+    EXPECT_EQ(fs::file_size(log), 12U);
+  }
+}
+
+TEST_F(MaintenanceTest, AnIgnoredSignalDoesNotEndABackup) {
+  sigset_t set;
+  sigset_t before;
+  sigemptyset(&set);
+  sigaddset(&set, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &set, &before);
+  const auto handler = signal(SIGHUP, SIG_IGN);
+  pthread_kill(pthread_self(), SIGHUP);
+  const Outcome done = run_it(options(Command::kBackup));
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  signal(SIGHUP, handler);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
 TEST_F(MaintenanceTest, BackupSaysWhereAndHowLarge) {
   const Outcome done = run_it(options(Command::kBackup));
   EXPECT_EQ(done.exit_code, 0) << done.err;
