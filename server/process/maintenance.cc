@@ -206,16 +206,10 @@ ExitCode code_of(const SqliteError& error) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return ExitCode::kNotAllowed;
-    case SQLITE_NOTADB:
-    case SQLITE_CORRUPT:
-    case SQLITE_CANTOPEN:
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
     case SQLITE_IOERR:
       return ExitCode::kBadInput;
     default:
-      return ExitCode::kInternal;
+      return error.blames_the_file() ? ExitCode::kBadInput : ExitCode::kInternal;
   }
 }
 

@@ -160,21 +160,9 @@ void run_server(const Options& options) {
   spdlog::info("event=stopped");
 }
 
-/// A file that is damaged, foreign or closed to us is no bug of this program.
 ExitCode exit_code_of(const SqliteError& error) {
-  switch (error.primary_code()) {
-    case SQLITE_FULL:
-      return ExitCode::kLimit;
-    case SQLITE_NOTADB:
-    case SQLITE_CORRUPT:
-    case SQLITE_CANTOPEN:
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
-      return ExitCode::kUsage;
-    default:
-      return ExitCode::kInternal;
-  }
+  if (error.primary_code() == SQLITE_FULL) return ExitCode::kLimit;
+  return error.blames_the_file() ? ExitCode::kUsage : ExitCode::kInternal;
 }
 
 int fail(ExitCode code, const std::exception& error) {

@@ -49,6 +49,20 @@ int code_of(sqlite3* db) {
 
 }  // namespace
 
+bool SqliteError::blames_the_file() const {
+  switch (primary_code()) {
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return true;
+    default:
+      return false;
+  }
+}
+
 struct Database::Cached {
   explicit Cached(sqlite3_stmt* handle) : statement(handle) {}
   ~Cached() { sqlite3_finalize(statement); }

@@ -21,6 +21,8 @@ class SqliteError : public std::runtime_error {
       : std::runtime_error(message), extended_code_(extended_code) {}
   int extended_code() const { return extended_code_; }
   int primary_code() const { return extended_code_ & 0xff; }
+  /// The file is damaged, foreign or closed to us: no bug of this program.
+  bool blames_the_file() const;
 
  private:
   int extended_code_;

@@ -35,14 +35,6 @@ class CrashTest : public testing::Test {
     return submitted.out.substr(0, submitted.out.find('\n'));
   }
 
-  // The job when this share of its directions is done.
-  v1::Job wait_for_share(const std::string& id, double share) const {
-    return lab_.follow(id, [&](const v1::Job& job) {
-      return job.directions_total() > 0 && static_cast<double>(job.directions_done()) >=
-                                               share * static_cast<double>(job.directions_total());
-    });
-  }
-
   void expect_undisturbed_field(const std::string& id) const {
     const v1::Job job = lab_.follow_to_end(id);
     ASSERT_EQ(job.state(), v1::JOB_STATE_DONE) << job.error().message();
@@ -57,7 +49,7 @@ class CrashTest : public testing::Test {
   // Kills the worker at each of the moments and starts another in its place.
   void kill_three_times(Process& worker, const std::string& id) const {
     for (double moment : kMoments) {
-      const v1::Job job = wait_for_share(id, moment);
+      const v1::Job job = lab_.follow_to_share(id, moment);
       ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
       worker.kill_hard();
       worker = lab_.worker();
@@ -92,7 +84,7 @@ TEST_F(CrashTest, TheServerIsKilledThreeTimes) {
   const std::string id = submit();
   std::uint64_t acknowledged = 0;
   for (double moment : kMoments) {
-    const v1::Job job = wait_for_share(id, moment);
+    const v1::Job job = lab_.follow_to_share(id, moment);
     ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     EXPECT_GE(job.directions_done(), acknowledged);
     acknowledged = job.directions_done();
@@ -109,7 +101,7 @@ TEST_F(CrashTest, AServerWithItsOwnWorkersIsKilledThreeTimes) {
   Process server = lab_.server(options);
   const std::string id = submit();
   for (double moment : kMoments) {
-    const v1::Job job = wait_for_share(id, moment);
+    const v1::Job job = lab_.follow_to_share(id, moment);
     ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     server.kill_hard();
     server = lab_.server(options);
@@ -122,7 +114,7 @@ TEST_F(CrashTest, ASupervisedWorkerIsKilledThreeTimes) {
   const Process server = lab_.server({"--workers", "1"});
   const std::string id = submit();
   for (double moment : kMoments) {
-    const v1::Job job = wait_for_share(id, moment);
+    const v1::Job job = lab_.follow_to_share(id, moment);
     ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
     grpc::ClientContext context;
     v1::ServerInfo info;

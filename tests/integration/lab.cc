@@ -239,6 +239,13 @@ v1::Job Lab::follow(const std::string& id, const std::function<bool(const v1::Jo
   throw std::runtime_error("job " + id + " did not get there in time");
 }
 
+v1::Job Lab::follow_to_share(const std::string& id, double share) const {
+  return follow(id, [share](const v1::Job& job) {
+    return job.directions_total() > 0 &&
+           static_cast<double>(job.directions_done()) >= share * static_cast<double>(job.directions_total());
+  });
+}
+
 v1::Job Lab::follow_to_end(const std::string& id) const {
   return follow(id, [](const v1::Job&) { return false; });
 }

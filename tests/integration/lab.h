@@ -73,6 +73,8 @@ class Lab {
   /// Follows the job until the condition holds or it is in a final state; returns it as it was then.
   /// Re-attaches when the server goes away and comes back.
   v1::Job follow(const std::string& id, const std::function<bool(const v1::Job&)>& condition) const;
+  /// Until this share of its directions is done.
+  v1::Job follow_to_share(const std::string& id, double share) const;
   v1::Job follow_to_end(const std::string& id) const;
 
   v1::ErosionService::Stub& stub() const { return *stub_; }

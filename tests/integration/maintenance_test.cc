@@ -44,13 +44,6 @@ class ServerCommandsTest : public testing::Test {
     return submitted.out.substr(0, submitted.out.find('\n'));
   }
 
-  v1::Job wait_for_share(const std::string& id, double share) const {
-    return lab_.follow(id, [&](const v1::Job& job) {
-      return job.directions_total() > 0 && static_cast<double>(job.directions_done()) >=
-                                               share * static_cast<double>(job.directions_total());
-    });
-  }
-
   static void expect_field(const Lab& lab, const std::string& id, const std::string& expected) {
     const v1::Job job = lab.follow_to_end(id);
     ASSERT_EQ(job.state(), v1::JOB_STATE_DONE) << job.error().message();
@@ -80,7 +73,7 @@ TEST_F(ServerCommandsTest, ABackupTakenInMidRunGoesOnElsewhere) {
   const Process worker = lab_.worker();
   const std::string done = submit({"--points", "2000", "--wait"});
   const std::string id = submit({"--points", kPoints, "--directions", kDirections});
-  const v1::Job acknowledged = wait_for_share(id, 0.3);
+  const v1::Job acknowledged = lab_.follow_to_share(id, 0.3);
   ASSERT_EQ(acknowledged.state(), v1::JOB_STATE_RUNNING);
   const Output backup = command({"backup", "-o", lab_.path("copy.db")}, lab_.path("data"));
   ASSERT_EQ(backup.exit_code, 0) << backup.err;
@@ -110,7 +103,7 @@ TEST_F(ServerCommandsTest, AKilledServersDatabaseIsSoundAndCopiedWithItsLog) {
   Process server = lab_.server(kQuickReports);
   Process worker = lab_.worker();
   const std::string id = submit({"--points", kPoints, "--directions", kDirections});
-  const v1::Job acknowledged = wait_for_share(id, 0.2);
+  const v1::Job acknowledged = lab_.follow_to_share(id, 0.2);
   server.kill_hard();
   worker.kill_hard();
   const std::string before = lab_.read("data/affskel.db"), log = lab_.read("data/affskel.db-wal");

@@ -46,6 +46,19 @@ class MaintenanceTest : public StoreTest {
     db.execute(script);
   }
 
+  /// With a signal that was sent and waits.
+  static Outcome run_while_pending(int number, const Options& options) {
+    sigset_t set;
+    sigset_t before;
+    sigemptyset(&set);
+    sigaddset(&set, number);
+    pthread_sigmask(SIG_BLOCK, &set, &before);
+    pthread_kill(pthread_self(), number);
+    Outcome outcome = run_it(options);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    return outcome;
+  }
+
   /// An empty database of an earlier schema in the place of the store's.
   void make_old(std::size_t schema) {
     store_.reset();
@@ -127,15 +140,8 @@ TEST_F(MaintenanceTest, AnEmptyDatabaseIsRefusedAndItsLogLeftAlone) {
 }
 
 TEST_F(MaintenanceTest, AnIgnoredSignalDoesNotEndABackup) {
-  sigset_t set;
-  sigset_t before;
-  sigemptyset(&set);
-  sigaddset(&set, SIGHUP);
-  pthread_sigmask(SIG_BLOCK, &set, &before);
   const auto handler = signal(SIGHUP, SIG_IGN);
-  pthread_kill(pthread_self(), SIGHUP);
-  const Outcome done = run_it(options(Command::kBackup));
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  const Outcome done = run_while_pending(SIGHUP, options(Command::kBackup));
   signal(SIGHUP, handler);
   EXPECT_EQ(done.exit_code, 0) << done.err;
 }
@@ -158,14 +164,7 @@ TEST_F(MaintenanceTest, BackupSaysWhereAndHowLarge) {
 }
 
 TEST_F(MaintenanceTest, ASignalEndsABackupWithNothingWritten) {
-  sigset_t set;
-  sigset_t before;
-  sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &set, &before);
-  pthread_kill(pthread_self(), SIGTERM);
-  const Outcome interrupted = run_it(options(Command::kBackup));
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  const Outcome interrupted = run_while_pending(SIGTERM, options(Command::kBackup));
   EXPECT_EQ(interrupted.exit_code, 6);
   EXPECT_TRUE(fs::is_empty(elsewhere_.path()));
 }
