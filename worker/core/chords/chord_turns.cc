@@ -129,7 +129,9 @@ class TurnGauge {
 
   void gauge(std::uint32_t n) {
     const std::uint32_t s = on_line_[n];
-    if (s == kNone || !is_greatest(n) || !is_concentrated(n) || !is_among_largest(s)) return;
+    if (s == kNone || shocks_[s].strength < options_.least_strength || !is_greatest(n) ||
+        !is_concentrated(n) || !is_among_largest(s))
+      return;
     speaks_[s] = true;
     const auto whole = static_cast<std::uint32_t>(reach_[s]);
     const double rest = reach_[s] - whole;
@@ -197,6 +199,7 @@ void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameF
                  "the width of the band must be a finite number >= 0");
   require_within(options.least_share, 0, 1, "the least share of the jump must lie between 0 and 1");
   require_within(options.least_concentration, 0, 1, "the least concentration must lie between 0 and 1");
+  require_within(options.least_strength, 0, 1, "the least strength must lie between 0 and 1");
   const ChordCells cells = chord_cells(lattice, parts, shocks);
   TurnGauge gauge(lattice, field, cells, shocks, options);
   gauge.measure();

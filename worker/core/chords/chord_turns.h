@@ -27,6 +27,10 @@ struct ChordTurnOptions {
   /// centre of a ball the normals turn by a right angle within the band, too, but evenly, in the many small
   /// steps of the direction set.
   double least_concentration = 0.2;
+  /// Least relative strength r of a shock that speaks, 0 .. 1.  Below one half E hardly falls to one side of
+  /// it: it lies between two facets of one side.  Where a torus of few triangles bends away from its sheet,
+  /// such pairs of facets, 0.55 and less, would be wings beside it.
+  double least_strength = 0.56;
   /// Rounds of averaging along the sheet, at most 16.
   std::uint32_t rounds = 1;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
@@ -40,8 +44,9 @@ struct ChordTurnOptions {
 /// each other (rounded) the one with the largest kink s (the first of equal ones) speaks for all: its turn is
 /// the opening between the places q edges beyond both of its ends (in the solid, as far as the line stays in
 /// it; between two sample points in proportion), at least its own.  The others keep their own opening, and so
-/// do one where the normals turn evenly (least_concentration) and one beside a sheet that jumps much more
-/// (least_share): the sheet stays one layer (non-maximum suppression, as in Canny 1986).
+/// do one that is weak (least_strength), one where the normals turn evenly (least_concentration) and one
+/// beside a sheet that jumps much more (least_share): the sheet stays one layer (non-maximum suppression, as
+/// in Canny 1986).
 ///
 /// The band goes with the solid's own size at the place, not with the lattice: where the spacing is halved it
 /// spans twice as many edges, and the sheet at true shocks stays where it is.  A ridge, where the normals
@@ -55,8 +60,8 @@ struct ChordTurnOptions {
 ///
 /// Measured on mh_man of 292, 1000 and 5000 triangles at a body's height / 180 as spacing: share of the
 /// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the
-/// diagonal, and back, means of 8 seeds: 93.7/94.2 %; by a band of five spacings 94.2/93.6 %, with 51 tunnels
-/// for 29; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
+/// diagonal, and back, means of 8 seeds: 92.9/93.6 %; by a band of five spacings 94.2/93.6 %, with 51 tunnels
+/// for 22; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
 /// 360 to the height) moves 98 % and more of what lies two coarse spacings from the rim by less than half a
 /// coarse spacing; with a band of five spacings a third of that is lost.
 ///

@@ -113,6 +113,22 @@ TEST(ChordSheet, IsOneAnnulusWhenSamplePointsLieOnIt) {
   }
 }
 
+// An octagonal tube by its own directions alone: no wings where its sheet ends.
+TEST(ChordSheet, StaysInThePlaneOfATorusOfFewTriangles) {
+  const Mesh mesh = make_torus(4, 2, 256);
+  for (const double h : {0.25, 0.2, 0.12, 0.1}) {
+    SCOPED_TRACE(h);
+    const ErodedSolid torus(mesh, axes(h), "triangles");
+    const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
+    EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0}));
+    // With an odd number of layers one lies in the plane, and which of two equal chords counts there is
+    // chance.
+    const double bound = torus.lattice.frame.dims[2] % 2 == 0 ? 0.05 : 0.55;
+    for (const ChordSheetVertex& v : sheet.vertices)
+      EXPECT_LT(std::abs(torus.place(v.position).z), bound * h);
+  }
+}
+
 constexpr double kHeight = 18000, kSpacing = 100;
 const double kDelta = std::sqrt(3.0) * kHeight / 128;
 
@@ -195,7 +211,7 @@ TEST(ChordSheet, HalvingTheSpacingHardlyMovesABodysSheet) {
     EXPECT_EQ(betti(halved.a).components, 1U);
     EXPECT_EQ(betti(halved.b).components, 1U);
     ASSERT_GT(halved.inner_a.size(), 400U);
-    ASSERT_GT(halved.inner_b.size(), 1600U);
+    ASSERT_GT(halved.inner_b.size(), 1000U);
     EXPECT_GT(halved.there().share_within(kSpacing / 2), 0.95);
     EXPECT_GT(halved.back().share_within(kSpacing / 2), 0.95);
   }

@@ -156,9 +156,10 @@ TEST(ChordTurns, RefusesOptionsOutOfRange) {
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
   std::vector<ChordShock> none;
   for (const ChordTurnOptions& options :
-       {ChordTurnOptions{-1, 0.4, 0.2, 1}, ChordTurnOptions{std::nan(""), 0.4, 0.2, 1},
-        ChordTurnOptions{0.7, 1.1, 0.2, 1}, ChordTurnOptions{0.7, std::nan(""), 0.2, 1},
-        ChordTurnOptions{0.7, 0.4, -0.1, 1}, ChordTurnOptions{0.7, 0.4, 0.2, 17}}) {
+       {ChordTurnOptions{-1, 0.4, 0.2, 0.5, 1}, ChordTurnOptions{std::nan(""), 0.4, 0.2, 0.5, 1},
+        ChordTurnOptions{0.7, 1.1, 0.2, 0.5, 1}, ChordTurnOptions{0.7, std::nan(""), 0.2, 0.5, 1},
+        ChordTurnOptions{0.7, 0.4, -0.1, 0.5, 1}, ChordTurnOptions{0.7, 0.4, 0.2, 1.5, 1},
+        ChordTurnOptions{0.7, 0.4, 0.2, 0.5, 17}}) {
     EXPECT_THROW(measure_turns(box.lattice, SolidParts(box.solid, box.lattice), field, none, options),
                  CoreError);
   }
