@@ -62,8 +62,8 @@ struct ChordTurnOptions {
 /// skeleton within delta = sqrt(3)/128 of that height of the skeleton with vertex noise of 1 % of the
 /// diagonal, and back, means of 8 seeds: 92.9/93.6 %; by a band of five spacings 94.2/93.6 %, with 51 tunnels
 /// for 22; by the shocks' own openings of 1/4 and more (4 seeds) 91.0/89.1 %.  Halving the spacing (90, 180,
-/// 360 to the height) moves what lies two coarse spacings from the rim by less than half a coarse spacing, but
-/// for 1 to 2 vertices; with a band of five spacings a third of that is lost.
+/// 360 to the height) moves what lies two coarse spacings from the rim by less than half a coarse spacing,
+/// but for 1 to 2 vertices; with a band of five spacings a third of that is lost.
 ///
 /// Invariance: kinks and their ratios are affinely invariant, the jump, the depth and with it the band in
 /// the frame's metric only, as the opening is (see chord_shocks.h).
