@@ -11,14 +11,16 @@ constexpr RetryPolicy::Duration kLongestPause{1000};
 RetryPolicy::RetryPolicy(Duration patience, std::uint64_t seed)
     : patience_(patience), backoff_(kFirstPause, kLongestPause, seed) {}
 
-RetryPolicy::Decision RetryPolicy::after(grpc::StatusCode code, Duration elapsed) {
+RetryPolicy::Decision RetryPolicy::after(grpc::StatusCode code, Duration elapsed, bool connected) {
   const Duration pause = backoff_.next();
   switch (code) {
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       answered_ = elapsed;
       return {Verdict::kAgain, pause};
     case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::CANCELLED:
     case grpc::StatusCode::DEADLINE_EXCEEDED:
+      if (connected && code != grpc::StatusCode::DEADLINE_EXCEEDED) answered_ = elapsed;
       return {elapsed + pause > answered_ + patience_ ? Verdict::kServerGone : Verdict::kAgain, pause};
     case grpc::StatusCode::INTERNAL:
     case grpc::StatusCode::UNKNOWN:
@@ -26,6 +28,7 @@ RetryPolicy::Decision RetryPolicy::after(grpc::StatusCode code, Duration elapsed
       return {elapsed + pause > kTrouble ? Verdict::kFailed : Verdict::kAgain, pause};
     case grpc::StatusCode::ABORTED:
     case grpc::StatusCode::NOT_FOUND:
+    case grpc::StatusCode::DATA_LOSS:  // a stored input is damaged, and the server has failed the task itself
       return {Verdict::kLeaseLost, {}};
     default:
       return {Verdict::kFailed, {}};

@@ -16,7 +16,7 @@ class RetryPolicy {
 
   enum class Verdict {
     kAgain,
-    kLeaseLost,   ///< ABORTED, NOT_FOUND: the task is not ours any more
+    kLeaseLost,   ///< ABORTED, NOT_FOUND, DATA_LOSS: the task is not ours any more
     kFailed,      ///< the call cannot succeed; the task failed, and may be tried elsewhere
     kServerGone,  ///< it did not answer for as long as patience lasts
   };
@@ -32,9 +32,13 @@ class RetryPolicy {
 
   RetryPolicy(Duration patience, std::uint64_t seed);
 
+  /// A server that closes ends calls with UNAVAILABLE or CANCELLED: both mean "again", for as long as patience
+  /// lasts without an answer.  One that is full (RESOURCE_EXHAUSTED), or says itself that it cannot answer now,
+  /// is there: it is asked until somebody helps it.
+  /// @param code of a call that this side did not cancel.
   /// @param elapsed since the call was first made.
-  /// A server that is full (RESOURCE_EXHAUSTED) is there: it is asked until somebody makes room.
-  Decision after(grpc::StatusCode code, Duration elapsed);
+  /// @param connected whether the connection stands, so that the status is the server's own word.
+  Decision after(grpc::StatusCode code, Duration elapsed, bool connected);
 
  private:
   Duration patience_;

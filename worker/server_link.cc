@@ -40,14 +40,16 @@ void wait(std::chrono::milliseconds pause, const std::stop_token& stop) {
 }  // namespace
 
 ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
-    : stub_(v1::WorkerService::NewStub(connect(options.address))),
+    : channel_(connect(options.address)),
+      stub_(v1::WorkerService::NewStub(channel_)),
       options_(options),
       stop_(std::move(stop)),
       seed_(std::random_device()()) {}
 
 // A worker that waits for its server says so, once; without it a wrong address looks like having no work.
 void ServerLink::note_answer(const grpc::Status& status) {
-  const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE;
+  const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE ||
+                    status.error_code() == grpc::StatusCode::CANCELLED;
   if (away == away_.exchange(away)) return;
   if (away) {
     spdlog::warn("server={} msg=\"does not answer, trying again\" cause=\"{}\"", options_.address,
@@ -69,7 +71,8 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
     if (status.ok()) return;
     const std::string message = std::string(what) + ": " + status.error_message();
     const RetryPolicy::Decision decision = policy.after(
-        status.error_code(), std::chrono::duration_cast<RetryPolicy::Duration>(Clock::now() - begun));
+        status.error_code(), std::chrono::duration_cast<RetryPolicy::Duration>(Clock::now() - begun),
+        channel_->GetState(false) == GRPC_CHANNEL_READY);
     switch (decision.verdict) {
       case RetryPolicy::Verdict::kAgain:
         break;
@@ -133,7 +136,7 @@ grpc::Status ServerLink::fetch_once(const v1::FetchInputRequest& request, grpc::
   }
   const grpc::Status status = reader->Finish();
   if (status.ok() && (bytes.size() != header.bytes() || wire::sha256_hex(bytes) != header.sha256())) {
-    return grpc::Status(grpc::StatusCode::UNAVAILABLE, "the bytes that arrived are not those that were sent");
+    return grpc::Status(grpc::StatusCode::INTERNAL, "the bytes that arrived are not those that were sent");
   }
   return status;
 }
@@ -200,6 +203,7 @@ void ServerLink::fail(const v1::FailTaskRequest& request) {
 
 void ServerLink::give_back(const std::string& token) {
   grpc::ClientContext context;
+  context.set_wait_for_ready(true);  // it may be about to start again
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(2));
   v1::ReturnLeaseRequest request;
   request.set_token(token);

@@ -77,6 +77,7 @@ class ServerLink {
                           std::string& bytes);
   void note_answer(const grpc::Status& status);
 
+  std::shared_ptr<grpc::Channel> channel_;  // of stub_
   std::unique_ptr<v1::WorkerService::Stub> stub_;
   ServerLinkOptions options_;
   std::stop_token stop_;

@@ -38,11 +38,11 @@ struct End {
   int calls;
 };
 
-End call_until(grpc::StatusCode code, milliseconds longest) {
+End call_until(grpc::StatusCode code, milliseconds longest, bool connected = false) {
   RetryPolicy policy(kPatience, 7);
   End end{Verdict::kAgain, milliseconds(0), 0};
   while (end.at < longest) {
-    const RetryPolicy::Decision decision = policy.after(code, end.at);
+    const RetryPolicy::Decision decision = policy.after(code, end.at, connected);
     ++end.calls;
     end.verdict = decision.verdict;
     if (decision.verdict != Verdict::kAgain) break;
@@ -52,7 +52,8 @@ End call_until(grpc::StatusCode code, milliseconds longest) {
 }
 
 TEST(RetryPolicy, AServerThatIsAwayIsWaitedForAsLongAsPatienceLasts) {
-  for (const auto code : {grpc::StatusCode::UNAVAILABLE, grpc::StatusCode::DEADLINE_EXCEEDED}) {
+  for (const auto code :
+       {grpc::StatusCode::UNAVAILABLE, grpc::StatusCode::CANCELLED, grpc::StatusCode::DEADLINE_EXCEEDED}) {
     const End end = call_until(code, milliseconds(600000));
     EXPECT_EQ(end.verdict, Verdict::kServerGone);
     EXPECT_GT(end.at, kPatience - milliseconds(1000));
@@ -63,6 +64,15 @@ TEST(RetryPolicy, AServerThatIsAwayIsWaitedForAsLongAsPatienceLasts) {
 
 TEST(RetryPolicy, AFullServerIsWaitedForWithoutEnd) {
   EXPECT_EQ(call_until(grpc::StatusCode::RESOURCE_EXHAUSTED, milliseconds(3600000)).verdict, Verdict::kAgain);
+}
+
+TEST(RetryPolicy, AServerThatSaysItselfThatItCannotAnswerIsWaitedForWithoutEnd) {
+  for (const auto code : {grpc::StatusCode::UNAVAILABLE, grpc::StatusCode::CANCELLED}) {
+    EXPECT_EQ(call_until(code, milliseconds(3600000), true).verdict, Verdict::kAgain);
+  }
+  EXPECT_EQ(call_until(grpc::StatusCode::DEADLINE_EXCEEDED, milliseconds(3600000), true).verdict,
+            Verdict::kServerGone)
+      << "a connection that stands and says nothing is no answer";
 }
 
 TEST(RetryPolicy, TroubleOfTheServerFailsTheTaskOnlyAfterHalfAMinute) {
@@ -76,15 +86,16 @@ TEST(RetryPolicy, TroubleOfTheServerFailsTheTaskOnlyAfterHalfAMinute) {
 
 TEST(RetryPolicy, PatienceBeginsAnewWithEveryAnswer) {
   RetryPolicy policy(kPatience, 7);
-  EXPECT_EQ(policy.after(grpc::StatusCode::RESOURCE_EXHAUSTED, milliseconds(500000)).verdict,
+  EXPECT_EQ(policy.after(grpc::StatusCode::RESOURCE_EXHAUSTED, milliseconds(500000), false).verdict,
             Verdict::kAgain);
-  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(530000)).verdict, Verdict::kAgain);
-  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(560001)).verdict, Verdict::kServerGone);
+  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(530000), false).verdict, Verdict::kAgain);
+  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(560001), false).verdict, Verdict::kServerGone);
 }
 
 TEST(RetryPolicy, WhatCannotSucceedIsNotTriedAgain) {
   EXPECT_EQ(call_until(grpc::StatusCode::ABORTED, kPatience).verdict, Verdict::kLeaseLost);
   EXPECT_EQ(call_until(grpc::StatusCode::NOT_FOUND, kPatience).verdict, Verdict::kLeaseLost);
+  EXPECT_EQ(call_until(grpc::StatusCode::DATA_LOSS, kPatience).verdict, Verdict::kLeaseLost);
   for (const auto code : {grpc::StatusCode::INVALID_ARGUMENT, grpc::StatusCode::UNIMPLEMENTED,
                           grpc::StatusCode::FAILED_PRECONDITION}) {
     const End end = call_until(code, kPatience);

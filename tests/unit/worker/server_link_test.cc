@@ -37,8 +37,9 @@ class ProxyEnvironment {
 TEST_F(LinkTest, TriesAgainWhileTheServerIsAway) {
   server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 3);
   server_.fail_next("RenewLease", {grpc::StatusCode::RESOURCE_EXHAUSTED, "disk full"}, 1);
+  server_.fail_next("RenewLease", {grpc::StatusCode::CANCELLED, "a server that closes says so, too"}, 2);
   link().renew("t");
-  EXPECT_EQ(server_.calls("RenewLease"), 5);
+  EXPECT_EQ(server_.calls("RenewLease"), 7);
 }
 
 TEST_F(LinkTest, ReachesAServerOfThisMachineWithoutTheProxyOfTheEnvironment) {
@@ -62,8 +63,8 @@ TEST_F(LinkTest, SaysOnceThatTheServerIsAway) {
 TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {
   server_.fail_next("RenewLease", {grpc::StatusCode::ABORTED, "fenced"});
   EXPECT_THROW(link().renew("t"), LeaseLost);
-  server_.fail_next("RenewLease", {grpc::StatusCode::UNAVAILABLE, "away"}, 100);
-  EXPECT_THROW(link(std::chrono::seconds(0)).renew("t"), ServerGone);
+  EXPECT_THROW(ServerLink({"unix:/nowhere/server.sock", std::chrono::seconds(0)}, stop_.get_token()).renew("t"),
+               ServerGone);
 }
 
 TEST_F(LinkTest, FetchesAgainWhatArrivedDamaged) {
