@@ -13,13 +13,13 @@ ExitCode exit_code_of(grpc::StatusCode code) {
     case grpc::StatusCode::OUT_OF_RANGE:
       return ExitCode::kUsage;
     case grpc::StatusCode::NOT_FOUND:
+    case grpc::StatusCode::DATA_LOSS:  // what was stored is damaged: there is nothing to be had
       return ExitCode::kNotFound;
     case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::CANCELLED:  // by a server that closes; on this side nobody cancels
     case grpc::StatusCode::DEADLINE_EXCEEDED:
     case grpc::StatusCode::ABORTED:
       return ExitCode::kUnreachable;
-    case grpc::StatusCode::CANCELLED:
-      return ExitCode::kCancelled;
     case grpc::StatusCode::PERMISSION_DENIED:
     case grpc::StatusCode::UNAUTHENTICATED:
     case grpc::StatusCode::FAILED_PRECONDITION:
@@ -72,6 +72,7 @@ ClientError error_from_status(const grpc::Status& status, const std::string& ser
   const std::string detail = status.error_message();
   switch (status.error_code()) {
     case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::CANCELLED:
       return {code, "cannot reach the server at " + server + ": " + detail};
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {code, "the server at " + server + " did not answer in time"};

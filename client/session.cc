@@ -67,6 +67,13 @@ class CheckedTransfer {
   std::uint64_t received_ = 0;
 };
 
+// How a server that is away, or closes, ends calls: gRPC cancels those that it does not answer any more, and on
+// this side nobody cancels any.
+bool is_away(const grpc::Status& status) {
+  return status.error_code() == grpc::StatusCode::UNAVAILABLE ||
+         status.error_code() == grpc::StatusCode::CANCELLED;
+}
+
 class MemorySink : public ArtifactSink {
  public:
   explicit MemorySink(std::string& bytes) : bytes_(bytes) {}
@@ -154,7 +161,7 @@ void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode no
     if (!stub_) connect();
     const grpc::Status status = attempt(*stub_);
     if (status.ok()) break;
-    const bool away = status.error_code() == grpc::StatusCode::UNAVAILABLE;
+    const bool away = is_away(status);
     // The connection stands: the server itself has said so.
     const bool busy = away && channel_->GetState(false) == GRPC_CHANNEL_READY;
     proven_ = proven_ || busy;
@@ -178,7 +185,7 @@ void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode no
 
 void Session::fail(const grpc::Status& status, ExitCode not_yet) const {
   const ClientError error = error_from_status(status, target_, not_yet);
-  if (status.error_code() != grpc::StatusCode::UNAVAILABLE || choice_.embedded) throw error;
+  if (!is_away(status) || choice_.embedded) throw error;
   throw ClientError(error.exit_code(), std::string(error.what()) + " (address from " + choice_.origin + ")");
 }
 
@@ -244,10 +251,8 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   }
   grpc::Status status = reader->Finish();
   if (is_final(last.state())) return grpc::Status::OK;
-  // We cancel nothing, and a job without a final state has no last message: the server is shutting down.
-  const bool broken = status.ok() || status.error_code() == grpc::StatusCode::UNAVAILABLE ||
-                      status.error_code() == grpc::StatusCode::CANCELLED;
-  if (!broken) return status;
+  // A job without a final state has no last message: the server is shutting down.
+  if (!status.ok() && !is_away(status)) return status;
   // Whatever arrived is a success, from which the patience counts anew.
   if (any) return grpc::Status::OK;
   return {grpc::StatusCode::UNAVAILABLE, status.ok() ? "the server ended the watch" : status.error_message()};

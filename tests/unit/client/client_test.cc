@@ -217,6 +217,13 @@ TEST_F(ClientTest, ABusyServerIsAskedAgain) {
   EXPECT_LT(service_.busy, 0);
 }
 
+TEST_F(ClientTest, AServerThatClosesIsAskedAgain) {
+  service_.busy = 2;
+  service_.busy_status = {grpc::StatusCode::CANCELLED, "CANCELLED"};
+  const Outcome done = run({"status", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
 TEST_F(ClientTest, WatchGivesUpWhenTheServerStaysAway) {
   service_.watch_stays_away = true;
   service_.watch_breaks_after = 1;

@@ -21,7 +21,8 @@ TEST(ErrorFromStatus, MapsToExitCodes) {
   EXPECT_EQ(exit_for(StatusCode::NOT_FOUND), ExitCode::kNotFound);
   EXPECT_EQ(exit_for(StatusCode::UNAVAILABLE), ExitCode::kUnreachable);
   EXPECT_EQ(exit_for(StatusCode::DEADLINE_EXCEEDED), ExitCode::kUnreachable);
-  EXPECT_EQ(exit_for(StatusCode::CANCELLED), ExitCode::kCancelled);
+  EXPECT_EQ(exit_for(StatusCode::CANCELLED), ExitCode::kUnreachable);
+  EXPECT_EQ(exit_for(StatusCode::DATA_LOSS), ExitCode::kNotFound);
   EXPECT_EQ(exit_for(StatusCode::PERMISSION_DENIED), ExitCode::kNotAllowed);
   EXPECT_EQ(exit_for(StatusCode::UNAUTHENTICATED), ExitCode::kNotAllowed);
   EXPECT_EQ(exit_for(StatusCode::FAILED_PRECONDITION), ExitCode::kNotAllowed);

@@ -25,7 +25,8 @@ class FakeService final : public v1::ErosionService::Service {
   bool watch_stays_away = false;  ///< all further watches are UNAVAILABLE
   std::map<v1::ArtifactKind, std::string> artifacts;
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
-  int busy = 0;                           ///< so many questions about a job are UNAVAILABLE first
+  int busy = 0;                           ///< so many questions about a job get busy_status first
+  grpc::Status busy_status{grpc::StatusCode::UNAVAILABLE, "too many calls"};
   bool damage = false;                    ///< flip a byte of every artefact
   bool existed = false;
   std::uint64_t max_mesh_bytes = 1 << 30;
@@ -52,7 +53,7 @@ class FakeService final : public v1::ErosionService::Service {
   }
   grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) override {
     if (request->job() == "000000") return {grpc::StatusCode::NOT_FOUND, "no job begins with 000000"};
-    if (busy-- > 0) return {grpc::StatusCode::UNAVAILABLE, "too many calls"};
+    if (busy-- > 0) return busy_status;
     *response = job;
     return fails;
   }
