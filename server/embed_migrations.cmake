@@ -1,6 +1,6 @@
 # Writes OUTPUT, a C++ source that holds the SQL files of INPUTS (named NNNN_name.sql) as string literals.
 # Call: cmake -DOUTPUT=FILE "-DINPUTS=A;B" -P embed_migrations.cmake
-set(text "#include \"store/migrate.h\"\n\nnamespace affskel::server {\n\n")
+set(text "#include \"database/migrate.h\"\n\nnamespace affskel::server {\n\n")
 string(APPEND text "const std::vector<Migration>& embedded_migrations() {\n")
 string(APPEND text "  static const std::vector<Migration> all = {\n")
 foreach(input IN LISTS INPUTS)

@@ -9,14 +9,14 @@
 #include <system_error>
 #include <utility>
 
+#include "check/backup.h"
+#include "check/check_database.h"
+#include "database/database_file.h"
+#include "database/migrate.h"
+#include "database/sqlite.h"
+#include "errors.h"
 #include "process/data_dir.h"
 #include "process/exit_code.h"
-#include "store/backup.h"
-#include "store/check_database.h"
-#include "store/database_file.h"
-#include "store/errors.h"
-#include "store/migrate.h"
-#include "store/sqlite.h"
 
 namespace affskel::server {
 namespace {

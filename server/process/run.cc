@@ -14,6 +14,7 @@
 #include <iostream>
 #include <thread>
 
+#include "errors.h"
 #include "process/data_dir.h"
 #include "process/exit_code.h"
 #include "process/file_limit.h"
@@ -21,7 +22,6 @@
 #include "process/maintenance.h"
 #include "process/supervisor.h"
 #include "rpc/server.h"
-#include "store/errors.h"
 #include "wire/identity.h"
 #include "wire/version.h"
 

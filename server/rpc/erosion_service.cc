@@ -10,9 +10,9 @@
 #include <mutex>
 #include <utility>
 
+#include "errors.h"
 #include "rpc/status.h"
 #include "rpc/streams.h"
-#include "store/errors.h"
 #include "wire/limits.h"
 #include "wire/quoted.h"
 #include "wire/version.h"

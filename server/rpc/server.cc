@@ -10,9 +10,9 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "database/database_file.h"
 #include "rpc/listen.h"
 #include "rpc/status.h"
-#include "store/database_file.h"
 #include "wire/identity.h"
 
 namespace affskel::server {

@@ -5,9 +5,9 @@
 #include <new>
 #include <string>
 
-#include "store/errors.h"
+#include "database/sqlite.h"
+#include "errors.h"
 #include "store/shorten.h"
-#include "store/sqlite.h"
 
 namespace affskel::server {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "affskel/v1/client_service.pb.h"
+#include "errors.h"
 #include "rpc/status.h"
 #include "rpc/upload_budget.h"
 #include "store/blobs.h"
-#include "store/errors.h"
 
 namespace affskel::server {
 

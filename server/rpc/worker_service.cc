@@ -1,8 +1,8 @@
 #include "rpc/worker_service.h"
 
+#include "errors.h"
 #include "rpc/status.h"
 #include "rpc/streams.h"
-#include "store/errors.h"
 #include "wire/limits.h"
 
 namespace affskel::server {

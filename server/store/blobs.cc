@@ -1,6 +1,6 @@
 #include "store/blobs.h"
 
-#include "store/errors.h"
+#include "errors.h"
 #include "store/field.h"
 #include "wire/limits.h"
 #include "wire/sha256.h"

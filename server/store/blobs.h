@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 #include "store/tx.h"
 
 namespace affskel::server {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "wire/limits.h"
 
 namespace affskel::server {

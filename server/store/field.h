@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 
 namespace affskel::server {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "wire/quoted.h"
 #include "wire/version.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 
 namespace affskel::server {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 #include "store/tx.h"
 
 namespace affskel::server {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "store/errors.h"
-#include "store/migrate.h"
+#include "database/migrate.h"
+#include "errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/params.h"

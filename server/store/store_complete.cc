@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "store/shorten.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 

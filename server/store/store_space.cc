@@ -8,7 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

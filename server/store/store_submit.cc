@@ -1,4 +1,4 @@
-#include "store/errors.h"
+#include "errors.h"
 #include "store/store_impl.h"
 #include "store/submission.h"
 #include "store/tasks.h"

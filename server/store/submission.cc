@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "store/errors.h"
+#include "errors.h"
 #include "wire/params.h"
 #include "wire/quoted.h"
 #include "wire/sha256.h"

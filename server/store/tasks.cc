@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "errors.h"
 #include "store/blobs.h"
-#include "store/errors.h"
 #include "store/field.h"
 
 namespace affskel::server {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "store/disk_reserve.h"
-#include "store/sqlite.h"
+#include "database/disk_reserve.h"
+#include "database/sqlite.h"
 
 namespace affskel::server {
 

@@ -1,14 +1,14 @@
-#include "store/backup.h"
+#include "check/backup.h"
 
 #include <sys/stat.h>
 
 #include <fstream>
 #include <system_error>
 
+#include "check/check_database.h"
+#include "database/migrate.h"
 #include "expect_store_error.h"
 #include "small_disk.h"
-#include "store/check_database.h"
-#include "store/migrate.h"
 #include "store_fixture.h"
 
 namespace affskel::server {

@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
+#include "database/sqlite.h"
 #include "rpc/status.h"
 #include "service_fixture.h"
-#include "store/sqlite.h"
 
 namespace affskel::server {
 namespace {

@@ -1,4 +1,4 @@
-#include "store/check_database.h"
+#include "check/check_database.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <limits>
 #include <ostream>
 
+#include "database/migrate.h"
 #include "expect_store_error.h"
-#include "store/migrate.h"
 #include "store_fixture.h"
 #include "wire/limits.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "store/errors.h"
+#include "errors.h"
 
 namespace affskel::server {
 

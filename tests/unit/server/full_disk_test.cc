@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include "database/disk_reserve.h"
 #include "expect_store_error.h"
 #include "small_disk.h"
-#include "store/disk_reserve.h"
 #include "store_fixture.h"
 
 namespace affskel::server {

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "database/migrate.h"
 #include "process/data_dir.h"
-#include "store/migrate.h"
 #include "store_fixture.h"
 
 namespace affskel::server {

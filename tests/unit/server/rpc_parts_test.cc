@@ -1,12 +1,12 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "errors.h"
 #include "rpc/event_hub.h"
 #include "rpc/status.h"
 #include "rpc/streams.h"
 #include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
-#include "store/errors.h"
 #include "store_fixture.h"
 #include "wire/identity.h"
 

@@ -1,7 +1,7 @@
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 
+#include "database/migrate.h"
 #include "expect_store_error.h"
-#include "store/migrate.h"
 #include "store_fixture.h"
 
 namespace affskel::server {

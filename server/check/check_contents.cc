@@ -1,4 +1,4 @@
-#include "store/check_contents.h"
+#include "check/check_contents.h"
 
 #include <bit>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 
 namespace affskel::server {
 

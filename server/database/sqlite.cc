@@ -1,4 +1,4 @@
-#include "store/sqlite.h"
+#include "database/sqlite.h"
 
 #include <cerrno>
 #include <utility>

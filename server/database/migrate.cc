@@ -1,8 +1,8 @@
-#include "store/migrate.h"
+#include "database/migrate.h"
 
 #include <spdlog/spdlog.h>
 
-#include "store/errors.h"
+#include "errors.h"
 
 namespace affskel::server {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "store/fault_log.h"
-#include "store/sqlite.h"
+#include "check/fault_log.h"
+#include "database/sqlite.h"
 
 namespace affskel::server {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "store/fault_log.h"
+#include "check/fault_log.h"
 
 namespace affskel::server {
 

@@ -1,4 +1,4 @@
-#include "store/backup.h"
+#include "check/backup.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "store/database_file.h"
-#include "store/errors.h"
-#include "store/migrate.h"
-#include "store/sqlite.h"
+#include "database/database_file.h"
+#include "database/migrate.h"
+#include "database/sqlite.h"
+#include "errors.h"
 
 namespace affskel::server {
 namespace {

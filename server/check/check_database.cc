@@ -1,15 +1,15 @@
-#include "store/check_database.h"
+#include "check/check_database.h"
 
 #include <optional>
 #include <utility>
 
-#include "store/check_contents.h"
-#include "store/check_rules.h"
-#include "store/check_schema.h"
-#include "store/database_file.h"
-#include "store/errors.h"
-#include "store/migrate.h"
-#include "store/sqlite.h"
+#include "check/check_contents.h"
+#include "check/check_rules.h"
+#include "check/check_schema.h"
+#include "database/database_file.h"
+#include "database/migrate.h"
+#include "database/sqlite.h"
+#include "errors.h"
 
 namespace affskel::server {
 namespace {

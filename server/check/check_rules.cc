@@ -1,4 +1,4 @@
-#include "store/check_rules.h"
+#include "check/check_rules.h"
 
 namespace affskel::server {
 namespace {

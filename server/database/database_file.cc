@@ -1,11 +1,11 @@
-#include "store/database_file.h"
+#include "database/database_file.h"
 
 #include <sys/stat.h>
 
 #include <cerrno>
 #include <system_error>
 
-#include "store/errors.h"
+#include "errors.h"
 
 namespace affskel::server {
 

@@ -1,9 +1,9 @@
-#include "store/check_schema.h"
+#include "check/check_schema.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "store/migrate.h"
+#include "database/migrate.h"
 
 namespace affskel::server {
 namespace {
