@@ -32,9 +32,6 @@ static_assert(sizeof(FieldRecord) == 24 && std::is_trivially_copyable_v<FieldRec
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
 
-// Room is made for what a report announces, which need not be true; 96 MiB.
-constexpr std::uint64_t kMostReserved = std::uint64_t{1} << 22;
-
 [[noreturn]] void refuse(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
@@ -127,7 +124,7 @@ std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std
 
 RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, std::uint64_t expected)
     : points_(points), directions_(directions) {
-  records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), kMostReserved}));
+  records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), std::uint64_t{kMostRecordsHeld}}));
 }
 
 void RecordBatch::append(const v1::FieldRecords& records) {
@@ -135,7 +132,7 @@ void RecordBatch::append(const v1::FieldRecords& records) {
   if (records.direction_size() != count || records.erosion_size() != count || records.area_size() != count) {
     refuse("the four arrays of records differ in length");
   }
-  if (static_cast<std::int64_t>(records_.size()) + count > kMaxRecordsPerPoint * points_) {
+  if (cleared_ + static_cast<std::int64_t>(records_.size()) + count > kMaxRecordsPerPoint * points_) {
     refuse("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
   }
   for (int i = 0; i < count; ++i) {
@@ -158,6 +155,11 @@ void RecordBatch::append(const v1::FieldRecords& records) {
 
 void RecordBatch::sort() {
   sort_by_chunk(records_);
+}
+
+void RecordBatch::clear() {
+  cleared_ += static_cast<std::int64_t>(records_.size());
+  records_.clear();
 }
 
 namespace {

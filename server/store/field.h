@@ -23,7 +23,10 @@ struct FieldRecord {
   std::uint32_t point;
 };
 
-/// Improved records of one report, checked on the way in.
+/// Records of a report that are held before they are merged: 3 MiB.  A report may bring any number of them.
+inline constexpr std::size_t kMostRecordsHeld = std::size_t{1} << 17;
+
+/// Improved records of a report, or of a part of it, checked on the way in.
 class RecordBatch {
  public:
   /// @param points, directions bounds of the job: R and K.
@@ -37,11 +40,18 @@ class RecordBatch {
   /// Groups the records by chunk.
   void sort();
 
+  /// Whether so much has come together that it should be merged before there is more.
+  bool full() const { return records_.size() >= kMostRecordsHeld; }
+
+  /// Forgets the records; they still count towards what one report may bring.
+  void clear();
+
   const std::vector<FieldRecord>& records() const { return records_; }
 
  private:
   std::int64_t points_;
   std::int64_t directions_;
+  std::int64_t cleared_ = 0;
   std::vector<FieldRecord> records_;
 };
 

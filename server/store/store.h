@@ -91,6 +91,9 @@ class Store {
   ///   kInvalid for parameters out of range.
   ArtifactState open_artifact(const v1::FetchArtifactRequest& request, std::int64_t asked = 0);
 
+  /// Nobody waits for what this task was to bring: takes a request back, also from the worker that has it.
+  void withdraw(std::int64_t task);
+
   // For workers: store_leases.cc, store_reports.cc, store_complete.cc
 
   /// Grants the next task, or nothing.  `preferred_job` decides among jobs of equal priority.
@@ -107,6 +110,9 @@ class Store {
 
   v1::ReportResponse renew(const std::string& token);
   v1::ReportResponse report(const v1::ReportErosionHeader& header, const RecordBatch& records);
+  /// Merges a part of a report that is still arriving, and renews the lease.  What a record says is true
+  /// whatever becomes of the rest; only report() calls positions done.
+  void report_part(const std::string& token, const RecordBatch& records);
   v1::ReportResponse complete(const v1::CompleteTaskHeader& header, std::string_view data);
   v1::ReportResponse fail(const std::string& token, const v1::JobError& error, bool retryable);
   v1::ReportResponse give_back(const std::string& token);

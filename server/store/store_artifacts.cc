@@ -184,6 +184,19 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
   return state;
 }
 
+void Store::withdraw(std::int64_t task) {
+  write([&](Tx& tx) {
+    const std::optional<TaskRow> row = find_task(tx.db, task);
+    // A task of the job itself stays, whoever waits for it.
+    if (!row || !row->on_request) return false;
+    tx.db.run("DELETE FROM tasks WHERE id = ?", task);
+    tx.changes.jobs.insert(row->job_id);
+    tx.changes.log.push_back("event=request_withdrawn job=" + row->job_id + " task=" + std::to_string(task) +
+                             " kind=" + kind_name(row->kind));
+    return true;
+  });
+}
+
 std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::ArtifactKind kind) {
   std::string mesh;
   std::int64_t field = 0;

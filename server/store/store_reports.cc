@@ -132,4 +132,22 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
   return response;
 }
 
+void Store::report_part(const std::string& token, const RecordBatch& records) {
+  std::exception_ptr refusal;
+  write([&](Tx& tx) {
+    const TaskRow task = erode_task(tx.db, token);
+    const JobRow job = get_job(tx.db, task.job_id);
+    tx.changes.jobs.insert(job.id);
+    if (!tx.room) {
+      refusal = refuse_for_now(tx, task, job);
+      return false;
+    }
+    tx.require_room();
+    if (!job.finished) merge_records(tx.db, job.erosion_id, job.points, records.records());
+    if (task.state == "leased") renew_lease(tx, task);
+    return true;
+  });
+  if (refusal) std::rethrow_exception(refusal);
+}
+
 }  // namespace affskel::server
