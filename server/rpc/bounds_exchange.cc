@@ -32,6 +32,17 @@ void BoundsExchange::exchange(const std::string& job, const std::string& worker,
   for (const Message& message : theirs) *response.add_bounds() = *message;
 }
 
+void BoundsExchange::pass_on(const std::string& job, const std::string& worker,
+                             const std::vector<FieldRecord>& records) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!enter(job, worker)) return;
+  }
+  const std::vector<Message> ours = pack(records);
+  const std::lock_guard lock(mutex_);
+  keep(job, worker, ours);
+}
+
 std::vector<BoundsExchange::Message> BoundsExchange::pack(const std::vector<FieldRecord>& records) const {
   const auto in_order = [](const FieldRecord& a, const FieldRecord& b) { return a.point < b.point; };
   if (!std::is_sorted(records.begin(), records.end(), in_order)) return {};

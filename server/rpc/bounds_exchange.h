@@ -34,6 +34,9 @@ class BoundsExchange {
   void exchange(const std::string& job, const std::string& worker, const std::vector<FieldRecord>& records,
                 v1::ReportResponse& response);
 
+  /// Passes on a part of a report, committed before the rest of it has come.
+  void pass_on(const std::string& job, const std::string& worker, const std::vector<FieldRecord>& records);
+
  private:
   using Message = std::shared_ptr<const v1::ErosionBounds>;
   struct Entry {

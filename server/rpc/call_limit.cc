@@ -1,92 +1,270 @@
 #include "rpc/call_limit.h"
 
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "rpc/status.h"
 
 namespace affskel::server {
 namespace {
 
-// Of the descriptors, these are never a client connection's: what downloads, workers' inputs, the log and the
-// database need.  With few of them, a quarter.
-constexpr std::uint64_t kReserved = 256;
+// Waiting for a turn costs little, but not nothing.
+constexpr std::size_t kWaitersPerPlace = 16;
 
-// An idle connection costs some tens of kilobytes, whatever the limit on descriptors is.
-constexpr std::uint64_t kMostConnections = 16384;
+// A call that brings what it holds once more within this time is no hindrance.
+constexpr double kRelieveSeconds = 60;
+
+const auto by_peer = [](const Caller& caller) { return caller.peer; };
+const auto by_connection = [](const Caller& caller) { return caller.connection; };
+
+void run(const std::vector<std::function<void()>>& later) {
+  for (const auto& one : later) one();
+}
 
 }  // namespace
 
-CallLimits limits_for(std::uint64_t open_files) {
-  CallLimits limits;
-  // Two descriptors to a download, so that all of them together take an eighth.
-  limits.downloads = std::clamp<std::uint64_t>(open_files / 16, 1, limits.downloads);
-  const std::uint64_t reserve = std::min(kReserved, open_files / 4);
-  limits.connections = static_cast<int>(std::min(open_files - reserve, kMostConnections));
-  return limits;
-}
+CallLimit::Place::Place(Place&& other) noexcept
+    : limit_(std::exchange(other.limit_, nullptr)), number_(other.number_) {}
 
-std::uint64_t open_files_limit() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
-    return std::numeric_limits<std::uint32_t>::max();
+CallLimit::Place& CallLimit::Place::operator=(Place&& other) noexcept {
+  if (this != &other) {
+    leave();
+    limit_ = std::exchange(other.limit_, nullptr);
+    number_ = other.number_;
   }
-  return std::max<std::uint64_t>(1, limit.rlim_cur);
+  return *this;
 }
 
-CallLimit::Place::Place(CallLimit& limit)
-    : limit_(limit), holder_{nullptr, std::chrono::steady_clock::now()} {
-  if (limit_.enter(holder_)) return;
-  throw CallEnded({grpc::StatusCode::UNAVAILABLE, std::to_string(limit_.most_) + " " + limit_.what_ +
-                                                      " are under way, the most that this server has at "
-                                                      "once; try again"});
-}
-
-CallLimit::Place::~Place() {
+void CallLimit::Place::leave() {
+  if (limit_ == nullptr) return;
+  CallLimit& limit = *std::exchange(limit_, nullptr);
+  Later later;
   {
-    const std::lock_guard lock(limit_.mutex_);
-    limit_.holders_.remove(&holder_);
+    const std::lock_guard lock(limit.mutex_);
+    if (limit.holders_.erase(number_) == 0) return;  // it had gone to another
+    limit.serve_waiters(later);
   }
-  limit_.freed_.notify_one();
+  run(later);
 }
 
-void CallLimit::Place::depend_on_client(grpc::ServerContextBase& context) {
-  const std::lock_guard lock(limit_.mutex_);
-  holder_ = {&context, std::chrono::steady_clock::now()};
+void CallLimit::Place::turn() {
+  if (limit_ == nullptr) return;
+  const std::lock_guard lock(limit_->mutex_);
+  const auto holder = limit_->holders_.find(number_);
+  if (holder != limit_->holders_.end()) holder->second.pace.turn(limit_->options_.now());
 }
 
-void CallLimit::Place::progress() {
-  const std::lock_guard lock(limit_.mutex_);
-  holder_.progress = std::chrono::steady_clock::now();
+void CallLimit::Place::moved(std::uint64_t bytes) {
+  if (limit_ == nullptr) return;
+  const std::lock_guard lock(limit_->mutex_);
+  const auto holder = limit_->holders_.find(number_);
+  if (holder != limit_->holders_.end()) holder->second.pace.moved(bytes, limit_->options_.now());
 }
 
-bool CallLimit::enter(Holder& holder) {
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  std::unique_lock lock(mutex_);
-  const auto free = [this] { return holders_.size() < most_; };
-  if (!free() && !evict(now()) && !freed_.wait_for(lock, patience_, free) && !evict(now())) return false;
-  holders_.push_back(&holder);
+CallLimit::Place CallLimit::enter(const Caller& caller, std::weak_ptr<Endable> call) {
+  Later later;
+  std::optional<Place> place;
+  grpc::Status refused;
+  {
+    const std::lock_guard lock(mutex_);
+    place = try_enter(caller, call, later);
+    if (!place) refused = refusal(caller);
+  }
+  run(later);
+  if (!place) throw CallEnded(refused);
+  return *std::move(place);
+}
+
+void CallLimit::enter_later(const Caller& caller, std::weak_ptr<Endable> call, Granted granted) {
+  Later later;
+  std::optional<Place> place;
+  grpc::Status refused;
+  {
+    const std::lock_guard lock(mutex_);
+    place = try_enter(caller, call, later);
+    if (!place && !closed_ && options_.patience.count() > 0 &&
+        waiters_.size() < kWaitersPerPlace * options_.most) {
+      waiters_.push_back({caller, std::move(call), std::move(granted), options_.now() + options_.patience});
+      return;
+    }
+    if (!place) refused = refusal(caller);
+  }
+  run(later);
+  granted(refused, place ? *std::move(place) : Place());
+}
+
+std::optional<CallLimit::Place> CallLimit::try_enter(const Caller& caller, const std::weak_ptr<Endable>& call,
+                                                     Later& later) {
+  if (closed_) return std::nullopt;
+  if (options_.half_for_a_peer && of_peer(caller.peer) >= std::max<std::size_t>(1, options_.most / 2)) {
+    return std::nullopt;
+  }
+  const Pace::Time now = options_.now();
+  if (holders_.size() >= options_.most && !make_room(caller, now, later)) return std::nullopt;
+  const std::uint64_t number = next_number_++;
+  holders_.emplace(number, Holder{caller, call, Pace(options_.pace.value_or(PaceOptions{})), now});
+  return Place(this, number);
+}
+
+/// Takes a place from a call that has less right to it than this caller's next one.
+bool CallLimit::make_room(const Caller& caller, Pace::Time now, Later& later) {
+  if (options_.pace) {
+    const auto slow = slowest(now, [&](const Holder& holder) { return holder.pace.slow(now); });
+    if (slow != holders_.end()) {
+      evict(slow, "others need its place, and it was too slow", later);
+      return true;
+    }
+  }
+  return take_from(by_peer, options_.most / 2, caller, "peer", later) ||
+         take_from(by_connection, std::max<std::size_t>(1, options_.most / 8), caller, "connection", later);
+}
+
+/// Takes a place from who has more than its share, if this caller has less.
+template <typename Key>
+bool CallLimit::take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later) {
+  std::map<decltype(key(caller)), std::size_t> counts;
+  for (const auto& [number, holder] : holders_) ++counts[key(holder.caller)];
+  if (counts[key(caller)] >= share) return false;
+  const auto found =
+      slowest(options_.now(), [&](const Holder& holder) { return counts[key(holder.caller)] > share; });
+  if (found == holders_.end()) return false;
+  evict(found, std::string("others need its place, and its ") + who + " holds more than its share", later);
   return true;
 }
 
-/// Ends the call that has stood still for longest, if that is too long.
-bool CallLimit::evict(std::chrono::steady_clock::time_point now) {
-  const auto later = [](const Holder* a, const Holder* b) {
-    // Those that cannot be ended come last.
-    return (a->context == nullptr) != (b->context == nullptr) ? b->context == nullptr
-                                                              : a->progress < b->progress;
+/// The slowest of the calls that can be ended and for which belongs(holder) holds.
+template <typename Belongs>
+CallLimit::Holders::iterator CallLimit::slowest(Pace::Time now, Belongs belongs) {
+  const auto worse = [&](const Holder& a, const Holder& b) {
+    const double one = a.pace.rate(now), other = b.pace.rate(now);
+    return one != other ? one < other : a.entered < b.entered;
   };
-  const auto slowest = std::min_element(holders_.begin(), holders_.end(), later);
-  if (slowest == holders_.end() || (*slowest)->context == nullptr) return false;
-  if (now - (*slowest)->progress < stall_) return false;
-  spdlog::warn("event=stalled_call_ended kind={} peer={} stalled_ms={}", what_, (*slowest)->context->peer(),
-               std::chrono::duration_cast<std::chrono::milliseconds>(now - (*slowest)->progress).count());
-  (*slowest)->context->TryCancel();
-  holders_.erase(slowest);
+  auto found = holders_.end();
+  for (auto holder = holders_.begin(); holder != holders_.end(); ++holder) {
+    const Holder& candidate = holder->second;
+    // One that works, and does not wait for its peer, is about to end by itself.
+    if (candidate.call.expired() || (options_.pace && !candidate.pace.waiting())) continue;
+    if (!belongs(candidate)) continue;
+    if (found == holders_.end() || worse(candidate, found->second)) found = holder;
+  }
+  return found;
+}
+
+void CallLimit::evict(Holders::iterator holder, const std::string& why, Later& later) {
+  spdlog::warn("event=call_ended kind=\"{}\" peer={} bytes={} message=\"{}\"", options_.what,
+               holder->second.caller.peer, holder->second.pace.total(), why);
+  later.push_back(
+      [call = holder->second.call,
+       status = grpc::Status(grpc::StatusCode::UNAVAILABLE, "the call was ended: " + why + "; try again")] {
+        if (const auto alive = call.lock()) alive->end(status);
+      });
+  holders_.erase(holder);
+}
+
+std::size_t CallLimit::of_peer(const std::string& peer) const {
+  return static_cast<std::size_t>(std::count_if(
+      holders_.begin(), holders_.end(), [&](const auto& entry) { return entry.second.caller.peer == peer; }));
+}
+
+/// Gives free places to those who wait, in the order of their coming.
+void CallLimit::serve_waiters(Later& later) {
+  while (!waiters_.empty() && holders_.size() < options_.most) {
+    Waiter waiter = std::move(waiters_.front());
+    waiters_.pop_front();
+    if (waiter.call.expired()) continue;
+    std::optional<Place> place = try_enter(waiter.caller, waiter.call, later);
+    const grpc::Status status = place ? grpc::Status::OK : refusal(waiter.caller);
+    // A function must be copyable, a place is not.
+    auto shared = std::make_shared<Place>(place ? *std::move(place) : Place());
+    later.push_back(
+        [granted = std::move(waiter.granted), status, shared] { granted(status, std::move(*shared)); });
+  }
+}
+
+void CallLimit::tick() {
+  Later later;
+  {
+    const std::lock_guard lock(mutex_);
+    const Pace::Time now = options_.now();
+    for (auto holder = holders_.begin(); options_.pace && holder != holders_.end();) {
+      const auto next = std::next(holder);
+      if (holder->second.pace.late(now) && !holder->second.call.expired()) {
+        evict(holder, "its peer sent or took too little for too long", later);
+      }
+      holder = next;
+    }
+    serve_waiters(later);
+    for (auto waiter = waiters_.begin(); waiter != waiters_.end();) {
+      const auto next = std::next(waiter);
+      if (waiter->until <= now || waiter->call.expired()) {
+        later.push_back([granted = std::move(waiter->granted), status = refusal(waiter->caller)] {
+          granted(status, Place());
+        });
+        waiters_.erase(waiter);
+      }
+      waiter = next;
+    }
+  }
+  run(later);
+}
+
+bool CallLimit::relieve() {
+  Later later;
+  {
+    const std::lock_guard lock(mutex_);
+    const Pace::Time now = options_.now();
+    const auto seconds = [&](const Holder& holder) {
+      const bool judged = holder.pace.judged(now) && !holder.call.expired();
+      return judged ? static_cast<double>(holder.pace.total()) / (holder.pace.rate(now) + 1) : 0.0;
+    };
+    const auto worst = std::max_element(holders_.begin(), holders_.end(), [&](const auto& a, const auto& b) {
+      return seconds(a.second) < seconds(b.second);
+    });
+    if (worst == holders_.end() || seconds(worst->second) < kRelieveSeconds) return false;
+    evict(worst, "others need the memory, and it was too slow for what it holds", later);
+  }
+  run(later);
   return true;
+}
+
+void CallLimit::close(const grpc::Status& why) {
+  std::list<Waiter> waiters;
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = why;
+    waiters.swap(waiters_);
+  }
+  for (const Waiter& waiter : waiters) waiter.granted(why, Place());
+}
+
+void CallLimit::end_all(const grpc::Status& why) {
+  std::vector<std::weak_ptr<Endable>> calls;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [number, holder] : holders_) calls.push_back(holder.call);
+  }
+  for (const auto& call : calls) {
+    if (const auto alive = call.lock()) alive->end(why);
+  }
+}
+
+std::size_t CallLimit::used() const {
+  const std::lock_guard lock(mutex_);
+  return holders_.size();
+}
+
+grpc::Status CallLimit::refusal(const Caller& caller) const {
+  if (closed_) return *closed_;
+  const auto number = [](std::size_t count) { return std::to_string(count); };
+  if (options_.half_for_a_peer && holders_.size() < options_.most) {
+    return {options_.refusal, number(of_peer(caller.peer)) + " " + options_.what +
+                                  " of yours are under way, the most that one peer may have here; try again"};
+  }
+  return {options_.refusal, number(holders_.size()) + " " + options_.what + " are under way, and " +
+                                number(options_.most) +
+                                " are the most that this server has at once; try again"};
 }
 
 }  // namespace affskel::server

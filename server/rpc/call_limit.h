@@ -1,82 +1,141 @@
 #pragma once
 
-#include <grpcpp/server_context.h>
+#include <grpcpp/support/status.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <list>
+#include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "rpc/pace.h"
 
 namespace affskel::server {
 
-/// How many calls that hold a thread, memory or open files a server has under way at once, and how many
-/// connections.
-struct CallLimits {
-  std::size_t downloads = 64;  ///< artefacts being sent; each has the database and its log open
-  std::size_t uploads = 64;    ///< meshes being received
-  std::size_t waiting = 256;   ///< calls that wait for an artefact or for their turn; each holds a thread
-  std::size_t watches = 4096;  ///< WatchJob streams
-  std::chrono::milliseconds patience{5000};  ///< how long a download or an upload waits for its turn
-  std::chrono::milliseconds stall{30000};    ///< without progress a call may lose its place to another
-  int connections = 0;                       ///< a connection whose descriptor is this or more is refused
+/// Who makes a call.
+struct Caller {
+  std::uint64_t connection = 0;  ///< its number
+  std::string peer;              ///< whose connection it is: shares are counted by this
 };
 
-/// What a process may have open, shared out: workers, the database and downloads keep descriptors that
-/// connections cannot take.
-/// @param open_files limit on descriptors, at least 1.
-CallLimits limits_for(std::uint64_t open_files);
-
-/// The limit on descriptors of this process.
-std::uint64_t open_files_limit();
-
-/// Places for calls of one kind.  Who finds none waits for a while, or takes that of a call that has made no
-/// progress for long: a client that reads nothing would keep it for ever.  Thread-safe.
-class CallLimit {
-  struct Holder {
-    grpc::ServerContextBase* context;  // null: must not be ended
-    std::chrono::steady_clock::time_point progress;
-  };
-
+/// A call that can be ended from outside.
+class Endable {
  public:
-  /// @param what the calls, plural, for messages.
-  CallLimit(std::string what, std::size_t most, std::chrono::milliseconds patience,
-            std::chrono::milliseconds stall)
-      : what_(std::move(what)), most_(most), patience_(patience), stall_(stall) {}
+  virtual ~Endable() = default;
+  /// Ends the call unless it has ended; from any thread, returns at once.
+  virtual void end(const grpc::Status& status) = 0;
+};
 
-  /// A place of one call, from construction to destruction; used by one thread.
+struct CallLimitOptions {
+  std::string what;  ///< the calls, plural, for messages
+  std::size_t most = 1;
+  bool half_for_a_peer = false;           ///< no peer has more than half of the places, ever
+  std::chrono::milliseconds patience{0};  ///< how long a call waits for its turn
+  std::optional<PaceOptions> pace;        ///< none: calls are never too slow
+  grpc::StatusCode refusal = grpc::StatusCode::UNAVAILABLE;
+  std::function<Pace::Time()> now = [] { return std::chrono::steady_clock::now(); };
+};
+
+/// Places for calls of one kind.  They are for whoever asks.  When all are taken, the next one gets the place
+/// of, in this order: a call whose peer is slower than the least rate; a call of the peer that holds more
+/// than half of the places, if its own peer holds less; a call of the connection that holds more than an
+/// eighth, if its own holds less.  So neither one peer nor one connection keeps others out, and none is held
+/// back while there is room.  Thread-safe.
+class CallLimit {
+ public:
+  explicit CallLimit(CallLimitOptions options) : options_(std::move(options)) {}
+  CallLimit(const CallLimit&) = delete;
+  CallLimit& operator=(const CallLimit&) = delete;
+
+  /// The place of one call, until it is destroyed; used by one thread at a time.
   class Place {
    public:
-    /// @throws CallEnded UNAVAILABLE when there is none.
-    explicit Place(CallLimit& limit);
-    ~Place();
-    Place(const Place&) = delete;
-    Place& operator=(const Place&) = delete;
+    Place() = default;
+    Place(Place&& other) noexcept;
+    Place& operator=(Place&& other) noexcept;
+    ~Place() { leave(); }
 
-    /// From now on the call depends on its client; if that does nothing for long, the place may be lost and
-    /// the call, whose context this is, cancelled.
-    void depend_on_client(grpc::ServerContextBase& context);
-    /// The call got further.
-    void progress();
+    explicit operator bool() const { return limit_ != nullptr; }
+    /// From now on the call waits for its peer.
+    void turn();
+    /// The peer has sent or taken a message.
+    void moved(std::uint64_t bytes);
+    void leave();
 
    private:
-    CallLimit& limit_;
-    Holder holder_;
+    friend class CallLimit;
+    Place(CallLimit* limit, std::uint64_t number) : limit_(limit), number_(number) {}
+    CallLimit* limit_ = nullptr;
+    std::uint64_t number_ = 0;
   };
 
- private:
-  bool enter(Holder& holder);
-  bool evict(std::chrono::steady_clock::time_point now);
+  /// Hears that the place is there, or why there is none.  Called once, by any thread; must return quickly.
+  using Granted = std::function<void(const grpc::Status&, Place)>;
 
-  const std::string what_;
-  const std::size_t most_;
-  const std::chrono::milliseconds patience_;
-  const std::chrono::milliseconds stall_;
-  std::mutex mutex_;
-  std::condition_variable freed_;
-  std::list<Holder*> holders_;  // guarded by mutex_, and so is what they point to
+  /// @param call is ended when its place goes to another, or its peer is late; empty: it never is.
+  /// @throws CallEnded with the refusal, naming limit and use.
+  Place enter(const Caller& caller, std::weak_ptr<Endable> call);
+
+  /// As enter, but waits for a turn as long as patience lasts.  May call `granted` before it returns.
+  void enter_later(const Caller& caller, std::weak_ptr<Endable> call, Granted granted);
+
+  /// Ends the calls whose peers are late, and refuses who has waited for too long.  Call now and then.
+  void tick();
+
+  /// When memory is short: ends the call that, at its present pace, takes longest to bring what it holds
+  /// once more, if that is over a minute.  False when there is none.
+  bool relieve();
+
+  /// Refuses all that come from now on, and who waits.
+  void close(const grpc::Status& why);
+
+  /// Ends all calls under way.
+  void end_all(const grpc::Status& why);
+
+  /// Calls under way.
+  std::size_t used() const;
+
+ private:
+  struct Holder {
+    Caller caller;
+    std::weak_ptr<Endable> call;
+    Pace pace;
+    Pace::Time entered;
+  };
+  struct Waiter {
+    Caller caller;
+    std::weak_ptr<Endable> call;
+    Granted granted;
+    Pace::Time until;
+  };
+  using Holders = std::map<std::uint64_t, Holder>;  // by the order of their coming
+  /// What is to be done when the lock is gone.
+  using Later = std::vector<std::function<void()>>;
+
+  std::optional<Place> try_enter(const Caller& caller, const std::weak_ptr<Endable>& call, Later& later);
+  bool make_room(const Caller& caller, Pace::Time now, Later& later);
+  void evict(Holders::iterator holder, const std::string& why, Later& later);
+  template <typename Belongs>
+  Holders::iterator slowest(Pace::Time now, Belongs belongs);
+  template <typename Key>
+  bool take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later);
+  std::size_t of_peer(const std::string& peer) const;
+  void serve_waiters(Later& later);
+  grpc::Status refusal(const Caller& caller) const;
+
+  const CallLimitOptions options_;
+  mutable std::mutex mutex_;
+  // All guarded by mutex_.
+  Holders holders_;
+  std::list<Waiter> waiters_;
+  std::uint64_t next_number_ = 1;
+  std::optional<grpc::Status> closed_;
 };
 
 }  // namespace affskel::server

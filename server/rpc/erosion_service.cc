@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
-#include <condition_variable>
-#include <memory>
-#include <mutex>
+#include <string_view>
 #include <utility>
 
 #include "errors.h"
+#include "rpc/fetch_call.h"
 #include "rpc/status.h"
-#include "rpc/streams.h"
+#include "rpc/submit_call.h"
+#include "rpc/unary_call.h"
+#include "rpc/watch.h"
 #include "wire/limits.h"
 #include "wire/quoted.h"
 #include "wire/version.h"
@@ -21,17 +21,6 @@ namespace affskel::server {
 namespace {
 
 constexpr std::uint32_t kDefaultListLimit = 50;
-
-// How often a waiting fetch looks whether its client is still there; gRPC's synchronous calls are not
-// told of it.
-constexpr std::chrono::milliseconds kCancelCheck{200};
-
-/// Set by the hub, waited for by a fetch.
-struct Signal {
-  std::mutex mutex;
-  std::condition_variable changed;
-  bool set = false;
-};
 
 // Says what it is, so that something else does not pass for it by accident.
 constexpr std::string_view kTokenPrefix = "before-";
@@ -53,196 +42,112 @@ std::int64_t number_of_token(const std::string& token) {
   return number;
 }
 
-grpc::Status status_of_failure(const v1::JobError& error) {
-  const grpc::StatusCode code = error.code() == "BAD_INPUT" ? grpc::StatusCode::INVALID_ARGUMENT
-                                : error.code() == "LIMIT"   ? grpc::StatusCode::RESOURCE_EXHAUSTED
-                                                            : grpc::StatusCode::INTERNAL;
-  return {code, error.message()};
+ListFilter filter_of(const v1::ListJobsRequest& request) {
+  ListFilter filter;
+  for (int state : request.states()) {
+    if (!v1::JobState_IsValid(state) || state == v1::JOB_STATE_UNSPECIFIED) {
+      throw StoreError(StoreError::Code::kInvalid, "unknown job state: " + std::to_string(state));
+    }
+    filter.states.push_back(static_cast<v1::JobState>(state));
+  }
+  filter.owner = request.owner();
+  filter.limit = request.limit() == 0 ? kDefaultListLimit : request.limit();
+  if (filter.limit > wire::kMaxListedJobs)
+    throw StoreError(StoreError::Code::kInvalid,
+                     "the limit must be 1 .. 1000, or 0 for 50, not " + std::to_string(request.limit()));
+  filter.before = number_of_token(request.page_token());
+  return filter;
 }
 
 }  // namespace
 
-ErosionServiceImpl::ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub,
-                                       Activity& activity, UploadBudget& uploads, const CallLimits& limits,
-                                       Facts facts)
-    : store_(store),
+ErosionServiceImpl::ErosionServiceImpl(CallRoom& room, Store& store, WorkerRegistry& registry,
+                                       const JobView& jobs, EventHub& hub, Facts facts)
+    : room_(room),
+      store_(store),
       registry_(registry),
+      jobs_(jobs),
       hub_(hub),
-      activity_(activity),
-      uploads_(uploads),
       facts_(std::move(facts)),
-      receiving_("uploads", limits.uploads, limits.patience, limits.stall),
-      waiting_("waiting calls", limits.waiting, {}, {}),
-      sending_("downloads", limits.downloads, limits.patience, limits.stall),
-      watches_(hub, activity, limits.watches) {}
+      waiters_([&store](std::int64_t task) { guarded([&] { store.withdraw(task); }); }) {}
 
-EventHub::JobPtr ErosionServiceImpl::load(const std::string& job_id) {
-  try {
-    return std::make_shared<const v1::Job>(with_reason(store_.job(job_id)));
-  } catch (const StoreError& error) {
-    if (error.code() == StoreError::Code::kNotFound) return nullptr;
-    throw;
-  }
+/// A short call.
+grpc::ServerUnaryReactor* ErosionServiceImpl::answer(grpc::CallbackServerContext& context,
+                                                     std::function<void()> body) {
+  return UnaryCall::start(room_, room_.client_calls, Side::kClient, context, std::move(body));
 }
 
-v1::Job ErosionServiceImpl::with_reason(v1::Job job) const {
-  const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
-  if (active && store_.disk_full()) {
-    job.set_waiting_reason("the server's disk is full; it goes on when there is room");
-    return job;
-  }
-  if (job.state() != v1::JOB_STATE_QUEUED || !job.waiting_reason().empty()) return job;
-  std::vector<v1::WorkerInfo> workers = registry_.list();
-  std::erase_if(workers, [](const v1::WorkerInfo& worker) { return worker.silent(); });
-  const auto idle = [](const v1::WorkerInfo& worker) { return worker.task().empty(); };
-  if (workers.empty()) {
-    job.set_waiting_reason("no worker is connected");
-  } else if (std::none_of(workers.begin(), workers.end(), idle)) {
-    job.set_waiting_reason("all workers are busy with jobs before it");
-  }
-  return job;
+grpc::ServerReadReactor<v1::SubmitJobRequest>* ErosionServiceImpl::SubmitJob(
+    grpc::CallbackServerContext* context, v1::SubmitJobResponse* response) {
+  return StreamCall::begin<SubmitCall>(room_, *context, store_, jobs_, *response);
 }
 
-grpc::Status ErosionServiceImpl::SubmitJob(grpc::ServerContext* context,
-                                           grpc::ServerReader<v1::SubmitJobRequest>* reader,
-                                           v1::SubmitJobResponse* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] {
-    CallLimit::Place place(receiving_);
-    place.depend_on_client(*context);
-    v1::SubmitJobRequest first;
-    if (!reader->Read(&first) || !first.has_header()) {
-      throw StoreError(StoreError::Code::kInvalid, "a submission begins with its header");
-    }
-    // Before the data, which may take minutes to arrive.
-    const Submission submission = store_.check(first.header());
-    UploadBudget::Share share(uploads_);
-    const std::string mesh = receive_data<v1::SubmitJobRequest>(*reader, first.header().mesh_bytes(), share,
-                                                                [&] { place.progress(); });
-    Store::Submitted submitted = store_.submit(submission, mesh);
-    *response->mutable_job() = with_reason(std::move(submitted.job));
-    response->set_existed(submitted.existed);
-  });
+grpc::ServerUnaryReactor* ErosionServiceImpl::GetJob(grpc::CallbackServerContext* context,
+                                                     const v1::GetJobRequest* request, v1::Job* response) {
+  return answer(*context,
+                [this, request, response] { *response = jobs_.with_reason(store_.job(request->job())); });
 }
 
-grpc::Status ErosionServiceImpl::GetJob(grpc::ServerContext*, const v1::GetJobRequest* request,
-                                        v1::Job* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] { *response = with_reason(store_.job(request->job())); });
+grpc::ServerUnaryReactor* ErosionServiceImpl::ListJobs(grpc::CallbackServerContext* context,
+                                                       const v1::ListJobsRequest* request,
+                                                       v1::ListJobsResponse* response) {
+  return answer(*context, [this, request, response] { list(*request, *response); });
 }
 
-grpc::Status ErosionServiceImpl::ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
-                                          v1::ListJobsResponse* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] {
-    ListFilter filter;
-    for (int state : request->states()) {
-      if (!v1::JobState_IsValid(state) || state == v1::JOB_STATE_UNSPECIFIED) {
-        throw StoreError(StoreError::Code::kInvalid, "unknown job state: " + std::to_string(state));
-      }
-      filter.states.push_back(static_cast<v1::JobState>(state));
-    }
-    filter.owner = request->owner();
-    filter.limit = request->limit() == 0 ? kDefaultListLimit : request->limit();
-    if (filter.limit > wire::kMaxListedJobs)
-      throw StoreError(StoreError::Code::kInvalid,
-                       "the limit must be 1 .. 1000, or 0 for 50, not " + std::to_string(request->limit()));
-    filter.before = number_of_token(request->page_token());
-    JobPage page = store_.list(filter);
-    for (v1::Job& job : page.jobs) *response->add_jobs() = with_reason(std::move(job));
-    if (page.next != 0) response->set_next_page_token(token_of_number(page.next));
-  });
+void ErosionServiceImpl::list(const v1::ListJobsRequest& request, v1::ListJobsResponse& response) {
+  JobPage page = store_.list(filter_of(request));
+  for (v1::Job& job : page.jobs) *response.add_jobs() = jobs_.with_reason(std::move(job));
+  if (page.next != 0) response.set_next_page_token(token_of_number(page.next));
 }
 
-grpc::ServerWriteReactor<v1::Job>* ErosionServiceImpl::WatchJob(grpc::CallbackServerContext*,
+grpc::ServerWriteReactor<v1::Job>* ErosionServiceImpl::WatchJob(grpc::CallbackServerContext* context,
                                                                 const v1::WatchJobRequest* request) {
-  std::string id;
-  const grpc::Status status = guarded([&] { id = store_.resolve(request->job()); });
-  return status.ok() ? watches_.watch(id) : refused_watch(status);
+  return StreamCall::begin<WatchCall>(room_, *context, store_, hub_, *request);
 }
 
-grpc::Status ErosionServiceImpl::CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
-                                           v1::Job* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] { *response = with_reason(store_.cancel(request->job())); });
+grpc::ServerUnaryReactor* ErosionServiceImpl::CancelJob(grpc::CallbackServerContext* context,
+                                                        const v1::CancelJobRequest* request,
+                                                        v1::Job* response) {
+  return answer(*context,
+                [this, request, response] { *response = jobs_.with_reason(store_.cancel(request->job())); });
 }
 
-grpc::Status ErosionServiceImpl::ResumeJob(grpc::ServerContext*, const v1::ResumeJobRequest* request,
-                                           v1::Job* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] { *response = with_reason(store_.resume(request->job())); });
+grpc::ServerUnaryReactor* ErosionServiceImpl::ResumeJob(grpc::CallbackServerContext* context,
+                                                        const v1::ResumeJobRequest* request,
+                                                        v1::Job* response) {
+  return answer(*context,
+                [this, request, response] { *response = jobs_.with_reason(store_.resume(request->job())); });
 }
 
-grpc::Status ErosionServiceImpl::DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request,
-                                           v1::DeleteJobResponse* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] { response->set_id(store_.remove(request->job())); });
+grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerContext* context,
+                                                        const v1::DeleteJobRequest* request,
+                                                        v1::DeleteJobResponse* response) {
+  return answer(*context, [this, request, response] { response->set_id(store_.remove(request->job())); });
 }
 
-ErosionServiceImpl::Download ErosionServiceImpl::wait_for_artifact(grpc::ServerContext& context,
-                                                                   const v1::FetchArtifactRequest& request) {
-  const CallLimit::Place waiting(waiting_);
-  const auto signal = std::make_shared<Signal>();
-  const EventHub::Subscription subscription =
-      hub_.subscribe(request.job(), [signal](const EventHub::JobPtr&) {
-        {
-          const std::lock_guard lock(signal->mutex);
-          signal->set = true;
-        }
-        signal->changed.notify_all();
-      });
-  for (std::int64_t task = 0;;) {
-    auto place = std::make_unique<CallLimit::Place>(sending_);
-    Store::ArtifactState state = store_.open_artifact(request, task);
-    if (state.error) throw CallEnded(status_of_failure(*state.error));
-    if (state.reader != nullptr) return {std::move(place), std::move(state.reader)};
-    place.reset();
-    task = state.task;
-    std::unique_lock lock(signal->mutex);
-    while (!signal->changed.wait_for(lock, kCancelCheck, [&] { return signal->set; })) {
-      if (context.IsCancelled()) throw CallEnded(grpc::Status::CANCELLED);
-      if (stopping_) throw CallEnded({grpc::StatusCode::UNAVAILABLE, "the server is shutting down"});
-    }
-    signal->set = false;
-  }
+grpc::ServerWriteReactor<v1::FetchArtifactResponse>* ErosionServiceImpl::FetchArtifact(
+    grpc::CallbackServerContext* context, const v1::FetchArtifactRequest* request) {
+  return StreamCall::begin<FetchCall>(room_, *context, store_, jobs_, hub_, waiters_, *request);
 }
 
-grpc::Status ErosionServiceImpl::FetchArtifact(grpc::ServerContext* context,
-                                               const v1::FetchArtifactRequest* request,
-                                               grpc::ServerWriter<v1::FetchArtifactResponse>* writer) {
-  const Activity::Call call(activity_);
-  return guarded([&] {
-    // The full id from here on: "@last" may soon mean another job.
-    v1::FetchArtifactRequest fixed = *request;
-    fixed.set_job(store_.resolve(request->job()));
-    const Download download = wait_for_artifact(*context, fixed);
-    const v1::Job job = with_reason(store_.job(fixed.job()));
-    download.place->depend_on_client(*context);
-    send_blob(*writer, *download.reader, &job, [&] { download.place->progress(); });
-  });
+grpc::ServerUnaryReactor* ErosionServiceImpl::GetServerInfo(grpc::CallbackServerContext* context,
+                                                            const v1::GetServerInfoRequest*,
+                                                            v1::ServerInfo* response) {
+  return answer(*context, [this, response] { tell_about_itself(*response); });
 }
 
-grpc::Status ErosionServiceImpl::GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
-                                               v1::ServerInfo* response) {
-  const Activity::Call call(activity_);
-  return guarded([&] {
-    const Store::Counts counts = store_.counts();
-    response->set_version(wire::kVersion);
-    response->set_started_ms(facts_.started_ms);
-    response->set_pid(static_cast<std::uint32_t>(getpid()));
-    response->set_data_dir(facts_.data_dir);
-    for (v1::WorkerInfo& worker : registry_.list()) *response->add_workers() = std::move(worker);
-    response->set_jobs_queued(static_cast<std::uint64_t>(counts.queued));
-    response->set_jobs_running(static_cast<std::uint64_t>(counts.running));
-    response->set_jobs_total(static_cast<std::uint64_t>(counts.total));
-    response->set_schema_version(static_cast<std::uint64_t>(store_.schema_version()));
-    response->set_max_mesh_bytes(store_.options().max_mesh_bytes);
-  });
-}
-
-void ErosionServiceImpl::stop() {
-  stopping_ = true;
-  watches_.stop();
+void ErosionServiceImpl::tell_about_itself(v1::ServerInfo& response) {
+  const Store::Counts counts = store_.counts();
+  response.set_version(wire::kVersion);
+  response.set_started_ms(facts_.started_ms);
+  response.set_pid(static_cast<std::uint32_t>(getpid()));
+  response.set_data_dir(facts_.data_dir);
+  for (v1::WorkerInfo& worker : registry_.list()) *response.add_workers() = std::move(worker);
+  response.set_jobs_queued(static_cast<std::uint64_t>(counts.queued));
+  response.set_jobs_running(static_cast<std::uint64_t>(counts.running));
+  response.set_jobs_total(static_cast<std::uint64_t>(counts.total));
+  response.set_schema_version(static_cast<std::uint64_t>(store_.schema_version()));
+  response.set_max_mesh_bytes(store_.options().max_mesh_bytes);
 }
 
 }  // namespace affskel::server

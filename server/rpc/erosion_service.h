@@ -2,79 +2,67 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <atomic>
+#include <cstdint>
+#include <functional>
 #include <string>
 
 #include "affskel/v1/client_service.grpc.pb.h"
-#include "rpc/activity.h"
-#include "rpc/call_limit.h"
+#include "rpc/artifact_waiters.h"
+#include "rpc/call_room.h"
 #include "rpc/event_hub.h"
-#include "rpc/upload_budget.h"
-#include "rpc/watch.h"
+#include "rpc/job_view.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
 
 namespace affskel::server {
 
-/// The service for clients.  WatchJob holds no thread; FetchArtifact holds one while it waits for a
-/// derived artefact.
-class ErosionServiceImpl final
-    : public v1::ErosionService::WithCallbackMethod_WatchJob<v1::ErosionService::Service> {
+/// The service for clients.  No call holds a thread while it waits.
+class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
  public:
   struct Facts {
     std::string data_dir;
     std::uint64_t started_ms = 0;
   };
 
-  ErosionServiceImpl(Store& store, WorkerRegistry& registry, EventHub& hub, Activity& activity,
-                     UploadBudget& uploads, const CallLimits& limits, Facts facts);
+  ErosionServiceImpl(CallRoom& room, Store& store, WorkerRegistry& registry, const JobView& jobs,
+                     EventHub& hub, Facts facts);
 
-  grpc::Status SubmitJob(grpc::ServerContext* context, grpc::ServerReader<v1::SubmitJobRequest>* reader,
-                         v1::SubmitJobResponse* response) override;
-  grpc::Status GetJob(grpc::ServerContext* context, const v1::GetJobRequest* request,
-                      v1::Job* response) override;
-  grpc::Status ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
-                        v1::ListJobsResponse* response) override;
+  grpc::ServerReadReactor<v1::SubmitJobRequest>* SubmitJob(grpc::CallbackServerContext* context,
+                                                           v1::SubmitJobResponse* response) override;
+  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
+                                   v1::Job* response) override;
+  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context, const v1::ListJobsRequest* request,
+                                     v1::ListJobsResponse* response) override;
   grpc::ServerWriteReactor<v1::Job>* WatchJob(grpc::CallbackServerContext* context,
                                               const v1::WatchJobRequest* request) override;
-  grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
-                         v1::Job* response) override;
-  grpc::Status ResumeJob(grpc::ServerContext* context, const v1::ResumeJobRequest* request,
-                         v1::Job* response) override;
-  grpc::Status DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
-                         v1::DeleteJobResponse* response) override;
-  grpc::Status FetchArtifact(grpc::ServerContext* context, const v1::FetchArtifactRequest* request,
-                             grpc::ServerWriter<v1::FetchArtifactResponse>* writer) override;
-  grpc::Status GetServerInfo(grpc::ServerContext* context, const v1::GetServerInfoRequest* request,
-                             v1::ServerInfo* response) override;
+  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context,
+                                      const v1::CancelJobRequest* request, v1::Job* response) override;
+  grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context,
+                                      const v1::ResumeJobRequest* request, v1::Job* response) override;
+  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
+                                      const v1::DeleteJobRequest* request,
+                                      v1::DeleteJobResponse* response) override;
+  grpc::ServerWriteReactor<v1::FetchArtifactResponse>* FetchArtifact(
+      grpc::CallbackServerContext* context, const v1::FetchArtifactRequest* request) override;
+  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
+                                          const v1::GetServerInfoRequest* request,
+                                          v1::ServerInfo* response) override;
 
-  /// The job as it is now, with the reason why it waits; null when there is none.  Throws what the store
-  /// throws otherwise.
-  EventHub::JobPtr load(const std::string& job_id);
-
-  /// Ends what waits.
-  void stop();
+  /// Requests for artefacts that end from now on are left to the next server.
+  void close() { waiters_.close(); }
 
  private:
-  v1::Job with_reason(v1::Job job) const;
-  /// An artefact to be sent, and the place among the downloads that this takes.
-  struct Download {
-    std::unique_ptr<CallLimit::Place> place;
-    std::unique_ptr<BlobReader> reader;
-  };
-  Download wait_for_artifact(grpc::ServerContext& context, const v1::FetchArtifactRequest& request);
+  grpc::ServerUnaryReactor* answer(grpc::CallbackServerContext& context, std::function<void()> body);
+  void list(const v1::ListJobsRequest& request, v1::ListJobsResponse& response);
+  void tell_about_itself(v1::ServerInfo& response);
 
+  CallRoom& room_;
   Store& store_;
   WorkerRegistry& registry_;
+  const JobView& jobs_;
   EventHub& hub_;
-  Activity& activity_;
-  UploadBudget& uploads_;
   const Facts facts_;
-  CallLimit receiving_;
-  CallLimit waiting_;
-  CallLimit sending_;
-  Watches watches_;
-  std::atomic<bool> stopping_ = false;
+  ArtifactWaiters waiters_;
 };
 
 }  // namespace affskel::server

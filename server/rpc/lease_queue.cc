@@ -15,14 +15,10 @@ using Time = std::chrono::steady_clock::time_point;
 
 constexpr std::uint32_t kMaxWaitMs = 30000;
 
-grpc::Status shutting_down() {
-  return {grpc::StatusCode::UNAVAILABLE, "the server is shutting down"};
-}
-
 }  // namespace
 
 /// One waiting call.
-class LeaseQueue::Poll final : public grpc::ServerUnaryReactor {
+class LeaseQueue::Poll final : public grpc::ServerUnaryReactor, public Endable {
  public:
   Poll(LeaseQueue& queue, grpc::CallbackServerContext* context, const v1::LeaseTaskRequest& request,
        v1::LeaseTaskResponse* response)
@@ -36,8 +32,20 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor {
   const v1::LeaseTaskRequest& request() const { return request_; }
   Time deadline() const { return deadline_; }
 
+  /// Takes a place among the calls that wait.  @throws CallEnded.
+  void enter() {
+    scope_.emplace(queue_.room_, *context_, Side::kWorker);
+    place_ = queue_.room_.polls.enter(scope_->caller(), self_);
+  }
+
+  /// Others need the place.
+  void end(const grpc::Status& status) override {
+    queue_.remove(self_);
+    answer(status);
+  }
+
   /// Ends the call unless it has ended; false when it had.
-  bool end(const grpc::Status& status, std::optional<v1::Lease> lease = std::nullopt) {
+  bool answer(const grpc::Status& status, std::optional<v1::Lease> lease = std::nullopt) {
     const std::lock_guard lock(mutex_);
     if (ended_) return false;
     ended_ = true;
@@ -49,13 +57,16 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor {
     return true;
   }
 
-  void OnCancel() override { queue_.withdraw(self_); }  // never after OnDone
+  void OnCancel() override { end(grpc::Status::CANCELLED); }  // never after OnDone
 
   void OnDone() override {
     // A lease whose answer did not reach the worker would lie idle until its deadline.
     if (!token_.empty() && context_->IsCancelled()) {
-      guarded([&] { queue_.store_.give_back(token_); });
+      queue_.room_.worker_calls.post(scope_->caller().connection, [&store = queue_.store_, token = token_] {
+        guarded([&] { store.give_back(token); });
+      });
     }
+    place_.leave();
     self_.reset();  // the last use of this object
   }
 
@@ -73,11 +84,13 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor {
   std::mutex mutex_;
   bool ended_ = false;
   std::string token_;
+  std::optional<CallScope> scope_;
+  CallLimit::Place place_;
   PollPtr self_;
 };
 
-LeaseQueue::LeaseQueue(Store& store, WorkerRegistry& registry)
-    : store_(store), registry_(registry), thread_([this] { run(); }) {}
+LeaseQueue::LeaseQueue(Store& store, WorkerRegistry& registry, CallRoom& room)
+    : store_(store), registry_(registry), room_(room), thread_([this] { run(); }) {}
 
 LeaseQueue::~LeaseQueue() {
   stop();
@@ -89,7 +102,10 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
   const auto poll = std::make_shared<Poll>(*this, context, *request, response);
   poll->hold(poll);
   // Before the registry: whoever does not say who it is must not fill the list of workers.
-  grpc::Status status = guarded([&] { check_worker(request->worker()); });
+  grpc::Status status = guarded([&] {
+    check_worker(request->worker());
+    poll->enter();
+  });
   if (status.ok()) {
     registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));
     const std::lock_guard lock(mutex_);
@@ -99,7 +115,7 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
       waiting_.push_back(poll);
     }
   }
-  if (!status.ok()) poll->end(status);
+  if (!status.ok()) poll->answer(status);
   changed_.notify_all();
   return poll.get();
 }
@@ -121,15 +137,12 @@ void LeaseQueue::stop() {
   }
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
-  for (const PollPtr& poll : waiting) poll->end(shutting_down());
+  for (const PollPtr& poll : waiting) poll->answer(shutting_down());
 }
 
-void LeaseQueue::withdraw(const PollPtr& poll) {
-  {
-    const std::lock_guard lock(mutex_);
-    waiting_.remove(poll);
-  }
-  poll->end(grpc::Status::CANCELLED);
+void LeaseQueue::remove(const PollPtr& poll) {
+  const std::lock_guard lock(mutex_);
+  waiting_.remove(poll);
 }
 
 void LeaseQueue::run() {
@@ -180,12 +193,12 @@ void LeaseQueue::serve(const std::list<PollPtr>& polls) {
       waiting_.remove(poll);
     }
     if (!lease) {
-      poll->end(status);
+      poll->answer(status);
       continue;
     }
     registry_.granted(request.worker(), *lease);
     const std::string token = lease->token();
-    if (!poll->end(grpc::Status::OK, std::move(lease))) {
+    if (!poll->answer(grpc::Status::OK, std::move(lease))) {
       registry_.ended(token);
       guarded([&] { store_.give_back(token); });
     }
@@ -203,7 +216,7 @@ void LeaseQueue::end_expired() {
       poll = next;
     }
   }
-  for (const PollPtr& poll : expired) poll->end(grpc::Status::OK);
+  for (const PollPtr& poll : expired) poll->answer(grpc::Status::OK);
 }
 
 }  // namespace affskel::server

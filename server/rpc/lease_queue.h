@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "rpc/call_room.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
 
@@ -18,7 +19,7 @@ namespace affskel::server {
 /// order in which they came.  Thread-safe.
 class LeaseQueue {
  public:
-  LeaseQueue(Store& store, WorkerRegistry& registry);
+  LeaseQueue(Store& store, WorkerRegistry& registry, CallRoom& room);
   ~LeaseQueue();
 
   /// A LeaseTask call.
@@ -38,10 +39,11 @@ class LeaseQueue {
   void run();
   void serve(const std::list<PollPtr>& polls);
   void end_expired();
-  void withdraw(const PollPtr& poll);
+  void remove(const PollPtr& poll);
 
   Store& store_;
   WorkerRegistry& registry_;
+  CallRoom& room_;
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -106,8 +106,8 @@ std::int64_t steady_ms() {
 
 }  // namespace
 
-Listener::Listener(const std::vector<wire::Address>& addresses, int first_refused)
-    : first_refused_(first_refused) {
+Listener::Listener(const std::vector<wire::Address>& addresses, Connections& connections)
+    : connections_(connections) {
   try {
     wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake_ < 0) throw std::runtime_error(std::string("eventfd: ") + std::strerror(errno));
@@ -199,13 +199,13 @@ void Listener::run() {
 /// One connection; false when none can be taken for want of something.
 bool Listener::take(int listening) {
   const int fd = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (fd >= first_refused_) {
-    close(fd);
-    tell("too many connections and files are open");
-    return true;
-  }
   if (fd >= 0) {
-    handler_(listening, fd);
+    if (connections_.admit(fd, peer_of(fd))) {
+      handler_(fd);
+    } else {
+      close(fd);
+      tell("too many connections and files are open");
+    }
     return true;
   }
   if (errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM) return true;
@@ -217,7 +217,8 @@ void Listener::tell(const std::string& why) {
   ++refused_;
   const std::int64_t now = steady_ms();
   if (told_ms_ != 0 && now - told_ms_ < kTellMs) return;
-  spdlog::warn("event=connections_refused number={} limit={} message=\"{}\"", refused_, first_refused_, why);
+  spdlog::warn("event=connections_refused number={} open={} message=\"{}\"", refused_, connections_.size(),
+               why);
   told_ms_ = now;
   refused_ = 0;
 }

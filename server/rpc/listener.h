@@ -5,22 +5,23 @@
 #include <thread>
 #include <vector>
 
+#include "rpc/connections.h"
 #include "wire/address.h"
 
 namespace affskel::server {
 
 /// Takes connections for gRPC, whose own listening sockets are closed for good when the process runs out of
-/// descriptors.  This one refuses connections while there are too many, and goes on.
+/// descriptors.  This one asks the table of connections whether there is room, and goes on when there is
+/// none.
 class Listener {
  public:
-  using Handler = std::function<void(int listening, int connection)>;
+  using Handler = std::function<void(int connection)>;
 
   /// Binds; nothing is accepted yet.
   /// @param addresses local ones: see prepare_addresses.
-  /// @param first_refused a connection whose descriptor is this or more is closed at once.  Descriptors are
-  ///   given out from the lowest, so that as many are in use then.
+  /// @param connections gets all of them, and decides; must outlive the listener.
   /// @throws std::runtime_error naming the address and the cause.
-  Listener(const std::vector<wire::Address>& addresses, int first_refused);
+  Listener(const std::vector<wire::Address>& addresses, Connections& connections);
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -42,7 +43,7 @@ class Listener {
   void close_all();
 
   std::vector<wire::Address> addresses_;
-  const int first_refused_;
+  Connections& connections_;
   std::vector<int> sockets_;
   int wake_ = -1;
   Handler handler_;

@@ -3,6 +3,8 @@
 #include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
+#include <grpcpp/server_posix.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 
@@ -22,6 +24,40 @@ namespace {
 constexpr int kMaxReceiveBytes = 4 << 20;
 // A job with many finished ranges and notes, or a long list of jobs.
 constexpr int kMaxSendBytes = 64 << 20;
+
+// Reflection alone still takes a thread per call: of these there are no more, and further calls are refused.
+constexpr int kReflectionThreads = 8;
+
+// A peer that does not even answer a ping, stopped or cut off, is given up after the sum of these.
+constexpr int kKeepaliveMs = 30000;
+constexpr int kKeepaliveTimeoutMs = 20000;
+
+// Between looks at calls that are too slow.
+constexpr std::chrono::milliseconds kTick{200};
+
+/// Room for a mesh of the greatest size beside what is kept for workers' results.
+std::uint64_t upload_bytes(const ServerOptions& options) {
+  return std::max(options.upload_bytes, options.store.max_mesh_bytes / 3 * 4 + 4);
+}
+
+/// What gRPC itself is told to bound.
+void set_limits(grpc::ServerBuilder& builder, const CallLimits& limits) {
+  builder.SetMaxReceiveMessageSize(kMaxReceiveBytes);
+  builder.SetMaxSendMessageSize(kMaxSendBytes);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, static_cast<int>(limits.idle.count()));
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.streams);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  grpc::ResourceQuota quota("affskel-server");
+  quota.Resize(static_cast<std::size_t>(limits.grpc_bytes));
+  quota.SetMaxThreads(kReflectionThreads);
+  builder.SetResourceQuota(quota);
+  using Option = grpc::ServerBuilder::SyncServerOption;
+  builder.SetSyncServerOption(Option::NUM_CQS, 1);
+  builder.SetSyncServerOption(Option::MIN_POLLERS, 1);
+  builder.SetSyncServerOption(Option::MAX_POLLERS, 2);
+}
 
 /// Keeps the gRPC library initialised until the process ends.  Its last shutdown joins a thread that may
 /// sit in a poll of 10 s (the backup poller of a connection that had to wait for its peer), which would
@@ -45,21 +81,21 @@ void release_dead_workers(Store& store) {
 }  // namespace
 
 Server::Server(const ServerOptions& options)
-    : registry_(clock_, options.store.lease_ms),
-      uploads_(std::max(options.upload_bytes, options.store.max_mesh_bytes)) {
+    : registry_(clock_, options.store.lease_ms), room_(options.limits, upload_bytes(options)) {
   hold_grpc();
   prepare_addresses(options.listen);
   store_ = std::make_unique<Store>(database_file(options.data_dir), options.store, clock_, &hub_);
   release_dead_workers(*store_);
-  queue_ = std::make_unique<LeaseQueue>(*store_, registry_);
-  worker_service_ = std::make_unique<WorkerServiceImpl>(*store_, registry_, *queue_, uploads_);
+  jobs_ = std::make_unique<JobView>(*store_, registry_);
+  queue_ = std::make_unique<LeaseQueue>(*store_, registry_, room_);
+  worker_service_ = std::make_unique<WorkerServiceImpl>(room_, *store_, registry_, *queue_);
   erosion_service_ = std::make_unique<ErosionServiceImpl>(
-      *store_, registry_, hub_, activity_, uploads_, options.limits,
+      room_, *store_, registry_, *jobs_, hub_,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
-  hub_.start([this](const std::string& id) { return erosion_service_->load(id); },
-             [this] { queue_->on_work(); });
+  hub_.start([this](const std::string& id) { return jobs_->load(id); }, [this] { queue_->on_work(); });
   serve(options);
   maintenance_ = std::thread([this] { maintain(); });
+  ticker_ = std::thread([this] { tick(); });
 }
 
 Server::~Server() {
@@ -67,29 +103,30 @@ Server::~Server() {
 }
 
 void Server::serve(const ServerOptions& options) {
-  listener_ = std::make_unique<Listener>(options.listen, options.limits.connections);
+  listener_ = std::make_unique<Listener>(options.listen, room_.connections);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
-  builder.SetMaxReceiveMessageSize(kMaxReceiveBytes);
-  builder.SetMaxSendMessageSize(kMaxSendBytes);
+  set_limits(builder, options.limits);
   builder.RegisterService(worker_service_.get());
   builder.RegisterService(erosion_service_.get());
-  acceptor_ = builder.experimental().AddExternalConnectionAcceptor(
-      grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
-      grpc::InsecureServerCredentials());
   grpc_ = builder.BuildAndStart();
   if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
   for (const char* service :
        {v1::ErosionService::service_full_name(), v1::WorkerService::service_full_name()}) {
     grpc_->GetHealthCheckService()->SetServingStatus(service, true);
   }
-  listener_->start([this](int listening, int connection) {
-    grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
-    parameters.listener_fd = listening;
-    parameters.fd = connection;
-    acceptor_->HandleNewConnection(&parameters);
-  });
+  listener_->start([this](int connection) { grpc::AddInsecureChannelFromFd(grpc_.get(), connection); });
+}
+
+/// Apart from the store's maintenance, which may have to wait for the disk.
+void Server::tick() {
+  std::unique_lock lock(mutex_);
+  while (!stopped_.wait_for(lock, kTick, [this] { return closed_; })) {
+    lock.unlock();
+    room_.tick();
+    lock.lock();
+  }
 }
 
 void Server::maintain() {
@@ -124,10 +161,10 @@ void Server::tidy() {
 std::chrono::steady_clock::duration Server::idle_time() {
   const Store::Counts counts = store_->counts();
   if (counts.queued > 0 || counts.running > 0 || counts.requests > 0 || tidying_) {
-    activity_.touch();
+    room_.activity.touch();
     return std::chrono::steady_clock::duration::zero();
   }
-  return activity_.idle_time();
+  return room_.activity.idle_time();
 }
 
 void Server::drain() {
@@ -135,7 +172,8 @@ void Server::drain() {
     grpc_->GetHealthCheckService()->SetServingStatus(false);
   }
   if (queue_ != nullptr) queue_->stop();
-  if (erosion_service_ != nullptr) erosion_service_->stop();
+  if (erosion_service_ != nullptr) erosion_service_->close();
+  room_.close();
 }
 
 void Server::stop(std::chrono::milliseconds grace) {
@@ -151,6 +189,13 @@ void Server::stop(std::chrono::milliseconds grace) {
     grpc_->Shutdown(std::chrono::system_clock::now() + grace);
     grpc_->Wait();
   }
+  room_.stop();
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  stopped_.notify_all();
+  if (ticker_.joinable()) ticker_.join();
   hub_.stop();
 }
 

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "clock.h"
-#include "rpc/activity.h"
-#include "rpc/call_limit.h"
+#include "rpc/call_room.h"
 #include "rpc/erosion_service.h"
 #include "rpc/event_hub.h"
+#include "rpc/job_view.h"
 #include "rpc/lease_queue.h"
+#include "rpc/limits.h"
 #include "rpc/listener.h"
-#include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "rpc/worker_service.h"
 #include "store/store.h"
@@ -38,6 +38,9 @@ struct ServerOptions {
 
 /// A serving server: the store, both services and the maintenance of leases, without signals and
 /// processes.  Works until stopped or destroyed.
+///
+/// No call holds a thread while it waits for its peer: gRPC's own threads move messages, and what touches the
+/// store runs in the executors of the CallRoom.
 class Server {
  public:
   /// Opens the database and starts serving.
@@ -57,35 +60,38 @@ class Server {
   /// deleted jobs going.
   std::chrono::steady_clock::duration idle_time();
 
-  /// Ends the waiting calls and leases nothing more; reports are still taken.
+  /// Ends the calls that wait with UNAVAILABLE, lets no stream of a client begin and leases nothing more;
+  /// what is under way goes on, and reports are still taken.
   void drain();
 
-  /// Drains, lets running calls end within `grace`, and closes.
+  /// Drains, lets running calls end within `grace`, cancels the others, and closes.
   void stop(std::chrono::milliseconds grace = std::chrono::milliseconds(2000));
 
  private:
   void serve(const ServerOptions& options);
   void maintain();
+  void tick();
   void tidy();
 
   SystemClock clock_;
   EventHub hub_;
   WorkerRegistry registry_;
-  Activity activity_;
-  UploadBudget uploads_;
+  CallRoom room_;
   std::unique_ptr<Store> store_;
+  std::unique_ptr<JobView> jobs_;
   std::unique_ptr<LeaseQueue> queue_;
   std::unique_ptr<WorkerServiceImpl> worker_service_;
   std::unique_ptr<ErosionServiceImpl> erosion_service_;
   std::unique_ptr<grpc::Server> grpc_;
-  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<Listener> listener_;
 
   std::atomic<bool> tidying_ = false;
   std::mutex mutex_;
   std::condition_variable stopped_;
   bool stopping_ = false;
+  bool closed_ = false;
   std::thread maintenance_;
+  std::thread ticker_;
 };
 
 }  // namespace affskel::server

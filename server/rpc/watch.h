@@ -2,42 +2,46 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <cstddef>
-#include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 
 #include "affskel/v1/client_service.grpc.pb.h"
-#include "rpc/activity.h"
 #include "rpc/event_hub.h"
+#include "rpc/stream_call.h"
+#include "store/store.h"
 
 namespace affskel::server {
 
-/// All WatchJob streams of a server; none of them holds a thread.  Thread-safe.
-class Watches {
+/// WatchJob.  At most one message is on its way; what changes meanwhile is sent next, newest only.
+class WatchCall final : public StreamCall, public grpc::ServerWriteReactor<v1::Job> {
  public:
-  /// @param most streams at once; more are refused with UNAVAILABLE.
-  Watches(EventHub& hub, Activity& activity, std::size_t most);
+  WatchCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store, EventHub& hub,
+            const v1::WatchJobRequest& request);
 
-  /// Starts a stream for the job of this full id.
-  grpc::ServerWriteReactor<v1::Job>* watch(const std::string& job_id);
-
-  /// Ends all streams with UNAVAILABLE, so that their clients come back to the next server.
-  void stop();
+  void OnWriteDone(bool ok) override;
+  void OnCancel() override { end(grpc::Status::CANCELLED); }
+  void OnDone() override { done(); }
 
  private:
-  class Stream;
+  After open() override;
+  void deliver(const EventHub::JobPtr& job);
+  After next();
+  void move() override { StartWrite(sent_.get()); }
+  bool writes() const override { return true; }
+  void send_status(const grpc::Status& status) override { Finish(status); }
+  void ended() override { place_.leave(); }
 
+  Store& store_;
   EventHub& hub_;
-  Activity& activity_;
-  const std::size_t most_;
-  std::mutex mutex_;
-  std::set<std::shared_ptr<Stream>> streams_;
-  bool stopping_ = false;
-};
+  const std::string job_ref_;
+  CallLimit::Place place_;
+  EventHub::Subscription subscription_;
+  EventHub::JobPtr sent_;  // the one on its way, or the last that was
 
-/// A stream that ends at once with `status`.
-grpc::ServerWriteReactor<v1::Job>* refused_watch(const grpc::Status& status);
+  std::mutex newest_mutex_;
+  // Guarded by newest_mutex_.
+  EventHub::JobPtr newest_;  // not sent yet
+  bool deleted_ = false;
+};
 
 }  // namespace affskel::server

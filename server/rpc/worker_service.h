@@ -4,41 +4,46 @@
 
 #include "affskel/v1/worker_service.grpc.pb.h"
 #include "rpc/bounds_exchange.h"
+#include "rpc/call_room.h"
 #include "rpc/lease_queue.h"
-#include "rpc/upload_budget.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
 
 namespace affskel::server {
 
-/// The service for workers.  Only LeaseTask waits, and it holds no thread.
-class WorkerServiceImpl final
-    : public v1::WorkerService::WithCallbackMethod_LeaseTask<v1::WorkerService::Service> {
+/// The service for workers.  No call holds a thread while it waits for its worker.
+class WorkerServiceImpl final : public v1::WorkerService::CallbackService {
  public:
-  WorkerServiceImpl(Store& store, WorkerRegistry& registry, LeaseQueue& queue, UploadBudget& uploads);
+  WorkerServiceImpl(CallRoom& room, Store& store, WorkerRegistry& registry, LeaseQueue& queue)
+      : room_(room), store_(store), registry_(registry), queue_(queue) {}
 
   grpc::ServerUnaryReactor* LeaseTask(grpc::CallbackServerContext* context,
                                       const v1::LeaseTaskRequest* request,
                                       v1::LeaseTaskResponse* response) override;
-  grpc::Status RenewLease(grpc::ServerContext* context, const v1::RenewLeaseRequest* request,
-                          v1::ReportResponse* response) override;
-  grpc::Status ReportErosion(grpc::ServerContext* context,
-                             grpc::ServerReader<v1::ReportErosionRequest>* reader,
-                             v1::ReportResponse* response) override;
-  grpc::Status CompleteTask(grpc::ServerContext* context, grpc::ServerReader<v1::CompleteTaskRequest>* reader,
-                            v1::ReportResponse* response) override;
-  grpc::Status FailTask(grpc::ServerContext* context, const v1::FailTaskRequest* request,
-                        v1::ReportResponse* response) override;
-  grpc::Status ReturnLease(grpc::ServerContext* context, const v1::ReturnLeaseRequest* request,
-                           v1::ReportResponse* response) override;
-  grpc::Status FetchInput(grpc::ServerContext* context, const v1::FetchInputRequest* request,
-                          grpc::ServerWriter<v1::FetchArtifactResponse>* writer) override;
+  grpc::ServerUnaryReactor* RenewLease(grpc::CallbackServerContext* context,
+                                       const v1::RenewLeaseRequest* request,
+                                       v1::ReportResponse* response) override;
+  grpc::ServerReadReactor<v1::ReportErosionRequest>* ReportErosion(grpc::CallbackServerContext* context,
+                                                                   v1::ReportResponse* response) override;
+  grpc::ServerReadReactor<v1::CompleteTaskRequest>* CompleteTask(grpc::CallbackServerContext* context,
+                                                                 v1::ReportResponse* response) override;
+  grpc::ServerUnaryReactor* FailTask(grpc::CallbackServerContext* context, const v1::FailTaskRequest* request,
+                                     v1::ReportResponse* response) override;
+  grpc::ServerUnaryReactor* ReturnLease(grpc::CallbackServerContext* context,
+                                        const v1::ReturnLeaseRequest* request,
+                                        v1::ReportResponse* response) override;
+  grpc::ServerWriteReactor<v1::FetchArtifactResponse>* FetchInput(
+      grpc::CallbackServerContext* context, const v1::FetchInputRequest* request) override;
 
  private:
+  template <typename Body>
+  grpc::ServerUnaryReactor* with_lease_of(grpc::CallbackServerContext& context, const std::string& token,
+                                          Body body);
+
+  CallRoom& room_;
   Store& store_;
   WorkerRegistry& registry_;
   LeaseQueue& queue_;
-  UploadBudget& uploads_;
   BoundsExchange bounds_;
 };
 

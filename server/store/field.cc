@@ -159,7 +159,7 @@ void RecordBatch::sort() {
 
 void RecordBatch::clear() {
   cleared_ += static_cast<std::int64_t>(records_.size());
-  records_.clear();
+  records_ = {};  // many reports may wait for their next part
 }
 
 namespace {

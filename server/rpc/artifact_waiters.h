@@ -1,0 +1,51 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <utility>
+
+namespace affskel::server {
+
+/// Counts who waits for what each task is to bring, so that a request which nobody waits for any more is
+/// taken back.  Thread-safe.
+class ArtifactWaiters {
+ public:
+  /// Takes a task back; may block, must not throw.
+  using Withdraw = std::function<void(std::int64_t task)>;
+
+  explicit ArtifactWaiters(Withdraw withdraw) : withdraw_(std::move(withdraw)) {}
+
+  /// One more waits for a task.  It may have been taken back just before: look after this whether it is
+  /// still there.  Waits while it is being taken back.
+  void join(std::int64_t task);
+
+  /// One waits no more, for the task has ended or is gone.
+  void leave(std::int64_t task);
+
+  /// One gives up: the task is withdrawn when this was the last.
+  void give_up(std::int64_t task);
+
+  /// From now on nothing is withdrawn: the server closes, and its successor decides.
+  void close();
+
+  /// How many wait for a task.
+  std::size_t count(std::int64_t task) const;
+
+ private:
+  bool leave_locked(std::int64_t task);
+
+  const Withdraw withdraw_;
+  mutable std::mutex mutex_;
+  std::condition_variable withdrawn_;
+  // All guarded by mutex_.
+  std::map<std::int64_t, std::size_t> waiting_;  // by task
+  std::set<std::int64_t> going_;                 // tasks that are being taken back
+  bool closed_ = false;
+};
+
+}  // namespace affskel::server

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <grpcpp/server_context.h>
+
+#include <memory>
+
+#include "rpc/activity.h"
+#include "rpc/call_limit.h"
+#include "rpc/connections.h"
+#include "rpc/executor.h"
+#include "rpc/limits.h"
+#include "rpc/upload_budget.h"
+
+namespace affskel::server {
+
+/// What the calls of a server share: connections, places, threads and memory.
+struct CallRoom {
+  /// @param upload_bytes of meshes and results in memory at once.
+  CallRoom(const CallLimits& limits, std::uint64_t upload_bytes);
+
+  /// Ends what is too slow, forgets what is gone.  Call now and then.
+  void tick();
+
+  /// Uploads have no memory left: ends the one that holds most for its pace.
+  void relieve_uploads();
+
+  /// The server is about to close: calls that wait end, and no stream of a client begins any more.
+  void close();
+
+  /// Runs what was posted, and ends the threads; for when no call is under way.
+  void stop();
+
+  const CallLimits limits;
+  Activity activity;  ///< of clients
+
+  // Threads: the calls of one kind never wait for those of another.
+  Executor client_calls;    ///< short ones
+  Executor client_streams;  ///< uploads and downloads
+  Executor worker_calls;    ///< reports and all that is short
+  Executor worker_inputs;   ///< inputs of tasks, which may take long to open
+
+  Connections connections;
+  UploadBudget upload_bytes;
+  UploadBudget records_bytes;
+  CallLimit uploads;
+  CallLimit downloads;
+  CallLimit waiting;
+  CallLimit watches;
+  CallLimit reports;
+  CallLimit results;
+  CallLimit inputs;
+  CallLimit polls;
+};
+
+/// What every call has: its connection, and for a client's call its share in the server's activity.
+class CallScope {
+ public:
+  /// @throws CallEnded when the connection has no right to it.
+  CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Side side)
+      : use_(room.connections.begin(context.peer(), side)) {
+    if (side == Side::kClient) activity_ = std::make_unique<Activity::Call>(room.activity);
+  }
+
+  const Caller& caller() const { return use_.caller(); }
+
+ private:
+  Connections::Use use_;
+  std::unique_ptr<Activity::Call> activity_;
+};
+
+/// Why calls end when the server closes.
+inline grpc::Status shutting_down() {
+  return {grpc::StatusCode::UNAVAILABLE, "the server is shutting down"};
+}
+
+}  // namespace affskel::server

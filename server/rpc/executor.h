@@ -1,0 +1,51 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace affskel::server {
+
+struct ExecutorOptions {
+  std::size_t threads = 4;
+};
+
+/// Runs the parts of calls that may block, on a fixed number of threads.  Callers take turns: who posts a
+/// thousand bodies waits for its own, not others for it.  Thread-safe.
+class Executor {
+ public:
+  explicit Executor(const ExecutorOptions& options = {});
+  ~Executor();
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  /// Runs `body`, which must not throw, soon.  Bodies of one caller begin in the order of their coming, and
+  /// may run side by side.  After stop() the body is run at once, by the caller's thread.
+  /// @param caller whose turn it takes: a connection's number.
+  void post(std::uint64_t caller, std::function<void()> body);
+
+  /// Runs what was posted, and ends the threads.
+  void stop();
+
+ private:
+  using Queue = std::deque<std::function<void()>>;
+
+  void run();
+  std::function<void()> take();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  // All guarded by mutex_.
+  std::map<std::uint64_t, Queue> queues_;  // by caller; none is empty
+  std::deque<std::uint64_t> turns_;        // each caller that has a queue, once
+  bool stopping_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace affskel::server

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "affskel/v1/types.pb.h"
+#include "rpc/event_hub.h"
+#include "rpc/worker_registry.h"
+#include "store/store.h"
+
+namespace affskel::server {
+
+/// Jobs as clients see them: what the store knows, and why they wait.  Thread-safe.
+class JobView {
+ public:
+  JobView(Store& store, const WorkerRegistry& registry) : store_(store), registry_(registry) {}
+
+  /// The job as it is now; null when there is none.  Throws what the store throws otherwise.
+  EventHub::JobPtr load(const std::string& job_id) const;
+
+  /// Adds the reason why it waits, if it does.
+  v1::Job with_reason(v1::Job job) const;
+
+ private:
+  Store& store_;
+  const WorkerRegistry& registry_;
+};
+
+}  // namespace affskel::server

@@ -1,0 +1,40 @@
+#include "rpc/submit_call.h"
+
+#include <utility>
+
+#include "errors.h"
+
+namespace affskel::server {
+namespace {
+
+[[noreturn]] void refuse_without_header() {
+  throw StoreError(StoreError::Code::kInvalid, "a submission begins with its header");
+}
+
+}  // namespace
+
+void SubmitCall::on_message(v1::SubmitJobRequest& message) {
+  if (mesh_) {
+    try {
+      mesh_->add_message(message);
+    } catch (const CallEnded&) {
+      room().relieve_uploads();
+      throw;
+    }
+    return;
+  }
+  if (!message.has_header()) refuse_without_header();
+  // Before the data, which may take minutes to arrive.
+  submission_ = store_.check(message.header());
+  mesh_.emplace(room().upload_bytes, message.header().mesh_bytes(), room().upload_bytes.limit() / 4);
+}
+
+void SubmitCall::on_end() {
+  if (!mesh_) refuse_without_header();
+  if (is_cancelled()) throw CallEnded(grpc::Status::CANCELLED);
+  Store::Submitted submitted = store_.submit(*submission_, mesh_->data());
+  *response_.mutable_job() = jobs_.with_reason(std::move(submitted.job));
+  response_.set_existed(submitted.existed);
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "rpc/call_room.h"
+#include "rpc/status.h"
+
+namespace affskel::server {
+
+/// A call with one request and one answer, whose body runs in an executor.
+class UnaryCall final : public grpc::ServerUnaryReactor {
+ public:
+  /// @param body fills the answer; what it throws ends the call.  Does not run when the caller has gone.
+  static grpc::ServerUnaryReactor* start(CallRoom& room, Executor& executor, Side side,
+                                         const grpc::CallbackServerContext& context,
+                                         std::function<void()> body) {
+    auto* const call = new UnaryCall;
+    const grpc::Status status = guarded([&] { call->scope_.emplace(room, context, side); });
+    if (!status.ok()) {
+      call->Finish(status);
+      return call;
+    }
+    executor.post(call->scope_->caller().connection, [call, &context, body = std::move(body)] {
+      call->Finish(context.IsCancelled() ? grpc::Status::CANCELLED : guarded(body));
+    });
+    return call;
+  }
+
+  void OnDone() override { delete this; }
+
+ private:
+  UnaryCall() = default;
+  std::optional<CallScope> scope_;
+};
+
+}  // namespace affskel::server
