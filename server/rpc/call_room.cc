@@ -36,6 +36,7 @@ CallLimitOptions waiting_of(const CallLimits& limits) {
 ConnectionOptions connections_of(const CallLimits& limits) {
   ConnectionOptions options;
   options.first_refused = limits.connections;
+  options.most = static_cast<std::size_t>(limits.connections);
   options.spare = std::min(32, limits.connections / 16);
   options.for_workers = static_cast<std::size_t>(limits.connections / 8);
   return options;

@@ -93,8 +93,7 @@ bool Connections::admit(int fd, const PeerIdentity& identity) {
 }
 
 bool Connections::has_room(int fd, const PeerIdentity& identity) {
-  const auto most = static_cast<std::size_t>(options_.first_refused);
-  const std::size_t share = std::max<std::size_t>(1, most - most / 4);
+  const std::size_t share = std::max<std::size_t>(1, options_.most - options_.most / 4);
   if (entries_.size() >= share) sweep_locked();
   const auto same = [&](const auto& entry) { return entry.second.identity.name == identity.name; };
   const auto own = static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(), same));
@@ -129,8 +128,7 @@ Connections::Use Connections::begin(const std::string& peer, Side side) {
   Entry& entry = found->second;
   const bool was_client = entry.for_client && !entry.for_worker;
   if (side == Side::kClient && !entry.for_client && !entry.for_worker) {
-    const auto most = static_cast<std::size_t>(options_.first_refused);
-    if (clients_ >= most - std::min(most - 1, options_.for_workers)) {
+    if (clients_ + options_.for_workers >= options_.most) {
       throw CallEnded({grpc::StatusCode::UNAVAILABLE,
                        std::to_string(clients_) +
                            " clients are connected, the most that this server has at once; try again"});

@@ -27,6 +27,7 @@ PeerIdentity peer_of(int fd);
 
 struct ConnectionOptions {
   int first_refused = 0;  ///< descriptors are given out from the lowest: as many are in use then
+  std::size_t most = 0;   ///< connections at once, as shares are counted
   int spare = 0;          ///< beyond those, while one that was told to close goes
   /// Of the connections, so many can only be used for workers' calls.
   std::size_t for_workers = 0;

@@ -50,7 +50,8 @@ class Pace {
   /// Whether it has had its time and used too little of it.
   bool late(Time now) const {
     if (!waiting_) return false;
-    return begun_ ? waited(now) >= options_.window && !enough() : waited(now) >= options_.first;
+    if (!begun_) return waited(now) >= options_.first;
+    return now - since_ >= options_.window || (waited(now) >= options_.window && !enough());
   }
 
   /// Whether it is slower than it should be, as far as can be seen; for when others need its place.

@@ -55,6 +55,7 @@ class Server {
 
   Store& store() { return *store_; }
   WorkerRegistry& registry() { return registry_; }
+  const CallRoom& room() const { return room_; }
 
   /// Time without client calls, without active jobs, without requests for artefacts, and without anything of
   /// deleted jobs going.

@@ -293,7 +293,7 @@ TEST_F(ClientServiceTest, FetchReportsWhyAnArtefactFailed) {
   EXPECT_EQ(fetched.status.error_message(), "too many points");
 }
 
-TEST_F(ClientServiceTest, FetchStopsWaitingWhenItsClientGoes) {
+TEST_F(ClientServiceTest, ARequestLeavesWithTheClientThatAsked) {
   std::string id;
   {
     const FakeWorker worker(connect(), "worker-a", 10, 20);
@@ -307,7 +307,7 @@ TEST_F(ClientServiceTest, FetchStopsWaitingWhenItsClientGoes) {
   context.TryCancel();
   waiting.join();
   EXPECT_EQ(fetched.status.error_code(), grpc::StatusCode::CANCELLED);
-  EXPECT_EQ(server_->store().counts().requests, 1) << "what was asked for once is still made";
+  while (server_->store().counts().requests > 0) std::this_thread::yield();
 }
 
 TEST_F(ClientServiceTest, FetchBeforeTheEndIsRefused) {

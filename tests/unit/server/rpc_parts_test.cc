@@ -4,8 +4,7 @@
 #include "errors.h"
 #include "rpc/event_hub.h"
 #include "rpc/status.h"
-#include "rpc/streams.h"
-#include "rpc/upload_budget.h"
+#include "rpc/upload.h"
 #include "rpc/worker_registry.h"
 #include "store_fixture.h"
 #include "wire/identity.h"
@@ -61,33 +60,49 @@ TEST(StatusTest, LongMessagesAreCutAtACharacter) {
       "short");
 }
 
-/// An upload of pieces of data.
-struct FakeReader {
-  std::vector<std::size_t> pieces;
-  bool Read(v1::SubmitJobRequest* message) {
-    if (pieces.empty()) return false;
-    message->set_data(std::string(pieces.back(), 'm'));
-    pieces.pop_back();
-    return true;
-  }
-};
+grpc::StatusCode add(Upload& upload, std::size_t bytes) {
+  return guarded([&] { upload.add(std::string(bytes, 'm')); }).error_code();
+}
 
-TEST(UploadBudgetTest, AllUploadsTogetherStayBelowIt) {
+TEST(UploadTest, AllTogetherStayBelowTheBudget) {
   UploadBudget budget(100);
-  const auto upload = [](UploadBudget::Share& share, std::vector<std::size_t> pieces) {
-    FakeReader reader{std::move(pieces)};
-    return guarded([&] { receive_data<v1::SubmitJobRequest>(reader, 1000, share); }).error_code();
-  };
-  UploadBudget::Share first(budget);
-  EXPECT_EQ(upload(first, {30, 30}), grpc::StatusCode::OK);
+  Upload first(budget, 1000);
+  EXPECT_EQ(add(first, 30), grpc::StatusCode::OK);
+  EXPECT_EQ(add(first, 30), grpc::StatusCode::OK);
   {
-    UploadBudget::Share second(budget);
-    EXPECT_EQ(upload(second, {20, 39, 1}), grpc::StatusCode::UNAVAILABLE);
-    EXPECT_EQ(upload(first, {1}), grpc::StatusCode::UNAVAILABLE) << "the second holds what it took so far";
+    Upload second(budget, 1000);
+    EXPECT_EQ(add(second, 1), grpc::StatusCode::OK);
+    EXPECT_EQ(add(second, 39), grpc::StatusCode::OK);
+    EXPECT_EQ(add(second, 20), grpc::StatusCode::UNAVAILABLE);
+    EXPECT_EQ(add(first, 1), grpc::StatusCode::UNAVAILABLE) << "the second holds what it took so far";
   }
-  UploadBudget::Share third(budget);
-  EXPECT_EQ(upload(third, {40}), grpc::StatusCode::OK) << "an upload that ended gives back what it took";
-  EXPECT_EQ(upload(third, {1}), grpc::StatusCode::UNAVAILABLE);
+  Upload third(budget, 1000);
+  EXPECT_EQ(add(third, 40), grpc::StatusCode::OK) << "an upload that ended gives back what it took";
+  EXPECT_EQ(add(third, 1), grpc::StatusCode::UNAVAILABLE);
+}
+
+TEST(UploadTest, LeavesAPartOfTheBudgetToOthers) {
+  UploadBudget budget(100);
+  Upload client(budget, 1000, 25), worker(budget, 1000);
+  EXPECT_EQ(add(client, 75), grpc::StatusCode::OK);
+  EXPECT_EQ(add(client, 1), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(add(worker, 25), grpc::StatusCode::OK);
+}
+
+TEST(UploadTest, HoldsWhatHasComeAndNotWhatIsAnnounced) {
+  UploadBudget budget(std::uint64_t{1} << 40);
+  Upload upload(budget, std::uint64_t{1} << 39);
+  EXPECT_EQ(add(upload, 1000), grpc::StatusCode::OK);
+  EXPECT_LE(upload.data().capacity(), 5000U);
+  EXPECT_EQ(add(upload, 99000), grpc::StatusCode::OK);
+  EXPECT_LE(upload.data().capacity(), 500000U);
+}
+
+TEST(UploadTest, MoreThanAnnouncedIsRefused) {
+  UploadBudget budget(100);
+  Upload upload(budget, 10);
+  EXPECT_EQ(add(upload, 10), grpc::StatusCode::OK);
+  EXPECT_EQ(add(upload, 1), grpc::StatusCode::INVALID_ARGUMENT);
 }
 
 class EventHubTest : public testing::Test {

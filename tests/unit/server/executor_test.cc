@@ -1,0 +1,49 @@
+#include "rpc/executor.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <string>
+
+namespace affskel::server {
+namespace {
+
+TEST(ExecutorTest, CallersTakeTurns) {
+  Executor executor({.threads = 1});
+  std::promise<void> begun, go;
+  executor.post(1, [&] {
+    begun.set_value();
+    go.get_future().wait();
+  });
+  begun.get_future().wait();
+  std::string order;
+  for (int i = 0; i < 4; ++i) executor.post(1, [&] { order += 'a'; });
+  executor.post(2, [&] { order += 'b'; });
+  executor.post(3, [&] { order += 'c'; });
+  executor.post(2, [&] { order += 'b'; });
+  go.set_value();
+  executor.stop();
+  EXPECT_EQ(order, "abcabaa");
+}
+
+TEST(ExecutorTest, RunsWhatWasPostedBeforeItStops) {
+  int ran = 0;
+  Executor executor({.threads = 1});
+  for (int i = 0; i < 100; ++i) executor.post(1, [&] { ++ran; });
+  executor.stop();
+  EXPECT_EQ(ran, 100);
+  executor.post(1, [&] { ++ran; });
+  EXPECT_EQ(ran, 101) << "by the caller, when the threads have gone";
+}
+
+TEST(ExecutorTest, ASlowCallerDoesNotHoldUpOthers) {
+  Executor executor({.threads = 2});
+  std::promise<void> go, done;
+  executor.post(1, [&] { go.get_future().wait(); });
+  executor.post(2, [&] { done.set_value(); });
+  done.get_future().wait();
+  go.set_value();
+}
+
+}  // namespace
+}  // namespace affskel::server
