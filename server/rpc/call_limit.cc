@@ -16,6 +16,9 @@ constexpr std::size_t kWaitersPerPlace = 16;
 // A call that brings what it holds once more within this time is no hindrance.
 constexpr double kRelieveSeconds = 60;
 
+// Calls that were ended are told of no more often than this, with their number.
+constexpr std::chrono::seconds kTellEvery{10};
+
 const auto by_peer = [](const Caller& caller) { return caller.peer; };
 const auto by_connection = [](const Caller& caller) { return caller.connection; };
 
@@ -153,14 +156,24 @@ CallLimit::Holders::iterator CallLimit::slowest(Pace::Time now, Belongs belongs)
 }
 
 void CallLimit::evict(Holders::iterator holder, const std::string& why, Later& later) {
-  spdlog::warn("event=call_ended kind=\"{}\" peer={} bytes={} message=\"{}\"", options_.what,
-               holder->second.caller.peer, holder->second.pace.total(), why);
+  tell(holder->second, why);
   later.push_back(
       [call = holder->second.call,
        status = grpc::Status(grpc::StatusCode::UNAVAILABLE, "the call was ended: " + why + "; try again")] {
         if (const auto alive = call.lock()) alive->end(status);
       });
   holders_.erase(holder);
+}
+
+/// Those that come and are ended by the thousand fill no log.
+void CallLimit::tell(const Holder& holder, const std::string& why) {
+  ++ended_;
+  const Pace::Time now = options_.now();
+  if (told_ && now - *told_ < kTellEvery) return;
+  spdlog::warn("event=call_ended number={} kind=\"{}\" peer={} bytes={} message=\"{}\"", ended_,
+               options_.what, holder.caller.peer, holder.pace.total(), why);
+  told_ = now;
+  ended_ = 0;
 }
 
 std::size_t CallLimit::of_peer(const std::string& peer) const {

@@ -121,6 +121,7 @@ class CallLimit {
   std::optional<Place> try_enter(const Caller& caller, const std::weak_ptr<Endable>& call, Later& later);
   bool make_room(const Caller& caller, Pace::Time now, Later& later);
   void evict(Holders::iterator holder, const std::string& why, Later& later);
+  void tell(const Holder& holder, const std::string& why);
   template <typename Belongs>
   Holders::iterator slowest(Pace::Time now, Belongs belongs);
   template <typename Key>
@@ -136,6 +137,8 @@ class CallLimit {
   std::list<Waiter> waiters_;
   std::uint64_t next_number_ = 1;
   std::optional<grpc::Status> closed_;
+  std::uint64_t ended_ = 0;         // calls, since the log was told
+  std::optional<Pace::Time> told_;  // when that was
 };
 
 }  // namespace affskel::server

@@ -6,6 +6,9 @@
 namespace affskel::server {
 namespace {
 
+// Looking through thousands of descriptors takes a few milliseconds.
+constexpr unsigned kTicksPerSweep = 5;
+
 CallLimitOptions places(const char* what, std::size_t most, std::optional<PaceOptions> pace = {}) {
   CallLimitOptions options;
   options.what = what;
@@ -64,7 +67,7 @@ CallRoom::CallRoom(const CallLimits& given, std::uint64_t most_upload_bytes)
 
 void CallRoom::tick() {
   for (CallLimit* limit : {&uploads, &downloads, &reports, &results, &inputs}) limit->tick();
-  connections.sweep();
+  if (++ticks_ % kTicksPerSweep == 0) connections.sweep();
 }
 
 void CallRoom::relieve_uploads() {

@@ -50,6 +50,9 @@ struct CallRoom {
   CallLimit results;
   CallLimit inputs;
   CallLimit polls;
+
+ private:
+  unsigned ticks_ = 0;
 };
 
 /// What every call has: its connection, and for a client's call its share in the server's activity.

@@ -1,5 +1,8 @@
 #include "rpc/worker_registry.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "store/tasks.h"
 #include "wire/identity.h"
 
@@ -7,6 +10,9 @@ namespace affskel::server {
 namespace {
 
 constexpr std::int64_t kForgetMs = 60000;
+
+// An id costs nothing to make up.
+constexpr std::size_t kMostWorkers = 4096;
 
 }  // namespace
 
@@ -31,6 +37,7 @@ bool WorkerRegistry::is_supervised(const v1::WorkerIdentity& worker) const {
 void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_ms) {
   const bool supervised = is_supervised(worker);
   const std::lock_guard lock(mutex_);
+  if (workers_.size() >= kMostWorkers && !workers_.contains(worker.id())) forget_one();
   Entry& entry = workers_[worker.id()];
   entry.wait_ms = wait_ms;
   v1::WorkerInfo& info = entry.info;
@@ -78,6 +85,15 @@ void WorkerRegistry::forget_silent() {
     return static_cast<std::int64_t>(entry.second.info.last_seen_ms()) < oldest_ms();
   });
   std::erase_if(holders_, [this](const auto& holder) { return !workers_.contains(holder.second); });
+}
+
+/// The one not heard from for longest, of those that work on nothing if there are such.
+void WorkerRegistry::forget_one() {
+  const auto rank = [](const auto& entry) {
+    return std::make_pair(!entry.second.tasks.empty(), entry.second.info.last_seen_ms());
+  };
+  workers_.erase(std::min_element(workers_.begin(), workers_.end(),
+                                  [&](const auto& a, const auto& b) { return rank(a) < rank(b); }));
 }
 
 bool WorkerRegistry::is_silent(const Entry& entry) const {

@@ -25,7 +25,8 @@ class WorkerRegistry {
   /// Whether a worker is one of ours: started by us, on this host.
   bool is_supervised(const v1::WorkerIdentity& worker) const;
 
-  /// A worker asks for work, and will say nothing else for as long as it wants to wait for some.
+  /// A worker asks for work, and will say nothing else for as long as it wants to wait for some.  Of more
+  /// than a few thousand workers, those not heard from for longest are forgotten.
   void seen(const v1::WorkerIdentity& worker, std::uint32_t wait_ms);
   /// A worker got a lease, uses it, has ended it.
   void granted(const v1::WorkerIdentity& worker, const v1::Lease& lease);
@@ -43,6 +44,7 @@ class WorkerRegistry {
   };
   std::int64_t oldest_ms() const;
   void forget_silent();
+  void forget_one();
   bool is_silent(const Entry& entry) const;
 
   const Clock& clock_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 
@@ -235,6 +236,27 @@ TEST(WorkerRegistryTest, ForgetsTheSilentAfterAMinute) {
   EXPECT_EQ(registry.list().size(), 1U);
   clock.advance(2000);
   EXPECT_TRUE(registry.list().empty());
+}
+
+TEST(WorkerRegistryTest, MadeUpWorkersFillNoMemory) {
+  TestClock clock;
+  WorkerRegistry registry(clock, 5000);
+  v1::WorkerIdentity worker = worker_identity();
+  registry.seen(worker, 2000);
+  v1::Lease lease;
+  lease.set_token("token");
+  lease.set_kind(v1::TASK_KIND_ERODE);
+  registry.granted(worker, lease);
+  clock.advance(1);
+  for (int i = 0; i < 5000; ++i) {
+    v1::WorkerIdentity made_up = worker;
+    made_up.set_id("made up " + std::to_string(i));
+    registry.seen(made_up, 0);
+  }
+  const std::vector<v1::WorkerInfo> list = registry.list();
+  EXPECT_EQ(list.size(), 4096U);
+  const auto honest = [&](const v1::WorkerInfo& info) { return info.id() == worker.id(); };
+  EXPECT_TRUE(std::any_of(list.begin(), list.end(), honest)) << "who works is not forgotten for them";
 }
 
 TEST(WorkerRegistryTest, KnowsTheSupervised) {

@@ -270,14 +270,14 @@ class ReportStreams : public ServiceTest {
 };
 
 TEST_F(ReportStreams, AreMergedInPartsAndCountOnlyWhenComplete) {
-  const v1::Lease lease = block(1000, 40);
+  const v1::Lease lease = block(4000, 40);
   EXPECT_TRUE(std::isinf(first_erosion(lease)));
   grpc::ClientContext context;
   v1::ReportResponse response;
   const auto writer = worker_->ReportErosion(&context, &response);
   ASSERT_TRUE(writer->Write(header(lease, 0)));
   // One more than are held: the fifth finds the batch full.
-  for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->Write(records(1000, 9.0 - i)));
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(writer->Write(records(4000, 9.0 - i)));
   while (std::isinf(first_erosion(lease))) std::this_thread::yield();
   EXPECT_EQ(first_erosion(lease), 6.0) << "four of five are merged";
   context.TryCancel();
@@ -286,13 +286,13 @@ TEST_F(ReportStreams, AreMergedInPartsAndCountOnlyWhenComplete) {
 }
 
 TEST_F(ReportStreams, AreCountedOverAllParts) {
-  const v1::Lease lease = block(1000, 40);
+  const v1::Lease lease = block(4000, 40);
   const auto report = [&](std::uint64_t announced) {
     grpc::ClientContext context;
     v1::ReportResponse response;
     const auto writer = worker_->ReportErosion(&context, &response);
     writer->Write(header(lease, announced));
-    for (int i = 0; i < 6; ++i) writer->Write(records(1000, 9.0 - i));
+    for (int i = 0; i < 6; ++i) writer->Write(records(4000, 9.0 - i));
     writer->WritesDone();
     return writer->Finish();
   };
@@ -307,16 +307,16 @@ TEST_F(ReportStreams, AreCountedOverAllParts) {
 TEST_F(ReportStreams, TogetherHoldNoMoreThanTheirBudget) {
   options_.limits.records_bytes = 40000 * sizeof(FieldRecord);
   start();
-  const v1::Lease lease = block(1000, 40);
+  const v1::Lease lease = block(4000, 40);
   grpc::ClientContext contexts[2];
   v1::ReportResponse response;
   std::unique_ptr<grpc::ClientWriter<v1::ReportErosionRequest>> writers[2];
   for (int i = 0; i < 2; ++i) {
     writers[i] = worker_->ReportErosion(&contexts[i], &response);
     ASSERT_TRUE(writers[i]->Write(header(lease, 0)));
-    ASSERT_TRUE(writers[i]->Write(records(1000, 9.0)));
+    ASSERT_TRUE(writers[i]->Write(records(4000, 9.0)));
   }
-  ASSERT_TRUE(writers[1]->Write(records(1000, 8.0)));
+  ASSERT_TRUE(writers[1]->Write(records(4000, 8.0)));
   while (std::isinf(first_erosion(lease))) std::this_thread::yield();
   for (int i = 0; i < 2; ++i) {
     contexts[i].TryCancel();
