@@ -18,7 +18,9 @@ constexpr std::uint32_t kMaxWaitMs = 30000;
 }  // namespace
 
 /// One waiting call.
-class LeaseQueue::Poll final : public grpc::ServerUnaryReactor, public Endable {
+class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
+                               public Endable,
+                               public std::enable_shared_from_this<Poll> {
  public:
   Poll(LeaseQueue& queue, grpc::CallbackServerContext* context, const v1::LeaseTaskRequest& request,
        v1::LeaseTaskResponse* response)
@@ -35,12 +37,12 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor, public Endable {
   /// Takes a place among the calls that wait.  @throws CallEnded.
   void enter() {
     scope_.emplace(queue_.room_, *context_, Side::kWorker);
-    place_ = queue_.room_.polls.enter(scope_->caller(), self_);
+    place_ = queue_.room_.polls.enter(scope_->caller(), weak_from_this());
   }
 
   /// Others need the place.
   void end(const grpc::Status& status) override {
-    queue_.remove(self_);
+    queue_.remove(shared_from_this());
     answer(status);
   }
 
