@@ -102,11 +102,22 @@ void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
   std::_Exit(static_cast<int>(ExitCode::kUsage));
 }
 
+/// The database was removed or replaced under the server: what comes now could not be kept.
+void leave_if_database_lost(Server& server, Supervisor& supervisor) {
+  if (!server.store().lost()) return;
+  spdlog::error("event=database_lost file={} message=\"removed or replaced while the server ran; leaving\"",
+                server.store().file());
+  spdlog::default_logger()->flush();
+  supervisor.terminate(std::chrono::milliseconds(0));
+  std::_Exit(static_cast<int>(ExitCode::kUsage));
+}
+
 /// Until a signal says so, or nobody needs the server any more.
 void serve(const Options& options, const DataDir& data_dir, const sigset_t& signals, Server& server,
            Supervisor& supervisor) {
   for (;;) {
     leave_if_lost(data_dir, supervisor);
+    leave_if_database_lost(server, supervisor);
     supervisor.tick();
     const int number = wait_for_signal(signals);
     if (number == SIGTERM || number == SIGINT) {
@@ -162,7 +173,8 @@ void run_server(const Options& options) {
 
 ExitCode exit_code_of(const SqliteError& error) {
   if (error.primary_code() == SQLITE_FULL) return ExitCode::kLimit;
-  return error.blames_the_file() ? ExitCode::kUsage : ExitCode::kInternal;
+  return error.blames_the_file() || error.says_damaged() || error.says_device() ? ExitCode::kUsage
+                                                                                : ExitCode::kInternal;
 }
 
 int fail(ExitCode code, const std::exception& error) {

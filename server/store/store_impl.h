@@ -17,6 +17,7 @@ auto Store::commit(Body&& body, Changes& changes, bool& room) {
   auto value = body(tx);
   db_.claim_pages();
   transaction.commit();
+  require_not_lost();
   if (changes.grown || changes.eased) reserve_.allow_retry();
   return value;
 }
