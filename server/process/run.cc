@@ -34,6 +34,9 @@ constexpr long kTickNs = 100'000'000;
 // Workers finish the direction in hand and report; whoever needs longer loses at most that.
 constexpr std::chrono::milliseconds kWorkerGrace{5000};
 
+// Calls that are under way by then.
+constexpr std::chrono::milliseconds kCallGrace{2000};
+
 void start_logging(const std::string& level) {
   const auto logger =
       std::make_shared<spdlog::logger>("affskel", std::make_shared<spdlog::sinks::stderr_sink_mt>());
@@ -57,6 +60,15 @@ int wait_for_signal(const sigset_t& set) {
   const timespec tick{0, kTickNs};
   const int number = sigtimedwait(&set, nullptr, &tick);
   return number > 0 ? number : 0;
+}
+
+/// Takes a signal to stop that came meanwhile.
+bool told_again(const sigset_t& set) {
+  const timespec at_once{};
+  for (int number = 0; (number = sigtimedwait(&set, nullptr, &at_once)) > 0;) {
+    if (number == SIGTERM || number == SIGINT) return true;
+  }
+  return false;
 }
 
 std::vector<wire::Address> listen_addresses(const Options& options, const std::string& data_dir) {
@@ -165,9 +177,12 @@ void run_server(const Options& options) {
   serve(options, data_dir, signals, server, supervisor);
   leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();
+  // First whoever works may finish what is in hand, then what is left is cut off: 10 s at most.  A second
+  // signal ends the first stage.
   server.drain();
-  supervisor.terminate(kWorkerGrace);
-  server.stop();
+  bool hurried = false;
+  supervisor.terminate(kWorkerGrace, [&] { return hurried = hurried || told_again(signals); });
+  server.stop(hurried ? std::chrono::milliseconds(0) : kCallGrace);
   spdlog::info("event=stopped");
 }
 
