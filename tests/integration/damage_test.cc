@@ -57,10 +57,14 @@ class DamageTest : public testing::Test {
     return lab_.run(arguments);
   }
 
-  /// Where a record of the field lies in the file.  Two in a row: reports that were merged may still lie about.
+  /// Where a record of the field, or one of the next, lies in the file.  Two in a row: reports that were merged
+  /// may still lie about.  The next, for pages end between records or within one.
   std::size_t place_of(std::size_t record) const {
     const std::string file = lab_.read("data/affskel.db");
-    const std::size_t at = file.find(field_.substr(record * kRecordBytes, 2 * kRecordBytes));
+    std::size_t at = std::string::npos;
+    for (std::size_t i = record; i < record + 4 && at == std::string::npos; ++i) {
+      at = file.find(field_.substr(i * kRecordBytes, 2 * kRecordBytes));
+    }
     EXPECT_NE(at, std::string::npos);
     return at;
   }
@@ -83,7 +87,7 @@ class DamageTest : public testing::Test {
 TEST_F(DamageTest, NoFlippedBitOfALiveFieldIsServedAndEveryOneIsFound) {
   const std::size_t records = field_.size() / kRecordBytes;
   for (std::size_t i = 0; i < kFlips; ++i) {
-    const std::size_t at = place_of(i * (records - 2) / (kFlips - 1)) + i % kRecordBytes;
+    const std::size_t at = place_of(i * (records - 5) / (kFlips - 1)) + i % kRecordBytes;
     flip(at, static_cast<int>(i % 8));
     const Output found = check();
     EXPECT_EQ(found.exit_code, 1);
