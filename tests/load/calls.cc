@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::load {
@@ -63,8 +64,10 @@ grpc::Status submit(v1::ErosionService::Stub& stub, const std::string& mesh, con
   header.set_mesh_sha256(wire::sha256_hex(mesh));
   header.set_mesh_bytes(mesh.size());
   writer->Write(request);
-  request.set_data(mesh);
-  writer->Write(request);
+  for (std::size_t at = 0; at < mesh.size(); at += wire::kChunkBytes) {
+    request.set_data(mesh.substr(at, wire::kChunkBytes));
+    writer->Write(request);
+  }
   writer->WritesDone();
   const grpc::Status status = writer->Finish();
   *job = response.job();
