@@ -56,6 +56,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
       listener_(listener),
       reserve_(directory_of(file_), options_.reserve_bytes, options_.free_bytes),
       db_(ready_database_file(file_), Database::Mode::kReadWrite),
+      readers_(file_),
       schema_version_(migrate(db_)),
       disk_full_(!reserve_.whole()) {
   if (disk_full_) live_on_reserve();

@@ -15,6 +15,7 @@
 #include "affskel/v1/worker_service.pb.h"
 #include "clock.h"
 #include "database/database_file.h"
+#include "database/reader_pool.h"
 #include "store/blobs.h"
 #include "store/field.h"
 #include "store/rows.h"
@@ -177,6 +178,7 @@ class Store {
   std::mutex mutex_;  // guards what follows, up to the atomic ones
   DiskReserve reserve_;
   Database db_;
+  ReaderPool readers_;
   int schema_version_ = 0;
   OpenFile identity_;               // of the database and its log
   std::set<std::int64_t> orphans_;  // requests for artefacts that nobody has asked for since the start
