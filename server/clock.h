@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <mutex>
 
 namespace affskel::server {
 
@@ -12,20 +14,33 @@ class Clock {
   /// Unix milliseconds, for people.
   virtual std::int64_t wall_ms() const = 0;
 
-  /// Milliseconds for lease deadlines: Unix time at the start of the process plus monotonic time since,
-  /// so that neither a corrected wall clock nor a suspended machine expires leases at one stroke.
+  /// Milliseconds for lease deadlines.  Never goes back.  It counts the time in which this process was there
+  /// to hear its workers: whatever stood still or jumped, the process, the machine or a clock, no lease has
+  /// run out meanwhile.
   virtual std::int64_t lease_ms() const = 0;
 };
+
+/// Unix time and monotonic time of this machine, in milliseconds.
+std::int64_t unix_ms();
+std::int64_t monotonic_ms();
 
 /// The clocks of this machine.
 class SystemClock final : public Clock {
  public:
-  SystemClock();
+  /// Between two looks at the lease clock no more than this passes on it: the server looks every half second
+  /// at least.
+  static constexpr std::int64_t kLongestStepMs = 1000;
+
+  /// @param monotonic what the lease clock counts along.
+  explicit SystemClock(std::function<std::int64_t()> monotonic = monotonic_ms);
   std::int64_t wall_ms() const override;
   std::int64_t lease_ms() const override;
 
  private:
-  std::int64_t offset_ms_;
+  const std::function<std::int64_t()> monotonic_;
+  mutable std::mutex mutex_;
+  mutable std::int64_t seen_ms_;
+  mutable std::int64_t lease_ms_;
 };
 
 }  // namespace affskel::server

@@ -16,6 +16,8 @@ class StoreError : public std::runtime_error {
     kFenced,        ///< the lease is gone
     kLimit,         ///< too large
     kUnusable,      ///< the database file is not ours, newer, or damaged
+    kDamaged,       ///< stored bytes are not those that were stored
+    kLost,          ///< the database was removed or replaced while the server ran
   };
 
   StoreError(Code code, const std::string& message) : std::runtime_error(message), code_(code) {}

@@ -332,7 +332,7 @@ class LeaseLoop {
 
   // The prepared job of the lease: the one in hand, or made from the mesh.
   PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
-    if (job_ && job_id_ == lease.job().id()) return *job_;
+    if (job_ && job_id_ == lease.job().id() && database_ == lease.database()) return *job_;
     forget();
     const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
     // What is prepared already fitted somewhere: one worker short of memory must not fail the job for all.
@@ -342,6 +342,7 @@ class LeaseLoop {
         first ? std::function<std::uint64_t()>([] { return available_memory(); })
               : std::function<std::uint64_t()>());
     job_id_ = lease.job().id();
+    database_ = lease.database();
     return *job_;
   }
 
@@ -361,6 +362,7 @@ class LeaseLoop {
   // server did not acknowledge: such points would not be reported again.
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
+  std::string database_;  // that the field was fetched from
   Backoff failures_{kFirstRest, kLongestRest, std::random_device()()};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead

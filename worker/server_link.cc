@@ -17,6 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kCallTimeout = std::chrono::seconds(120);
+constexpr auto kLookAtStop = std::chrono::milliseconds(100);
 
 std::shared_ptr<grpc::Channel> connect(const std::string& text) {
   const wire::Address address = wire::parse_address(text);
@@ -24,9 +25,9 @@ std::shared_ptr<grpc::Channel> connect(const std::string& text) {
   // A proxy elsewhere cannot reach this machine's own addresses.
   if (address.is_local()) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetMaxReceiveMessageSize(16 << 20);
-  // Come back quickly after a server restart.
+  // Come back quickly after a server restart.  The second is how long one attempt may take.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 50);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
   return grpc::CreateCustomChannel(address.target(), grpc::InsecureChannelCredentials(), arguments);
 }
@@ -59,6 +60,16 @@ void ServerLink::note_answer(const grpc::Status& status) {
   }
 }
 
+// gRPC's connections make progress while somebody waits for them: between two calls nobody would but its
+// backup poller, every five seconds.
+void ServerLink::rest(std::chrono::milliseconds pause, const std::stop_token& stop) {
+  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return wait(pause, stop);
+  const auto end = std::chrono::system_clock::now() + pause;
+  while (!stop.stop_requested() && std::chrono::system_clock::now() < end) {
+    if (channel_->WaitForConnected(std::min(end, std::chrono::system_clock::now() + kLookAtStop))) return;
+  }
+}
+
 template <class Call>
 void ServerLink::with_retries(const char* what, Call call, const std::stop_token& task) {
   const Clock::time_point begun = Clock::now();
@@ -83,7 +94,7 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
       case RetryPolicy::Verdict::kServerGone:
         throw ServerGone(message);
     }
-    wait(decision.pause, task.stop_possible() ? task : stop_);
+    rest(decision.pause, task.stop_possible() ? task : stop_);
     if (task.stop_requested()) throw Interrupted(message);
     if (stop_.stop_requested()) throw ServerGone(message);
   }

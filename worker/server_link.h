@@ -75,6 +75,7 @@ class ServerLink {
   void with_retries(const char* what, Call call, const std::stop_token& task = {});
   grpc::Status fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
                           std::string& bytes);
+  void rest(std::chrono::milliseconds pause, const std::stop_token& stop);
   void note_answer(const grpc::Status& status);
 
   std::shared_ptr<grpc::Channel> channel_;  // of stub_

@@ -45,11 +45,6 @@ constexpr const char* kProgress[] = {
     " OR EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)"
     " OR EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = e.id))",
 
-    "SELECT 'erosion ' || e.id, 'is prepared, but has no ' || k.kind FROM erosions e"
-    " JOIN (SELECT 'lattice' AS kind UNION SELECT 'directions') k"
-    " WHERE e.core_version IS NOT NULL AND e.dropped = 0 AND NOT EXISTS"
-    " (SELECT 1 FROM artifacts WHERE erosion_id = e.id AND kind = k.kind AND params_key = '')",
-
     "SELECT 'erosion ' || id, 'is finished, but not all of its field is merged' FROM erosions e"
     " WHERE finished = 1 AND dropped = 0 AND EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)",
 
@@ -105,12 +100,19 @@ constexpr const char* kTasks[] = {
 
     "SELECT 'task ' || t.id, 'is ' || t.state || ', a task to ' || t.kind || ' job ' || j.id"
     " || ', which is in stage ' || j.stage FROM tasks t JOIN jobs j ON j.id = t.job_id"
-    " WHERE t.state <> 'done' AND (t.kind = 'prepare' AND j.stage <> 'prepare'"
+    " WHERE t.state <> 'done' AND t.on_request = 0 AND (t.kind = 'prepare' AND j.stage <> 'prepare'"
     " OR t.kind = 'erode' AND j.stage <> 'erode')",
 
     "SELECT 'task ' || t.id, 'a ' || t.kind || ' of job ' || j.id || ', whose field is not finished'"
     " FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
     " WHERE t.kind NOT IN ('prepare', 'erode') AND e.finished = 0",
+
+    // Of the job, copied: see migration 5.
+    "SELECT 'task ' || t.id, 'its place in the queue is not that of its job ' || j.id FROM tasks t"
+    " JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id WHERE t.state = 'pending'"
+    " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.parked <> (t.on_request = 0 AND"
+    " (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1))"
+    " OR t.needs_core <> iif(t.kind = 'erode', ifnull(e.core_version, ''), t.needs_core))",
 
     "SELECT 'task ' || id, 'has failed alone: it belongs to job ' || job_id || ', which fails with it'"
     " FROM tasks WHERE state = 'failed' AND on_request = 0",

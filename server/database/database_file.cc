@@ -1,28 +1,161 @@
 #include "database/database_file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <system_error>
 
+#include "database/migrate.h"
+#include "database/sqlite.h"
 #include "errors.h"
 
 namespace affskel::server {
+namespace {
+
+// A file of one byte is empty for SQLite; this is what its header has.
+constexpr off_t kHeaderBytes = 100;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw StoreError(StoreError::Code::kUnusable, why);
+}
+
+std::string directory_of(const std::string& file) {
+  const std::filesystem::path directory = std::filesystem::path(file).parent_path();
+  return directory.empty() ? "." : directory.string();
+}
+
+std::string mark_of(const std::string& file) {
+  return directory_of(file) + "/affskel.made";
+}
+
+bool has_bytes(const std::string& file) {
+  struct stat status {};
+  return stat(file.c_str(), &status) == 0 && status.st_size > 0;
+}
+
+/// False when it is not there.  @throws when it is, and is no database at all.
+bool is_there(const std::string& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return false;
+    throw std::system_error(errno, std::generic_category(), file);
+  }
+  // SQLite would take it for a new database, and delete the log beside it as left over.
+  if (S_ISREG(status.st_mode) && status.st_size < kHeaderBytes) {
+    refuse(file + ": no database, the file " +
+           (status.st_size == 0 ? "is empty" : "has " + std::to_string(status.st_size) + " bytes") +
+           "; restore a backup, or remove it to begin with an empty one");
+  }
+  return true;
+}
+
+void refuse_lost(const std::string& file) {
+  const std::string mark = mark_of(file);
+  const bool made = access(mark.c_str(), F_OK) == 0;
+  if (!made && !has_bytes(file + "-wal")) return;
+  refuse(file + ": the database is missing, " + (made ? mark : file + "-wal") +
+         " says that there was one; restore it or a backup of it, or remove " +
+         (made ? mark : file + "-wal") + " to begin with an empty one");
+}
+
+void refuse_foreign(const std::string& file) {
+  Database db(file, Database::Mode::kReadOnly);
+  if (checked_schema(db) == 0) {
+    refuse(file +
+           ": there is nothing in this database; restore a backup, or remove it to begin with an"
+           " empty one");
+  }
+}
+
+void sync_directory(const std::string& file) {
+  const int fd = open(directory_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  fsync(fd);  // some file systems cannot
+  close(fd);
+}
+
+void remove_with_logs(const std::string& file) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) unlink((file + suffix).c_str());
+}
+
+void make_database(const std::string& file) {
+  const std::string unfinished = file + ".new";
+  remove_with_logs(unfinished);
+  try {
+    Database db(unfinished, Database::Mode::kReadWrite);
+    migrate(db);
+    db.checkpoint();
+  } catch (...) {
+    remove_with_logs(unfinished);
+    throw;
+  }
+  if (rename(unfinished.c_str(), file.c_str()) != 0)
+    throw std::system_error(errno, std::generic_category(), file);
+  sync_directory(file);
+}
+
+/// Only after the database is there: a mark without one would lock its own directory.  On a full disk it is
+/// left to the next start.
+void make_mark(const std::string& file) {
+  const std::string mark = mark_of(file);
+  if (access(mark.c_str(), F_OK) == 0) return;
+  std::ofstream out(mark);
+  out << "affskel.db belongs in this directory; when it is missing, affskel-server does not start, lest it\n"
+         "begin with an empty one.  To begin anew on purpose, remove this file, too.\n";
+  out.close();
+  sync_directory(file);
+}
+
+}  // namespace
 
 std::string existing_database_file(const std::string& data_dir) {
   std::string file = database_file(data_dir);
+  if (is_there(file)) return file;
+  refuse(data_dir + ": no data directory of affskel-server, there is no affskel.db in it");
+}
+
+const std::string& ready_database_file(const std::string& file) {
+  if (is_there(file)) {
+    refuse_foreign(file);
+  } else {
+    refuse_lost(file);
+    make_database(file);
+  }
+  make_mark(file);
+  return file;
+}
+
+std::string file_identity(const std::string& file) {
+  struct statx status {};
+  if (statx(AT_FDCWD, file.c_str(), 0, STATX_INO | STATX_BTIME, &status) != 0) return {};
+  std::string identity = std::to_string(status.stx_ino);
+  if ((status.stx_mask & STATX_BTIME) != 0) {
+    identity +=
+        "@" + std::to_string(status.stx_btime.tv_sec) + "." + std::to_string(status.stx_btime.tv_nsec);
+  }
+  return identity;
+}
+
+OpenFile::Seen OpenFile::see(const std::string& path) {
   struct stat status {};
-  if (stat(file.c_str(), &status) == 0) {
-    // SQLite would take it for a new database, and delete the log beside it as left over.
-    if (S_ISREG(status.st_mode) && status.st_size == 0)
-      throw StoreError(StoreError::Code::kUnusable, file + ": no database, the file is empty");
-    return file;
-  }
-  if (errno == ENOENT || errno == ENOTDIR) {
-    throw StoreError(StoreError::Code::kUnusable,
-                     data_dir + ": no data directory of affskel-server, " + "there is no affskel.db in it");
-  }
-  throw std::system_error(errno, std::generic_category(), file);
+  if (stat(path.c_str(), &status) != 0) return {path};
+  return {path, status.st_dev, status.st_ino};
+}
+
+OpenFile::OpenFile(const std::string& database) : database_(see(database)), log_(see(database + "-wal")) {}
+
+bool OpenFile::replaced() const {
+  const auto other = [](const Seen& seen) {
+    if (seen.number == 0) return false;
+    const Seen now = see(seen.path);
+    return now.device != seen.device || now.number != seen.number;
+  };
+  return other(database_) || other(log_);
 }
 
 }  // namespace affskel::server

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace affskel::server {
@@ -13,5 +14,39 @@ inline std::string database_file(const std::string& data_dir) {
 /// @throws StoreError kUnusable when there is none or it is empty; std::system_error when that cannot be
 /// told.
 std::string existing_database_file(const std::string& data_dir);
+
+/// Sees to it that `file` is a database that a server may open.  A new one is made beside it and appears
+/// complete; a mark (affskel.made) then says that there is one, so that a database which is missing or empty
+/// later on is never taken for a new directory.
+/// @returns file.
+/// @throws StoreError kUnusable when it is missing where the mark or a log is, empty, or foreign; what
+/// Database
+///   throws.
+const std::string& ready_database_file(const std::string& file);
+
+/// What tells a file from a copy of it: its number in the file system and, where that is known, the time of
+/// its birth.  Empty when the file is not there.
+std::string file_identity(const std::string& file);
+
+/// The database file and its log, as they were when this was made.
+class OpenFile {
+ public:
+  OpenFile() = default;
+  explicit OpenFile(const std::string& database);
+
+  /// Whether one of them was removed or replaced since: what is written now is lost.
+  bool replaced() const;
+
+ private:
+  struct Seen {
+    std::string path;
+    std::uint64_t device = 0;
+    std::uint64_t number = 0;  // 0: it was not there
+  };
+  static Seen see(const std::string& path);
+
+  Seen database_;
+  Seen log_;
+};
 
 }  // namespace affskel::server

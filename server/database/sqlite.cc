@@ -1,7 +1,10 @@
 #include "database/sqlite.h"
 
 #include <cerrno>
+#include <cstring>
 #include <utility>
+
+#include "database/checksum.h"
 
 namespace affskel::server {
 namespace {
@@ -35,12 +38,32 @@ int code_of(sqlite3* db) {
   return no_room && (primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN) ? SQLITE_FULL : code;
 }
 
+bool failed_reading(int code) {
+  return code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ || code == SQLITE_IOERR_CORRUPTFS;
+}
+
+/// Disks fail for people, who know files and causes; everything else is for whoever mends this program.
+std::string describe(sqlite3* db, int code, int cause, const std::string& context) {
+  if (db == nullptr) return "database " + context + ": out of memory";
+  const int primary = code & 0xff;
+  const char* name = sqlite3_db_filename(db, "main");
+  const std::string file = name == nullptr || *name == '\0' ? context : name;
+  if (primary == SQLITE_IOERR) {
+    const std::string why = cause != 0 ? std::strerror(cause) : sqlite3_errmsg(db);
+    return "database " + file + (failed_reading(code) ? ": cannot be read: " : ": cannot be written: ") + why;
+  }
+  if (primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB) {
+    return "database " + file + ": is damaged (" + sqlite3_errmsg(db) + "): stop the server and run" +
+           " affskel-server check --repair, or restore a backup";
+  }
+  return "database " + context + ": " + sqlite3_errmsg(db) + " (code " + std::to_string(code) + ")";
+}
+
 [[noreturn]] void raise(sqlite3* db, const std::string& context) {
   const int code = db == nullptr ? SQLITE_NOMEM : code_of(db);
-  const char* text = db == nullptr ? "out of memory" : sqlite3_errmsg(db);
-  const std::string message = "database " + context + ": " + text + " (code " + std::to_string(code) + ")";
   const int primary = code & 0xff;
   const int cause = db == nullptr ? 0 : sqlite3_system_errno(db);
+  const std::string message = describe(db, code, cause, context);
   if ((primary == SQLITE_CANTOPEN || primary == SQLITE_IOERR) && (cause == EMFILE || cause == ENFILE)) {
     throw OutOfFiles(code, message);
   }
@@ -61,6 +84,16 @@ bool SqliteError::blames_the_file() const {
     default:
       return false;
   }
+}
+
+bool SqliteError::says_damaged() const {
+  return primary_code() == SQLITE_NOTADB || primary_code() == SQLITE_CORRUPT ||
+         failed_reading(extended_code_);
+}
+
+bool SqliteError::says_device() const {
+  return (primary_code() == SQLITE_IOERR && !says_damaged()) || primary_code() == SQLITE_READONLY ||
+         primary_code() == SQLITE_CANTOPEN;
 }
 
 struct Database::Cached {
@@ -150,6 +183,7 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
       raise(handle_, file);
     }
     sqlite3_extended_result_codes(handle_, 1);
+    if (register_checksum(handle_) != SQLITE_OK) raise(handle_, file_);
     sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
     execute("PRAGMA foreign_keys = ON");
     if (mode == Mode::kReadWrite) {

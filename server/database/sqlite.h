@@ -23,6 +23,10 @@ class SqliteError : public std::runtime_error {
   int primary_code() const { return extended_code_ & 0xff; }
   /// The file is damaged, foreign or closed to us: no bug of this program.
   bool blames_the_file() const;
+  /// Bytes of it cannot be read, or are not what a database has there.
+  bool says_damaged() const;
+  /// The device failed a write or cannot be written: what was asked for may be asked again.
+  bool says_device() const;
 
  private:
   int extended_code_;

@@ -11,6 +11,7 @@
 
 #include "check/backup.h"
 #include "check/check_database.h"
+#include "check/repair.h"
 #include "database/database_file.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
@@ -94,7 +95,21 @@ class Console {
   bool json_;
 };
 
+/// Returns the number of repairs.
+std::int64_t repair(const Options& options, const Console& console) {
+  // Looked for first: taking hold of the directory would make it.
+  existing_database_file(options.data_dir);
+  const DataDir held(options.data_dir);
+  std::int64_t repairs = 0;
+  repair_database(options.data_dir, [&](const std::string& action) {
+    ++repairs;
+    console.note("repaired: " + action);
+  });
+  return repairs;
+}
+
 ExitCode check_command(const Options& options, const Console& console) {
+  const std::int64_t repairs = options.repair ? repair(options, console) : 0;
   const auto on_fault = [&](const Fault& fault) {
     console.error(ExitCode::kFaults, fault.where + ": " + fault.what);
   };
@@ -105,17 +120,19 @@ ExitCode check_command(const Options& options, const Console& console) {
                  std::to_string(newest_schema()) +
                  ": its content was not checked; affskel-server migrate brings it up to date");
   }
-  console.result({{"database", database_file(options.data_dir)},
-                  {"server", server},
-                  {"schema", found.schema},
-                  {"newest_schema", newest_schema()},
-                  {"complete", found.complete},
-                  {"jobs", found.jobs},
-                  {"meshes", found.meshes},
-                  {"fields", found.fields},
-                  {"artifacts", found.artifacts},
-                  {"faults", found.faults},
-                  {"sound", found.faults == 0}});
+  Json result = {{"database", database_file(options.data_dir)},
+                 {"server", server},
+                 {"schema", found.schema},
+                 {"newest_schema", newest_schema()},
+                 {"complete", found.complete},
+                 {"jobs", found.jobs},
+                 {"meshes", found.meshes},
+                 {"fields", found.fields},
+                 {"artifacts", found.artifacts},
+                 {"faults", found.faults},
+                 {"sound", found.faults == 0}};
+  if (options.repair) result["repairs"] = repairs;
+  console.result(result);
   return found.faults == 0 ? ExitCode::kDone : ExitCode::kFaults;
 }
 

@@ -31,15 +31,20 @@ are in their help: affskel-server check --help.)";
 
 constexpr const char* kCheckFooter = R"(
 Reads the database as of one moment, beside a running server or without one, and changes nothing in it: the file
-itself, references, sizes and SHA-256 of meshes and artefacts, fields, progress, jobs and their tasks. Every
-fault goes to stderr, with its place.
+itself, references, sizes and SHA-256 of meshes and artefacts, checksums and values of fields, progress, jobs
+and their tasks. Every fault goes to stderr, with its place and what it costs.
+
+--repair builds indexes anew, deletes damaged rows of fields and marks their directions to be computed again,
+has damaged artefacts made again, queues the jobs concerned, and then checks. It is refused while a server runs.
+Make a backup first. A damaged mesh it cannot repair: submit the same file again, which mends it.
 
 Examples:
   affskel-server check --data-dir /var/lib/affskel
   affskel-server check --data-dir data --json
+  affskel-server check --repair --data-dir data
 
-Exit codes: 0 sound; 1 faults found; 2 usage; 3 no database of affskel-server, or of a newer one; 70 internal
-error.)";
+Exit codes: 0 sound; 1 faults found, or left; 2 usage; 3 no database of affskel-server, or of a newer one; 7
+--repair while a server runs; 8 disk full; 70 internal error.)";
 
 constexpr const char* kBackupFooter = R"(
 Copies the database as of one moment, beside a running server or without one; nothing that was acknowledged
@@ -149,8 +154,10 @@ CLI::App* add_command(CLI::App& app, Options& options, const char* name, const c
 
 void add_commands(CLI::App& app, Options& options) {
   app.require_subcommand(0, 1);
-  add_command(app, options, "check", "Check whether the database is sound", Command::kCheck)
-      ->footer(kCheckFooter);
+  CLI::App* check =
+      add_command(app, options, "check", "Check whether the database is sound", Command::kCheck);
+  check->footer(kCheckFooter);
+  check->add_flag("--repair", options.repair, "First repair what a damaged disk has left; no server may run");
   CLI::App* backup = add_command(app, options, "backup", "Copy the database to a file", Command::kBackup);
   backup->footer(kBackupFooter);
   backup->add_option("-o,--output", options.output, "Where to write the copy")->required()->type_name("FILE");

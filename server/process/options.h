@@ -24,9 +24,10 @@ struct Options {
   std::int64_t report_interval_ms = 1000;
   std::uint64_t max_mesh_mb = 1024;
   std::string log_level = "info";
-  bool json = false;   ///< of the commands: one JSON document instead of lines
-  std::string output;  ///< of backup
-  bool force = false;  ///< of backup
+  bool json = false;    ///< of the commands: one JSON document instead of lines
+  bool repair = false;  ///< of check
+  std::string output;   ///< of backup
+  bool force = false;   ///< of backup
 };
 
 /// Parses the command line.  Prints help, version or what is wrong; then `exit_code` is set: 0 or 2.

@@ -34,6 +34,9 @@ constexpr long kTickNs = 100'000'000;
 // Workers finish the direction in hand and report; whoever needs longer loses at most that.
 constexpr std::chrono::milliseconds kWorkerGrace{5000};
 
+// Calls that are under way by then.
+constexpr std::chrono::milliseconds kCallGrace{2000};
+
 void start_logging(const std::string& level) {
   const auto logger =
       std::make_shared<spdlog::logger>("affskel", std::make_shared<spdlog::sinks::stderr_sink_mt>());
@@ -57,6 +60,15 @@ int wait_for_signal(const sigset_t& set) {
   const timespec tick{0, kTickNs};
   const int number = sigtimedwait(&set, nullptr, &tick);
   return number > 0 ? number : 0;
+}
+
+/// Takes a signal to stop that came meanwhile.
+bool told_again(const sigset_t& set) {
+  const timespec at_once{};
+  for (int number = 0; (number = sigtimedwait(&set, nullptr, &at_once)) > 0;) {
+    if (number == SIGTERM || number == SIGINT) return true;
+  }
+  return false;
 }
 
 std::vector<wire::Address> listen_addresses(const Options& options, const std::string& data_dir) {
@@ -102,11 +114,22 @@ void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
   std::_Exit(static_cast<int>(ExitCode::kUsage));
 }
 
+/// The database was removed or replaced under the server: what comes now could not be kept.
+void leave_if_database_lost(Server& server, Supervisor& supervisor) {
+  if (!server.store().lost()) return;
+  spdlog::error("event=database_lost file={} message=\"removed or replaced while the server ran; leaving\"",
+                server.store().file());
+  spdlog::default_logger()->flush();
+  supervisor.terminate(std::chrono::milliseconds(0));
+  std::_Exit(static_cast<int>(ExitCode::kUsage));
+}
+
 /// Until a signal says so, or nobody needs the server any more.
 void serve(const Options& options, const DataDir& data_dir, const sigset_t& signals, Server& server,
            Supervisor& supervisor) {
   for (;;) {
     leave_if_lost(data_dir, supervisor);
+    leave_if_database_lost(server, supervisor);
     supervisor.tick();
     const int number = wait_for_signal(signals);
     if (number == SIGTERM || number == SIGINT) {
@@ -154,15 +177,19 @@ void run_server(const Options& options) {
   serve(options, data_dir, signals, server, supervisor);
   leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();
+  // First whoever works may finish what is in hand, then what is left is cut off: 10 s at most.  A second
+  // signal ends the first stage.
   server.drain();
-  supervisor.terminate(kWorkerGrace);
-  server.stop();
+  bool hurried = false;
+  supervisor.terminate(kWorkerGrace, [&] { return hurried = hurried || told_again(signals); });
+  server.stop(hurried ? std::chrono::milliseconds(0) : kCallGrace);
   spdlog::info("event=stopped");
 }
 
 ExitCode exit_code_of(const SqliteError& error) {
   if (error.primary_code() == SQLITE_FULL) return ExitCode::kLimit;
-  return error.blames_the_file() ? ExitCode::kUsage : ExitCode::kInternal;
+  return error.blames_the_file() || error.says_damaged() || error.says_device() ? ExitCode::kUsage
+                                                                                : ExitCode::kInternal;
 }
 
 int fail(ExitCode code, const std::exception& error) {

@@ -115,13 +115,13 @@ void Supervisor::ended(Slot& slot, int status) {
   on_end_(pid);
 }
 
-void Supervisor::terminate(std::chrono::milliseconds grace) {
+void Supervisor::terminate(std::chrono::milliseconds grace, const std::function<bool()>& hurry) {
   terminating_ = true;
   for (const Slot& slot : slots_) {
     if (slot.pid != 0) kill(slot.pid, SIGTERM);
   }
   const Time deadline = std::chrono::steady_clock::now() + grace;
-  for (reap(); running() > 0 && std::chrono::steady_clock::now() < deadline; reap()) {
+  for (reap(); running() > 0 && std::chrono::steady_clock::now() < deadline && !hurry(); reap()) {
     std::this_thread::sleep_for(kReapPause);
   }
   for (Slot& slot : slots_) {

@@ -34,7 +34,8 @@ class Supervisor {
   void tick();
 
   /// Sends SIGTERM to all and waits; kills who has not ended within `grace`.  Starts none afterwards.
-  void terminate(std::chrono::milliseconds grace);
+  /// @param hurry asked again and again; true ends the grace.
+  void terminate(std::chrono::milliseconds grace, const std::function<bool()>& hurry = [] { return false; });
 
   /// Children that run.
   unsigned running() const;

@@ -28,12 +28,18 @@ grpc::StatusCode code_of(StoreError::Code code) {
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case StoreError::Code::kUnusable:
       return grpc::StatusCode::INTERNAL;
+    case StoreError::Code::kDamaged:
+      return grpc::StatusCode::DATA_LOSS;
+    case StoreError::Code::kLost:
+      return grpc::StatusCode::UNAVAILABLE;
   }
   return grpc::StatusCode::INTERNAL;
 }
 
 grpc::StatusCode code_of(const SqliteError& error) {
   if (dynamic_cast<const OutOfFiles*>(&error) != nullptr) return grpc::StatusCode::UNAVAILABLE;
+  if (error.says_damaged()) return grpc::StatusCode::DATA_LOSS;
+  if (error.says_device()) return grpc::StatusCode::UNAVAILABLE;
   switch (error.primary_code()) {
     case SQLITE_FULL:
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
@@ -53,6 +59,11 @@ std::string told_of(const SqliteError& error) {
   if (dynamic_cast<const OutOfFiles*>(&error) != nullptr) {
     return "the server has as many files and connections open as it may; try again";
   }
+  if (error.says_damaged()) {
+    return "the server's disk cannot be read, or its database is damaged; its log says where, and"
+           " affskel-server check --repair mends what can be mended";
+  }
+  if (error.says_device()) return "the server's disk cannot be written just now; its log says why, try again";
   switch (error.primary_code()) {
     case SQLITE_FULL:
       return error.what();

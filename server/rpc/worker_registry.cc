@@ -47,7 +47,7 @@ void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_m
   info.set_threads(worker.threads());
   info.set_core_version(worker.core_version());
   info.set_supervised(supervised);
-  info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+  hear(entry);
   forget_silent();
 }
 
@@ -56,7 +56,7 @@ void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& 
   const auto found = workers_.find(worker.id());
   if (found == workers_.end()) return;
   found->second.wait_ms = 0;
-  found->second.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+  hear(found->second);
   found->second.tasks[lease.token()] = std::string(kind_name(lease.kind())) + " " + lease.job().id();
   holders_[lease.token()] = worker.id();
 }
@@ -68,7 +68,7 @@ void WorkerRegistry::used(const std::string& token) {
   const auto found = workers_.find(holder->second);
   if (found == workers_.end()) return;
   found->second.wait_ms = 0;
-  found->second.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+  hear(found->second);
 }
 
 void WorkerRegistry::ended(const std::string& token) {
@@ -80,10 +80,13 @@ void WorkerRegistry::ended(const std::string& token) {
   holders_.erase(holder);
 }
 
+void WorkerRegistry::hear(Entry& entry) const {
+  entry.heard_ms = clock_.lease_ms();
+  entry.info.set_last_seen_ms(static_cast<std::uint64_t>(clock_.wall_ms()));
+}
+
 void WorkerRegistry::forget_silent() {
-  std::erase_if(workers_, [this](const auto& entry) {
-    return static_cast<std::int64_t>(entry.second.info.last_seen_ms()) < oldest_ms();
-  });
+  std::erase_if(workers_, [this](const auto& entry) { return entry.second.heard_ms < oldest_ms(); });
   std::erase_if(holders_, [this](const auto& holder) { return !workers_.contains(holder.second); });
 }
 
@@ -97,19 +100,18 @@ void WorkerRegistry::forget_one() {
 }
 
 bool WorkerRegistry::is_silent(const Entry& entry) const {
-  const auto heard = static_cast<std::int64_t>(entry.info.last_seen_ms());
-  return clock_.wall_ms() - heard > entry.wait_ms + silence_ms_;
+  return clock_.lease_ms() - entry.heard_ms > entry.wait_ms + silence_ms_;
 }
 
 std::int64_t WorkerRegistry::oldest_ms() const {
-  return clock_.wall_ms() - kForgetMs;
+  return clock_.lease_ms() - kForgetMs;
 }
 
 std::vector<v1::WorkerInfo> WorkerRegistry::list() const {
   const std::lock_guard lock(mutex_);
   std::vector<v1::WorkerInfo> infos;
   for (const auto& [id, entry] : workers_) {
-    if (static_cast<std::int64_t>(entry.info.last_seen_ms()) < oldest_ms()) continue;
+    if (entry.heard_ms < oldest_ms()) continue;
     infos.push_back(entry.info);
     infos.back().set_silent(is_silent(entry));
     if (!entry.tasks.empty() && !infos.back().silent()) infos.back().set_task(entry.tasks.rbegin()->second);

@@ -38,11 +38,13 @@ class WorkerRegistry {
 
  private:
   struct Entry {
+    std::int64_t heard_ms = 0;  // lease clock
     v1::WorkerInfo info;
     std::map<std::string, std::string> tasks;  // by token: what for people
     std::int64_t wait_ms = 0;                  // of the call under way
   };
   std::int64_t oldest_ms() const;
+  void hear(Entry& entry) const;
   void forget_silent();
   void forget_one();
   bool is_silent(const Entry& entry) const;

@@ -14,6 +14,12 @@ namespace affskel::server {
 /// Stores a mesh unless its bytes are there already.  Requires `sha256` to be theirs.
 void put_mesh(Tx& tx, const std::string& sha256, std::string_view bytes);
 
+/// Whether a mesh is stored, and its bytes are not these.
+bool mesh_is_damaged(const std::string& file, const std::string& sha256, std::string_view bytes);
+
+/// Puts the right bytes in the place of damaged ones.
+void heal_mesh(Tx& tx, const std::string& sha256, std::string_view bytes);
+
 /// What an artefact is about.
 struct ArtifactKey {
   std::int64_t erosion_id = 0;
@@ -30,14 +36,16 @@ void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::i
 /// Its row, if stored.
 std::optional<std::int64_t> find_artifact(Database& db, const ArtifactKey& key);
 
-/// Bytes of something stored, in pieces of at most 1 MiB, from one consistent view of the database.  Has
-/// its own connection: reading does not hold up writers.  Not thread-safe.
+/// Bytes of something stored, in pieces of at most 1 MiB.  Has its own connection: reading does not hold up
+/// writers.  What never changes is read piece by piece, so that a slow reader does not keep the log long; a
+/// field that still grows, from one consistent view.  Not thread-safe.
 class BlobReader {
  public:
   virtual ~BlobReader() = default;
   std::uint64_t bytes() const { return bytes_; }
   const std::string& sha256() const { return sha256_; }
   /// The next piece; empty at the end.
+  /// @throws StoreError kDamaged when what was read is not what was stored, at the latest at the end.
   virtual std::string next() = 0;
 
  protected:
@@ -50,7 +58,7 @@ std::unique_ptr<BlobReader> read_mesh(const std::string& file, const std::string
 std::unique_ptr<BlobReader> read_artifact(const std::string& file, std::int64_t artifact_id);
 
 /// The field as merged so far.
-/// @throws StoreError kNotFound when the erosion is gone or was not prepared yet.
+/// @throws StoreError kNotFound when the erosion is gone or was not prepared yet; kDamaged.
 std::unique_ptr<BlobReader> read_field(const std::string& file, std::int64_t erosion_id);
 
 }  // namespace affskel::server

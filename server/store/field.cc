@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "errors.h"
+#include "store/field_rows.h"
 #include "wire/limits.h"
 
 namespace affskel::server {
@@ -74,7 +75,9 @@ std::vector<bool> merge_into(std::string& chunk, std::int64_t index, Records beg
   return changed;
 }
 
-void write_changed(BlobHandle& blob, const std::string& chunk, const std::vector<bool>& changed) {
+/// Whether there was any.
+bool write_changed(BlobHandle& blob, const std::string& chunk, const std::vector<bool>& changed) {
+  bool written = false;
   const std::size_t stretch_bytes = kStretchPoints * kRecordBytes;
   for (std::size_t first = 0; first < changed.size(); ++first) {
     if (!changed[first]) continue;
@@ -83,8 +86,10 @@ void write_changed(BlobHandle& blob, const std::string& chunk, const std::vector
     const std::size_t begin = first * stretch_bytes;
     const std::size_t end = std::min(chunk.size(), (last + 1) * stretch_bytes);
     blob.write(chunk.data() + begin, static_cast<int>(end - begin), static_cast<int>(begin));
+    written = true;
     first = last;
   }
+  return written;
 }
 
 struct ByChunk {
@@ -180,34 +185,30 @@ void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t point
       }
       chunk.resize(static_cast<std::size_t>(blob->size()));
       blob->read(chunk.data(), blob->size(), 0);
-      write_changed(*blob, chunk, merge_into(chunk, index, begin, end));
+      require_sound_chunk(db, erosion_id, index, chunk);
+      if (write_changed(*blob, chunk, merge_into(chunk, index, begin, end))) {
+        sign_chunk(db, erosion_id, index, chunk);
+      }
     } else {
       // An INSERT would make the open handle stale.
       blob.reset();
       chunk = empty_chunk(field_chunk_points(points, index));
       merge_into(chunk, index, begin, end);
-      db.run("INSERT INTO field_chunks (erosion_id, idx, data) VALUES (?, ?, ?)", erosion_id, index,
-             Blob{chunk});
+      insert_chunk(db, erosion_id, index, chunk);
     }
     begin = end;
   }
-}
-
-std::int64_t logged_bytes(Database& db, std::int64_t erosion_id) {
-  return db.integer("SELECT sum(length(data)) FROM field_log WHERE erosion_id = ?", erosion_id).value_or(0);
 }
 
 // What is logged, with room for so many records more.
 std::vector<FieldRecord> read_log(Database& db, std::int64_t erosion_id, std::size_t room = 0) {
   std::vector<FieldRecord> log;
   log.reserve(static_cast<std::size_t>(logged_bytes(db, erosion_id)) / sizeof(FieldRecord) + room);
-  Statement row = db.query("SELECT data FROM field_log WHERE erosion_id = ? ORDER BY id", erosion_id);
-  while (row.step()) {
-    const std::string_view bytes = row.blob(0);
+  load_log(db, erosion_id, [&](std::string_view bytes) {
     const std::size_t before = log.size();
     log.resize(before + bytes.size() / sizeof(FieldRecord));
     std::memcpy(log.data() + before, bytes.data(), bytes.size());
-  }
+  });
   return log;
 }
 
@@ -220,7 +221,7 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                                records.size() * sizeof(FieldRecord));
   const std::int64_t logged = logged_bytes(db, erosion_id);
   if (logged + static_cast<std::int64_t>(bytes.size()) <= log_limit(points)) {
-    db.run("INSERT INTO field_log (erosion_id, data) VALUES (?, ?)", erosion_id, Blob{bytes});
+    insert_log(db, erosion_id, bytes);
     return;
   }
   if (logged == 0) return merge_into_chunks(db, erosion_id, points, records);
@@ -253,9 +254,8 @@ FieldView::FieldView(Database& db, std::int64_t erosion_id, std::int64_t points)
 }
 
 std::string FieldView::chunk(std::int64_t index) const {
-  Statement row =
-      db_.query("SELECT data FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id_, index);
-  std::string bytes = row.step() ? std::string(row.blob(0)) : empty_chunk(field_chunk_points(points_, index));
+  std::string bytes = load_chunk(db_, erosion_id_, index);
+  if (bytes.empty()) bytes = empty_chunk(field_chunk_points(points_, index));
   const auto [begin, end] = std::equal_range(log_.begin(), log_.end(), index, ByChunk{});
   merge_into(bytes, index, begin, end);
   return bytes;

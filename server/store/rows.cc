@@ -103,7 +103,8 @@ v1::Job read_job(const Statement& row) {
 }
 
 /// An id or a prefix, in the form in which ids are kept.
-std::string checked_prefix(std::string reference) {
+std::string checked_prefix(const std::string& text) {
+  std::string reference = text;
   for (char& c : reference) {
     if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
   }
@@ -112,7 +113,7 @@ std::string checked_prefix(std::string reference) {
   if (reference.size() < 6 || reference.size() > 32 || !hex) {
     throw StoreError(
         StoreError::Code::kInvalid,
-        "job " + wire::quoted(reference) +
+        "job " + wire::quoted(text) +
             ": expected an id of 32 hexadecimal digits, a prefix of at least 6 of them, or @last");
   }
   return reference;
@@ -229,6 +230,11 @@ JobPage list_jobs(Database& db, const ListFilter& filter) {
     last = row.integer(31);
   }
   return page;
+}
+
+std::string database_id(Database& db) {
+  Statement row = db.query("SELECT value FROM server_state WHERE key = 'database'");
+  return row.step() ? row.text(0) : std::string();
 }
 
 std::string current_core_version(Database& db) {

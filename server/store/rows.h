@@ -51,6 +51,9 @@ std::string resolve_job(Database& db, const std::string& reference);
 /// The wire form of one job, with its finished positions and what it waits for in vain.
 v1::Job job_message(Database& db, const std::string& id);
 
+/// Changes when the database is put back from a copy or repaired.
+std::string database_id(Database& db);
+
 /// The core version of the workers of this program's version, "" when none was heard from yet.
 std::string current_core_version(Database& db);
 

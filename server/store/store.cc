@@ -8,6 +8,7 @@
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/identity.h"
 
 namespace affskel::server {
 namespace {
@@ -15,6 +16,35 @@ namespace {
 std::string directory_of(const std::string& file) {
   const std::filesystem::path directory = std::filesystem::path(file).parent_path();
   return directory.empty() ? "." : directory.string();
+}
+
+void put_state(Tx& tx, const char* key, const std::string& value) {
+  tx.db.run(
+      "INSERT INTO server_state (key, value) VALUES (?, ?)"
+      " ON CONFLICT (key) DO UPDATE SET value = excluded.value",
+      key, value);
+}
+
+/// A copy of the database, put back, has forgotten what came after it.  A worker that goes on with a lease or
+/// a field from before would take for known what is not: all leases end, and fields are fetched anew.
+void recognise_file(Tx& tx, const std::string& identity) {
+  Statement row = tx.db.query("SELECT value FROM server_state WHERE key = 'file'");
+  const bool known = row.step();
+  if (known && row.text(0) == identity) return;
+  if (known) {
+    release_all_leases(tx);
+    tx.changes.log.push_back("event=database_restored");
+  }
+  put_state(tx, "file", identity);
+  put_state(tx, "database", wire::random_id());
+}
+
+/// Their workers could not report while no server was there.
+void renew_all(Tx& tx) {
+  tx.db.run(
+      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(ifnull(stalled_ms, 0), ?1 + ?3)"
+      " WHERE state = 'leased'",
+      tx.lease_ms, tx.options.lease_ms, tx.options.stall_ms);
 }
 
 }  // namespace
@@ -25,16 +55,40 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
       clock_(clock),
       listener_(listener),
       reserve_(directory_of(file_), options_.reserve_bytes, options_.free_bytes),
-      db_(file_, Database::Mode::kReadWrite),
+      db_(ready_database_file(file_), Database::Mode::kReadWrite),
+      readers_(file_),
       schema_version_(migrate(db_)),
       disk_full_(!reserve_.whole()) {
   if (disk_full_) live_on_reserve();
   let_pages_go(db_, options_.free_bytes(directory_of(file_)));
-  write([](Tx& tx) {
+  write([this](Tx& tx) {
+    recognise_file(tx, file_identity(file_));
     settle_finished_blocks(tx);
-    return tx.db.run("UPDATE tasks SET deadline_ms = ? WHERE state = 'leased'",
-                     tx.lease_ms + tx.options.lease_ms);
+    tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1");
+    renew_all(tx);
+    return true;
   });
+  identity_ = OpenFile(file_);
+  expect_orphans();
+}
+
+bool Store::lost() const {
+  return identity_.replaced();
+}
+
+void Store::require_not_lost() const {
+  if (!lost()) return;
+  throw StoreError(StoreError::Code::kLost,
+                   "the database " + file_ +
+                       " was removed or replaced while the server ran; nothing of this"
+                       " was kept");
+}
+
+/// Requests that a predecessor had: whoever waits for them asks again soon.
+void Store::expect_orphans() {
+  orphans_until_ms_ = clock_.lease_ms() + options_.orphan_grace_ms;
+  Statement row = db_.query("SELECT id FROM tasks WHERE on_request = 1 AND state IN ('pending', 'leased')");
+  while (row.step()) orphans_.insert(row.integer(0));
 }
 
 v1::ReportResponse Store::reply(bool cancelled) const {

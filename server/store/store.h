@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/worker_service.pb.h"
 #include "clock.h"
+#include "database/database_file.h"
+#include "database/reader_pool.h"
 #include "store/blobs.h"
 #include "store/field.h"
 #include "store/rows.h"
@@ -44,6 +47,9 @@ class Store {
   int schema_version() const { return schema_version_; }
   /// Whether the disk has no room for more than bookkeeping.
   bool disk_full() const { return disk_full_; }
+  /// Whether the database was removed or replaced by another file since it was opened.  Nothing is
+  /// acknowledged from then on, and whoever runs the store should end.
+  bool lost() const;
 
   // For clients: store_submit.cc, store_jobs.cc
 
@@ -86,8 +92,8 @@ class Store {
   /// Opens a stored artefact; queues a task for a derived one that is not there yet.
   /// @param asked the task that an earlier call answered this request with, or 0.  When it has failed, the
   ///   answer is its error, and nothing is queued anew.
-  /// @throws StoreError kNotFound when job or task were deleted; kPrecondition when the job is not as far
-  /// yet;
+  /// @throws StoreError kNotFound when the job was deleted; kPrecondition when it is not as far yet, or the
+  ///   request was cancelled;
   ///   kInvalid for parameters out of range.
   ArtifactState open_artifact(const v1::FetchArtifactRequest& request, std::int64_t asked = 0);
 
@@ -121,7 +127,8 @@ class Store {
 
   // For the maintenance thread and the supervisor: store_leases.cc
 
-  /// Requeues what expired leases held; returns how many there were.
+  /// Requeues what leases held that have expired or made no progress; returns how many there were.  Takes
+  /// back the requests for artefacts that a restart has left without anybody who waits.
   int expire_leases();
   /// A worker process of this machine has ended: its leases are lost now, not at their deadline.
   int release_worker(const std::string& host, std::int64_t pid);
@@ -144,8 +151,16 @@ class Store {
   template <typename Body>
   auto commit(Body&& body, Changes& changes, bool& room);
   template <typename Body>
+  auto write_field(const std::string& token, Body&& body);
+  template <typename Body>
   auto read(Body&& body);
 
+  void fail_damaged(const std::string& token, const std::string& why, bool retryable);
+  void require_not_lost() const;
+  void expect_orphans();
+  bool requests_turn(std::int64_t leased_requests, std::int64_t leased_blocks) const;
+  std::optional<std::int64_t> choose_task(Database& db, const v1::WorkerIdentity& worker,
+                                          const std::string& preferred);
   void make_room(const Changes& undone);
   bool has_room();
   void live_on_reserve();
@@ -160,10 +175,15 @@ class Store {
   const Clock& clock_;
   ChangeListener* const listener_;
 
-  std::mutex mutex_;  // guards reserve_ and db_
+  std::mutex mutex_;  // guards what follows, up to the atomic ones
   DiskReserve reserve_;
   Database db_;
+  ReaderPool readers_;
   int schema_version_ = 0;
+  OpenFile identity_;               // of the database and its log
+  std::set<std::int64_t> orphans_;  // requests for artefacts that nobody has asked for since the start
+  std::int64_t orphans_until_ms_ = 0;
+  bool last_was_request_ = false;                    // the last grant, while jobs waited, too
   std::int64_t full_disk_ms_ = 0;                    // when the reserve was last needed; guarded as well
   std::atomic<bool> disk_full_ = false;              // the reserve is given away
   std::atomic<bool> room_again_ = false;             // and nobody was told yet

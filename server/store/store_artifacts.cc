@@ -1,4 +1,8 @@
+#include <spdlog/spdlog.h>
+
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "errors.h"
 #include "store/store_impl.h"
@@ -122,6 +126,19 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   return add_derive_task(tx, job.id, wanted.kind, wanted.params, wanted.key.params_key, true);
 }
 
+/// The same for lattice and directions, which are there unless check --repair had to delete them.
+std::int64_t request_prepared(Tx& tx, const JobRow& job) {
+  if (const std::optional<std::int64_t> task = tx.db.integer(
+          "SELECT id FROM tasks WHERE job_id = ? AND kind = 'prepare' AND state IN ('pending', 'leased')"
+          " AND on_request = 1 LIMIT 1",
+          job.id)) {
+    return *task;
+  }
+  tx.require_room();
+  tx.changes.log.push_back("event=requested job=" + job.id + " kind=prepare");
+  return add_prepare_request(tx, job.id);
+}
+
 /// Error of a task that failed; nothing while it may still succeed or when it has.
 std::optional<v1::JobError> task_error(Database& db, std::int64_t task) {
   Statement row = db.query(
@@ -129,7 +146,7 @@ std::optional<v1::JobError> task_error(Database& db, std::int64_t task) {
       " FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE t.id = ?",
       task);
   v1::JobError error;
-  if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "the job was deleted meanwhile");
+  if (!row.step()) throw StoreError(StoreError::Code::kPrecondition, "the request was cancelled");
   if (row.text(0) == "failed") {
     error.set_code(row.text(1));
     error.set_message(row.text(2));
@@ -159,11 +176,17 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
         mesh = job.mesh_sha256;
         return 0;
       case v1::ARTIFACT_KIND_LATTICE:
-        artifact = stored_artifact(tx.db, job, "lattice");
-        return 0;
-      case v1::ARTIFACT_KIND_DIRECTIONS:
-        artifact = stored_artifact(tx.db, job, "directions");
-        return 0;
+      case v1::ARTIFACT_KIND_DIRECTIONS: {
+        const char* kind = request.kind() == v1::ARTIFACT_KIND_LATTICE ? "lattice" : "directions";
+        if (job.core_version.empty()) throw missing(tx.db, job, kind);
+        artifact = find_artifact(tx.db, {job.erosion_id, kind, ""}).value_or(0);
+        if (artifact != 0) return 0;
+        if (asked != 0) state.error = task_error(tx.db, asked);
+        if (state.error) return asked;
+        const std::int64_t task = request_prepared(tx, job);
+        orphans_.erase(task);
+        return task;
+      }
       case v1::ARTIFACT_KIND_FIELD:
         require_finished(tx.db, job);
         field = job.erosion_id;
@@ -176,7 +199,10 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
     artifact = find_artifact(tx.db, wanted.key).value_or(0);
     if (artifact != 0) return 0;
     if (asked != 0) state.error = task_error(tx.db, asked);
-    return state.error ? asked : request_derived(tx, job, wanted);
+    if (state.error) return asked;
+    const std::int64_t task = request_derived(tx, job, wanted);
+    orphans_.erase(task);
+    return task;
   });
   if (!mesh.empty()) state.reader = read_mesh(file_, mesh);
   if (field != 0) state.reader = read_field(file_, field);
@@ -196,6 +222,59 @@ void Store::withdraw(std::int64_t task) {
     return true;
   });
 }
+
+void Store::fail_damaged(const std::string& token, const std::string& why, bool retryable) {
+  v1::JobError error;
+  error.set_code("DAMAGED");
+  error.set_message(why);
+  try {
+    fail(token, error, retryable);
+  } catch (const std::exception& failed) {
+    // The lease has ended, or the disk takes nothing: the next one finds the damage again.
+    spdlog::warn("event=damage_not_told message=\"{}\"", failed.what());
+  }
+}
+
+namespace {
+
+/// An input of a task, which fails when its input is damaged: the worker would only ask again.
+class InputReader final : public BlobReader {
+ public:
+  using OnDamage = std::function<void(const std::string& why, bool retryable)>;
+
+  InputReader(const std::function<std::unique_ptr<BlobReader>()>& open, OnDamage on_damage)
+      : on_damage_(std::move(on_damage)) {
+    guarded([&] { source_ = open(); });
+    bytes_ = source_->bytes();
+    sha256_ = source_->sha256();
+  }
+
+  std::string next() override {
+    std::string piece;
+    guarded([&] { piece = source_->next(); });
+    return piece;
+  }
+
+ private:
+  template <typename Body>
+  void guarded(Body&& body) {
+    try {
+      body();
+    } catch (const StoreError& error) {
+      if (error.code() == StoreError::Code::kDamaged) on_damage_(error.what(), false);
+      throw;
+    } catch (const SqliteError& error) {
+      // A disk may fail a read once.
+      if (error.says_damaged()) on_damage_(error.what(), true);
+      throw;
+    }
+  }
+
+  OnDamage on_damage_;
+  std::unique_ptr<BlobReader> source_;
+};
+
+}  // namespace
 
 std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::ArtifactKind kind) {
   std::string mesh;
@@ -220,9 +299,13 @@ std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::Arti
         throw StoreError(StoreError::Code::kInvalid, "not an input of a task");
     }
   });
-  if (!mesh.empty()) return read_mesh(file_, mesh);
-  if (field != 0) return read_field(file_, field);
-  return read_artifact(file_, artifact);
+  const auto open = [&]() -> std::unique_ptr<BlobReader> {
+    if (!mesh.empty()) return read_mesh(file_, mesh);
+    if (field != 0) return read_field(file_, field);
+    return read_artifact(file_, artifact);
+  };
+  return std::make_unique<InputReader>(
+      open, [this, token](const std::string& why, bool retryable) { fail_damaged(token, why, retryable); });
 }
 
 }  // namespace affskel::server

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "errors.h"
+#include "store/blocks.h"
 #include "store/shorten.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
@@ -10,13 +11,6 @@
 
 namespace affskel::server {
 namespace {
-
-// Blocks: small enough that many workers share a job and a lost one is soon redone elsewhere, large enough
-// that fetching the field for each of them does not count.
-constexpr std::int64_t kLargeBlocks = 16;
-constexpr std::int64_t kFineBlocks = 64;
-constexpr std::int64_t kLastBlocks = 256;
-constexpr std::int64_t kMinBlockPositions = 16;
 
 // Kept and sent with the job from then on: reasons of failure, advice on a skeleton.
 constexpr std::size_t kMaxReasonBytes = 4000;
@@ -89,24 +83,6 @@ Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view
   return parts;
 }
 
-// Every block costs its worker two round trips and a commit, so most of them are large; the last quarter is
-// cut finer, and the last sixteenth finer still, so that no worker is left alone with a large one while the
-// others have nothing to do.
-void cut_blocks(Tx& tx, const std::string& job_id, std::int64_t directions) {
-  const auto part = [&](std::int64_t parts) {
-    return std::max(kMinBlockPositions, (directions + parts - 1) / parts);
-  };
-  const std::int64_t fine_from = directions / 4 * 3, last_from = directions / 16 * 15;
-  for (std::int64_t begin = 0; begin < directions;) {
-    const std::int64_t parts = begin < fine_from   ? kLargeBlocks
-                               : begin < last_from ? kFineBlocks
-                                                   : kLastBlocks;
-    const std::int64_t end = std::min(directions, begin + part(parts));
-    add_block(tx, job_id, {begin, end});
-    begin = end;
-  }
-}
-
 void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header,
                     const Prepared& parts) {
   const JobRow job = get_job(tx.db, task.job_id);
@@ -130,6 +106,19 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
       " points=" + std::to_string(summary.points()) + " directions=" + std::to_string(summary.directions()));
 }
 
+/// Lattice and directions that a damaged disk has lost, made again for a field that is there.
+void restore_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header,
+                      const Prepared& parts) {
+  const JobRow job = get_job(tx.db, task.job_id);
+  Statement row = tx.db.query("SELECT prepared, stride FROM erosions WHERE id = ?", job.erosion_id);
+  if (!row.step() || row.blob(0) != header.prepared().SerializeAsString() ||
+      static_cast<std::uint64_t>(row.integer(1)) != header.order_stride()) {
+    refuse("prepared anew, the job has another lattice or other directions than its field");
+  }
+  put_artifact(tx, {job.erosion_id, "lattice", ""}, parts.lattice, 0);
+  put_artifact(tx, {job.erosion_id, "directions", ""}, parts.directions, 0);
+}
+
 void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header, std::string_view data) {
   if (header.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 points or triangles");
   const JobRow job = get_job(tx.db, task.job_id);
@@ -140,7 +129,7 @@ void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& he
 }
 
 std::string known_code(const std::string& code) {
-  for (const char* known : {"BAD_INPUT", "LIMIT", "WORKER_LOST", "INTERNAL"}) {
+  for (const char* known : {"BAD_INPUT", "LIMIT", "WORKER_LOST", "DAMAGED", "INTERNAL"}) {
     if (code == known) return code;
   }
   return "INTERNAL";
@@ -160,6 +149,11 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
     const TaskRow task = task_of_token(tx.db, header.token());
     if (task.state == "done") return reply(false);
     tx.require_room();
+    if (parts && task.on_request) {
+      restore_prepared(tx, task, header, *parts);
+      finish_task(tx, task);
+      return reply(false);
+    }
     if (task.kind == v1::TASK_KIND_ERODE) refuse("a block of directions is finished by its reports");
     if ((task.kind == v1::TASK_KIND_PREPARE) != parts.has_value()) {
       refuse("a summary belongs to the prepare task, and only to it");

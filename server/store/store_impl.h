@@ -17,6 +17,7 @@ auto Store::commit(Body&& body, Changes& changes, bool& room) {
   auto value = body(tx);
   db_.claim_pages();
   transaction.commit();
+  require_not_lost();
   if (changes.grown || changes.eased) reserve_.allow_retry();
   return value;
 }
@@ -47,9 +48,7 @@ auto Store::write(Body&& body) {
 
 template <typename Body>
 auto Store::read(Body&& body) {
-  const std::lock_guard lock(mutex_);
-  Transaction transaction(db_, Transaction::Kind::kRead);
-  return body(db_);
+  return readers_.read(body);
 }
 
 /// Points a job at another, finished erosion and drops its own; the job goes on in the derive stage.

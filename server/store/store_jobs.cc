@@ -40,8 +40,15 @@ v1::Job Store::write_job(const std::string& job_ref, const std::function<void(Tx
 
 v1::Job Store::cancel(const std::string& job_ref) {
   return write_job(job_ref, [](Tx& tx, const JobRow& job) {
-    if (job.state == v1::JOB_STATE_CANCELLED) return;
+    const std::int64_t requests = tx.db.run(
+        "DELETE FROM tasks WHERE job_id = ? AND on_request = 1 AND state IN ('pending', 'leased')", job.id);
+    if (requests > 0) {
+      tx.changes.jobs.insert(job.id);
+      tx.changes.log.push_back("event=requests_cancelled job=" + job.id +
+                               " requests=" + std::to_string(requests));
+    }
     if (!job.active()) {
+      if (requests > 0 || job.state == v1::JOB_STATE_CANCELLED) return;
       throw StoreError(StoreError::Code::kPrecondition,
                        "job " + job.id + " is " + state_name(job.state) + ": nothing to cancel");
     }

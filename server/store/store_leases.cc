@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "errors.h"
 #include "store/store_impl.h"
@@ -28,23 +30,60 @@ void remember_core_version(Tx& tx, const std::string& version) {
       wire::kVersion, version);
 }
 
-/// The next task for this worker.  Somebody waits for an artefact on request, and it takes seconds: those
-/// first; then by priority, then the job whose mesh the worker holds already, then age.  Fields of
-/// different core versions are never mixed.
-std::optional<std::int64_t> choose_task(Database& db, const v1::WorkerIdentity& worker,
-                                        const std::string& preferred) {
+/// A pending task's place in the queue.
+struct Place {
+  std::int64_t id = 0;
+  std::int64_t priority = 0;
+  std::int64_t seq = 0;
+  bool before(const Place& other) const {
+    return std::tie(other.priority, seq, id) < std::tie(priority, other.seq, other.id);
+  }
+};
+
+/// First by priority, then by age, of the tasks that need this core version (or none, ""): one step in the
+/// index tasks_ready.
+std::optional<Place> first_ready(Database& db, bool on_request, const std::string& needs_core) {
+  Statement row = db.query(
+      "SELECT id, priority, seq FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = ?"
+      " AND needs_core = ? ORDER BY priority DESC, seq, id LIMIT 1",
+      on_request, needs_core);
+  if (!row.step()) return std::nullopt;
+  return Place{row.integer(0), row.integer(1), row.integer(2)};
+}
+
+/// Fields of different core versions are never mixed.
+std::optional<Place> next_ready(Database& db, bool on_request, const std::string& core_version) {
+  const std::optional<Place> any = first_ready(db, on_request, "");
+  const std::optional<Place> own = first_ready(db, on_request, core_version);
+  if (!any || (own && own->before(*any))) return own;
+  return any;
+}
+
+/// Among jobs of equal priority the one whose mesh and field the worker holds already.
+std::optional<std::int64_t> of_preferred_job(Database& db, const Place& next, const std::string& core_version,
+                                             const std::string& preferred) {
+  if (preferred.empty()) return std::nullopt;
   return db.integer(
-      "SELECT t.id FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
-      " WHERE t.state = 'pending'"
-      " AND (t.on_request = 1 OR (j.state IN ('queued', 'running') AND j.cancel_requested = 0))"
-      " AND (t.kind <> 'erode' OR e.core_version = ?)"
-      " ORDER BY t.on_request DESC, j.priority DESC, j.id = ? DESC, j.seq, t.id LIMIT 1",
-      worker.core_version(), preferred);
+      "SELECT id FROM tasks WHERE job_id = ? AND state = 'pending' AND parked = 0 AND on_request = 0"
+      " AND priority = ? AND needs_core IN ('', ?) ORDER BY id LIMIT 1",
+      preferred, next.priority, core_version);
+}
+
+struct Leased {
+  std::int64_t requests = 0;
+  std::int64_t others = 0;
+};
+
+Leased count_leased(Database& db) {
+  Statement row = db.query("SELECT count(*), total(on_request) FROM tasks WHERE state = 'leased'");
+  row.step();
+  const auto requests = static_cast<std::int64_t>(row.real(1));
+  return {requests, row.integer(0) - requests};
 }
 
 /// Takes the finished field of another job instead of preparing, if there is one by now.
 bool adopt_instead(Tx& tx, const TaskRow& task, const std::string& core_version) {
-  if (task.kind != v1::TASK_KIND_PREPARE) return false;
+  if (task.kind != v1::TASK_KIND_PREPARE || task.on_request) return false;
   const JobRow job = get_job(tx.db, task.job_id);
   const std::optional<std::int64_t> finished =
       find_finished_erosion(tx.db, job.mesh_sha256, job.params_key, core_version);
@@ -57,10 +96,10 @@ void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool s
            const std::string& token) {
   tx.db.run(
       "UPDATE tasks SET state = 'leased', token = ?, worker = ?, host = ?, pid = ?, supervised = ?,"
-      " core_version = ?, granted_ms = ?, reported_ms = NULL, deadline_ms = ?, lease_directions = 0"
-      " WHERE id = ?",
+      " core_version = ?, granted_ms = ?, reported_ms = NULL, deadline_ms = ?, stalled_ms = ?,"
+      " lease_directions = 0 WHERE id = ?",
       token, worker.id(), worker.host(), worker.pid(), supervised, worker.core_version(), tx.lease_ms,
-      tx.lease_ms + tx.options.lease_ms, task.id);
+      tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
   tx.db.run(
       "UPDATE jobs SET leases_granted = leases_granted + 1, started_ms = iif(started_ms = 0, ?, started_ms),"
       " state = iif(state = 'queued', 'running', state) WHERE id = ?",
@@ -75,6 +114,7 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
   lease.set_token(token);
   lease.set_kind(task.kind);
   *lease.mutable_job() = job_message(tx.db, task.job_id);
+  lease.set_database(database_id(tx.db));
   lease.set_lease_ms(static_cast<std::uint32_t>(tx.options.lease_ms));
   lease.set_report_interval_ms(static_cast<std::uint32_t>(tx.options.report_interval_ms));
   if (task.kind == v1::TASK_KIND_ERODE) {
@@ -117,12 +157,45 @@ int lose_all(Tx& tx, Statement&& ids, const std::string& why) {
 }
 
 int expire(Tx& tx) {
-  return lose_all(tx,
-                  tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND deadline_ms < ?", tx.lease_ms),
-                  "silent for longer than its lease");
+  const int silent = lose_all(
+      tx, tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND deadline_ms < ?", tx.lease_ms),
+      "silent for longer than its lease");
+  return silent +
+         lose_all(tx,
+                  tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND stalled_ms < ?", tx.lease_ms),
+                  "no progress for longer than its job gives reason for");
+}
+
+/// Requests for artefacts that nobody waits for any more, or whose failure nobody asks for.
+void drop_old_requests(Tx& tx, const std::set<std::int64_t>& orphans) {
+  for (const std::int64_t id : orphans) {
+    if (tx.db.run("DELETE FROM tasks WHERE id = ? AND on_request = 1 AND state IN ('pending', 'leased')",
+                  id) > 0) {
+      tx.changes.log.push_back("event=request_withdrawn task=" + std::to_string(id) + " why=restart");
+    }
+  }
+  tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1 AND deadline_ms < ?", tx.lease_ms);
 }
 
 }  // namespace
+
+/// Requests for artefacts have at most every second grant, and half of what is leased, as long as jobs wait.
+bool Store::requests_turn(std::int64_t leased_requests, std::int64_t leased_blocks) const {
+  return !last_was_request_ && leased_requests <= leased_blocks;
+}
+
+std::optional<std::int64_t> Store::choose_task(Database& db, const v1::WorkerIdentity& worker,
+                                               const std::string& preferred) {
+  const std::optional<Place> request = next_ready(db, true, worker.core_version());
+  const std::optional<Place> next = next_ready(db, false, worker.core_version());
+  if (!next) return request ? std::optional(request->id) : std::nullopt;
+  if (request) {
+    const Leased leased = count_leased(db);
+    last_was_request_ = requests_turn(leased.requests, leased.others);
+    if (last_was_request_) return request->id;
+  }
+  return of_preferred_job(db, *next, worker.core_version(), preferred).value_or(next->id);
+}
 
 std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
                                       bool supervised) {
@@ -131,6 +204,10 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
     expire(tx);
     if (!tx.room) return std::nullopt;  // what would come of it could not be stored
     remember_core_version(tx, worker.core_version());
+    const std::int64_t held =
+        tx.db.integer("SELECT count(*) FROM tasks WHERE state = 'leased' AND worker = ?", worker.id())
+            .value_or(0);
+    if (held >= tx.options.max_leases_held) return std::nullopt;
     while (const std::optional<std::int64_t> id = choose_task(tx.db, worker, preferred_job)) {
       const TaskRow task = *find_task(tx.db, *id);
       if (adopt_instead(tx, task, worker.core_version())) continue;
@@ -170,7 +247,11 @@ v1::ReportResponse Store::give_back(const std::string& token) {
 }
 
 int Store::expire_leases() {
-  return write([](Tx& tx) { return expire(tx); });
+  return write([this](Tx& tx) {
+    const bool grace_is_over = tx.lease_ms >= orphans_until_ms_;
+    drop_old_requests(tx, grace_is_over ? std::exchange(orphans_, {}) : std::set<std::int64_t>());
+    return expire(tx);
+  });
 }
 
 int Store::release_worker(const std::string& host, std::int64_t pid) {

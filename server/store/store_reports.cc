@@ -68,6 +68,9 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
       "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?,"
       " losses = iif(? > 0, 0, losses) WHERE id = ?",
       tx.lease_ms, progress.reported, progress.added, task.id);
+  if (progress.added > 0 && task.state == "leased") {
+    tx.db.run("UPDATE tasks SET stalled_ms = ? WHERE id = ?", tx.lease_ms + patience_ms(tx, task), task.id);
+  }
 }
 
 /// A report that the full disk cannot take.  Its worker will try again and keeps its lease meanwhile, unless
@@ -97,9 +100,24 @@ Store::ErodeLease Store::erode_lease(const std::string& token) {
   });
 }
 
+/// A transaction that merges into the field of a lease's job.  When the field turns out to be damaged, the
+/// job fails with the reason, and the workers are free for others.
+template <typename Body>
+auto Store::write_field(const std::string& token, Body&& body) {
+  try {
+    return write(body);
+  } catch (const StoreError& error) {
+    if (error.code() == StoreError::Code::kDamaged) fail_damaged(token, error.what(), false);
+    throw;
+  } catch (const SqliteError& error) {
+    if (error.says_damaged()) fail_damaged(token, error.what(), true);
+    throw;
+  }
+}
+
 v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const RecordBatch& records) {
   std::exception_ptr refusal;
-  const v1::ReportResponse response = write([&](Tx& tx) {
+  const v1::ReportResponse response = write_field(header.token(), [&](Tx& tx) {
     const TaskRow task = erode_task(tx.db, header.token());
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
@@ -134,7 +152,7 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
 
 void Store::report_part(const std::string& token, const RecordBatch& records) {
   std::exception_ptr refusal;
-  write([&](Tx& tx) {
+  write_field(token, [&](Tx& tx) {
     const TaskRow task = erode_task(tx.db, token);
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);

@@ -91,8 +91,11 @@ Submission Store::check(const v1::SubmitJobHeader& header) {
 
 Store::Submitted Store::submit(const Submission& submission, std::string_view mesh) {
   check_mesh(submission, mesh);
+  require_not_lost();
   const v1::SubmitJobHeader& header = submission.header;
+  const bool heals = mesh_is_damaged(file_, header.mesh_sha256(), mesh);
   return write([&](Tx& tx) -> Submitted {
+    if (heals) heal_mesh(tx, header.mesh_sha256(), mesh);
     std::string earlier = find_request(tx.db, submission);
     if (earlier.empty()) earlier = find_equal_job(tx.db, submission);
     if (!earlier.empty()) {

@@ -51,10 +51,19 @@ TaskRow read_task(const Statement& row) {
   return task;
 }
 
+// A block may be silent about positions for this many times its job's longest pause between two reports, and
+// for a millisecond for so many points of its field: directions take microseconds per point, rarely more.
+constexpr std::int64_t kGapsWithoutProgress = 10;
+constexpr std::int64_t kPointsPerPatientMs = 10;
+
+// A request that has failed is kept so long for whoever waits for it.
+constexpr std::int64_t kFailedRequestMs = 60'000;
+
 void clear_lease(Tx& tx, const TaskRow& task, const char* state) {
   tx.db.run(
       "UPDATE tasks SET state = ?, token = NULL, worker = NULL, host = NULL, pid = NULL, supervised = NULL,"
-      " core_version = NULL, granted_ms = NULL, reported_ms = NULL, deadline_ms = NULL, lease_directions = 0"
+      " core_version = NULL, granted_ms = NULL, reported_ms = NULL, deadline_ms = NULL, stalled_ms = NULL,"
+      " lease_directions = 0"
       " WHERE id = ?",
       state, task.id);
   tx.changes.jobs.insert(task.job_id);
@@ -92,19 +101,36 @@ void log_state(Tx& tx, const JobRow& job, v1::JobState state, v1::JobStage stage
                            " stage=" + stage_name(stage) + more);
 }
 
-/// All blocks done: the field is complete.
-void finish_erosion(Tx& tx, JobRow& job) {
+/// Merges what is logged.  False when some of it is damaged: the job has failed, and what was merged so far
+/// stays, for it is true.
+bool settle_or_fail(Tx& tx, const JobRow& job) {
+  v1::JobError error;
+  error.set_code("DAMAGED");
+  try {
+    settle_field(tx.db, job.erosion_id, job.points);
+    return true;
+  } catch (const StoreError& damaged) {
+    if (damaged.code() != StoreError::Code::kDamaged) throw;
+    error.set_message(damaged.what());
+  }
+  fail_job(tx, job.id, error);
+  return false;
+}
+
+/// All blocks done: the field is complete.  False when it is damaged.
+bool finish_erosion(Tx& tx, JobRow& job) {
   if (job.directions_done != job.directions) {
     throw StoreError(StoreError::Code::kUnusable, "job " + job.id + ": all blocks are done, but only " +
                                                       std::to_string(job.directions_done) + " of " +
                                                       std::to_string(job.directions) + " directions");
   }
-  settle_field(tx.db, job.erosion_id, job.points);
+  if (!settle_or_fail(tx, job)) return false;
   tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
   tx.db.run("UPDATE jobs SET stage = 'derive' WHERE id = ?", job.id);
   job.finished = true;
   job.stage = v1::JOB_STAGE_DERIVE;
   log_state(tx, job, job.state, job.stage);
+  return true;
 }
 
 /// The default skeleton is stored, or a task for it is there.  True when the job is done.
@@ -154,10 +180,34 @@ TaskRow task_of_token(Database& db, const std::string& token) {
   return read_task(row);
 }
 
+namespace {
+
+/// Gives a new task its place in the queue.
+std::int64_t enqueue(Tx& tx) {
+  const std::int64_t id = tx.db.last_insert_rowid();
+  tx.db.run(
+      "UPDATE tasks SET (seq, priority, parked, needs_core) ="
+      " (SELECT j.seq, j.priority,"
+      "  tasks.on_request = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1),"
+      "  iif(tasks.kind = 'erode' OR (tasks.kind = 'prepare' AND tasks.on_request = 1),"
+      "      ifnull(e.core_version, ''), '')"
+      "  FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = tasks.job_id) WHERE id = ?",
+      id);
+  tx.changes.work = true;
+  return id;
+}
+
+}  // namespace
+
 std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind) {
   tx.db.run("INSERT INTO tasks (job_id, kind, state) VALUES (?, ?, 'pending')", job_id, kind_name(kind));
-  tx.changes.work = true;
-  return tx.db.last_insert_rowid();
+  return enqueue(tx);
+}
+
+std::int64_t add_prepare_request(Tx& tx, const std::string& job_id) {
+  tx.db.run("INSERT INTO tasks (job_id, kind, state, on_request) VALUES (?, 'prepare', 'pending', 1)",
+            job_id);
+  return enqueue(tx);
 }
 
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
@@ -165,8 +215,7 @@ std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
       "INSERT INTO tasks (job_id, kind, state, first_position, end_position)"
       " VALUES (?, 'erode', 'pending', ?, ?)",
       job_id, block.begin, block.end);
-  tx.changes.work = true;
-  return tx.db.last_insert_rowid();
+  return enqueue(tx);
 }
 
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
@@ -175,8 +224,20 @@ std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kin
       "INSERT INTO tasks (job_id, kind, state, on_request, params, params_key)"
       " VALUES (?, ?, 'pending', ?, ?, ?)",
       job_id, kind_name(kind), on_request, Blob{params}, params_key);
-  tx.changes.work = true;
-  return tx.db.last_insert_rowid();
+  return enqueue(tx);
+}
+
+std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
+  if (task.kind != v1::TASK_KIND_ERODE) return tx.options.long_stall_ms;
+  // A direction of a huge scan takes minutes; how many, its job's reports have told, or its points.
+  const std::int64_t longest_gap =
+      tx.db.integer("SELECT longest_gap_ms FROM jobs WHERE id = ?", task.job_id).value_or(0);
+  const std::int64_t points =
+      tx.db
+          .integer("SELECT e.points FROM erosions e JOIN jobs j ON j.erosion_id = e.id WHERE j.id = ?",
+                   task.job_id)
+          .value_or(0);
+  return std::max({tx.options.stall_ms, kGapsWithoutProgress * longest_gap, points / kPointsPerPatientMs});
 }
 
 void renew_lease(Tx& tx, const TaskRow& task) {
@@ -184,7 +245,8 @@ void renew_lease(Tx& tx, const TaskRow& task) {
 }
 
 void finish_task(Tx& tx, const TaskRow& task) {
-  tx.db.run("UPDATE tasks SET state = 'done', losses = 0, deadline_ms = NULL WHERE id = ?", task.id);
+  tx.db.run("UPDATE tasks SET state = 'done', losses = 0, deadline_ms = NULL, stalled_ms = NULL WHERE id = ?",
+            task.id);
   tx.changes.jobs.insert(task.job_id);
 }
 
@@ -197,6 +259,18 @@ void release_task(Tx& tx, const TaskRow& task) {
     }
   }
   clear_lease(tx, task, "pending");
+}
+
+void release_all_leases(Tx& tx) {
+  std::vector<TaskRow> leased;
+  {
+    static const std::string sql = std::string(kTaskColumns) + "WHERE state = 'leased'";
+    Statement row = tx.db.query(sql.c_str());
+    while (row.step()) leased.push_back(read_task(row));
+  }
+  for (const TaskRow& task : leased) release_task(tx, task);
+  // A report that is repeated must not be taken for one that is known already.
+  tx.db.run("UPDATE tasks SET token = NULL WHERE state = 'done'");
 }
 
 void lose_lease(Tx& tx, const TaskRow& task, const std::string& why) {
@@ -226,8 +300,10 @@ void count_loss(Tx& tx, const TaskRow& task, const v1::JobError& error) {
 void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error) {
   clear_lease(tx, task, "pending");
   if (task.on_request) {
-    tx.db.run("UPDATE tasks SET state = 'failed', error_code = ?, error_message = ? WHERE id = ?",
-              error.code(), error.message(), task.id);
+    tx.db.run(
+        "UPDATE tasks SET state = 'failed', error_code = ?, error_message = ?, deadline_ms = ?"
+        " WHERE id = ?",
+        error.code(), error.message(), tx.lease_ms + kFailedRequestMs, task.id);
     tx.changes.log.push_back("event=request_failed job=" + task.job_id + " task=" + std::to_string(task.id) +
                              " code=" + error.code() + " message=\"" + error.message() + "\"");
     return;
@@ -257,7 +333,7 @@ void settle_job(Tx& tx, const std::string& job_id) {
                    job_id)
           .has_value();
   // That may write the whole field, for which a full disk has no room: see settle_finished_blocks().
-  if (job.stage == v1::JOB_STAGE_ERODE && !blocks_left && tx.room) finish_erosion(tx, job);
+  if (job.stage == v1::JOB_STAGE_ERODE && !blocks_left && tx.room && !finish_erosion(tx, job)) return;
   if (job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job)) return;
   if (!job.cancel_requested) return;
   if (tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND state = 'leased' AND on_request = 0 LIMIT 1",

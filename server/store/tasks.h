@@ -36,8 +36,11 @@ std::optional<TaskRow> find_task(Database& db, std::int64_t id);
 /// The task that holds this token, leased or done.  @throws StoreError kFenced when there is none.
 TaskRow task_of_token(Database& db, const std::string& token);
 
-/// Adds a pending task.  `block` for ERODE, `params` and `params_key` for the derived kinds.
+/// Adds a pending task in its place in the queue.  `block` for ERODE, `params` and `params_key` for the
+/// derived kinds.
 std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind);
+/// Somebody asks for lattice or directions that are lost.
+std::int64_t add_prepare_request(Tx& tx, const std::string& job_id);
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block);
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request);
@@ -45,11 +48,17 @@ std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kin
 /// Renews the deadline.
 void renew_lease(Tx& tx, const TaskRow& task);
 
+/// Milliseconds that a task may be leased without progress.
+std::int64_t patience_ms(Tx& tx, const TaskRow& task);
+
 /// Ends the lease with the work finished; the token stays for a repeated last report.
 void finish_task(Tx& tx, const TaskRow& task);
 
 /// Ends the lease with work left (or none: a block of which nothing is left is finished).
 void release_task(Tx& tx, const TaskRow& task);
+
+/// Ends every lease, with no fault of its worker.
+void release_all_leases(Tx& tx);
 
 /// The lease was lost: counts it, releases it, and gives the task up after too many losses in a row.
 void lose_lease(Tx& tx, const TaskRow& task, const std::string& why);

@@ -14,6 +14,13 @@ struct StoreOptions {
   std::int64_t lease_ms = 5000;            ///< a lease ends when its worker is silent for this long
   std::int64_t report_interval_ms = 1000;  ///< what workers are told
   std::int64_t max_losses = 5;  ///< leases lost in a row, without progress, before a task is given up
+  /// A block of directions is taken back when so long, or a long time for its job, none of them was finished.
+  std::int64_t stall_ms = 120'000;
+  /// The same for tasks that cannot tell of progress: to prepare and to derive.
+  std::int64_t long_stall_ms = std::int64_t{24} * 3600 * 1000;
+  std::int64_t max_leases_held = 4;  ///< by one worker
+  /// A request for an artefact from before a restart is taken back when nobody has asked again by then.
+  std::int64_t orphan_grace_ms = 10'000;
   std::uint64_t max_mesh_bytes = std::uint64_t{1} << 30;
   /// Kept back on the disk so that jobs can be cancelled and deleted when it is full.
   std::uint64_t reserve_bytes = std::uint64_t{16} << 20;

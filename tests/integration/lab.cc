@@ -107,6 +107,12 @@ Process& Process::operator=(Process&& other) noexcept {
   return *this;
 }
 
+bool Process::running() const {
+  siginfo_t state{};
+  return waitid(P_PID, static_cast<id_t>(pid_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         state.si_pid == 0;
+}
+
 void Process::send(int signal) const {
   kill(pid_, signal);
 }

@@ -23,6 +23,8 @@ class Process {
   Process& operator=(Process&& other) noexcept;
 
   pid_t pid() const { return pid_; }
+  /// Whether it has not ended yet.
+  bool running() const;
   void send(int signal) const;
 
   /// Waits for the end: the exit code, or 128 + signal.

@@ -228,6 +228,14 @@ std::function<void(Database&)> sql(std::string script) {
   return [script](Database& db) { db.execute(script); };
 }
 
+/// What a program with a bug would have stored: the bytes have their checksum.
+void sign_fields(Database& db) {
+  db.execute(
+      "UPDATE field_sums SET sum = (SELECT checksum(erosion_id, idx, data) FROM field_chunks c"
+      " WHERE c.erosion_id = field_sums.erosion_id AND c.idx = field_sums.idx);"
+      " UPDATE field_log SET sum = checksum(erosion_id, -1, data)");
+}
+
 /// Overwrites the record of the field's first point.
 std::function<void(Database&)> record(const char* job, double erosion, double area, std::uint32_t direction) {
   return [=](Database& db) {
@@ -239,6 +247,18 @@ std::function<void(Database&)> record(const char* job, double erosion, double ar
     blob.write(&erosion, 8, 0);
     blob.write(&area, 8, 8);
     blob.write(&direction, 4, 16);
+    sign_fields(db);
+  };
+}
+
+/// Flips the lowest bit of a byte of the first row's data.
+std::function<void(Database&)> flipped(const char* table, int offset) {
+  return [=](Database& db) {
+    BlobHandle blob(db, table, "data", 1);
+    char byte = 0;
+    blob.read(&byte, 1, offset);
+    byte = static_cast<char>(byte ^ 1);
+    blob.write(&byte, 1, offset);
   };
 }
 
@@ -246,6 +266,7 @@ std::function<void(Database&)> logged(FieldRecord record) {
   return [=](Database& db) {
     const std::string_view bytes(reinterpret_cast<const char*>(&record), sizeof record);
     db.run("UPDATE field_log SET data = ?", Blob{bytes});
+    sign_fields(db);
   };
 }
 
@@ -278,8 +299,6 @@ const Planted kPlanted[] = {
      "that begins at 5 is not apart"},
     {"Unprepared", sql("UPDATE field_log SET erosion_id = EROSION(queued)"),
      "is not prepared, but has a field"},
-    {"NoLattice", sql("DELETE FROM artifacts WHERE kind = 'lattice'"), "is prepared, but has no lattice"},
-    {"NoDirections", sql("DELETE FROM artifacts WHERE kind = 'directions'"), "but has no directions"},
     {"Unmerged", sql("UPDATE field_log SET erosion_id = EROSION(done)"), "not all of its field is merged"},
     {"EarlyArtefact", sql("UPDATE artifacts SET erosion_id = EROSION(eroding) WHERE kind = 'skeleton'"),
      "a skeleton of erosion 1, which is not finished"},
@@ -338,6 +357,11 @@ const Planted kPlanted[] = {
     {"LoggedPoint", logged({0.5, 1, 0, kPoints}), "1 records that no report"},
     {"LoggedDirection", logged({0.5, 1, kDirections, 0}), "1 records that no report"},
     {"LoggedErosion", logged({-0.5, 1, 0, 0}), "1 records that no report"},
+    {"FlippedBit", flipped("field_chunks", 81000), "field chunk 0: does not match its checksum"},
+    {"FlippedLogBit", flipped("field_log", 3), "logged report 1: does not match its checksum"},
+    {"ChunkLost", sql("DELETE FROM field_chunks WHERE erosion_id = EROSION(eroding)"), "chunk 0: is missing"},
+    {"QueuePlace", sql("UPDATE tasks SET seq = 99 WHERE job_id = JOB(queued)"), "its place in the queue"},
+    {"QueueParked", sql("UPDATE tasks SET parked = 1 WHERE job_id = JOB(queued)"), "its place in the queue"},
     {"ErosionParams", sql("UPDATE erosions SET params = x'ff'"), ", parameters: a stored message"},
     {"SkeletonParams", sql("UPDATE jobs SET skeleton = x'ff'"), ", skeleton parameters: a stored message"},
     {"JobQuality", sql("UPDATE jobs SET quality = x'ff'"), ", quality: a stored message"},

@@ -24,6 +24,8 @@ TEST_F(LeaseTest, RefusesIncompleteIdentities) {
 }
 
 TEST_F(LeaseTest, CutsBlocksOfPositions) {
+  options_.max_leases_held = 1000;
+  open();
   submit();
   prepare(4, 1000);
   std::set<std::uint64_t> begins;
@@ -40,6 +42,8 @@ TEST_F(LeaseTest, CutsBlocksOfPositions) {
 
 // Whoever comes last to the end has little left to do alone.
 TEST_F(LeaseTest, BlocksGetFinerTowardsTheEnd) {
+  options_.max_leases_held = 1000;
+  open();
   submit();
   prepare(4, 16000);
   std::vector<std::uint64_t> sizes;

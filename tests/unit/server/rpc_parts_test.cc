@@ -27,8 +27,14 @@ TEST(StatusTest, EveryErrorHasItsCode) {
   EXPECT_EQ(code_of(StoreError(Code::kFenced, "")), grpc::StatusCode::ABORTED);
   EXPECT_EQ(code_of(StoreError(Code::kLimit, "")), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_EQ(code_of(SqliteError(SQLITE_FULL, "")), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_EQ(code_of(SqliteError(SQLITE_IOERR_FSYNC, "")), grpc::StatusCode::INTERNAL);
-  EXPECT_EQ(code_of(SqliteError(SQLITE_CORRUPT, "")), grpc::StatusCode::INTERNAL);
+  EXPECT_EQ(code_of(StoreError(Code::kDamaged, "")), grpc::StatusCode::DATA_LOSS);
+  EXPECT_EQ(code_of(StoreError(Code::kLost, "")), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_IOERR_FSYNC, "")), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_IOERR_WRITE, "")), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_READONLY, "")), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_IOERR_READ, "")), grpc::StatusCode::DATA_LOSS);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_CORRUPT, "")), grpc::StatusCode::DATA_LOSS);
+  EXPECT_EQ(code_of(SqliteError(SQLITE_MISUSE, "")), grpc::StatusCode::INTERNAL);
   EXPECT_EQ(code_of(SqliteError(SQLITE_BUSY, "")), grpc::StatusCode::UNAVAILABLE);
   EXPECT_EQ(code_of(std::bad_alloc()), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_EQ(code_of(std::runtime_error("")), grpc::StatusCode::INTERNAL);

@@ -1,0 +1,134 @@
+#include "check/field_faults.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "store/field.h"
+#include "store/field_rows.h"
+#include "wire/limits.h"
+
+namespace affskel::server {
+namespace {
+
+using Tell = std::function<void(FieldFault)>;
+
+bool natural(double value) {
+  return std::isfinite(value) && value >= 0;
+}
+
+/// A value that a report may have brought: see RecordBatch.
+bool reported(const FieldRecord& record, const FieldShape& field) {
+  return record.direction < field.directions && natural(record.erosion) && natural(record.area);
+}
+
+/// A place that no report has reached.
+bool empty(const FieldRecord& record) {
+  return record.direction == kNoDirection && std::isinf(record.erosion) && record.erosion > 0 &&
+         std::bit_cast<std::uint64_t>(record.area) == 0;
+}
+
+FieldRecord record_at(std::string_view chunk, std::size_t index) {
+  FieldRecord record{};
+  const char* from = chunk.data() + index * wire::kFieldRecordBytes;
+  std::memcpy(&record.erosion, from, sizeof record.erosion);
+  std::memcpy(&record.area, from + 8, sizeof record.area);
+  std::memcpy(&record.direction, from + 16, sizeof record.direction);
+  return record;
+}
+
+/// One fault for all bad points of a chunk; "" when there are none.
+std::string bad_points(const FieldShape& field, std::int64_t index, std::string_view chunk) {
+  std::size_t bad = 0, first = 0;
+  const std::size_t points = chunk.size() / wire::kFieldRecordBytes;
+  for (std::size_t i = 0; i < points; ++i) {
+    const FieldRecord record = record_at(chunk, i);
+    if (reported(record, field) || (!field.finished && empty(record))) continue;
+    if (bad++ == 0) first = i;
+  }
+  if (bad == 0) return {};
+  const std::int64_t point = index * kChunkPoints + static_cast<std::int64_t>(first);
+  return std::to_string(bad) + " points without a value that a direction can give, the first is " +
+         std::to_string(point);
+}
+
+/// "" for a sound one.
+std::string fault_of_chunk(Database& db, const FieldShape& field, std::int64_t index,
+                           std::string_view chunk) {
+  const std::int64_t count = field_chunk_count(field.points);
+  if (index >= count) return "the field ends before it, with " + std::to_string(count) + " chunks";
+  if (chunk.size() != field_chunk_points(field.points, index) * wire::kFieldRecordBytes) {
+    return "has " + std::to_string(chunk.size()) + " bytes, not those of its points";
+  }
+  if (!chunk_is_sound(db, field.erosion_id, index, chunk)) return "does not match its checksum";
+  return bad_points(field, index, chunk);
+}
+
+void find_in_chunks(Database& db, const FieldShape& field, const Tell& tell) {
+  const std::string name = "erosion " + std::to_string(field.erosion_id);
+  const std::int64_t count = field_chunk_count(field.points);
+  std::int64_t found = 0;
+  Statement row = db.query("SELECT idx, data, id FROM field_chunks WHERE erosion_id = ?", field.erosion_id);
+  while (row.step()) {
+    if (row.integer(0) < count) ++found;
+    std::string what = fault_of_chunk(db, field, row.integer(0), row.blob(1));
+    if (what.empty()) continue;
+    tell({"field_chunks", row.integer(2), name + ", field chunk " + row.text(0), std::move(what)});
+  }
+  Statement lost = db.query(
+      "SELECT idx FROM field_sums s WHERE erosion_id = ?1 AND NOT EXISTS"
+      " (SELECT 1 FROM field_chunks WHERE erosion_id = ?1 AND idx = s.idx)",
+      field.erosion_id);
+  while (lost.step()) tell({nullptr, 0, name + ", field chunk " + lost.text(0), "is missing"});
+  if (field.finished && found < count) {
+    tell({nullptr, 0, name,
+          "is finished, but only " + std::to_string(found) + " of " + std::to_string(count) +
+              " chunks of its field are there"});
+  }
+}
+
+/// "" for sound ones.
+std::string fault_of_log(const FieldShape& field, std::string_view bytes, std::int64_t sum) {
+  if (!log_is_sound(field.erosion_id, bytes, sum)) return "does not match its checksum";
+  std::size_t bad = 0;
+  for (std::size_t at = 0; at + sizeof(FieldRecord) <= bytes.size(); at += sizeof(FieldRecord)) {
+    FieldRecord record{};
+    std::memcpy(&record, bytes.data() + at, sizeof record);
+    if (record.point >= field.points || !reported(record, field)) ++bad;
+  }
+  return bad == 0 ? std::string() : std::to_string(bad) + " records that no report can have brought";
+}
+
+void find_in_log(Database& db, const FieldShape& field, const Tell& tell) {
+  Statement row = db.query("SELECT id, data, sum FROM field_log WHERE erosion_id = ?", field.erosion_id);
+  while (row.step()) {
+    std::string what = fault_of_log(field, row.blob(1), row.integer(2));
+    if (what.empty()) continue;
+    tell({"field_log", row.integer(0),
+          "erosion " + std::to_string(field.erosion_id) + ", logged report " + row.text(0), std::move(what)});
+  }
+}
+
+}  // namespace
+
+void for_each_field(Database& db, const std::function<void(const FieldShape&)>& tell) {
+  std::vector<FieldShape> fields;
+  {
+    Statement row = db.query(
+        "SELECT id, points, directions, finished, directions_done FROM erosions"
+        " WHERE dropped = 0 AND core_version IS NOT NULL ORDER BY id");
+    while (row.step()) {
+      fields.push_back({row.integer(0), row.integer(1), row.integer(2), row.flag(3), row.integer(4)});
+    }
+  }
+  for (const FieldShape& field : fields) tell(field);
+}
+
+void find_field_faults(Database& db, const FieldShape& field, const std::function<void(FieldFault)>& tell) {
+  find_in_chunks(db, field, tell);
+  find_in_log(db, field, tell);
+}
+
+}  // namespace affskel::server

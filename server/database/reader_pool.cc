@@ -1,0 +1,28 @@
+#include "database/reader_pool.h"
+
+namespace affskel::server {
+namespace {
+
+// As many as ask at once on most machines; each keeps a few descriptors and a cache of 256 KiB.
+constexpr std::size_t kMostIdle = 8;
+
+}  // namespace
+
+std::unique_ptr<Database> ReaderPool::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      std::unique_ptr<Database> db = std::move(idle_.back());
+      idle_.pop_back();
+      return db;
+    }
+  }
+  return std::make_unique<Database>(file_, Database::Mode::kReadOnly);
+}
+
+void ReaderPool::give_back(std::unique_ptr<Database> db) {
+  const std::lock_guard lock(mutex_);
+  if (idle_.size() < kMostIdle) idle_.push_back(std::move(db));
+}
+
+}  // namespace affskel::server

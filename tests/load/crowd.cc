@@ -1,0 +1,86 @@
+#include <cstdio>
+#include <thread>
+
+#include "../integration/lab.h"
+#include "loads.h"
+#include "made_up_worker.h"
+#include "process_stats.h"
+
+namespace affskel::load {
+namespace {
+
+grpc::Status get(v1::ErosionService::Stub& stub, const std::string& id) {
+  grpc::ClientContext context;
+  v1::GetJobRequest request;
+  request.set_job(id);
+  v1::Job job;
+  return stub.GetJob(&context, request, &job);
+}
+
+grpc::Status list(v1::ErosionService::Stub& stub) {
+  grpc::ClientContext context;
+  v1::ListJobsResponse response;
+  return stub.ListJobs(&context, {}, &response);
+}
+
+/// Follows for a while, as a person does who looks at a terminal; deadlines are no failures.
+grpc::Status watch(v1::ErosionService::Stub& stub, const std::string& id, std::chrono::milliseconds time) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + time);
+  v1::WatchJobRequest request;
+  request.set_job(id);
+  const auto reader = stub.WatchJob(&context, request);
+  v1::Job job;
+  while (reader->Read(&job)) {
+  }
+  const grpc::Status status = reader->Finish();
+  return status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ? grpc::Status::OK : status;
+}
+
+void run_client(const std::string& address, int number, const std::atomic<bool>& stop, Calls& calls) {
+  const auto stub = v1::ErosionService::NewStub(connect(address));
+  for (int round = 0; !stop; ++round) {
+    const std::string mesh = "mesh " + std::to_string(number) + "." + std::to_string(round);
+    v1::Job job;
+    if (!calls.timed("submit", [&] { return submit(*stub, mesh, mesh, &job); })) continue;
+    std::thread follower(
+        [&] { calls.timed("watch", [&] { return watch(*stub, job.id(), std::chrono::seconds(2)); }); });
+    for (int i = 0; i < 4; ++i) {
+      calls.timed("get", [&] { return get(*stub, job.id()); });
+      calls.timed("list", [&] { return list(*stub); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    }
+    follower.join();
+  }
+}
+
+}  // namespace
+
+bool run_crowd(const LoadOptions& options) {
+  const integration::Lab lab;
+  const integration::Process server = lab.server();
+  Calls calls;
+  std::atomic<bool> stop = false;
+  std::vector<std::thread> threads;
+  std::vector<MadeUpWorkerOptions> workers(static_cast<std::size_t>(options.workers));
+  for (std::size_t i = 0; i < workers.size(); ++i) {
+    workers[i].address = lab.address();
+    workers[i].id = "made-up-" + std::to_string(i);
+    threads.emplace_back([&, i] { run_made_up_worker(workers[i], stop, calls); });
+  }
+  for (int i = 0; i < options.clients; ++i) {
+    threads.emplace_back([&, i] { run_client(lab.address(), i, stop, calls); });
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(options.seconds));
+  const ProcessStats stats = stats_of(server.pid());
+  stop = true;
+  for (std::thread& thread : threads) thread.join();
+  std::printf("crowd: %d clients, %d workers, %d s\n", options.clients, options.workers, options.seconds);
+  calls.print();
+  std::printf("server: peak %.0f MiB, %ld threads, %ld descriptors\n\n",
+              static_cast<double>(stats.peak_kib) / 1024, static_cast<long>(stats.threads),
+              static_cast<long>(stats.descriptors));
+  return calls.failures() == 0;
+}
+
+}  // namespace affskel::load

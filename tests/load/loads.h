@@ -1,0 +1,26 @@
+#pragma once
+
+namespace affskel::load {
+
+struct LoadOptions {
+  int clients = 200;
+  int workers = 50;
+  int seconds = 30;
+  int jobs = 10000;
+  int megabytes = 1000;
+};
+
+/// Clients that submit, follow, ask and list at once, while made-up workers report.  Prints the times of the
+/// calls and what the server held.  @returns whether nothing failed.
+bool run_crowd(const LoadOptions& options);
+
+/// A long queue: submits the jobs, then leases and lists.
+bool run_queue(const LoadOptions& options);
+
+/// Kills the server of a large database while a worker reports, and times its way back.
+bool run_restart(const LoadOptions& options);
+
+/// Many small jobs with real workers, one after the other; prints what server and workers hold meanwhile.
+bool run_soak(const LoadOptions& options);
+
+}  // namespace affskel::load

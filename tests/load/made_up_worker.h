@@ -1,0 +1,23 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <string>
+
+#include "calls.h"
+
+namespace affskel::load {
+
+struct MadeUpWorkerOptions {
+  std::string address;
+  std::string id;
+  std::uint32_t points = 2000;  ///< of every job that it prepares
+  std::uint32_t directions = 64;
+  std::chrono::milliseconds pause{1000};  ///< between two reports, as real workers have it
+};
+
+/// Leases tasks and reports made-up results until told to stop: the traffic of a worker without its sums, so
+/// that the server alone is measured.
+void run_made_up_worker(const MadeUpWorkerOptions& options, const std::atomic<bool>& stop, Calls& calls);
+
+}  // namespace affskel::load

@@ -1,0 +1,42 @@
+// affskel_load: loads on a real server, started here, and what it makes of them.
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "loads.h"
+
+int main(int argc, char** argv) {
+  using namespace affskel::load;
+  LoadOptions options;
+  CLI::App app("Loads on a real server: how fast it answers, what it holds");
+  app.add_option("--clients", options.clients, "crowd: clients at once")->capture_default_str();
+  app.add_option("--workers", options.workers, "crowd: made-up workers; soak: real ones, at most 2")
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds, "crowd: how long")->capture_default_str();
+  app.add_option("--jobs", options.jobs, "queue, soak: number of jobs")->capture_default_str();
+  app.add_option("--megabytes", options.megabytes, "restart: size of the database")->capture_default_str();
+  app.fallthrough();
+  app.require_subcommand(1);
+  bool good = true;
+  const auto run = [&](bool (*load)(const LoadOptions&)) {
+    return [&good, &options, load] { good = load(options) && good; };
+  };
+  app.add_subcommand("crowd", "Clients that submit and follow, workers that report")
+      ->callback(run(run_crowd));
+  app.add_subcommand("queue", "A long queue: leases and lists")->callback(run(run_queue));
+  app.add_subcommand("restart", "A server of a large database is killed")->callback(run(run_restart));
+  app.add_subcommand("soak", "Many small jobs, one after the other")->callback(run(run_soak));
+  app.add_subcommand("all", "All of them")->callback([&] {
+    for (auto* load : {run_crowd, run_queue, run_restart, run_soak}) run(load)();
+  });
+  try {
+    app.parse(argc, argv);
+    return good ? 0 : 1;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    std::cerr << "affskel_load: " << error.what() << '\n';
+    return 1;
+  }
+}
