@@ -11,8 +11,8 @@ namespace affskel::chaos {
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = {
-      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:16000"},
-      {"body", {"body", "--triangles", "500"}, 20000, "sphere:30000"},
+      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:8000"},
+      {"body", {"body", "--triangles", "500"}, 20000, "sphere:15000"},
       {"medium", {"body", "--triangles", "300"}, 3000, "sphere:5000"},
       {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles"},
   };

@@ -38,8 +38,9 @@ bool files_fail(Scene& scene, Trouble trouble) {
   const auto begun = Clock::now();
   do {
     use_disk(scene);
+    last_for(Milliseconds(30));
   } while (scene.stage.server().alive() &&
-           Clock::now() < begun + Milliseconds(control.bites > 0 ? 600 : 3000));
+           Clock::now() < begun + Milliseconds(control.bites > 0 ? 400 : 3000));
   control.trouble = kNoTrouble;
   return control.bites > 0;
 }

@@ -87,13 +87,13 @@ bool net_half_close(Scene& scene) {
 }
 
 bool net_black_hole(Scene& scene) {
-  const bool any = weather_for(scene, {.swallow = true}, kLease + Milliseconds(300));
+  const bool any = weather_for(scene, {.swallow = true}, kLease + Milliseconds(250));
   scene.stage.proxy().end_all(Proxy::End::kReset);
   return any;
 }
 
 bool net_partition(Scene& scene) {
-  return weather_for(scene, {.hold = true}, kLease + Milliseconds(300));
+  return weather_for(scene, {.hold = true}, kLease + Milliseconds(250));
 }
 
 bool net_refuse(Scene& scene) {

@@ -107,7 +107,7 @@ bool kill_fetching_client(Scene& scene) {
   const std::string file = scene.stage.path("killed.csv"), whole = scene.stage.path("whole.csv");
   std::filesystem::remove(file);
   Process process({client(scene, {"fetch", done, "field", "-o", file}), "", "", {}});
-  const bool ended = process.wait(Milliseconds(scene.pick(80))).has_value();
+  const bool ended = process.wait(Milliseconds(scene.pick(30))).has_value();
   process.kill_hard();
   if (!std::filesystem::exists(file)) return !ended;
   if (run({client(scene, {"fetch", done, "field", "-o", whole}), "", "", {}}, kPatience) != 0) {

@@ -81,7 +81,7 @@ void last_for(Milliseconds time) {
 }
 
 void outlast_lease() {
-  last_for(kLease + Milliseconds(300));
+  last_for(kLease + Milliseconds(250));
 }
 
 void in_parallel(std::size_t number, const std::function<void(std::size_t)>& work) {

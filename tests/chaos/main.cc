@@ -106,11 +106,14 @@ std::vector<const Fault*> chosen(const Options& options) {
 
 void keep(const std::string& dir, const std::string& where) {
   if (where.empty()) return;
-  std::filesystem::create_directories(where);
-  std::error_code failed;
-  std::filesystem::copy(dir, where + "/" + std::filesystem::path(dir).filename().string(),
-                        std::filesystem::copy_options::recursive, failed);
-  std::cerr << "kept in " << where << (failed ? ", not all: " + failed.message() : "") << '\n';
+  const std::filesystem::path target = std::filesystem::path(where) / std::filesystem::path(dir).filename();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
+    if (!entry.is_regular_file()) continue;  // sockets
+    const std::filesystem::path copy = target / std::filesystem::relative(entry.path(), dir);
+    std::filesystem::create_directories(copy.parent_path());
+    std::filesystem::copy_file(entry.path(), copy, std::filesystem::copy_options::overwrite_existing);
+  }
+  std::cerr << "kept in " << target.string() << '\n';
 }
 
 /// One run; whether all was well.
@@ -139,6 +142,7 @@ int run_all(const Options& options) {
   Catalogue catalogue(options.programs, workshop.dir);
   make_references(options.programs, workshop.dir + "/reference", catalogue);
   Tally tally;
+  for (const Fault* kind : chosen(options)) tally.add(kind->name, {});
   for (std::uint64_t i = 0; i < options.runs; ++i) {
     run_once(options, catalogue, workshop.dir, options.seed + i, tally);
   }

@@ -148,10 +148,20 @@ void Run::canary() {
   ledger_.verified(id);
 }
 
+std::vector<v1::Job> Run::with_progress(const Api& api, std::vector<v1::Job> jobs) {
+  for (v1::Job& job : jobs) {
+    if (job.state() == v1::JOB_STATE_DONE || job.directions_done() == 0) continue;
+    const std::string id = job.id();
+    until_answered("asking for a job", [&] { return api.job(id, job, kCall); });
+  }
+  return jobs;
+}
+
 void Run::audit() {
   std::vector<v1::Job> jobs;
   const grpc::Status status = until_answered("listing jobs", [&] { return stage_.api().list(jobs, kCall); });
   if (!status.ok()) return scene_.complain("jobs cannot be listed: " + status.error_message());
+  jobs = with_progress(stage_.api(), std::move(jobs));
   scene_.complain(ledger_.audit(jobs));
   for (const v1::Job& job : jobs) {
     if (job.state() != v1::JOB_STATE_FAILED) continue;

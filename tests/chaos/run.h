@@ -40,6 +40,8 @@ class Run {
   void bring_up(std::uint32_t may_end, Outcome& outcome);
   void canary();
   void audit();
+  /// Lists leave out which directions are done.
+  static std::vector<v1::Job> with_progress(const Api& api, std::vector<v1::Job> jobs);
   void look_at_finished();
   void tidy_up();
   void collect(Outcome& outcome);

@@ -97,7 +97,7 @@ void Run::go_on_with_a_copy(const std::string& unfinished, Outcome& outcome) {
   fresh.wait_for_server();
   std::vector<v1::Job> jobs;
   until_answered("listing jobs", [&] { return fresh.api().list(jobs, kCall); });
-  scene_.complain(ledger_.audit(jobs));
+  scene_.complain(ledger_.audit(with_progress(fresh.api(), std::move(jobs))));
   fresh.start_workers();
   const v1::Job job = fresh.api().follow(unfinished, [](const v1::Job&) { return false; });
   ledger_.saw(job);
