@@ -20,7 +20,7 @@ static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 enum Trouble : std::uint32_t {
   kNoTrouble = 0,
-  kNoSpace = 1U << 0,      ///< ENOSPC where a file would grow or be written
+  kNoSpace = 1U << 0,      ///< ENOSPC where a file would grow or be written, and no free bytes
   kWriteError = 1U << 1,   ///< EIO from writing
   kSyncError = 1U << 2,    ///< EIO from fsync and fdatasync
   kReadError = 1U << 3,    ///< EIO from reading

@@ -36,12 +36,16 @@ void give_back(const Scene& scene, const std::string& token) {
   static_cast<void>(scene.stage.api().worker().ReturnLease(&call.context, request, &response));
 }
 
-/// A block of directions of whatever job; no token when there is none to be had.
-v1::Lease lease_block(const Scene& scene) {
+/// A block of directions of a new job of some seconds, or another; no token when there is none to be had.
+v1::Lease lease_block(Scene& scene) {
+  Submission urgent = scene.catalogue.next(kLongBody, scene.new_name());
+  urgent.priority = 8;
+  const std::string id = scene.submit_patiently(scene.stage.api(), urgent);
+  scene.stage.api().follow(id, [](const v1::Job& job) { return job.directions_total() > 0; });
   v1::LeaseTaskRequest request;
   *request.mutable_worker() = identity(scene);
-  request.set_wait_ms(1000);
-  for (int i = 0; i < 5; ++i) {
+  request.set_wait_ms(300);
+  for (int i = 0; i < 20; ++i) {
     Open call;
     v1::LeaseTaskResponse response;
     const grpc::Status status = scene.stage.api().worker().LeaseTask(&call.context, request, &response);

@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -183,6 +184,23 @@ int posix_fallocate(int fd, off_t offset, off_t length) {
   if (error == 0) return real(fd, offset, length);
   bite();
   return error;
+}
+
+// A full disk says that it is full.
+int statvfs(const char* path, struct statvfs* facts) noexcept {
+  static std::atomic<void*> known;
+  const auto real = next<int(const char*, struct statvfs*)>("statvfs", known);
+  const int result = real(path, facts);
+  if (result == 0 && told(kNoSpace)) facts->f_bavail = facts->f_bfree = 0;
+  return result;
+}
+
+int statvfs64(const char* path, struct statvfs64* facts) noexcept {
+  static std::atomic<void*> known;
+  const auto real = next<int(const char*, struct statvfs64*)>("statvfs64", known);
+  const int result = real(path, facts);
+  if (result == 0 && told(kNoSpace)) facts->f_bavail = facts->f_bfree = 0;
+  return result;
 }
 
 int unlink(const char* path) noexcept {
