@@ -14,6 +14,23 @@ std::vector<std::string> client(const Scene& scene, std::vector<std::string> arg
   return arguments;
 }
 
+std::vector<std::string> submit_command(const Scene& scene, const Submission& submission,
+                                        const std::string& file) {
+  return client(scene,
+                {"submit", file, "--points", std::to_string(submission.params.sampling().target_points()),
+                 "--directions", submission.params.directions(), "--name", submission.name, "--request-id",
+                 submission.request_id});
+}
+
+/// Writes down that the command line said a job's id.
+void note_job(Scene& scene, const Submission& submission, const std::string& id) {
+  v1::Job job;
+  const grpc::Status status =
+      until_answered("asking for a job", [&] { return scene.stage.api().job(id, job, kCall); });
+  if (!status.ok()) return scene.complain(submission.name + ": acknowledged, and " + status.error_message());
+  scene.complain(scene.ledger.submitted(submission.name, submission.mesh_sha256, submission.recipe, job));
+}
+
 /// The exit code of a process that was told to leave in order; 128 when it does not.
 int leave(Process& process, const std::string& who) {
   const auto code = process.wait(kPatience);
@@ -70,31 +87,22 @@ bool kill_server_amid_submissions(Scene& scene) {
   return true;
 }
 
+// Whether or not the first attempt got there: the same again is the same job.
 bool kill_submitting_client(Scene& scene) {
   const Submission submission = scene.catalogue.next(kMedium, scene.new_name());
-  const std::string file = scene.stage.path(submission.name + ".off");
-  const std::string first = scene.stage.path(submission.name + ".1"),
-                    second = scene.stage.path(submission.name + ".2");
-  write_file(file, submission.mesh);
-  const std::vector<std::string> command =
-      client(scene, {"submit", file, "--points", std::to_string(submission.params.sampling().target_points()),
-                     "--directions", submission.params.directions(), "--name", submission.name,
-                     "--request-id", submission.request_id});
-  Process process({command, first, "", {}});
+  const std::string stem = scene.stage.path(submission.name);
+  write_file(stem + ".off", submission.mesh);
+  const std::vector<std::string> command = submit_command(scene, submission, stem + ".off");
+  Process process({command, stem + ".1", "", {}});
   const bool ended = process.wait(Milliseconds(scene.pick(60))).has_value();
   process.kill_hard();
-  // Whether or not it got there: the same again is the same job.
-  if (run({command, second, scene.stage.path("client.log"), {}}, kPatience) != 0) {
+  if (run({command, stem + ".2", scene.stage.path("client.log"), {}}, kPatience) != 0) {
     scene.complain(submission.name + ": a killed client's submission cannot be repeated");
     return true;
   }
-  const std::string before = read_file(first), after = read_file(second);
+  const std::string before = read_file(stem + ".1"), after = read_file(stem + ".2");
   if (!before.empty() && before != after) scene.complain(submission.name + ": two jobs, " + before + after);
-  v1::Job job;
-  const grpc::Status status = until_answered(
-      "asking for a job", [&] { return scene.stage.api().job(after.substr(0, 32), job, kCall); });
-  if (!status.ok()) scene.complain(submission.name + ": acknowledged to a client, " + status.error_message());
-  scene.complain(scene.ledger.submitted(submission.name, submission.mesh_sha256, submission.recipe, job));
+  note_job(scene, submission, after.substr(0, 32));
   return !ended;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "load.h"
+#include "scene.h"
 
 namespace affskel::chaos {
 

@@ -82,6 +82,8 @@ struct Proxy::Link {
     ways[way].queued = 0;
   }
 
+  /// Moves what can be moved along one way, and its end when all is through.
+  void move(std::size_t which, bool can_take, bool can_give, const Weather& weather);
   void take(Way& way, const Weather& weather);
   void give(Way& way, const Weather& weather);
   void spend(std::uint64_t bytes);
@@ -122,6 +124,14 @@ void Proxy::Link::give(Way& way, const Weather& weather) {
   bytes.erase(0, static_cast<std::size_t>(sent));
   if (bytes.empty()) way.queue.pop_front();
   spend(static_cast<std::uint64_t>(sent));
+}
+
+void Proxy::Link::move(std::size_t which, bool can_take, bool can_give, const Weather& weather) {
+  Way& way = ways[which];
+  if (!done && can_take) take(way, weather);
+  if (!done && can_give && !way.queue.empty()) give(way, weather);
+  if (!done && way.ended && !way.closed && way.queue.empty()) half(which);
+  if (ways[0].closed && ways[1].closed) finish(false);
 }
 
 void Proxy::Link::spend(std::uint64_t bytes) {
@@ -219,37 +229,42 @@ void Proxy::accept_one(const Weather& weather) {
   links_.push_back(std::make_unique<Link>(client, server));
 }
 
-void Proxy::wait_for_events(const Weather& weather) {
-  std::vector<pollfd> polled = {{listener_, POLLIN, 0}, {event_, POLLIN, 0}};
-  std::vector<std::pair<Link*, std::size_t>> who;
-  const Clock::time_point now = Clock::now();
-  std::optional<Clock::time_point> wake_at;
-  for (const auto& link : links_) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      Link::Way& way = link->ways[i];
-      const auto give = weather.hold ? std::nullopt : link->next_give(way);
-      const bool due = give && *give <= now;
-      if (give && !due) wake_at = std::min(wake_at.value_or(*give), *give);
-      const bool more = !way.ended && !weather.hold && way.queued < kQueue;
-      polled.push_back({more ? way.from : -1, POLLIN, 0});
-      polled.push_back({due ? way.to : -1, POLLOUT, 0});
-      who.emplace_back(link.get(), i);
-    }
+/// What to wait for on behalf of the links: pairs of entries, one to take from and one to give to.
+struct Proxy::Wait {
+  std::vector<pollfd> polled;
+  std::vector<std::pair<Link*, std::size_t>> ways;  // of each pair: link, and which of its two ways
+  std::optional<Clock::time_point> until;           // something is due then
+
+  void add(Link& link, std::size_t which, const Weather& weather, Clock::time_point now) {
+    const Link::Way& way = link.ways[which];
+    const auto give = weather.hold ? std::nullopt : link.next_give(way);
+    const bool due = give && *give <= now;
+    if (give && !due) until = std::min(until.value_or(*give), *give);
+    const bool more = !way.ended && !weather.hold && way.queued < kQueue;
+    polled.push_back({more ? way.from : -1, POLLIN, 0});
+    polled.push_back({due ? way.to : -1, POLLOUT, 0});
+    ways.emplace_back(&link, which);
   }
-  using std::chrono::milliseconds;
-  const auto left = wake_at ? std::chrono::ceil<milliseconds>(*wake_at - now).count() : -1;
-  if (poll(polled.data(), polled.size(), static_cast<int>(left)) < 0) return;
-  for (std::size_t i = 0; i < who.size(); ++i) {
-    Link& link = *who[i].first;
-    Link::Way& way = link.ways[who[i].second];
-    if (!link.done && polled[2 + 2 * i].revents != 0) link.take(way, weather);
-    if (!link.done && polled[3 + 2 * i].revents != 0 && !way.queue.empty()) link.give(way, weather);
-    if (!link.done && way.ended && !way.closed && way.queue.empty()) link.half(who[i].second);
-    if (link.ways[0].closed && link.ways[1].closed) link.finish(false);
+
+  int timeout(Clock::time_point now) const {
+    return until ? static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*until - now).count()) : -1;
+  }
+};
+
+void Proxy::wait_for_events(const Weather& weather) {
+  const Clock::time_point now = Clock::now();
+  Wait wait{{{listener_, POLLIN, 0}, {event_, POLLIN, 0}}, {}, {}};
+  for (const auto& link : links_) {
+    for (std::size_t which : {0U, 1U}) wait.add(*link, which, weather, now);
+  }
+  if (poll(wait.polled.data(), wait.polled.size(), wait.timeout(now)) < 0) return;
+  for (std::size_t i = 0; i < wait.ways.size(); ++i) {
+    const auto [link, which] = wait.ways[i];
+    link->move(which, wait.polled[2 + 2 * i].revents != 0, wait.polled[3 + 2 * i].revents != 0, weather);
   }
   std::uint64_t count = 0;
   static_cast<void>(!read(event_, &count, sizeof count));
-  if (polled[0].revents != 0) accept_one(weather);
+  if (wait.polled[0].revents != 0) accept_one(weather);
 }
 
 }  // namespace affskel::chaos

@@ -47,6 +47,7 @@ class Proxy {
 
  private:
   struct Link;
+  struct Wait;
 
   void serve();
   void accept_one(const Weather& weather);
