@@ -120,4 +120,23 @@ bool late_report(Scene& scene) {
   return true;
 }
 
+bool poisoned_report(Scene& scene) {
+  const v1::Lease lease = lease_block(scene);
+  if (lease.token().empty()) return false;
+  Open call;
+  v1::ReportResponse response;
+  const auto writer = scene.stage.api().worker().ReportErosion(&call.context, &response);
+  writer->Write(header_of(lease, kPoisoned));
+  writer->Write(poison(kPoisoned));
+  writer->WritesDone();
+  return writer->Finish().ok();
+}
+
+bool job_deleted_in_secret(Scene& scene) {
+  const std::string id =
+      scene.submit_patiently(scene.stage.api(), scene.catalogue.next(kTiny, scene.new_name()));
+  scene.stage.api().follow(id, [](const v1::Job&) { return false; });
+  return scene.stage.api().remove(id, kCall).ok();
+}
+
 }  // namespace affskel::chaos

@@ -63,6 +63,14 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
+const std::vector<Fault>& sabotages() {
+  static const std::vector<Fault> all = {
+      {"sabotage-report", "a worker with a lease reports poisoned points", poisoned_report},
+      {"sabotage-job", "a finished job is deleted, and the ledger not told", job_deleted_in_secret},
+  };
+  return all;
+}
+
 std::vector<const Fault*> schedule(const std::vector<const Fault*>& kinds, std::size_t number,
                                    std::uint64_t seed) {
   std::mt19937_64 random(seed);

@@ -25,7 +25,10 @@ struct Fault {
 /// started again), stand by all that it acknowledged, and compute the same fields.
 const std::vector<Fault>& faults();
 
-/// The names of a fixed number of faults: all kinds in a random order, then again in another, and so on.
+/// What no service can mend and the driver must notice: they show that it can fail.  Only drawn when named.
+const std::vector<Fault>& sabotages();
+
+/// So many faults: all kinds in a random order, then again in another, and so on.
 std::vector<const Fault*> schedule(const std::vector<const Fault*>& kinds, std::size_t number,
                                    std::uint64_t seed);
 
@@ -88,5 +91,8 @@ bool watch_storm(Scene&);
 bool slow_uploads(Scene&);
 bool half_report(Scene&);
 bool late_report(Scene&);
+
+bool poisoned_report(Scene&);
+bool job_deleted_in_secret(Scene&);
 
 }  // namespace affskel::chaos

@@ -93,10 +93,15 @@ class Workshop {
 };
 
 std::vector<const Fault*> chosen(const Options& options) {
+  const auto named = [&](const Fault& fault) {
+    return std::find(options.kinds.begin(), options.kinds.end(), fault.name) != options.kinds.end();
+  };
   std::vector<const Fault*> kinds;
   for (const Fault& fault : faults()) {
-    const auto named = std::find(options.kinds.begin(), options.kinds.end(), fault.name);
-    if (options.kinds.empty() || named != options.kinds.end()) kinds.push_back(&fault);
+    if (options.kinds.empty() || named(fault)) kinds.push_back(&fault);
+  }
+  for (const Fault& fault : sabotages()) {
+    if (named(fault)) kinds.push_back(&fault);
   }
   if (!options.kinds.empty() && kinds.size() != options.kinds.size()) {
     throw std::runtime_error("--kinds names one that there is not; see --list");

@@ -48,9 +48,10 @@ class Scene {
   void hang(const std::string& what);
   std::vector<std::string> take_hangs();
 
-  /// Submits, and writes the answer down; again and again when `patient`, else once within `limit`.
-  /// @return the job's id, empty when nothing was acknowledged.
+  /// Submits once, and writes the answer down.
+  /// @return the job's id, empty when nothing was acknowledged within the limit.
   std::string submit(const Api& api, const Submission& submission, Milliseconds limit);
+  /// The same again and again until it is acknowledged.  @throws Hang.
   std::string submit_patiently(const Api& api, const Submission& submission);
   /// The field of a job that is done; compared with the undisturbed one.
   void compare_field(const Api& api, const std::string& id, std::size_t recipe);
