@@ -42,6 +42,19 @@ void cancel_and_delete(Scene& scene, const std::string& id) {
   }
 }
 
+/// Follows the running job to the end of its cancel: false when it was done before its workers heard of it.
+bool stays_cancelled(Scene& scene) {
+  const Api& api = scene.stage.api();
+  v1::Job job = api.follow(scene.running_job, [](const v1::Job&) { return false; });
+  if (job.state() == v1::JOB_STATE_DONE) return false;
+  const grpc::Status status =
+      until_answered("asking for a job", [&] { return api.job(scene.running_job, job, kCall); });
+  if (!status.ok() || job.state() != v1::JOB_STATE_CANCELLED) {
+    scene.complain(job.name() + ": cancelled, and then " + v1::JobState_Name(job.state()));
+  }
+  return true;
+}
+
 /// A call that stays open, and its end.
 struct OpenFetch {
   grpc::ClientContext context;
@@ -99,30 +112,17 @@ bool cancel_resume_storm(Scene& scene) {
   in_parallel(4, [&](std::size_t client) {
     for (std::size_t i = 0; i < 6; ++i) {
       v1::Job job;
-      if ((client + i) % 2 == 0) {
-        static_cast<void>(api.cancel(scene.running_job, job, kCall));
-      } else {
-        static_cast<void>(api.resume(scene.running_job, job, kCall));
-      }
+      static_cast<void>((client + i) % 2 == 0 ? api.cancel(scene.running_job, job, kCall)
+                                              : api.resume(scene.running_job, job, kCall));
     }
   });
-  // What the last one was told, when nobody contradicts any more, must hold.
+  // What it is told when nobody contradicts any more must hold.
   v1::Job job;
   const grpc::Status cancelled =
       until_answered("cancelling", [&] { return api.cancel(scene.running_job, job, kCall); });
   if (!cancelled.ok()) return false;  // done meanwhile
   scene.ledger.cancelled(job);
-  if (api.follow(scene.running_job, [](const v1::Job&) { return false; }).state() == v1::JOB_STATE_DONE) {
-    return true;
-  }
-  std::vector<v1::Job> jobs;
-  const grpc::Status listed = until_answered("listing", [&] { return api.list(jobs, kCall); });
-  for (const v1::Job& one : jobs) {
-    if (one.id() == scene.running_job && one.state() != v1::JOB_STATE_CANCELLED) {
-      scene.complain(one.name() + ": cancelled, and then " + v1::JobState_Name(one.state()));
-    }
-  }
-  if (!listed.ok()) scene.complain("listing: " + listed.error_message());
+  if (!stays_cancelled(scene)) return true;
   const grpc::Status resumed =
       until_answered("resuming", [&] { return api.resume(scene.running_job, job, kCall); });
   if (resumed.ok()) scene.ledger.resumed(job);
