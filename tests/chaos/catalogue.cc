@@ -1,0 +1,72 @@
+#include "catalogue.h"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "process.h"
+#include "wire/sha256.h"
+
+namespace affskel::chaos {
+
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> all = {
+      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:8000"},
+      {"body", {"body", "--triangles", "500"}, 20000, "sphere:15000"},
+      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:5000"},
+      {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles"},
+  };
+  return all;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return std::move(bytes).str();
+}
+
+void write_file(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+Catalogue::Catalogue(const Programs& programs, const std::string& dir) : dir_(dir) {
+  for (const Recipe& recipe : recipes()) {
+    const std::string path = dir + "/" + recipe.name + ".off";
+    Command make{{programs.client, "make"}, "", dir + "/make.log", {}};
+    make.arguments.insert(make.arguments.end(), recipe.shape.begin(), recipe.shape.end());
+    make.arguments.insert(make.arguments.end(), {"-o", path});
+    if (run(make, kPatience) != 0) throw std::runtime_error("no mesh: " + read_file(dir + "/make.log"));
+    meshes_.push_back(read_file(path));
+  }
+}
+
+Submission Catalogue::next(std::size_t recipe, const std::string& name) const {
+  Submission submission;
+  submission.name = name;
+  submission.request_id = name;
+  const std::string& mesh = meshes_.at(recipe);
+  submission.mesh = mesh.substr(0, 4) + "# " + name + "\n" + mesh.substr(4);
+  submission.mesh_sha256 = wire::sha256_hex(submission.mesh);
+  submission.params.mutable_sampling()->set_target_points(recipes()[recipe].points);
+  submission.params.set_directions(recipes()[recipe].directions);
+  submission.params.set_repair(true);
+  submission.recipe = recipe;
+  return submission;
+}
+
+std::string Catalogue::computed_text(const Programs& programs, std::size_t recipe) const {
+  const Recipe& what = recipes()[recipe];
+  const std::string stem = dir_ + "/" + what.name;
+  const Command compute{{programs.worker, "compute", stem + ".off", "--points", std::to_string(what.points),
+                         "--directions", what.directions, "-o", stem + ".csv"},
+                        "",
+                        dir_ + "/compute.log",
+                        {}};
+  if (run(compute, kPatience) != 0) {
+    throw std::runtime_error("no field: " + read_file(dir_ + "/compute.log"));
+  }
+  return read_file(stem + ".csv");
+}
+
+}  // namespace affskel::chaos

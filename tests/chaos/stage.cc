@@ -1,0 +1,147 @@
+#include "stage.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+namespace affskel::chaos {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr Milliseconds kLook{20};
+
+}  // namespace
+
+ControlFile::ControlFile(const std::string& path) : path_(path) {
+  const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (fd < 0 || ftruncate(fd, sizeof(Control)) != 0) throw std::runtime_error("no control page " + path);
+  void* mapped = mmap(nullptr, sizeof(Control), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  close(fd);
+  if (mapped == MAP_FAILED) throw std::runtime_error("no control page " + path);
+  control_ = static_cast<Control*>(mapped);
+}
+
+ControlFile::~ControlFile() {
+  munmap(control_, sizeof(Control));
+}
+
+Stage::Stage(const Programs& programs, const std::string& dir, const std::string& data_dir)
+    : programs_(programs), dir_(dir), data_dir_(data_dir), api_("unix:" + dir + "/s.sock") {
+  controls_[0] = std::make_unique<ControlFile>(path("server.control"));
+  for (std::size_t i = 0; i < kWorkers; ++i) {
+    controls_[i + 1] = std::make_unique<ControlFile>(path("worker" + std::to_string(i) + ".control"));
+  }
+  proxy_ = std::make_unique<Proxy>([this] { return port(); });
+  proxied_ = std::make_unique<Api>("127.0.0.1:" + std::to_string(proxy_->port()));
+}
+
+Process Stage::start(std::vector<std::string> arguments, const std::string& log, std::size_t control) const {
+  Command command{std::move(arguments), path(log), path(log), {}};
+  command.environment = {"LD_PRELOAD=" + programs_.preload,
+                         "AFFSKEL_CHAOS_CONTROL=" + controls_[control]->path()};
+  return Process(command);
+}
+
+void Stage::start_server() {
+  server_ = start({programs_.server, "--data-dir", data_dir_, "--listen", address(), "--listen",
+                   "127.0.0.1:0", "--lease-ms", std::to_string(kLease.count()), "--report-interval-ms", "50"},
+                  "server.log", 0);
+}
+
+void Stage::start_worker(std::size_t which) {
+  const std::string behind_proxy = "127.0.0.1:" + std::to_string(proxy_->port());
+  workers_.at(which) =
+      start({programs_.worker, "--server", which == 0 ? behind_proxy : address(), "--patience", "600"},
+            "worker" + std::to_string(which) + ".log", which + 1);
+}
+
+void Stage::start_workers() {
+  for (std::size_t i = 0; i < kWorkers; ++i) start_worker(i);
+}
+
+void Stage::wait_for_server() {
+  const Clock::time_point give_up = Clock::now() + kPatience;
+  v1::ServerInfo info;
+  while (!api_.info(info, Milliseconds(500)).ok()) {
+    if (!server_.alive()) return;
+    if (Clock::now() > give_up) throw Hang("the server does not answer");
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void Stage::wait_for_workers() {
+  const Clock::time_point give_up = Clock::now() + kPatience;
+  for (;;) {
+    v1::ServerInfo info;
+    static_cast<void>(api_.info(info, Milliseconds(5000)));
+    const auto heard = std::count_if(info.workers().begin(), info.workers().end(), [&](const auto& known) {
+      return !known.silent() && std::any_of(workers_.begin(), workers_.end(), [&](const Process& worker) {
+        return static_cast<std::uint32_t>(worker.pid()) == known.pid();
+      });
+    });
+    if (heard == kWorkers) return;
+    for (const Process& worker : workers_) {
+      if (!worker.alive()) return;  // whoever restarts the dead ones calls again
+    }
+    if (Clock::now() > give_up) throw Hang("a worker is not heard from: " + info.ShortDebugString());
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void Stage::calm() {
+  for (const auto& control : controls_) {
+    (**control).trouble = kNoTrouble;
+    (**control).clock_shift_ns = 0;
+    (**control).bites = 0;
+  }
+  proxy_->set({});
+}
+
+std::vector<std::string> Stage::restart_dead() {
+  std::vector<std::string> dead;
+  const auto note = [&](Process& process, const std::string& name) {
+    if (process.alive()) return false;
+    const auto code = process.wait(Milliseconds(0));
+    dead.push_back(name + " ended with " + (code ? std::to_string(*code) : "?"));
+    return true;
+  };
+  if (note(server_, "server")) start_server();
+  for (std::size_t i = 0; i < kWorkers; ++i) {
+    if (note(workers_[i], "worker " + std::to_string(i))) start_worker(i);
+  }
+  return dead;
+}
+
+void Stage::start_over() {
+  calm();
+  server_.kill_hard();
+  for (Process& worker : workers_) worker.kill_hard();
+  proxy_->end_all(Proxy::End::kReset);
+  start_server();
+  start_workers();
+}
+
+int Stage::port() const {
+  const auto published = nlohmann::json::parse(read_file(data_dir_ + "/server.json"), nullptr, false);
+  if (!published.is_object()) return 0;
+  for (const auto& address : published.value("addresses", std::vector<std::string>())) {
+    if (address.rfind("127.0.0.1:", 0) == 0) return std::stoi(address.substr(10));
+  }
+  return 0;
+}
+
+std::string Stage::check(const std::string& data_dir) const {
+  const std::string log = path("check.log");
+  write_file(log, "");
+  const auto code = run({{programs_.server, "check", "--data-dir", data_dir}, "", log, {}}, kPatience);
+  if (code == 0) return "";
+  return "check ended with " + (code ? std::to_string(*code) : "nothing, in time") + ": " + read_file(log);
+}
+
+}  // namespace affskel::chaos
