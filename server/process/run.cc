@@ -1,5 +1,6 @@
 #include "process/run.h"
 
+#include <malloc.h>
 #include <signal.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -143,8 +144,16 @@ void serve(const Options& options, const DataDir& data_dir, const sigset_t& sign
   }
 }
 
+/// Many threads take turns with buffers of megabytes: with an arena for each of them, and freed ones kept, the
+/// process would stay as large as it ever was.
+void keep_memory_small() {
+  mallopt(M_ARENA_MAX, 2);
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+}
+
 void run_server(const Options& options) {
   umask(0077);  // meshes and results are this user's alone
+  keep_memory_small();
   const sigset_t signals = block_signals();
   raise_file_limit();
   const DataDir data_dir(options.data_dir);

@@ -168,6 +168,13 @@ void Connections::sweep_locked() {
   }
 }
 
+std::size_t Connections::calls() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t sum = 0;
+  for (const auto& [fd, entry] : entries_) sum += entry.calls;
+  return sum;
+}
+
 std::size_t Connections::size() const {
   const std::lock_guard lock(mutex_);
   return entries_.size();

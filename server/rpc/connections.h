@@ -75,6 +75,8 @@ class Connections {
   void sweep();
 
   std::size_t size() const;
+  /// Calls under way on all of them.
+  std::size_t calls() const;
 
  private:
   using Time = std::chrono::steady_clock::time_point;

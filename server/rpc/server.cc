@@ -35,6 +35,12 @@ constexpr int kKeepaliveTimeoutMs = 20000;
 // Between looks at calls that are too slow.
 constexpr std::chrono::milliseconds kTick{200};
 
+// A server that closes waits until the last of them has ended.
+constexpr std::chrono::milliseconds kLookAtCalls{5};
+
+// gRPC waits for each connection to acknowledge the end, which an idle peer may do seconds later.
+constexpr std::chrono::milliseconds kGoodbye{100};
+
 /// Room for a mesh of the greatest size beside what is kept for workers' results.
 std::uint64_t upload_bytes(const ServerOptions& options) {
   return std::max(options.upload_bytes, options.store.max_mesh_bytes / 3 * 4 + 4);
@@ -176,6 +182,13 @@ void Server::drain() {
   room_.close();
 }
 
+void Server::await_calls(std::chrono::milliseconds grace) const {
+  const auto end = std::chrono::steady_clock::now() + grace;
+  while (room_.connections.calls() > 0 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(kLookAtCalls);
+  }
+}
+
 void Server::stop(std::chrono::milliseconds grace) {
   {
     const std::lock_guard lock(mutex_);
@@ -186,7 +199,8 @@ void Server::stop(std::chrono::milliseconds grace) {
   drain();
   if (listener_ != nullptr) listener_->stop();
   if (grpc_ != nullptr) {
-    grpc_->Shutdown(std::chrono::system_clock::now() + grace);
+    await_calls(grace);
+    grpc_->Shutdown(std::chrono::system_clock::now() + kGoodbye);
     grpc_->Wait();
   }
   room_.stop();

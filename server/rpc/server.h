@@ -73,6 +73,7 @@ class Server {
   void maintain();
   void tick();
   void tidy();
+  void await_calls(std::chrono::milliseconds grace) const;
 
   SystemClock clock_;
   EventHub hub_;
