@@ -197,6 +197,9 @@ class LeaseLoop {
       failures_.reset();
     } catch (const ServerGone&) {
       throw;
+    } catch (const InputDamaged& damaged) {
+      lose(lease, damaged.what());
+      pause(failures_.next());
     } catch (const LeaseLost& lost) {
       // The last call may have met the end that the lease keeper knows the reason of.
       context.why() == TaskContext::Why::kCancelled ? drop(lease, context.why()) : lose(lease, lost.what());

@@ -88,6 +88,7 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
       case RetryPolicy::Verdict::kAgain:
         break;
       case RetryPolicy::Verdict::kLeaseLost:
+        if (status.error_code() == grpc::StatusCode::DATA_LOSS) throw InputDamaged(message);
         throw LeaseLost(message);
       case RetryPolicy::Verdict::kFailed:
         throw std::runtime_error(message);

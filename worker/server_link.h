@@ -23,6 +23,12 @@ class LeaseLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same, because what the task needs is damaged or cannot be read: the next task may meet that, too.
+class InputDamaged : public LeaseLost {
+ public:
+  using LeaseLost::LeaseLost;
+};
+
 /// The server refuses or stays away; the worker cannot go on.
 class ServerGone : public std::runtime_error {
  public:
