@@ -147,7 +147,7 @@ void serve(const Options& options, const DataDir& data_dir, const sigset_t& sign
 /// Many threads take turns with buffers of megabytes: with an arena for each of them, and freed ones kept, the
 /// process would stay as large as it ever was.
 void keep_memory_small() {
-  mallopt(M_ARENA_MAX, 2);
+  mallopt(M_ARENA_MAX, 4);
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 }
 
