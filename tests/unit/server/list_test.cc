@@ -34,6 +34,16 @@ TEST_F(ListTest, PagesHoldEveryJobOnce) {
   EXPECT_EQ(listed, submitted);
 }
 
+TEST_F(ListTest, ReferencesAreQuotedAsTheyWereGiven) {
+  grpc::ClientContext context;
+  v1::GetJobRequest request;
+  request.set_job("@LAST");
+  v1::Job job;
+  const grpc::Status status = client_->GetJob(&context, request, &job);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_NE(status.error_message().find("'@LAST'"), std::string::npos) << status.error_message();
+}
+
 TEST_F(ListTest, RefusesWhatIsNoToken) {
   submit("OFF 1");
   submit("OFF 2");

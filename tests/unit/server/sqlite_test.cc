@@ -1,5 +1,7 @@
 #include "database/sqlite.h"
 
+#include <fstream>
+
 #include "database/migrate.h"
 #include "expect_store_error.h"
 #include "store_fixture.h"
@@ -87,6 +89,36 @@ TEST_F(DatabaseTest, ErrorsCarryExtendedCodes) {
     FAIL() << "no error";
   } catch (const SqliteError& error) {
     EXPECT_EQ(error.extended_code(), SQLITE_CONSTRAINT_PRIMARYKEY);
+  }
+}
+
+// In words that say what to do, with the file and without a statement.
+TEST_F(DatabaseTest, DamageIsToldInWords) {
+  {
+    Database db(file(), Database::Mode::kReadWrite);
+    db.execute("CREATE TABLE t (x TEXT); INSERT INTO t VALUES ('a')");
+  }
+  std::int64_t root = 0;
+  {
+    Database db(file(), Database::Mode::kReadOnly);
+    root = db.integer("SELECT rootpage FROM sqlite_schema").value();
+  }
+  {
+    std::fstream bytes(file(), std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekp((root - 1) * 16384);
+    bytes << std::string(16384, '\xa5');
+  }
+  Database db(file(), Database::Mode::kReadOnly);
+  try {
+    db.integer("SELECT count(*) FROM t");
+    ADD_FAILURE() << "read";
+  } catch (const SqliteError& error) {
+    EXPECT_TRUE(error.says_damaged());
+    EXPECT_FALSE(error.says_device());
+    const std::string message = error.what();
+    EXPECT_NE(message.find(file() + ": is damaged"), std::string::npos) << message;
+    EXPECT_NE(message.find("check --repair"), std::string::npos) << message;
+    EXPECT_EQ(message.find("SELECT"), std::string::npos) << message;
   }
 }
 
