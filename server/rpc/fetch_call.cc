@@ -13,6 +13,7 @@ namespace {
 grpc::Status status_of_failure(const v1::JobError& error) {
   const grpc::StatusCode code = error.code() == "BAD_INPUT" ? grpc::StatusCode::INVALID_ARGUMENT
                                 : error.code() == "LIMIT"   ? grpc::StatusCode::RESOURCE_EXHAUSTED
+                                : error.code() == "DAMAGED" ? grpc::StatusCode::DATA_LOSS
                                                             : grpc::StatusCode::INTERNAL;
   return {code, error.message()};
 }
