@@ -93,7 +93,10 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
   check_mesh(submission, mesh);
   require_not_lost();
   const v1::SubmitJobHeader& header = submission.header;
-  const bool heals = mesh_is_damaged(file_, header.mesh_sha256(), mesh);
+  const bool stored = read([&](Database& db) {
+    return db.integer("SELECT 1 FROM meshes WHERE sha256 = ?", header.mesh_sha256()).has_value();
+  });
+  const bool heals = stored && mesh_is_damaged(file_, header.mesh_sha256(), mesh);
   return write([&](Tx& tx) -> Submitted {
     if (heals) heal_mesh(tx, header.mesh_sha256(), mesh);
     std::string earlier = find_request(tx.db, submission);
