@@ -1,11 +1,19 @@
 #include "rpc/event_hub.h"
 
+#include <chrono>
+#include <new>
 #include <utility>
 #include <vector>
 
 #include "rpc/status.h"
 
 namespace affskel::server {
+namespace {
+
+// Between two tries to tell what could not be told.
+constexpr std::chrono::milliseconds kTryAgain{100};
+
+}  // namespace
 
 EventHub::Subscription::Subscription(EventHub* hub, std::string job, std::uint64_t number)
     : hub_(hub), job_(std::move(job)), number_(number) {}
@@ -78,8 +86,12 @@ void EventHub::on_change(const Changes& changes) {
   if (changes.jobs.empty() && !changes.work) return;
   {
     const std::lock_guard lock(mutex_);
-    jobs_.insert(changes.jobs.begin(), changes.jobs.end());
     work_ = work_ || changes.work;
+    try {
+      jobs_.insert(changes.jobs.begin(), changes.jobs.end());
+    } catch (const std::bad_alloc&) {
+      all_ = true;  // the change is committed: whoever waits for it must hear of it
+    }
   }
   changed_.notify_all();
 }
@@ -87,36 +99,63 @@ void EventHub::on_change(const Changes& changes) {
 void EventHub::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || work_ || !jobs_.empty() || !fresh_.empty(); });
+    changed_.wait(lock, [this] { return stopping_ || work_ || all_ || !jobs_.empty() || !fresh_.empty(); });
     if (stopping_) return;
     const bool work = std::exchange(work_, false);
+    const bool all = std::exchange(all_, false);
     const std::set<std::string> jobs = std::exchange(jobs_, {});
     const std::map<std::uint64_t, std::string> fresh = std::exchange(fresh_, {});
     lock.unlock();
     if (work) on_work_();
-    for (const std::string& job : jobs) tell(job);
-    for (const auto& [number, job] : fresh) {
-      if (!jobs.contains(job)) tell(job, number);
-    }
+    const bool told = all ? tell_all() : tell_some(jobs, fresh);
     lock.lock();
+    if (told) continue;
+    // For want of memory or of the disk.  Nobody may wait for ever for what was not told.
+    all_ = true;
+    changed_.wait_for(lock, kTryAgain, [this] { return stopping_; });
   }
 }
 
-/// Tells all subscribers of a job, or only one.
-void EventHub::tell(const std::string& job_id, std::uint64_t only) {
-  std::vector<std::shared_ptr<JobCallback>> callbacks;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = subscribers_.find(job_id);
-    if (found == subscribers_.end()) return;
-    for (const auto& [number, callback] : found->second) {
-      if (only == 0 || only == number) callbacks.push_back(callback);
-    }
+bool EventHub::tell_some(const std::set<std::string>& jobs,
+                         const std::map<std::uint64_t, std::string>& fresh) {
+  bool told = true;
+  for (const std::string& job : jobs) told = tell(job) && told;
+  for (const auto& [number, job] : fresh) {
+    if (!jobs.contains(job)) told = tell(job, number) && told;
   }
-  guarded([&] {
-    const JobPtr job = load_(job_id);
-    for (const auto& callback : callbacks) (*callback)(job);
-  });
+  return told;
+}
+
+/// The newest state of every job that somebody follows.
+bool EventHub::tell_all() {
+  bool told = true;
+  return guarded([&] {
+           std::set<std::string> jobs;
+           {
+             const std::lock_guard lock(mutex_);
+             for (const auto& [job, callbacks] : subscribers_) jobs.insert(job);
+           }
+           for (const std::string& job : jobs) told = tell(job) && told;
+         }).ok() &&
+         told;
+}
+
+/// Tells all subscribers of a job, or only one.  False when that must be tried again.
+bool EventHub::tell(const std::string& job_id, std::uint64_t only) {
+  return guarded([&] {
+           std::vector<std::shared_ptr<JobCallback>> callbacks;
+           {
+             const std::lock_guard lock(mutex_);
+             const auto found = subscribers_.find(job_id);
+             if (found == subscribers_.end()) return;
+             for (const auto& [number, callback] : found->second) {
+               if (only == 0 || only == number) callbacks.push_back(callback);
+             }
+           }
+           const JobPtr job = load_(job_id);
+           for (const auto& callback : callbacks) (*callback)(job);
+         })
+      .ok();
 }
 
 }  // namespace affskel::server

@@ -45,8 +45,8 @@ class EventHub final : public ChangeListener {
   EventHub() = default;
   ~EventHub() override;
 
-  /// Starts telling.  `load` and `on_work` are called on the hub's own thread; a change whose job cannot
-  /// be read is told with the next one.
+  /// Starts telling.  `load` and `on_work` are called on the hub's own thread; what cannot be told,
+  /// because the job cannot be read or memory is short, is tried again until it is.
   void start(Loader load, std::function<void()> on_work);
   void stop();
 
@@ -57,7 +57,9 @@ class EventHub final : public ChangeListener {
 
  private:
   void run();
-  void tell(const std::string& job_id, std::uint64_t only = 0);
+  bool tell_some(const std::set<std::string>& jobs, const std::map<std::uint64_t, std::string>& fresh);
+  bool tell_all();
+  bool tell(const std::string& job_id, std::uint64_t only = 0);
   void unsubscribe(const std::string& job_id, std::uint64_t number);
 
   Loader load_;
@@ -69,6 +71,7 @@ class EventHub final : public ChangeListener {
   std::set<std::string> jobs_;                  // changed and not told yet
   std::map<std::uint64_t, std::string> fresh_;  // subscriptions that have heard nothing yet, with their jobs
   bool work_ = false;
+  bool all_ = false;  // something was not told: tell the state of every job that somebody follows
   bool stopping_ = false;
   std::uint64_t next_number_ = 1;
   std::thread thread_;

@@ -116,7 +116,11 @@ class EventHubTest : public testing::Test {
  protected:
   EventHubTest() {
     hub_.start(
-        [](const std::string& id) {
+        [this](const std::string& id) {
+          if (failures_ > 0) {
+            --failures_;
+            throw std::bad_alloc();
+          }
           v1::Job job;
           job.set_id(id);
           return id == "deleted" ? nullptr : std::make_shared<const v1::Job>(job);
@@ -155,6 +159,7 @@ class EventHubTest : public testing::Test {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> heard_;
+  std::atomic<int> failures_ = 0;
   EventHub hub_;
 };
 
@@ -179,6 +184,15 @@ TEST_F(EventHubTest, TellsOfDeletion) {
 TEST_F(EventHubTest, TellsOfWork) {
   change("first", true);
   EXPECT_EQ(wait_for(1), (std::vector<std::string>{"work"}));
+}
+
+// The last change of a job must not be the one that nobody hears of.
+TEST_F(EventHubTest, WhatCouldNotBeReadIsToldLater) {
+  const EventHub::Subscription first = subscribe("first"), second = subscribe("second");
+  failures_ = 3;
+  change("first");
+  const std::vector<std::string> heard = wait_for(2);  // all is told again
+  EXPECT_NE(std::find(heard.begin(), heard.end(), "first"), heard.end());
 }
 
 TEST_F(EventHubTest, EndedSubscriptionsHearNothing) {
