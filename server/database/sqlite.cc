@@ -1,5 +1,8 @@
 #include "database/sqlite.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -248,10 +251,31 @@ Statement Database::prepare(const char* sql) {
   return {slot->statement, &slot->busy};
 }
 
+namespace {
+
+/// Error of making a small file beside this one; 0 when that works.  Not of the file itself: to open and
+/// close it would take SQLite's locks on it away.
+int probe_disk(const std::string& file) {
+  const std::string probe = file + ".probe";
+  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (fd < 0) return errno;
+  const int error = posix_fallocate(fd, 0, kPageBytes);
+  close(fd);
+  unlink(probe.c_str());
+  return error;
+}
+
+}  // namespace
+
 void Database::claim_pages() {
   sqlite3_int64 bytes =
       integer("PRAGMA page_count").value_or(0) * integer("PRAGMA page_size").value_or(kPageBytes);
   if (sqlite3_file_control(handle_, "main", SQLITE_FCNTL_SIZE_HINT, &bytes) != SQLITE_OK) {
+    // SQLite does not say why.
+    if (const int why = probe_disk(file_); why == EROFS || why == EIO) {
+      throw SqliteError(SQLITE_IOERR_WRITE,
+                        "database " + file_ + ": cannot be written: " + std::strerror(why));
+    }
     throw SqliteError(SQLITE_FULL, "database " + file_ + ": no room for " + std::to_string(bytes) + " bytes");
   }
 }

@@ -23,6 +23,7 @@
 #include "process/maintenance.h"
 #include "process/supervisor.h"
 #include "rpc/server.h"
+#include "rpc/watchdog.h"
 #include "wire/identity.h"
 #include "wire/version.h"
 
@@ -151,6 +152,13 @@ void keep_memory_small() {
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 }
 
+/// Half alive it would keep everybody waiting; dead, it is started again and costs a second of work.
+void leave_if_deaf() {
+  spdlog::critical("event=deaf message=\"no answer to its own calls; leaving, to be started again\"");
+  spdlog::default_logger()->flush();
+  std::_Exit(static_cast<int>(ExitCode::kInternal));
+}
+
 void run_server(const Options& options) {
   umask(0077);  // meshes and results are this user's alone
   keep_memory_small();
@@ -183,6 +191,7 @@ void run_server(const Options& options) {
                  data_dir.path());
   }
   data_dir.publish(targets, SystemClock().wall_ms());
+  const Watchdog watchdog(targets.front(), WatchdogOptions(), leave_if_deaf);
   serve(options, data_dir, signals, server, supervisor);
   leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();

@@ -21,8 +21,15 @@ void Executor::post(std::uint64_t caller, std::function<void()> body) {
       return;
     }
     Queue& queue = queues_[caller];
-    if (queue.empty()) turns_.push_back(caller);
     queue.push_back(std::move(body));
+    if (queue.size() == 1) {
+      try {
+        turns_.push_back(caller);
+      } catch (...) {
+        queues_.erase(caller);  // without a turn it would wait for ever
+        throw;
+      }
+    }
   }
   changed_.notify_one();
 }

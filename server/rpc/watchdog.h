@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+namespace affskel::server {
+
+struct WatchdogOptions {
+  std::chrono::milliseconds period{5000};     ///< between two calls
+  std::chrono::milliseconds patience{10000};  ///< for an answer, whatever it is
+  int strikes = 3;                            ///< calls in a row without one
+};
+
+/// Calls the server as its workers do, through its socket, its threads and its store, and says when it does
+/// not answer: gRPC may survive an allocation or a thread that it could not get, and never answer anybody
+/// again. It keeps its connection, so that it needs no descriptor when there are none left.
+class Watchdog {
+ public:
+  /// @param target where the server listens, as gRPC writes it.
+  /// @param on_deaf called once, on the watchdog's thread.
+  Watchdog(const std::string& target, const WatchdogOptions& options, std::function<void()> on_deaf);
+
+ private:
+  std::jthread thread_;
+};
+
+}  // namespace affskel::server
