@@ -184,7 +184,7 @@ class LeaseLoop {
       link_.give_back(lease.token());
       return false;
     }
-    jobs_.insert(lease.job().id());
+    if (options_.max_jobs != 0) jobs_.insert(lease.job().id());
     return true;
   }
 

@@ -218,7 +218,7 @@ void Database::set_up_writing() {
   }
   execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
           std::to_string(kJournalBytes) +
-          "; PRAGMA cache_size = -65536; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF"
+          "; PRAGMA cache_size = -8192; PRAGMA trusted_schema = OFF; PRAGMA secure_delete = OFF"
           "; PRAGMA temp_store = MEMORY");
   int step = kGrowthBytes;
   sqlite3_file_control(handle_, "main", SQLITE_FCNTL_CHUNK_SIZE, &step);

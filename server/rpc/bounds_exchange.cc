@@ -9,9 +9,10 @@ namespace {
 
 // In memory; on the wire a step is often shorter.
 constexpr std::size_t kPointBytes = 8;
+constexpr std::size_t kEntryBytes = 512;
 
 std::size_t size_of(const v1::ErosionBounds& message) {
-  return kPointBytes * static_cast<std::size_t>(message.step_size());
+  return kEntryBytes + kPointBytes * static_cast<std::size_t>(message.step_size());
 }
 
 }  // namespace
@@ -79,7 +80,7 @@ std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& 
   std::size_t bytes = 0;
   for (; next < forgotten_ + entries_.size(); ++next) {
     const Entry& entry = entries_[next - forgotten_];
-    if (entry.job != job || entry.worker == worker) continue;
+    if (entry.message == nullptr || entry.job != job || entry.worker == worker) continue;
     bytes += entry.bytes;
     if (bytes > options_.reply_bytes && !messages.empty()) break;
     messages.push_back(entry.message);
@@ -93,11 +94,47 @@ void BoundsExchange::keep(const std::string& job, const std::string& worker,
     entries_.push_back({job, worker, message, size_of(*message)});
     bytes_ += entries_.back().bytes;
   }
-  while (bytes_ > options_.kept_bytes) {
-    bytes_ -= entries_.front().bytes;
-    entries_.pop_front();
-    ++forgotten_;
+  while (bytes_ > options_.kept_bytes) drop_first();
+}
+
+void BoundsExchange::drop_first() {
+  if (entries_.front().message == nullptr) --dead_;
+  bytes_ -= entries_.front().bytes;
+  entries_.pop_front();
+  ++forgotten_;
+}
+
+void BoundsExchange::forget(const std::string& job) {
+  const std::lock_guard lock(mutex_);
+  seen_.erase(job);
+  for (Entry& entry : entries_) {
+    if (entry.message == nullptr || entry.job != job) continue;
+    bytes_ -= entry.bytes;
+    entry = {};
+    ++dead_;
   }
+  while (!entries_.empty() && entries_.front().message == nullptr) drop_first();
+  if (dead_ > entries_.size() / 2) close_ranks();
+}
+
+/// Removes the forgotten entries, which stand between those of a job that goes on; the others get new
+/// numbers.
+void BoundsExchange::close_ranks() {
+  std::vector<std::uint64_t> before{0};  // entries that stay, before each
+  for (const Entry& entry : entries_) before.push_back(before.back() + (entry.message != nullptr ? 1 : 0));
+  for (auto& [job, workers] : seen_) {
+    for (auto& [worker, next] : workers) {
+      const std::uint64_t at = std::max(next, forgotten_) - forgotten_;
+      next = forgotten_ + before[static_cast<std::size_t>(at)];
+    }
+  }
+  std::erase_if(entries_, [](const Entry& entry) { return entry.message == nullptr; });
+  dead_ = 0;
+}
+
+std::size_t BoundsExchange::kept() const {
+  const std::lock_guard lock(mutex_);
+  return entries_.size() - dead_;
 }
 
 }  // namespace affskel::server

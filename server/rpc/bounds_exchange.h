@@ -37,11 +37,17 @@ class BoundsExchange {
   /// Passes on a part of a report, committed before the rest of it has come.
   void pass_on(const std::string& job, const std::string& worker, const std::vector<FieldRecord>& records);
 
+  /// The field is finished: nobody needs its bounds any more.
+  void forget(const std::string& job);
+
+  /// Reports that are kept for those who have not heard of them, of all jobs.
+  std::size_t kept() const;
+
  private:
   using Message = std::shared_ptr<const v1::ErosionBounds>;
   struct Entry {
     std::string job, worker;
-    Message message;
+    Message message;  // null: forgotten
     std::size_t bytes;
   };
 
@@ -49,13 +55,16 @@ class BoundsExchange {
   bool enter(const std::string& job, const std::string& worker);
   std::vector<Message> collect(const std::string& job, const std::string& worker);
   void keep(const std::string& job, const std::string& worker, const std::vector<Message>& messages);
+  void drop_first();
+  void close_ranks();
 
   const BoundsExchangeOptions options_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   // All guarded by mutex_.
   std::deque<Entry> entries_;    // entry number n is at n - forgotten_
   std::uint64_t forgotten_ = 0;  // entries so far
   std::size_t bytes_ = 0;
+  std::size_t dead_ = 0;                                              // entries without a message
   std::map<std::string, std::map<std::string, std::uint64_t>> seen_;  // job, worker: its first unseen entry
 };
 

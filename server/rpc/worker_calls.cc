@@ -89,6 +89,7 @@ bool ReportCall::finish() {
   response_ = store_.report(*header_, *batch_);
   if (!header_->bounds_for().empty()) {
     bounds_.exchange(job_, header_->bounds_for(), batch_->records(), response_);
+    if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(job_);
   }
   return response_.cancelled() || header_->block_done();
 }

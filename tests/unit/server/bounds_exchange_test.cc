@@ -67,6 +67,29 @@ TEST(BoundsExchange, KeepsJobsApart) {
   EXPECT_EQ(told(exchange, "one", "b").size(), 1U);
 }
 
+// Thousands of small jobs beside a long one leave nothing behind, and the long one misses nothing.
+TEST(BoundsExchange, ForgetsFinishedJobsAndNothingOfTheOthers) {
+  BoundsExchange exchange;
+  for (const char* worker : {"a", "b", "c"}) told(exchange, "long", worker);
+  std::map<std::uint64_t, double> expected;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    told(exchange, "long", "a", {record(i, 1.0)});
+    expected[i] = 1.0;
+    const std::string job = "short " + std::to_string(i);
+    for (const char* worker : {"a", "b"}) told(exchange, job, worker);
+    for (const char* worker : {"a", "b"}) told(exchange, job, worker, {record(7, 2.0)});
+    exchange.forget(job);
+    if (i == 500) {
+      EXPECT_EQ(told(exchange, "long", "b"), expected);
+    }
+  }
+  EXPECT_EQ(exchange.kept(), 1000U);
+  EXPECT_EQ(told(exchange, "long", "c"), expected);
+  EXPECT_EQ(told(exchange, "long", "b").size(), 499U);
+  exchange.forget("long");
+  EXPECT_EQ(exchange.kept(), 0U);
+}
+
 TEST(BoundsExchange, PassesNothingOnThatIsOutOfOrder) {
   BoundsExchange exchange;
   told(exchange, "job", "a");
@@ -78,8 +101,8 @@ TEST(BoundsExchange, PassesNothingOnThatIsOutOfOrder) {
 TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   BoundsExchangeOptions options;
   options.message_points = 10;
-  options.reply_bytes = 2 * 80;
-  options.kept_bytes = 3 * 80;
+  options.reply_bytes = 2 * (512 + 80);
+  options.kept_bytes = 3 * (512 + 80);
   BoundsExchange exchange(options);
   told(exchange, "job", "a");
   told(exchange, "job", "b");
