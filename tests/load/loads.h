@@ -8,6 +8,7 @@ struct LoadOptions {
   int seconds = 30;
   int jobs = 10000;
   int megabytes = 1000;
+  int kills = 20;
 };
 
 /// Clients that submit, follow, ask and list at once, while made-up workers report.  Prints the times of the
@@ -19,6 +20,9 @@ bool run_queue(const LoadOptions& options);
 
 /// Kills the server of a large database while a worker reports, and times its way back.
 bool run_restart(const LoadOptions& options);
+
+/// Kills the only worker at random moments, and times the work that is lost and the way back.
+bool run_kills(const LoadOptions& options);
 
 /// Many small jobs with real workers, one after the other; prints what server and workers hold meanwhile.
 bool run_soak(const LoadOptions& options);

@@ -16,6 +16,9 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "crowd: how long")->capture_default_str();
   app.add_option("--jobs", options.jobs, "queue, soak: number of jobs")->capture_default_str();
   app.add_option("--megabytes", options.megabytes, "restart: size of the database")->capture_default_str();
+  app.add_option("--kills", options.kills, "kills: how many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.fallthrough();
   app.require_subcommand(1);
   bool good = true;
@@ -26,9 +29,10 @@ int main(int argc, char** argv) {
       ->callback(run(run_crowd));
   app.add_subcommand("queue", "A long queue: leases and lists")->callback(run(run_queue));
   app.add_subcommand("restart", "A server of a large database is killed")->callback(run(run_restart));
+  app.add_subcommand("kills", "The only worker is killed at random moments")->callback(run(run_kills));
   app.add_subcommand("soak", "Many small jobs, one after the other")->callback(run(run_soak));
   app.add_subcommand("all", "All of them")->callback([&] {
-    for (auto* load : {run_crowd, run_queue, run_restart, run_soak}) run(load)();
+    for (auto* load : {run_crowd, run_queue, run_restart, run_kills, run_soak}) run(load)();
   });
   try {
     app.parse(argc, argv);
