@@ -24,7 +24,6 @@ std::shared_ptr<grpc::Channel> connect(const std::string& text) {
   grpc::ChannelArguments arguments;
   // A proxy elsewhere cannot reach this machine's own addresses.
   if (address.is_local()) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  arguments.SetMaxReceiveMessageSize(16 << 20);
   // Come back quickly after a server restart.  The second is how long one attempt may take.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);

@@ -7,11 +7,10 @@
 namespace affskel::server {
 namespace {
 
-// In memory; on the wire a step is often shorter.
 constexpr std::size_t kPointBytes = 8;
 constexpr std::size_t kEntryBytes = 512;
 
-std::size_t size_of(const v1::ErosionBounds& message) {
+std::size_t memory_of(const v1::ErosionBounds& message) {
   return kEntryBytes + kPointBytes * static_cast<std::size_t>(message.step_size());
 }
 
@@ -81,7 +80,7 @@ std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& 
   for (; next < forgotten_ + entries_.size(); ++next) {
     const Entry& entry = entries_[next - forgotten_];
     if (entry.message == nullptr || entry.job != job || entry.worker == worker) continue;
-    bytes += entry.bytes;
+    bytes += entry.wire_bytes;
     if (bytes > options_.reply_bytes && !messages.empty()) break;
     messages.push_back(entry.message);
   }
@@ -91,7 +90,7 @@ std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& 
 void BoundsExchange::keep(const std::string& job, const std::string& worker,
                           const std::vector<Message>& messages) {
   for (const Message& message : messages) {
-    entries_.push_back({job, worker, message, size_of(*message)});
+    entries_.push_back({job, worker, message, memory_of(*message), message->ByteSizeLong()});
     bytes_ += entries_.back().bytes;
   }
   while (bytes_ > options_.kept_bytes) drop_first();

@@ -15,8 +15,10 @@
 namespace affskel::server {
 
 struct BoundsExchangeOptions {
-  std::size_t kept_bytes = std::size_t{64} << 20;     ///< of all jobs; what is oldest is forgotten
-  std::size_t reply_bytes = std::size_t{8} << 20;     ///< of one answer; the rest comes with the next
+  std::size_t kept_bytes = std::size_t{64} << 20;  ///< of all jobs; what is oldest is forgotten
+  /// Of one answer, on the wire: within what gRPC's clients take unless told otherwise.  The rest comes with
+  /// the next.
+  std::size_t reply_bytes = std::size_t{3} << 20;
   std::size_t message_points = std::size_t{1} << 16;  ///< per v1::ErosionBounds
   std::size_t jobs = 256;                             ///< whose workers are remembered
 };
@@ -47,8 +49,9 @@ class BoundsExchange {
   using Message = std::shared_ptr<const v1::ErosionBounds>;
   struct Entry {
     std::string job, worker;
-    Message message;  // null: forgotten
-    std::size_t bytes;
+    Message message;         // null: forgotten
+    std::size_t bytes;       // in memory
+    std::size_t wire_bytes;  // serialized
   };
 
   std::vector<Message> pack(const std::vector<FieldRecord>& records) const;

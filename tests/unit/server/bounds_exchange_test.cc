@@ -101,7 +101,7 @@ TEST(BoundsExchange, PassesNothingOnThatIsOutOfOrder) {
 TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   BoundsExchangeOptions options;
   options.message_points = 10;
-  options.reply_bytes = 2 * (512 + 80);
+  options.reply_bytes = 2 * 54;
   options.kept_bytes = 3 * (512 + 80);
   BoundsExchange exchange(options);
   told(exchange, "job", "a");
@@ -115,6 +115,19 @@ TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   EXPECT_EQ(second.size(), 10U);
   EXPECT_EQ(second.rbegin()->first, 39U);
   EXPECT_TRUE(told(exchange, "job", "b").empty());
+}
+
+TEST(BoundsExchange, AnswersFitWhatClientsTakeUnlessToldOtherwise) {
+  BoundsExchange exchange;
+  v1::ReportResponse first, ignored;
+  exchange.exchange("job", "a", {}, ignored);
+  exchange.exchange("job", "b", {}, ignored);
+  std::vector<FieldRecord> records;
+  for (std::uint32_t p = 0; p < 2'000'000; ++p) records.push_back(record(p * 2000, 1.0));
+  exchange.exchange("job", "a", records, ignored);
+  exchange.exchange("job", "b", {}, first);
+  EXPECT_GT(first.ByteSizeLong(), std::size_t{2} << 20);
+  EXPECT_LT(first.ByteSizeLong(), std::size_t{4} << 20) << "gRPC's own limit";
 }
 
 TEST(BoundsExchange, RemembersTheWorkersOfSoManyJobs) {
