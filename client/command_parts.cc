@@ -7,7 +7,7 @@
 #include "client/exporters/numbers.h"
 #include "client/number_list.h"
 #include "client/skeleton_text.h"
-#include "client/utf8.h"
+#include "wire/utf8.h"
 
 namespace affskel::client {
 
@@ -57,7 +57,7 @@ CLI::Validator given() {
 CLI::Validator utf8_text() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
-        return is_utf8(text) ? "" : "must be UTF-8 text, not '" + to_utf8(text) + "'";
+        return wire::is_utf8(text) ? "" : "must be UTF-8 text, not '" + wire::to_utf8(text) + "'";
       },
       "");
 }

@@ -8,6 +8,7 @@
 
 #include "client/exporters/numbers.h"
 #include "client/job_text.h"
+#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -69,8 +70,7 @@ std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width
             std::string(static_cast<std::size_t>(cells - full), '.') + "]";
   }
   line += " " + tail;
-  if (static_cast<int>(line.size()) > width) line.resize(static_cast<std::size_t>(std::max(0, width)));
-  return line;
+  return std::string(wire::truncate_utf8(line, static_cast<std::size_t>(std::max(0, width))));
 }
 
 ProgressView::ProgressView(Console& console, std::function<Clock::time_point()> now)

@@ -6,10 +6,10 @@
 #include "client/commands/transfer.h"
 #include "client/input_file.h"
 #include "client/job_json.h"
-#include "client/utf8.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "wire/sha256.h"
+#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -18,12 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // bytes, by the protocol
 
-// Cuts at a character, not inside one.
-std::string shortened(std::string text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
-  text.resize(bytes);
-  return text;
+// As the protocol takes it.
+std::string protocol_text(const std::string& text, std::size_t max_bytes) {
+  return std::string(wire::truncate_utf8(wire::to_utf8(text), max_bytes));
 }
 
 void require_short(const std::string& text, std::size_t bytes, const std::string& option) {
@@ -45,9 +42,9 @@ v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& in
   require_short(options.name, kMaxName, "--name");
   require_short(options.request_id, kMaxRequestId, "--request-id");
   v1::SubmitJobHeader header;
-  header.set_name(options.name.empty() ? shortened(to_utf8(fs::path(input.path).stem().string()), kMaxName)
+  header.set_name(options.name.empty() ? protocol_text(fs::path(input.path).stem().string(), kMaxName)
                                        : options.name);
-  header.set_owner(shortened(to_utf8(owner), kMaxOwner));
+  header.set_owner(protocol_text(owner, kMaxOwner));
   header.set_priority(options.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (options.spacing > 0) {

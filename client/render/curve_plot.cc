@@ -5,6 +5,7 @@
 #include "client/console.h"
 #include "client/exporters/numbers.h"
 #include "client/xml_text.h"
+#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -22,7 +23,9 @@ std::string pixel(double value) {
 std::string shortened(const std::string& words) {
   constexpr std::size_t kMost = 95, kHead = 20;
   if (words.size() <= kMost) return words;
-  return words.substr(0, kHead) + " ... " + words.substr(words.size() - (kMost - kHead - 5));
+  const std::size_t head = wire::truncate_utf8(words, kHead).size();
+  const std::size_t tail = wire::truncate_utf8(words, words.size() - (kMost - kHead - 5)).size();
+  return words.substr(0, head) + " ... " + words.substr(tail);
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& style) {

@@ -1,8 +1,6 @@
-#include "client/utf8.h"
+#include "wire/utf8.h"
 
-#include <cstddef>
-
-namespace affskel::client {
+namespace affskel::wire {
 namespace {
 
 unsigned char byte_at(std::string_view text, std::size_t i) {
@@ -47,4 +45,10 @@ std::string to_utf8(std::string_view text) {
   return good;
 }
 
-}  // namespace affskel::client
+std::string_view truncate_utf8(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return text;
+  while (max_bytes > 0 && (byte_at(text, max_bytes) & 0xC0) == 0x80) --max_bytes;
+  return text.substr(0, max_bytes);
+}
+
+}  // namespace affskel::wire

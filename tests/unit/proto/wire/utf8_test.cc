@@ -1,8 +1,12 @@
-#include "client/utf8.h"
+#include "wire/utf8.h"
 
 #include <gtest/gtest.h>
 
-namespace affskel::client {
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace affskel::wire {
 namespace {
 
 TEST(Utf8Test, TakesEveryWellFormedCharacter) {
@@ -33,5 +37,16 @@ TEST(Utf8Test, ReplacesOnlyWhatIsWrong) {
             "ody \xC3\xB6");
 }
 
+TEST(Utf8Test, CutsBetweenCharacters) {
+  const std::string text = "a\xC3\xB6\xE2\x99\xA5\xF0\x9F\x99\x82";  // of 1, 2, 3 and 4 bytes
+  const std::size_t ends[] = {0, 1, 3, 6, 10};
+  for (std::size_t most = 0; most <= text.size() + 1; ++most) {
+    const std::size_t end = *(std::upper_bound(std::begin(ends), std::end(ends), most) - 1);
+    EXPECT_EQ(truncate_utf8(text, most), text.substr(0, end)) << most;
+  }
+  EXPECT_EQ(truncate_utf8("", 0), "");
+  EXPECT_EQ(truncate_utf8("\x80\x80\x80", 2), "");
+}
+
 }  // namespace
-}  // namespace affskel::client
+}  // namespace affskel::wire
