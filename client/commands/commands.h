@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "client/commands/context.h"
-#include "client/options.h"
+#include "client/commands/options.h"
+#include "client/commands/shared/context.h"
 
 namespace affskel::client {
 

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "client/commands/commands.h"
-#include "client/comparison.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/format.h"
+#include "client/comparison/comparison.h"
+#include "client/files/format.h"
+#include "client/files/write/atomic_file.h"
 
 namespace affskel::client {
 namespace {

@@ -2,9 +2,12 @@
 #include <google/protobuf/descriptor.h>
 
 #include "client/commands/commands.h"
-#include "client/commands/follow.h"
-#include "client/job_json.h"
-#include "client/job_text.h"
+#include "client/commands/shared/follow.h"
+#include "client/text/job_text.h"
+#include "client/text/message_json.h"
+#include "client/text/server_text.h"
+#include "client/text/time_text.h"
+#include "client/text/words.h"
 
 namespace affskel::client {
 namespace {

@@ -1,10 +1,10 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/format.h"
-#include "client/exporters/mesh_writer.h"
+#include "client/commands/shared/destination.h"
+#include "client/files/format.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/mesh_writer.h"
 #include "core/base/number_text.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

@@ -2,14 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client/cli/number_parsers.h"
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/shapes.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/shape_writer.h"
-#include "client/number_list.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/shape_notes.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/same_place.h"
 #include "core/mesh/self_intersection.h"
 
@@ -63,13 +63,13 @@ void run_perturb(Console& console, const PerturbOptions& options) {
   tell_what_is_lost(console, shape, FileFormat::kOff, destination.name());
   shape.columns.clear();
 
-  const std::string noise = "Gaussian noise of standard deviation " + shortest(sigma) +
+  const std::string noise = "Gaussian noise of standard deviation " + core::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);
   AtomicFile file(destination.file);
   write_shape(format, shape, {noise}, file);
   file.commit();
-  console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " + rounded(sigma, 6) +
-               ", seed " + std::to_string(options.seed) + ")");
+  console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " +
+               core::rounded(sigma, 6) + ", seed " + std::to_string(options.seed) + ")");
   const bool crosses = crosses_itself(shape.mesh());
   if (crosses) {
     console.warning(destination.name() +

@@ -2,14 +2,13 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/fetch.h"
-#include "client/commands/follow.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/skeleton_writer.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/fetch_artifact.h"
+#include "client/commands/shared/follow.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/skeleton_writer.h"
 #include "client/render/scene.h"
-#include "client/skeleton_text.h"
+#include "client/text/skeleton_text.h"
 #include "core/base/number_text.h"
 
 namespace affskel::client {
@@ -33,7 +32,8 @@ std::string title_of(const RenderInput& input, const v1::Job& job, const v1::Ske
                                    : core::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
          core::counted(job.prepared().points(), "sample point") + " at spacing " +
-         rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) + ")";
+         core::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
+         ")";
 }
 
 // @param own whether the parameters are the job's, whose skeleton is stored.

@@ -1,9 +1,9 @@
 // Commands that write results: fetch, skeleton, surface, erode.
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/follow.h"
-#include "client/commands/transfer.h"
-#include "client/exporters/format.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/follow.h"
+#include "client/commands/shared/transfer.h"
+#include "client/files/format.h"
 #include "wire/params.h"
 
 #include <nlohmann/json.hpp>

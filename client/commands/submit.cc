@@ -2,10 +2,10 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/commands/follow.h"
-#include "client/commands/transfer.h"
-#include "client/input_file.h"
-#include "client/job_json.h"
+#include "client/commands/shared/follow.h"
+#include "client/commands/shared/transfer.h"
+#include "client/files/read/input_file.h"
+#include "client/text/message_json.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "wire/sha256.h"

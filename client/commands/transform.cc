@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/shapes.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/shape_writer.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/shape_notes.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -62,7 +62,7 @@ std::vector<double> numbers_of(const core::AffineMap& map) {
 
 std::string comment_for(const std::vector<double>& numbers) {
   std::string text = "mapped by the affine map";
-  for (const double number : numbers) text += " " + shortest(number);
+  for (const double number : numbers) text += " " + core::to_text(number);
   return text;
 }
 
@@ -93,7 +93,7 @@ void run_transform(Console& console, const TransformOptions& options) {
   file.commit();
   const double det = core::determinant(map);
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", volumes times " +
-               rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
+               core::rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
   console.document({{"file", options.output},
                     {"points", shape.mesh().points.size()},
                     {"triangles", shape.mesh().triangles.size()},

@@ -4,12 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/fetch.h"
-#include "client/commands/follow.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/job_json.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/fetch_artifact.h"
+#include "client/commands/shared/follow.h"
+#include "client/files/write/atomic_file.h"
+#include "client/text/message_json.h"
 #include "client/view/page.h"
 #include "core/base/number_text.h"
 #include "core/chords/chord_pruning.h"

@@ -7,11 +7,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "client/error.h"
-#include "client/exporters/numbers.h"
-#include "client/job_json.h"
-#include "client/mesh_box.h"
-#include "client/base64.h"
+#include "client/base/error.h"
+#include "client/base/mesh_box.h"
+#include "client/files/base64.h"
+#include "client/text/message_json.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
 #include "wire/version.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "client/exporters/field_writer.h"
-#include "client/exporters/lattice_points.h"
+#include "client/artifacts/lattice_points.h"
+#include "client/files/write/field_writer.h"
 #include "core/base/vec3.h"
 
 namespace affskel::client {
