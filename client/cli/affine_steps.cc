@@ -1,6 +1,8 @@
 #include "client/cli/affine_steps.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -76,7 +78,46 @@ core::AffineMap shear_step(const AffineStep& step) {
   return *map;
 }
 
+// The options, in the order of the help.
+struct StepOption {
+  const char* name;
+  const char* description;
+  const char* value;
+};
+
+constexpr std::array<StepOption, 5> kStepOptions = {
+    {{"--matrix", "9 numbers row by row, or 12 with the shift at the end of every row", "A11,A12,..."},
+     {"--scale", "One factor or three", "S[,S,S]"},
+     {"--rotate", "Axis and degrees, as z:30; counter-clockwise seen from the axis' tip", "ROTATION"},
+     {"--translate", "Shift", "X,Y,Z"},
+     {"--shear", "As y+=z, y+=0.5z or yz:0.5", "SHEAR"}}};
+
 }  // namespace
+
+void AffineStepOptions::add_to(CLI::App* command) {
+  command_ = command;
+  for (std::size_t i = 0; i < kStepOptions.size(); ++i) {
+    // One value per mention, so that the order of the steps can be told.
+    command->add_option(kStepOptions[i].name, values_[i], kStepOptions[i].description)
+        ->type_size(1)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name(kStepOptions[i].value);
+  }
+}
+
+std::vector<AffineStep> AffineStepOptions::in_order() const {
+  std::vector<AffineStep> steps;
+  std::map<const CLI::Option*, std::size_t> used;
+  for (const CLI::Option* option : command_->parse_order()) {
+    const std::string name = option->get_name();
+    const bool is_step = std::any_of(kStepOptions.begin(), kStepOptions.end(),
+                                     [&](const StepOption& step) { return name == step.name; });
+    if (is_step) steps.push_back({name, option->results().at(used[option]++)});
+  }
+  return steps;
+}
 
 core::AffineMap affine_step(const AffineStep& step) {
   if (step.option == "--matrix") return matrix_step(step);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <CLI/App.hpp>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,24 @@ namespace affskel::client {
 struct AffineStep {
   std::string option;  ///< "--matrix", "--scale", "--rotate", "--translate" or "--shear"
   std::string value;
+};
+
+/// The options of `transform` for the steps of a map, each of which may be given several times.
+class AffineStepOptions {
+ public:
+  AffineStepOptions() = default;
+  AffineStepOptions(const AffineStepOptions&) = delete;
+  AffineStepOptions& operator=(const AffineStepOptions&) = delete;
+
+  /// Adds them to a command, once; this must outlive the command's parse.
+  void add_to(CLI::App* command);
+
+  /// What was given, in the order of the command line, whatever the options.
+  std::vector<AffineStep> in_order() const;
+
+ private:
+  const CLI::App* command_ = nullptr;
+  std::array<std::vector<std::string>, 5> values_;  // CLI11 wants a place for those of each option
 };
 
 /// The map of one step:

@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
@@ -118,9 +120,7 @@ void show(Console& console, const ordered_json& facts) {
   console.document(facts);
 }
 
-}  // namespace
-
-void run_inspect(Console& console, const std::string& file) {
+void run(Console& console, const std::string& file) {
   const InputFile input = read_input(file);
   ordered_json facts = file_facts(input);
   try {
@@ -135,6 +135,18 @@ void run_inspect(Console& console, const std::string& file) {
     show(console, facts);
     throw;
   }
+}
+
+}  // namespace
+
+void add_inspect(CommandLine& line) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App* command = line.add("inspect", "What a mesh is, and every defect with its place; needs no server",
+                               "  affskel-client inspect body.off\n  affskel-client --json inspect scan.stl",
+                               [file](Context& context) { run(context.console(), *file); });
+  command->add_option("FILE", *file, "Geomview OFF text, .ply, .obj, .stl or .vtp")
+      ->required()
+      ->type_name("");
 }
 
 }  // namespace affskel::client

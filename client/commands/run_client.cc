@@ -3,9 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "client/cli/completions.h"
 #include "client/commands/command_line.h"
-#include "client/commands/commands.h"
 
 namespace affskel::client {
 namespace {
@@ -51,62 +49,15 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   return static_cast<int>(ExitCode::kUsage);
 }
 
-void run_command(const CLI::App& app, const Options& options, Console& console, const ClientIo& io) {
-  Context context(console, io.environment, options.global, io.retry);
-  switch (options.command) {
-    case Command::kSubmit:
-      return run_submit(context, options.submit);
-    case Command::kList:
-      return run_list(context, options.list);
-    case Command::kStatus:
-      return run_status(context, options.job);
-    case Command::kWatch:
-      return run_watch(context, options.job);
-    case Command::kFetch:
-      return run_fetch(context, options.job);
-    case Command::kSkeleton:
-      return run_skeleton(context, options.job);
-    case Command::kSurface:
-      return run_surface(context, options.job);
-    case Command::kErode:
-      return run_erode(context, options.job);
-    case Command::kCancel:
-      return run_cancel(context, options.job);
-    case Command::kResume:
-      return run_resume(context, options.job);
-    case Command::kDelete:
-      return run_delete(context, options.job);
-    case Command::kServerInfo:
-      return run_server_info(context);
-    case Command::kInspect:
-      return run_inspect(console, options.inspect_file);
-    case Command::kMake:
-      return run_make(console, options.make);
-    case Command::kRender:
-      return run_render(context, options.job);
-    case Command::kCompare:
-      return run_compare(console, options.compare);
-    case Command::kTransform:
-      return run_transform(console, options.transform);
-    case Command::kPerturb:
-      return run_perturb(console, options.perturb);
-    case Command::kView:
-      return run_view(context, options.job);
-    case Command::kCompletions:
-      io.out << completion_script(app, options.shell);
-      return;
-  }
-}
-
-// Runs `action`; every failure becomes a message and an exit code.
-template <typename Action>
-int guarded(Console& console, Action&& action) {
+// Runs `task`; every failure becomes a message and an exit code.
+template <typename Task>
+int guarded(Console& console, Task&& task) {
   const auto report = [&](const ClientError& error) {
     console.error(error);
     return static_cast<int>(error.exit_code());
   };
   try {
-    action();
+    task();
     console.finish();
     return 0;
   } catch (const ClientError& error) {
@@ -123,16 +74,17 @@ int guarded(Console& console, Action&& action) {
 }  // namespace
 
 int run_client(const std::vector<std::string>& arguments, const ClientIo& io) {
-  CLI::App app;
-  Options options;
-  build_command_line(app, options);
+  CommandLine line;
   try {
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them reversed
+    line.parse(arguments);
   } catch (const CLI::ParseError& end) {
-    return report_parse_end(app, end, arguments, io);
+    return report_parse_end(line.app(), end, arguments, io);
   }
-  Console console(io.out, io.err, style_for(options.global, io));
-  return guarded(console, [&] { run_command(app, options, console, io); });
+  Console console(io.out, io.err, style_for(line.global(), io));
+  return guarded(console, [&] {
+    Context context(console, io.out, io.environment, line.global().server, io.retry);
+    line.run(context);
+  });
 }
 
 }  // namespace affskel::client

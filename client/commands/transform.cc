@@ -1,10 +1,15 @@
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/cli/affine_steps.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
+#include "client/commands/shared/job_options.h"
 #include "client/commands/shared/shape_notes.h"
+#include "client/commands/shared/shape_options.h"
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
@@ -12,6 +17,11 @@
 
 namespace affskel::client {
 namespace {
+
+struct Options {
+  std::string file, output, format;
+  bool inverse = false;
+};
 
 using nlohmann::ordered_json;
 
@@ -66,14 +76,12 @@ std::string comment_for(const std::vector<double>& numbers) {
   return text;
 }
 
-}  // namespace
-
-void run_transform(Console& console, const TransformOptions& options) {
-  if (options.steps.empty()) {
+void run(Console& console, const Options& options, const std::vector<AffineStep>& steps) {
+  if (steps.empty()) {
     throw ClientError(ExitCode::kUsage,
                       "no map was given; use --matrix, --scale, --rotate, --translate or --shear");
   }
-  core::AffineMap map = affine_map_of(options.steps);
+  core::AffineMap map = affine_map_of(steps);
   if (options.inverse) map = core::inverse(map);
   const Destination destination = destination_of(options.output, options.format, console);
   ShapeFile shape = read_shape(options.file);
@@ -99,6 +107,29 @@ void run_transform(Console& console, const TransformOptions& options) {
                     {"triangles", shape.mesh().triangles.size()},
                     {"determinant", det},
                     {"matrix", numbers}});
+}
+
+}  // namespace
+
+void add_transform(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  const auto steps = std::make_shared<AffineStepOptions>();
+  CLI::App* command = line.add(
+      "transform", "Affine map of a mesh or a skeleton; needs no server",
+      "  affskel-client transform body.off -o sheared.off --shear y+=z\n"
+      "  affskel-client transform body.off -o moved.off --rotate z:30 --scale 2,1,0.5 --translate 0,0,100\n"
+      "  affskel-client transform sheared.ply -o back.ply --shear y+=z --inverse\n"
+      "Steps are taken in the order given. Normals are mapped as those of planes, E as a volume; H and "
+      "other\n"
+      "columns stay. A mirrored surface is turned over, so that it stays outward.",
+      [options, steps](Context& context) { run(context.console(), *options, steps->in_order()); });
+  add_file(command, "FILE", options->file,
+           "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
+  add_output(command, options->output,
+             "File to write: .off .ply .obj .stl .vtp for triangles,\n.csv .ply .off .xyz .vtp for points");
+  add_format(command, options->format);
+  steps->add_to(command);
+  command->add_flag("--inverse", options->inverse, "The inverse of the whole");
 }
 
 }  // namespace affskel::client

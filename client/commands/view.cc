@@ -1,12 +1,16 @@
 // The page that shows a job: fetches what it needs, hands it to client/view.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/fetch_artifact.h"
 #include "client/commands/shared/follow.h"
+#include "client/commands/shared/job_options.h"
+#include "client/commands/shared/skeleton_options.h"
 #include "client/files/write/atomic_file.h"
 #include "client/text/message_json.h"
 #include "client/view/page.h"
@@ -16,6 +20,11 @@
 
 namespace affskel::client {
 namespace {
+
+struct Options {
+  std::string job, output;
+  SkeletonOptions skeleton;  // no operator: the job's
+};
 
 // Beyond this a phone takes long to open the page; about 19 bytes each.
 constexpr std::uint64_t kMostPoints = 400000;
@@ -110,9 +119,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
   return input;
 }
 
-}  // namespace
-
-void run_view(Context& context, const JobOptions& options) {
+void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, page_formats(), "page");
   AtomicFile file(destination.file);
@@ -129,6 +136,22 @@ void run_view(Context& context, const JobOptions& options) {
                               {"file", options.output},
                               {"points", input.points.size()},
                               {"bytes", page.size()}});
+}
+
+}  // namespace
+
+void add_view(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      line.add("view",
+               "Page for any browser: the body and its skeleton to turn, with sliders for the\n"
+               "shock threshold and the erosion level; one file that needs no network",
+               "  affskel-client view @last -o body.html\n"
+               "  affskel-client view 3f2a9c --threshold 5 -o body.html",
+               [options](Context& context) { run(context, *options); });
+  add_job(command, options->job);
+  add_skeleton_options(command, options->skeleton);
+  add_output(command, options->output, "HTML file to write, or -");
 }
 
 }  // namespace affskel::client

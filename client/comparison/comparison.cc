@@ -133,7 +133,7 @@ std::vector<core::Vec3> inner_points_of(const core::Solid& solid, const std::str
   }
 }
 
-std::vector<double> listed_radii(const CompareOptions& options) {
+std::vector<double> listed_radii(const ComparisonOptions& options) {
   std::optional<std::vector<double>> radii = parse_numbers(options.radii);
   if (!radii || std::any_of(radii->begin(), radii->end(), [](double r) { return r < 0; })) {
     throw ClientError(ExitCode::kUsage,
@@ -158,7 +158,7 @@ std::vector<double> default_radii(double radius, bool squared) {
 
 }  // namespace
 
-Comparison compare_files(const CompareOptions& options, Console& console) {
+Comparison compare_files(const ComparisonOptions& options, Console& console) {
   const std::vector<double> listed = options.radii.empty() ? std::vector<double>() : listed_radii(options);
   double radius = plain_radius(options.radius, options.squared, "--radius");
   ComparedPoints a = read_points(options.a, options.samples, console);

@@ -1,16 +1,26 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "client/cli/console.h"
-#include "client/commands/options.h"
 #include "client/render/curve_plot.h"
 #include "core/quality/similarity.h"
 
 namespace affskel::client {
+
+/// What is compared, and how.
+struct ComparisonOptions {
+  std::string a, b;               ///< files of points or of triangles
+  double radius = 0;              ///< as given, squared or not; 0 = the voxel diagonal of the box
+  std::string radii;              ///< comma-separated; empty = 0 .. 4 radius
+  bool squared = false;           ///< radii are given and shown squared
+  std::string solid;              ///< mesh for the chance level; empty = none
+  std::uint64_t samples = 50000;  ///< points on a surface
+};
 
 /// One side of a comparison.
 struct ComparedPoints {
@@ -38,7 +48,7 @@ struct Comparison {
 
 /// Reads and compares.  Notes and warnings go to the console.
 /// @throws ClientError kUsage for radii that are none, kBadInput for files without points.
-Comparison compare_files(const CompareOptions& options, Console& console);
+Comparison compare_files(const ComparisonOptions& options, Console& console);
 
 /// The table and the summary, for people.
 std::string comparison_text(const Comparison& comparison);

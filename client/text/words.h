@@ -7,22 +7,26 @@
 
 namespace affskel::client {
 
-// The words of the command line for the protocol's enumerations.
+// The command line's words for the protocol's enumerations.  Each is the name in the protocol without its
+// type, in lower case, with `-` for `_`; so what the protocol gains, the command line knows.
 
 /// "queued", "running", "done", "failed", "cancelled"; "unknown" for anything else.
 std::string state_word(v1::JobState state);
 /// "prepare", "erode", "derive", "complete"; "unknown" for anything else.
 std::string stage_word(v1::JobStage stage);
-/// "axis", "pca", "obb" or "affine".
+/// "axis", "pca", "obb" or "affine"; "axis" when none is specified, "unknown" for anything else.
 std::string frame_word(v1::Frame frame);
-
-/// The operators' names on the command line, the default first.
-const std::vector<std::string>& operator_names();
-
-/// The operator of that name.  @throws ClientError kUsage naming the possible ones.
-v1::Operator operator_named(const std::string& name);
-
-/// Its name; that of the default, "zucker-hummel", when none is specified or it is unknown.
+/// "zucker-hummel", "intermediate", ...; "zucker-hummel" when none is specified, "unknown" for anything else.
 std::string operator_word(v1::Operator which);
+
+/// All words of a kind, in the protocol's order.
+std::vector<std::string> state_words();
+std::vector<std::string> frame_words();
+std::vector<std::string> operator_words();
+
+/// The value that a word stands for.  @throws ClientError kUsage naming the possible words.
+v1::JobState state_named(const std::string& word);
+v1::Frame frame_named(const std::string& word);
+v1::Operator operator_named(const std::string& word);
 
 }  // namespace affskel::client

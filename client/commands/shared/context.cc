@@ -4,7 +4,7 @@ namespace affskel::client {
 
 Session& Context::session() {
   if (!session_) {
-    session_.emplace(choose_server(global_.server, environment_), environment_, console_, policy_);
+    session_.emplace(choose_server(server_, environment_), environment_, console_, policy_);
   }
   return *session_;
 }

@@ -25,6 +25,11 @@ v1::Job follow(Context& context, const std::string& job, bool stream) {
   return last;
 }
 
+void show_state(Console& console, const v1::Job& job) {
+  console.result(state_word(job.state()) + "\n");
+  console.document(to_json(job));
+}
+
 void throw_unless_done(const v1::Job& job) {
   if (job.state() == v1::JOB_STATE_FAILED) {
     throw ClientError(ExitCode::kJobFailed, "job " + job.id() + " failed: " + failure_text(job.error()));
@@ -50,20 +55,6 @@ void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::Sk
                                 " in the solid; submit again with a smaller --spacing than " +
                                 core::to_text(job.prepared().spacing())
                           : "; try: affskel-client skeleton " + job.id() + " --threshold 3 -o FILE"));
-}
-
-v1::SkeletonParams skeleton_params(const SkeletonOptions& options) {
-  v1::SkeletonParams params;
-  params.set_operator_(operator_named(options.operator_name));
-  params.set_threshold(options.threshold);
-  return params;
-}
-
-v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job& job) {
-  v1::SkeletonParams params = options.operator_name.empty() ? job.skeleton() : skeleton_params(options);
-  if (options.threshold > 0) params.set_threshold(options.threshold);
-  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
-  return params;
 }
 
 std::string unfinished_text(const v1::Job& job) {

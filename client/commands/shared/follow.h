@@ -1,6 +1,5 @@
 #pragma once
 
-#include "client/commands/options.h"
 #include "client/commands/shared/context.h"
 
 namespace affskel::client {
@@ -9,6 +8,9 @@ namespace affskel::client {
 /// @param stream in JSON mode, print every state as a document of its own.
 v1::Job follow(Context& context, const std::string& job, bool stream);
 
+/// The result of a command that changed a job: its state, or in JSON mode all of it.
+void show_state(Console& console, const v1::Job& job);
+
 /// @throws ClientError kJobFailed with the reason, or kCancelled, unless the job is done.
 void throw_unless_done(const v1::Job& job);
 
@@ -16,13 +18,6 @@ void throw_unless_done(const v1::Job& job);
 /// quality gives reason to say.
 void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
                    const v1::Job& job);
-
-/// The message for the operator's name. @throws ClientError kUsage for an unknown one.
-v1::SkeletonParams skeleton_params(const SkeletonOptions& options);
-
-/// What the options mean for a job with skeleton parameters of its own: without any these, a threshold alone
-/// is for the job's operator, and an operator alone has its default threshold.  The operator is set.
-v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job& job);
 
 /// "failed: CODE: message", "was cancelled at 5 of 12 directions" or "is running: 5 of 12 directions are
 /// done", for a job that does not have what was asked for.

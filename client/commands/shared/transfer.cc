@@ -100,6 +100,15 @@ std::string volume_text(const Written& written) {
   return (written.unit == "point" ? ", volume about " : ", volume ") + core::rounded(*written.volume, 6);
 }
 
+// A sheet of chords comes with its quality, an alpha shape does not.
+std::string advice_for_empty_surface(const Written& written) {
+  if (!written.quality) {
+    return "no three skeleton points are near enough; try a larger --alpha or a smaller --threshold";
+  }
+  const std::string& advice = written.quality->advice();
+  return advice.empty() ? "no piece of the sheet is significant enough; try a smaller --threshold" : advice;
+}
+
 }  // namespace
 
 Written transfer_field(Context& context, const std::string& job, const Destination& destination) {
@@ -229,6 +238,31 @@ Written transfer_mesh(Context& context, const std::string& job, const Destinatio
       request_for(job, v1::ARTIFACT_KIND_MESH),
       [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(destination.file); });
   return {destination, "mesh", "byte", header.bytes(), header.job()};
+}
+
+// Formats that hold only points mean points; the others can hold a surface.
+bool holds_eroded_surface(const Destination& destination) {
+  const std::string extension = destination.extension();
+  const auto formats = surface_formats();
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](FileFormat format) { return extension == extension_of(format); });
+}
+
+void tell_result(Context& context, const Written& written) {
+  if (written.kind == "skeleton") {
+    warn_if_empty(context.console(), written.items, written.quality.value_or(v1::SkeletonQuality()),
+                  written.job);
+  }
+  if (written.kind == "surface" && written.items == 0) {
+    context.console().warning("the surface is empty: " + advice_for_empty_surface(written));
+  }
+  if (written.kind == "eroded" && written.items == 0) {
+    context.console().warning("the eroded solid is empty: " +
+                              (written.advice.empty() ? "no sample point has such an E" : written.advice) +
+                              "; try a lower level");
+  }
+  tell_written(context.console(), written);
+  context.console().document(written_json(written));
 }
 
 nlohmann::ordered_json written_json(const Written& written) {

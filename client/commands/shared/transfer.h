@@ -39,6 +39,13 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
                                 const Destination& destination);
 Written transfer_mesh(Context& context, const std::string& job, const Destination& destination);
 
+/// Whether a file of this extension holds the surface of an eroded solid; else its points.
+bool holds_eroded_surface(const Destination& destination);
+
+/// Ends a command that wrote one artefact: warns when it is empty, and tells people and scripts what was
+/// written.
+void tell_result(Context& context, const Written& written);
+
 /// Tells people and scripts what was written.
 nlohmann::ordered_json written_json(const Written& written);
 void tell_written(Console& console, const Written& written);

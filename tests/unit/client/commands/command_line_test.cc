@@ -7,43 +7,73 @@
 #include <cstdio>
 
 #include "client/base/error.h"
+#include "client/cli/affine_steps.h"
 #include "client/cli/completions.h"
+#include "client/commands/shared/skeleton_options.h"
 #include "temp_dir.h"
 
 namespace affskel::client {
 namespace {
 
-Options parse(const std::vector<std::string>& arguments) {
-  CLI::App app;
-  Options options;
-  build_command_line(app, options);
-  app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-  return options;
-}
+// A command line that was parsed, and its options.
+class Parsed {
+ public:
+  explicit Parsed(const std::vector<std::string>& arguments) { line_.parse(arguments); }
+
+  const GlobalOptions& global() const { return line_.global(); }
+  /// "list", or "make box".
+  std::string command() {
+    std::string words;
+    for (const CLI::App* level = first(); level != nullptr; level = first(*level)) {
+      words += (words.empty() ? "" : " ") + level->get_name();
+    }
+    return words;
+  }
+  bool given(const std::string& option) { return last().count(option) > 0; }
+  /// Its value, or its default.
+  template <typename T = std::string>
+  T value(const std::string& option) {
+    return last().get_option(option)->as<T>();
+  }
+
+ private:
+  const CLI::App* first() { return first(line_.app()); }
+  static const CLI::App* first(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? nullptr : chosen.front();
+  }
+  const CLI::App& last() {
+    const CLI::App* level = &line_.app();
+    while (const CLI::App* next = first(*level)) level = next;
+    return *level;
+  }
+
+  CommandLine line_;
+};
 
 TEST(CommandLine, GlobalOptionsMayStandAnywhere) {
   for (const auto& arguments :
        {std::vector<std::string>{"--json", "--server", "unix:/s", "list", "-q"},
         std::vector<std::string>{"list", "--json", "--quiet", "--server", "unix:/s"}}) {
-    const Options options = parse(arguments);
-    EXPECT_EQ(options.command, Command::kList);
-    EXPECT_TRUE(options.global.json);
-    EXPECT_TRUE(options.global.quiet);
-    EXPECT_EQ(options.global.server, "unix:/s");
+    Parsed parsed(arguments);
+    EXPECT_EQ(parsed.command(), "list");
+    EXPECT_TRUE(parsed.global().json);
+    EXPECT_TRUE(parsed.global().quiet);
+    EXPECT_EQ(parsed.global().server, "unix:/s");
   }
 }
 
 TEST(CommandLine, SubmitDefaults) {
-  const Options options = parse({"submit", "a.off"});
-  EXPECT_EQ(options.command, Command::kSubmit);
-  EXPECT_EQ(options.submit.file, "a.off");
-  EXPECT_EQ(options.submit.spacing, 0);
-  EXPECT_EQ(options.submit.points, 100000u);
-  EXPECT_EQ(options.submit.directions, "triangles");
-  EXPECT_EQ(options.submit.priority, 5u);
-  EXPECT_EQ(options.submit.repair, "auto");
-  EXPECT_EQ(options.submit.frame, "axis");
-  EXPECT_FALSE(options.submit.wait);
+  Parsed parsed({"submit", "a.off"});
+  EXPECT_EQ(parsed.command(), "submit");
+  EXPECT_EQ(parsed.value("FILE"), "a.off");
+  EXPECT_FALSE(parsed.given("--spacing"));
+  EXPECT_EQ(parsed.value<std::uint64_t>("--points"), 100000u);
+  EXPECT_EQ(parsed.value("--directions"), "triangles");
+  EXPECT_EQ(parsed.value<unsigned>("--priority"), 5u);
+  EXPECT_EQ(parsed.value("--repair"), "auto");
+  EXPECT_EQ(parsed.value("--frame"), "axis");
+  EXPECT_FALSE(parsed.given("--wait"));
 }
 
 TEST(CommandLine, RefusesValuesOutOfRange) {
@@ -71,50 +101,67 @@ TEST(CommandLine, RefusesValuesOutOfRange) {
                                              {"--frame", ""}}) {
     std::vector<std::string> arguments = {"submit", "a.off"};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
-    EXPECT_THROW(parse(arguments), CLI::ParseError) << extra[0] << " " << extra[1];
+    EXPECT_THROW(Parsed{arguments}, CLI::ParseError) << extra[0] << " " << extra[1];
   }
 }
 
 TEST(CommandLine, KnowsTheFrames) {
   for (const std::string frame : {"axis", "pca", "obb", "affine"}) {
-    EXPECT_EQ(parse({"submit", "a.off", "--frame", frame}).submit.frame, frame);
+    EXPECT_EQ(Parsed({"submit", "a.off", "--frame", frame}).value("--frame"), frame);
   }
 }
 
 TEST(CommandLine, AcceptsUnionsOfDirectionSets) {
-  EXPECT_EQ(parse({"submit", "a", "--directions", "triangles+random:7:1+sphere:20"}).submit.directions,
+  EXPECT_EQ(Parsed({"submit", "a", "--directions", "triangles+random:7:1+sphere:20"}).value("--directions"),
             "triangles+random:7:1+sphere:20");
 }
 
 TEST(CommandLine, MakeTakesTheShapesOwnOptions) {
-  const Options box = parse({"make", "box", "--size", "3,2,1", "-o", "b.off"});
-  EXPECT_EQ(box.command, Command::kMake);
-  EXPECT_EQ(box.make.shape, Shape::kBox);
-  EXPECT_EQ(box.make.size, (std::vector<double>{3, 2, 1}));
-  EXPECT_EQ(parse({"make", "body", "-o", "b.off"}).make.body_height, 18000);
-  EXPECT_THROW(parse({"make", "box", "--radius", "3", "-o", "b.off"}), CLI::ParseError);
-  EXPECT_THROW(parse({"make", "box", "--size", "3,2", "-o", "b.off"}), CLI::ParseError);
-  EXPECT_THROW(parse({"make", "-o", "b.off"}), CLI::ParseError);
+  Parsed box({"make", "box", "--size", "3,2,1", "-o", "b.off"});
+  EXPECT_EQ(box.command(), "make box");
+  EXPECT_EQ(box.value<std::vector<double>>("--size"), (std::vector<double>{3, 2, 1}));
+  EXPECT_EQ(Parsed({"make", "body", "-o", "b.off"}).value<double>("--height"), 18000);
+  EXPECT_THROW(Parsed({"make", "box", "--radius", "3", "-o", "b.off"}), CLI::ParseError);
+  EXPECT_THROW(Parsed({"make", "box", "--size", "3,2", "-o", "b.off"}), CLI::ParseError);
+  EXPECT_THROW(Parsed({"make", "-o", "b.off"}), CLI::ParseError);
 }
 
 TEST(CommandLine, KeepsTheOrderOfAffineSteps) {
-  const TransformOptions o = parse({"transform", "a.off", "--scale", "2", "--translate", "-1,0,0",
-                                    "--scale=3", "--inverse", "-o", "b.off", "--rotate", "x:90"})
-                                 .transform;
+  CLI::App app;
+  AffineStepOptions options;
+  options.add_to(&app);
+  app.parse(
+      std::vector<std::string>{"x:90", "--rotate", "--scale=3", "-1,0,0", "--translate", "2", "--scale"});
   std::string steps;
-  for (const AffineStep& step : o.steps) steps += step.option + "=" + step.value + " ";
+  for (const AffineStep& step : options.in_order()) steps += step.option + "=" + step.value + " ";
   EXPECT_EQ(steps, "--scale=2 --translate=-1,0,0 --scale=3 --rotate=x:90 ");
-  EXPECT_TRUE(o.inverse);
-  EXPECT_EQ(o.file, "a.off");
-  EXPECT_EQ(o.output, "b.off");
+  Parsed parsed({"transform", "a.off", "--scale", "2", "--translate", "-1,0,0", "--scale=3", "--inverse",
+                 "-o", "b.off", "--rotate", "x:90"});
+  EXPECT_TRUE(parsed.given("--inverse"));
+  EXPECT_EQ(parsed.value("FILE"), "a.off");
+  EXPECT_EQ(parsed.value("--output"), "b.off");
+}
+
+SkeletonOptions parsed_skeleton(const std::vector<std::string>& reversed_arguments,
+                                SkeletonOptions skeleton = {}) {
+  CLI::App app;
+  add_skeleton_options(&app, skeleton);
+  app.parse(std::vector<std::string>(reversed_arguments));
+  return skeleton;
 }
 
 TEST(CommandLine, KnowsWhetherSkeletonOptionsWereGiven) {
-  EXPECT_FALSE(parse({"skeleton", "@last", "-o", "s.ply"}).job.skeleton.given());
-  EXPECT_TRUE(parse({"skeleton", "@last", "-o", "s", "--operator", "zucker-hummel"}).job.skeleton.given());
-  EXPECT_TRUE(parse({"surface", "@last", "-o", "s.ply", "--threshold", "3"}).job.skeleton.given());
-  EXPECT_EQ(parse({"view", "@last", "-o", "s.html", "--threshold", "3"}).job.skeleton.operator_name, "");
-  EXPECT_EQ(parse({"submit", "a.off", "--threshold", "3"}).submit.skeleton.operator_name, "zucker-hummel");
+  EXPECT_FALSE(parsed_skeleton({}).given());
+  EXPECT_TRUE(parsed_skeleton({"zucker-hummel", "--operator"}).given());
+  EXPECT_TRUE(parsed_skeleton({"3", "--threshold"}).given());
+  EXPECT_EQ(parsed_skeleton({"3", "--threshold"}).operator_name, "");
+  for (const char* command : {"skeleton", "surface", "view", "render"}) {
+    Parsed parsed({command, "@last", "-o", "s.ply", "--threshold", "3"});
+    EXPECT_TRUE(parsed.given("--threshold")) << command;
+    EXPECT_FALSE(parsed.given("--operator")) << command;
+    EXPECT_EQ(parsed.value<double>("--threshold"), 3) << command;
+  }
+  EXPECT_EQ(Parsed({"submit", "a.off", "--threshold", "3"}).value("--operator"), "zucker-hummel");
 }
 
 // Every command and subcommand of the tree.
@@ -126,11 +173,9 @@ void for_each_command(const CLI::App& app, const std::function<void(const CLI::A
 }
 
 TEST(CommandLine, EveryCommandHasADescriptionAndExamples) {
-  CLI::App app;
-  Options options;
-  build_command_line(app, options);
+  CommandLine line;
   int commands = 0;
-  for_each_command(app, [&](const CLI::App& command) {
+  for_each_command(line.app(), [&](const CLI::App& command) {
     ++commands;
     EXPECT_FALSE(command.get_description().empty()) << command.get_name();
     EXPECT_NE(command.get_footer().find("affskel-client "), std::string::npos) << command.get_name();
@@ -142,19 +187,15 @@ TEST(CommandLine, EveryCommandHasADescriptionAndExamples) {
 }
 
 std::string script(const std::string& shell) {
-  CLI::App app;
-  Options options;
-  build_command_line(app, options);
-  return completion_script(app, shell);
+  CommandLine line;
+  return completion_script(line.app(), shell);
 }
 
 TEST(Completions, NameEveryCommandAndLongOption) {
-  CLI::App app;
-  Options options;
-  build_command_line(app, options);
+  CommandLine line;
   for (const char* shell : {"bash", "zsh", "fish"}) {
     const std::string text = script(shell);
-    for_each_command(app, [&](const CLI::App& command) {
+    for_each_command(line.app(), [&](const CLI::App& command) {
       EXPECT_NE(text.find(command.get_name()), std::string::npos) << shell << " " << command.get_name();
       for (const CLI::Option* option : command.get_options()) {
         for (const std::string& name : option->get_lnames()) {

@@ -1,12 +1,15 @@
-#include "client/commands/command_parts.h"
+#include "client/cli/value_checks.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "client/cli/number_parsers.h"
-#include "client/text/words.h"
 #include "core/base/number_text.h"
+#include "wire/params.h"
 #include "wire/utf8.h"
 
 namespace affskel::client {
@@ -62,43 +65,17 @@ CLI::Validator utf8_text() {
       "");
 }
 
-CLI::App* command(CLI::App& parent, Options& options, const std::string& name, Command which,
-                  const std::string& description, const std::string& examples) {
-  CLI::App* sub = parent.add_subcommand(name, description);
-  sub->group("Commands");
-  sub->footer("Examples:\n" + examples +
-              "\nOptions for all commands (--server, --json, --quiet): affskel-client --help");
-  sub->callback([&options, which] { options.command = which; });
-  return sub;
-}
-
-void add_job(CLI::App* sub, Options& options) {
-  sub->add_option("JOB", options.job.job, "Id, unique prefix of at least 6 characters, or @last")
-      ->required()
-      ->check(utf8_text())
-      ->type_name("");
-}
-
-void add_format(CLI::App* sub, std::string& format) {
-  sub->add_option("--format", format, "Format, whatever the file's name: csv, ply, ...")
-      ->check(given())
-      ->type_name("EXT");
-}
-
-void add_skeleton_options(CLI::App* sub, SkeletonOptions& skeleton) {
-  const bool of_job = skeleton.operator_name.empty();
-  CLI::Option* name =
-      sub->add_option("--operator", skeleton.operator_name,
-                      std::string("How shocks are found") + (of_job ? " (default: the job's operator)" : ""))
-          ->check(CLI::IsMember(operator_names()))
-          ->type_name("OP");
-  if (!of_job) name->capture_default_str();
-  sub->add_option(
-         "--threshold", skeleton.threshold,
-         std::string("Keep points with |H| above this, of chords what is more significant (default: ") +
-             (of_job ? "the operator's; without --operator the job's)" : "the operator's)"))
-      ->check(positive_number())
-      ->type_name("T");
+CLI::Validator direction_set() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        try {
+          text = wire::canonical_directions(text);
+          return {};
+        } catch (const std::invalid_argument& error) {
+          return error.what();
+        }
+      },
+      "");
 }
 
 }  // namespace affskel::client
