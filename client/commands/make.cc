@@ -8,7 +8,7 @@
 #include "client/commands/shared/destination.h"
 #include "client/files/format.h"
 #include "client/files/write/atomic_file.h"
-#include "client/files/write/mesh_writer.h"
+#include "client/files/write/shape_writer.h"
 #include "core/base/number_text.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
@@ -38,18 +38,20 @@ struct MakeOptions {
 void run(Console& console, const MakeOptions& options) {
   const Destination destination = destination_of(options.output, options.output == "-" ? "off" : "", console);
   const FileFormat format = choose_format(destination, surface_formats(), "shape");
-  core::Mesh mesh;
+  ShapeFile shape;
   try {
-    mesh = options.shape();
+    shape = shape_of(options.shape());
   } catch (const core::CoreError& error) {
     throw error_from_core(error, "");
   }
   AtomicFile file(destination.file);
-  write_mesh(format, mesh, {}, file);
+  write_into(file, [&](const WriteBytes& write) { write_surface(format, shape, {}, write); });
   file.commit();
-  console.note("wrote " + destination.name() + " (" + core::counted(mesh.triangles.size(), "triangle") + ")");
-  console.document(
-      {{"file", options.output}, {"vertices", mesh.points.size()}, {"triangles", mesh.triangles.size()}});
+  console.note("wrote " + destination.name() + " (" +
+               core::counted(shape.mesh().triangles.size(), "triangle") + ")");
+  console.document({{"file", options.output},
+                    {"vertices", shape.mesh().points.size()},
+                    {"triangles", shape.mesh().triangles.size()}});
 }
 
 // A shape is a command under `make`; choosing it chooses how the mesh is made.

@@ -11,6 +11,7 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/shape_notes.h"
 #include "client/commands/shared/shape_options.h"
+#include "client/files/read/read_shape.h"
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
@@ -76,7 +77,7 @@ void run(Console& console, const Options& options) {
   const std::string noise = "Gaussian noise of standard deviation " + core::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);
   AtomicFile file(destination.file);
-  write_shape(format, shape, {noise}, file);
+  write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {noise}, write); });
   file.commit();
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " +
                core::rounded(sigma, 6) + ", seed " + std::to_string(options.seed) + ")");

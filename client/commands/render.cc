@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/artifacts/skeleton_points.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
@@ -11,7 +12,6 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/skeleton_options.h"
 #include "client/files/write/atomic_file.h"
-#include "client/files/write/skeleton_writer.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
 #include "core/base/number_text.h"

@@ -10,6 +10,7 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/shape_notes.h"
 #include "client/commands/shared/shape_options.h"
+#include "client/files/read/read_shape.h"
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
@@ -97,7 +98,8 @@ void run(Console& console, const Options& options, const std::vector<AffineStep>
 
   const std::vector<double> numbers = numbers_of(map);
   AtomicFile file(destination.file);
-  write_shape(format, shape, {comment_for(numbers)}, file);
+  write_into(file,
+             [&](const WriteBytes& write) { write_shape(format, shape, {comment_for(numbers)}, write); });
   file.commit();
   const double det = core::determinant(map);
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", volumes times " +

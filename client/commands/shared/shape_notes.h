@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "client/base/shape_file.h"
 #include "client/cli/console.h"
 #include "client/files/format.h"
-#include "client/files/read/read_shape.h"
 
 namespace affskel::client {
 

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "client/artifacts/divergence_writer.h"
+#include "client/artifacts/field_writer.h"
+#include "client/artifacts/skeleton_points.h"
+#include "client/artifacts/surface.h"
 #include "client/commands/shared/fetch_artifact.h"
 #include "client/commands/shared/follow.h"
 #include "client/files/write/atomic_file.h"
-#include "client/files/write/divergence_writer.h"
-#include "client/files/write/field_writer.h"
-#include "client/files/write/mesh_writer.h"
-#include "client/files/write/skeleton_writer.h"
+#include "client/files/write/shape_writer.h"
 #include "client/text/message_json.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
@@ -25,9 +26,7 @@ class FieldSink : public ArtifactSink {
  public:
   FieldSink(FileFormat format, const fs::path& file, const LatticePoints& points,
             const v1::Directions& directions)
-      : file_(file),
-        writer_(make_field_writer(format, file_, points)),
-        decoder_(points, directions, *writer_) {}
+      : file_(file), writer_(format, file_, points), decoder_(points, directions, writer_) {}
   void begin(const v1::ArtifactHeader&) override {}
   void data(std::string_view bytes) override { decoder_.data(bytes); }
   void end() override {
@@ -37,7 +36,7 @@ class FieldSink : public ArtifactSink {
 
  private:
   AtomicFile file_;
-  std::unique_ptr<FieldWriter> writer_;
+  FieldWriter writer_;
   FieldDecoder decoder_;
 };
 
@@ -141,10 +140,9 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
   const v1::SkeletonPoints points = parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
   const v1::SkeletonParams& params = skeleton ? *skeleton : header.job().skeleton();
   const v1::SkeletonQuality* quality = points.has_quality() ? &points.quality() : nullptr;
-  write_skeleton(
-      format, points,
-      comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality),
-      out);
+  const auto comments =
+      comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality);
+  write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
   out.commit();
   Written written{destination, "skeleton", "point", static_cast<std::uint64_t>(points.point_size()),
                   header.job()};
@@ -163,12 +161,12 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const bool own = surface == nullptr || !surface->has_skeleton();
   const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
   const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
-  write_mesh(format, fetched.mesh,
-             comments_for(header.job(), "affine skeleton, triangulated",
-                          "operator " + skeleton_params_text(params), sheet ? &fetched.quality : nullptr),
-             out, fetched.properties);
+  const auto comments =
+      comments_for(header.job(), "affine skeleton, triangulated", "operator " + skeleton_params_text(params),
+                   sheet ? &fetched.quality : nullptr);
+  write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
-  Written written{destination, "surface", "triangle", fetched.mesh.triangles.size(), header.job()};
+  Written written{destination, "surface", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
   if (sheet) written.quality = fetched.quality;
   return written;
 }
@@ -200,11 +198,10 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
   const v1::SkeletonPoints points =
       parse_eroded_points(fetch_patiently(context, request, header, "eroded solid"));
   const double volume = volume_of_points(header.job(), points.point_size());
-  write_skeleton(
-      format, points,
+  const auto comments =
       comments_for(header.job(), "eroded solid",
-                   "level " + eroded_params_text(params) + ", volume about " + core::rounded(volume, 6)),
-      out);
+                   "level " + eroded_params_text(params) + ", volume about " + core::rounded(volume, 6));
+  write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
   out.commit();
   Written written{destination, "eroded", "point", static_cast<std::uint64_t>(points.point_size()),
                   header.job()};
@@ -221,13 +218,12 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
   *request.mutable_eroded() = params;
   v1::ArtifactHeader header;
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "eroded solid"));
-  write_mesh(
-      format, fetched.mesh,
+  const auto comments =
       comments_for(header.job(), "eroded solid",
-                   "level " + eroded_params_text(params) + ", volume " + core::to_text(fetched.volume)),
-      out);
+                   "level " + eroded_params_text(params) + ", volume " + core::to_text(fetched.volume));
+  write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
-  Written written{destination, "eroded", "triangle", fetched.mesh.triangles.size(), header.job()};
+  Written written{destination, "eroded", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
   written.volume = fetched.volume;
   written.advice = fetched.quality.advice();
   return written;

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "client/files/shape_file.h"
+#include "client/base/shape_file.h"
 
 namespace affskel::client {
 

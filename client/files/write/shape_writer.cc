@@ -1,50 +1,18 @@
 #include "client/files/write/shape_writer.h"
 
+#include <cstdint>
 #include <limits>
 #include <set>
 
 #include "client/base/error.h"
-#include "client/files/numbers.h"
-#include "client/files/write/mesh_writer.h"
-#include "client/files/write/stored_type.h"
-#include "client/files/write/vtp_writer.h"
-#include "client/text/printable.h"
+#include "client/files/write/shape_writer.h"
+#include "client/files/write/shape_writers.h"
+#include "core/mesh/mesh_io.h"
 
 namespace affskel::client {
 namespace {
 
-using Write = std::function<void(std::string_view)>;
-
-void write_csv(const ShapeFile& shape, const Write& write) {
-  std::string row = "x,y,z";
-  for (const std::string& name : written_names(shape)) row += "," + name;
-  write(row + "\n");
-  for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
-    row.clear();
-    for (int c = 0; c < 3; ++c) {
-      if (c > 0) row.push_back(',');
-      append_exact(row, shape.mesh().points[i][c]);
-    }
-    for (const PointColumn& column : shape.columns) {
-      row.push_back(',');
-      append_exact(row, column.values[i]);
-    }
-    row.push_back('\n');
-    write(row);
-  }
-}
-
-void write_coordinates(const ShapeFile& shape, const Write& write) {
-  std::string row;
-  for (const core::Vec3& p : shape.mesh().points) {
-    row.clear();
-    for (int c = 0; c < 3; ++c) {
-      append_exact(row, p[c]);
-      row.push_back(c < 2 ? ' ' : '\n');
-    }
-    write(row);
-  }
-}
+constexpr std::size_t kMostElements = std::numeric_limits<std::int32_t>::max();  // of each kind
 
 // Words without what separates or ends them in a header line of CSV or PLY.
 std::string safe_name(std::string name) {
@@ -55,45 +23,7 @@ std::string safe_name(std::string name) {
   return name.empty() ? "_" : name;
 }
 
-std::string ply_header(const ShapeFile& shape, const std::vector<Stored>& stored,
-                       const std::vector<std::string>& comments) {
-  constexpr const char* kTypes[] = {"int", "uint", "double"};
-  const std::vector<std::string> names = written_names(shape);
-  std::string text = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
-  text += "element vertex " + std::to_string(shape.mesh().points.size()) +
-          "\nproperty double x\nproperty double y\nproperty double z\n";
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    text += std::string("property ") + kTypes[static_cast<std::size_t>(stored[i])] + " " + names[i] + "\n";
-  }
-  if (shape.is_surface()) {
-    text += "element face " + std::to_string(shape.mesh().triangles.size()) +
-            "\nproperty list uchar int vertex_indices\n";
-  }
-  return text + "end_header\n";
-}
-
-void write_ply(const ShapeFile& shape, const std::vector<std::string>& comments, const Write& write) {
-  std::vector<Stored> stored;
-  for (const PointColumn& column : shape.columns) stored.push_back(stored_as(column));
-  write(ply_header(shape, stored, comments));
-  std::string row;
-  for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
-    row.clear();
-    for (int c = 0; c < 3; ++c) append_bytes(row, shape.mesh().points[i][c]);
-    for (std::size_t k = 0; k < stored.size(); ++k) {
-      append_stored(row, shape.columns[k].values[i], stored[k]);
-    }
-    write(row);
-  }
-  for (const core::Triangle& t : shape.mesh().triangles) {
-    row.clear();
-    append_bytes(row, std::uint8_t{3});
-    for (const std::uint32_t corner : t) append_bytes(row, static_cast<std::int32_t>(corner));
-    write(row);
-  }
-}
-
+// The columns under the names that read back.
 std::vector<PointColumn> columns_as_written(const ShapeFile& shape) {
   std::vector<PointColumn> columns = shape.columns;
   const std::vector<std::string> names = written_names(shape);
@@ -127,33 +57,59 @@ std::vector<std::string> written_names(const ShapeFile& shape) {
   return names;
 }
 
-void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
-                 const Write& write) {
-  if (shape.mesh().points.size() > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
+void write_points(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                  const WriteBytes& write) {
+  if (shape.mesh().points.size() > kMostElements) {
     throw ClientError(ExitCode::kLimit, "the shape has too many points for this format");
   }
-  if (format == FileFormat::kPly) return write_ply(shape, comments, write);
-  if (format == FileFormat::kVtp) {
-    return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
-  }
-  if (shape.is_surface()) return write_mesh(format, shape.mesh(), comments, write);
   switch (format) {
     case FileFormat::kCsv:
-      return write_csv(shape, write);
+      return write_csv(shape, written_names(shape), write);
+    case FileFormat::kPly:
+      return write_ply(shape, written_names(shape), false, comments, write);
+    case FileFormat::kVtp:
+      return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
     case FileFormat::kOff:
       write("OFF\n" + std::to_string(shape.mesh().points.size()) + " 0 0\n");
-      return write_coordinates(shape, write);
+      return write_xyz(shape, write);
     case FileFormat::kXyz:
-      return write_coordinates(shape, write);
+      return write_xyz(shape, write);
     default:
       throw ClientError(ExitCode::kInternal, "no point writer for " + std::string(extension_of(format)));
   }
 }
 
+void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                   const WriteBytes& write) {
+  const core::Mesh& mesh = shape.mesh();
+  if (mesh.points.size() > kMostElements || mesh.triangles.size() > kMostElements) {
+    throw ClientError(ExitCode::kLimit, "the mesh has too many elements for this format");
+  }
+  switch (format) {
+    case FileFormat::kOff:
+      return write(core::write_off(mesh));
+    case FileFormat::kPly:
+      return write_ply(shape, written_names(shape), true, comments, write);
+    case FileFormat::kObj:
+      return write_obj(mesh, comments, write);
+    case FileFormat::kStl:
+      return write_stl(mesh, write);
+    case FileFormat::kVtp:
+      return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
+    default:
+      throw ClientError(ExitCode::kInternal, "no mesh writer for " + std::string(extension_of(format)));
+  }
+}
+
 void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
-                 AtomicFile& file) {
+                 const WriteBytes& write) {
+  if (shape.is_surface()) return write_surface(format, shape, comments, write);
+  write_points(format, shape, comments, write);
+}
+
+void write_into(AtomicFile& file, const std::function<void(const WriteBytes&)>& writer) {
   try {
-    write_shape(format, shape, comments, [&](std::string_view bytes) { file.write(bytes); });
+    writer([&](std::string_view bytes) { file.write(bytes); });
   } catch (const ClientError& error) {
     if (!error.file().empty()) throw;
     throw ClientError(error.exit_code(), error.what(), file.target());

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "client/base/shape_file.h"
 #include "client/files/numbers.h"
-#include "client/files/read/read_shape.h"
 
 namespace affskel::client {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "client/artifacts/lattice_points.h"
+#include "client/base/lattice_points.h"
 #include "client/files/write/atomic_file.h"
 
 namespace affskel::client {

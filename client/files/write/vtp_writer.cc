@@ -1,22 +1,20 @@
 // VTK XML (VTK User's Guide, "XML File Formats"): a text that describes the arrays, then `_` and the arrays
 // themselves, each behind the number of its bytes; `offset` counts from behind the `_`.
-#include "client/files/write/vtp_writer.h"
-
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 
 #include "client/files/numbers.h"
 #include "client/files/vtk_arrays.h"
+#include "client/files/write/shape_writers.h"
 #include "client/files/write/stored_type.h"
 #include "client/text/printable.h"
 #include "client/text/xml_text.h"
 
 namespace affskel::client {
 namespace {
-
-using Write = std::function<void(std::string_view)>;
 
 const char* vtk_type(Stored stored) {
   constexpr const char* kTypes[] = {"Int32", "UInt32", "Float64"};
@@ -25,7 +23,7 @@ const char* vtk_type(Stored stored) {
 
 class VtpWriter {
  public:
-  VtpWriter(const core::Mesh& mesh, const std::vector<PointColumn>& columns, const Write& write)
+  VtpWriter(const core::Mesh& mesh, const std::vector<PointColumn>& columns, const WriteBytes& write)
       : mesh_(mesh), columns_(columns), write_(write) {}
 
   void run(const std::vector<std::string>& comments) {
@@ -160,7 +158,7 @@ class VtpWriter {
 
   const core::Mesh& mesh_;
   const std::vector<PointColumn>& columns_;
-  const Write& write_;
+  const WriteBytes& write_;
   std::string text_;
   std::uint64_t offset_ = 0;
   std::vector<Block> blocks_;
@@ -169,7 +167,7 @@ class VtpWriter {
 }  // namespace
 
 void write_vtp(const core::Mesh& mesh, const std::vector<PointColumn>& columns,
-               const std::vector<std::string>& comments, const Write& write) {
+               const std::vector<std::string>& comments, const WriteBytes& write) {
   VtpWriter(mesh, columns, write).run(comments);
 }
 

@@ -5,11 +5,10 @@
 #include <cstring>
 #include <utility>
 
+#include "client/artifacts/skeleton_points.h"
 #include "client/base/error.h"
 #include "client/files/numbers.h"
-#include "client/files/write/mesh_writer.h"
 #include "client/files/write/shape_writer.h"
-#include "client/files/write/skeleton_writer.h"
 #include "core/mesh/mesh_io.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
@@ -47,7 +46,9 @@ TEST_F(ShapeFileTest, SkeletonsReadBackAsTheyWereWritten) {
   for (const char* name : {"s.csv", "s.ply", "s.off", "s.xyz", "S.PLY", "s.vtp"}) {
     AtomicFile file(dir_ / name);
     const FileFormat format = choose_format(dir_ / name, skeleton_formats(), "skeleton");
-    write_skeleton(format, skeleton, {"a comment"}, file);
+    write_into(file, [&](const WriteBytes& write) {
+      write_points(format, shape_of(skeleton), {"a comment"}, write);
+    });
     file.commit();
     const ShapeFile shape = read_shape(dir_ / name);
     EXPECT_FALSE(shape.is_surface());
@@ -71,7 +72,7 @@ TEST_F(ShapeFileTest, SurfacesReadBackAsTheyWereWritten) {
   const core::Mesh box = core::make_box(3, 2, 1);
   for (const FileFormat format : surface_formats()) {
     std::string bytes;
-    write_mesh(format, box, {"comment"}, [&](std::string_view piece) { bytes += piece; });
+    write_surface(format, shape_of(box), {"comment"}, [&](std::string_view piece) { bytes += piece; });
     const ShapeFile shape = read("box" + std::string(extension_of(format)), bytes);
     EXPECT_TRUE(shape.is_surface());
     if (format == FileFormat::kStl) {  // its vertices come in the order of the triangles

@@ -11,7 +11,7 @@
 
 #include "client/base/error.h"
 #include "client/files/read/read_file.h"
-#include "client/files/write/mesh_writer.h"
+#include "client/files/write/shape_writer.h"
 #include "core/shapes/shapes.h"
 #include "temp_dir.h"
 #include "wire/sha256.h"
@@ -86,7 +86,7 @@ TEST(ReadFile, MissingFilesAndDirectoriesAreBadInput) {
 // The box as the bytes of a format.
 std::string bytes_as(FileFormat format, const core::Mesh& mesh) {
   std::string bytes;
-  write_mesh(format, mesh, {}, [&](std::string_view piece) { bytes += piece; });
+  write_surface(format, shape_of(mesh), {}, [&](std::string_view piece) { bytes += piece; });
   return bytes;
 }
 

@@ -1,15 +1,12 @@
-#include "client/files/write/vtp_writer.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <limits>
 #include <map>
 
+#include "client/artifacts/skeleton_points.h"
 #include "client/base/error.h"
-#include "client/files/write/mesh_writer.h"
 #include "client/files/write/shape_writer.h"
-#include "client/files/write/skeleton_writer.h"
 #include "sample_data.h"
 #include "temp_dir.h"
 
@@ -92,7 +89,9 @@ using Indices = std::vector<std::int64_t>;
 VtpFile written_skeleton(const v1::SkeletonPoints& skeleton, const std::vector<std::string>& comments = {}) {
   const TempDir dir;
   AtomicFile file(dir / "s");
-  write_skeleton(FileFormat::kVtp, skeleton, comments, file);
+  write_into(file, [&](const WriteBytes& write) {
+    write_points(FileFormat::kVtp, shape_of(skeleton), comments, write);
+  });
   file.commit();
   return VtpFile(slurp(dir / "s"));
 }
@@ -149,11 +148,15 @@ TEST(VtpWriter, ASheetIsPolygonsWithBothNormals) {
   }
   const double infinity = std::numeric_limits<double>::infinity();
   std::string bytes;
-  write_mesh(FileFormat::kVtp, mesh, {"sheet"}, [&](std::string_view piece) { bytes += piece; },
-             {{{"E"}, {1, 2, 1.0 / 3, 4}},
-              {{"strength"}, {0.5, infinity, 0, 5e-324}},
-              {{"nx_a", "ny_a", "nz_a"}, normals_a},
-              {{"nx_b", "ny_b", "nz_b"}, normals_b}});
+  ShapeFile sheet = shape_of(mesh);
+  sheet.columns = {{"E", false, {1, 2, 1.0 / 3, 4}}, {"strength", false, {0.5, infinity, 0, 5e-324}}};
+  for (const auto& [suffix, normals] : {std::pair("_a", normals_a), std::pair("_b", normals_b)}) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      sheet.columns.push_back({std::string("n") + "xyz"[c] + suffix, false, {}});
+      for (std::size_t v = c; v < 12; v += 3) sheet.columns.back().values.push_back(normals[v]);
+    }
+  }
+  write_surface(FileFormat::kVtp, sheet, {"sheet"}, [&](std::string_view piece) { bytes += piece; });
   const VtpFile file(bytes);
   EXPECT_EQ(file.count("Points"), 4);
   EXPECT_EQ(file.count("Verts"), 0);

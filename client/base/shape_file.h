@@ -30,4 +30,7 @@ struct ShapeFile {
   const PointColumn* column(std::string_view name) const;
 };
 
+/// A shape of a mesh alone, without a file.
+ShapeFile shape_of(core::Mesh mesh);
+
 }  // namespace affskel::client

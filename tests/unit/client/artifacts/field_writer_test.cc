@@ -1,4 +1,4 @@
-#include "client/files/write/field_writer.h"
+#include "client/artifacts/field_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ void write_sample(FileFormat format, const std::string& path, std::size_t piece)
   const v1::Directions directions = sample_directions();
   const std::string bytes = sample_field();
   AtomicFile file(path);
-  const auto writer = make_field_writer(format, file, points);
-  FieldDecoder decoder(points, directions, *writer);
+  FieldWriter writer(format, file, points);
+  FieldDecoder decoder(points, directions, writer);
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
     decoder.data(std::string_view(bytes).substr(at, piece));
   }
@@ -102,8 +102,8 @@ class DecoderErrors : public ::testing::Test {
     const v1::Directions directions = sample_directions();
     {
       AtomicFile file(dir_ / "f.csv");
-      const auto writer = make_field_writer(FileFormat::kCsv, file, points);
-      FieldDecoder decoder(points, directions, *writer);
+      FieldWriter writer(FileFormat::kCsv, file, points);
+      FieldDecoder decoder(points, directions, writer);
       EXPECT_THROW(
           {
             decoder.data(bytes);
@@ -149,9 +149,9 @@ TEST(LatticeCursor, WalksInLatticeOrder) {
   LatticeCursor cursor(points);
   for (const auto& place : kPlaces) {
     ASSERT_FALSE(cursor.at_end());
-    EXPECT_EQ(int(cursor.i()), place[0]);
-    EXPECT_EQ(int(cursor.j()), place[1]);
-    EXPECT_EQ(int(cursor.k()), place[2]);
+    EXPECT_EQ(int(cursor.point().i), place[0]);
+    EXPECT_EQ(int(cursor.point().j), place[1]);
+    EXPECT_EQ(int(cursor.point().k), place[2]);
     cursor.advance();
   }
   EXPECT_TRUE(cursor.at_end());

@@ -1,4 +1,4 @@
-#include "client/files/write/skeleton_writer.h"
+#include "client/artifacts/skeleton_points.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "client/base/error.h"
+#include "client/files/write/shape_writer.h"
 #include "sample_data.h"
 #include "temp_dir.h"
 
@@ -16,7 +17,8 @@ std::string written(FileFormat format, const v1::SkeletonPoints& skeleton,
                     const std::vector<std::string>& comments = {}) {
   const TempDir dir;
   AtomicFile file(dir / "s");
-  write_skeleton(format, skeleton, comments, file);
+  write_into(file,
+             [&](const WriteBytes& write) { write_points(format, shape_of(skeleton), comments, write); });
   file.commit();
   return slurp(dir / "s");
 }

@@ -1,4 +1,4 @@
-#include "client/artifacts/lattice_points.h"
+#include "client/base/lattice_points.h"
 
 #include "client/base/error.h"
 

@@ -7,8 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "client/artifacts/field_writer.h"
 #include "client/base/error.h"
-#include "client/files/write/field_writer.h"
 #include "hdf5_reader.h"
 #include "sample_data.h"
 #include "temp_dir.h"
@@ -52,8 +52,8 @@ TEST(VtkHdfWriter, PlacesTheImage) {
   const TempDir dir;
   const LatticePoints points(sample_lattice());
   AtomicFile out(dir / "f.vtkhdf");
-  const auto writer = make_vtkhdf_writer(out, points);
-  writer->finish();
+  FieldWriter writer(FileFormat::kVtkHdf, out, points);
+  writer.finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
@@ -89,7 +89,7 @@ TEST(VtkHdfWriter, PlacesAShearedImage) {
   const LatticePoints points(lattice);
   const TempDir dir;
   AtomicFile out(dir / "f.vtkhdf");
-  make_vtkhdf_writer(out, points)->finish();
+  FieldWriter(FileFormat::kVtkHdf, out, points).finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
@@ -114,7 +114,7 @@ TEST(VtkHdfWriter, AnUprightImageHasNoFrame) {
   const TempDir dir;
   AtomicFile out(dir / "f.vtkhdf");
   const LatticePoints points(sample_lattice());
-  make_vtkhdf_writer(out, points)->finish();
+  FieldWriter(FileFormat::kVtkHdf, out, points).finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   EXPECT_EQ(H5Aexists_by_name(file, "VTKHDF", "frame", H5P_DEFAULT), 0);
@@ -126,16 +126,15 @@ TEST(VtkHdfWriter, ArraysReadBackExactlyAcrossSlabs) {
   const TempDir dir;
   Expected expected{{}, points.dims()};
   AtomicFile out(dir / "f.vtkhdf");
-  const auto writer = make_vtkhdf_writer(out, points);
+  FieldWriter writer(FileFormat::kVtkHdf, out, points);
   for (LatticeCursor cursor(points); !cursor.at_end(); cursor.advance()) {
     const auto rank = static_cast<std::uint32_t>(expected.points.size());
     const double value = 1.0 / (rank + 1);
-    expected.points.push_back(
-        {cursor.i(), cursor.j(), cursor.k(), cursor.position(), value, {value, -value, 1}, rank});
-    writer->put(expected.points.back());
+    expected.points.push_back({cursor.point(), value, {value, -value, 1}, rank});
+    writer.put(expected.points.back());
   }
   ASSERT_EQ(expected.points.size(), points.count());
-  writer->finish();
+  writer.finish();
   out.commit();
   expect_arrays(dir / "f.vtkhdf", expected);
 }
@@ -145,8 +144,8 @@ TEST(VtkHdfWriter, AnAbandonedFileLeavesNothing) {
   {
     const LatticePoints points(sample_lattice());
     AtomicFile out(dir / "f.vtkhdf");
-    const auto writer = make_vtkhdf_writer(out, points);
-    writer->put({});
+    FieldWriter writer(FileFormat::kVtkHdf, out, points);
+    writer.put({});
   }
   EXPECT_TRUE(dir.names().empty());
 }
@@ -157,7 +156,7 @@ TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
   ::testing::internal::CaptureStdout();
   for (const std::string& target : {dir / "f.vtkhdf", std::string("-")}) {
     AtomicFile out(target);
-    make_vtkhdf_writer(out, points)->finish();
+    FieldWriter(FileFormat::kVtkHdf, out, points).finish();
     out.commit();
   }
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), slurp(dir / "f.vtkhdf"));
@@ -171,7 +170,7 @@ TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
   try {
     AtomicFile file(target);
     const LatticePoints points(sample_lattice());
-    make_field_writer(FileFormat::kVtkHdf, file, points)->finish();
+    FieldWriter(FileFormat::kVtkHdf, file, points).finish();
   } catch (const ClientError& error) {
     const bool told = error.exit_code() == ExitCode::kLimit && error.file() == target;
     std::_Exit(told ? 0 : 1);

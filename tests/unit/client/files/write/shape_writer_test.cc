@@ -1,4 +1,4 @@
-#include "client/files/write/mesh_writer.h"
+#include "client/files/write/shape_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "affskel/v1/types.pb.h"
+#include "client/artifacts/surface.h"
 #include "client/base/error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/shapes/shapes.h"
@@ -21,7 +22,7 @@ core::Mesh sample_mesh() {
 std::string written(FileFormat format, const core::Mesh& mesh,
                     const std::vector<std::string>& comments = {}) {
   std::string bytes;
-  write_mesh(format, mesh, comments, [&](std::string_view piece) { bytes += piece; });
+  write_surface(format, shape_of(mesh), comments, [&](std::string_view piece) { bytes += piece; });
   return bytes;
 }
 
@@ -101,7 +102,8 @@ std::string refusal_of_stl(const core::Mesh& mesh) {
   const TempDir dir;
   try {
     AtomicFile file(dir / "out.stl");
-    write_mesh(FileFormat::kStl, mesh, {}, file);
+    write_into(file,
+               [&](const WriteBytes& write) { write_surface(FileFormat::kStl, shape_of(mesh), {}, write); });
     file.commit();
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
@@ -165,7 +167,7 @@ TEST(ParseSurface, RefusesCornersOutOfRange) {
   v1::TriangleMesh message;
   for (int i = 0; i < 9; ++i) message.add_xyz(i);
   for (const unsigned c : {0u, 1u, 2u}) message.add_corners(c);
-  EXPECT_EQ(parse_surface(message.SerializeAsString()).mesh.triangles.size(), 1u);
+  EXPECT_EQ(parse_surface(message.SerializeAsString()).shape.mesh().triangles.size(), 1u);
   message.set_corners(2, 3);
   EXPECT_THROW(parse_surface(message.SerializeAsString()), ClientError);
 }

@@ -38,6 +38,12 @@ class LatticePoints {
   std::uint64_t count_ = 0;
 };
 
+/// One sample point: where it is in the lattice, and in space.
+struct SamplePoint {
+  std::uint32_t i = 0, j = 0, k = 0;
+  core::Vec3 position;  ///< mesh units
+};
+
 /// Walks over the sample points in lattice order.
 class LatticeCursor {
  public:
@@ -45,10 +51,7 @@ class LatticeCursor {
   explicit LatticeCursor(const LatticePoints& points) : points_(points) { enter_run(); }
 
   bool at_end() const { return run_ == points_.runs().size(); }
-  std::uint32_t i() const { return i_; }
-  std::uint32_t j() const { return j_; }
-  std::uint32_t k() const { return k_; }
-  core::Vec3 position() const { return points_.position(i_, j_, k_); }
+  SamplePoint point() const { return {i_, j_, k_, points_.position(i_, j_, k_)}; }
   void advance();
 
  private:

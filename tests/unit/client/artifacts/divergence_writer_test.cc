@@ -1,4 +1,4 @@
-#include "client/files/write/divergence_writer.h"
+#include "client/artifacts/divergence_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -46,8 +46,9 @@ TEST(DivergenceWriter, AnImageReadsBackExactly) {
   const hsize_t nx = points.dims()[0], ny = points.dims()[1], nz = points.dims()[2];
   std::vector<double> wanted(nx * ny * nz, std::nan(""));
   std::size_t rank = 0;
-  for (LatticeCursor at(points); !at.at_end(); at.advance()) {
-    wanted[(at.k() * ny + at.j()) * nx + at.i()] = value_of(rank++);
+  for (LatticeCursor cursor(points); !cursor.at_end(); cursor.advance()) {
+    const SamplePoint at = cursor.point();
+    wanted[(at.k * ny + at.j) * nx + at.i] = value_of(rank++);
   }
   const hid_t file = H5Fopen((dir / "H.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
