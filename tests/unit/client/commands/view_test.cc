@@ -111,6 +111,20 @@ TEST_F(ViewTest, AnEmptySkeletonIsAWarning) {
   EXPECT_NE(done.err.find(warning), std::string::npos);
 }
 
+TEST_F(ViewTest, RefusesAnOperatorThatItDoesNotKnow) {
+  service_.job.mutable_skeleton()->set_operator_(static_cast<v1::Operator>(99));
+  for (const std::vector<std::string>& threshold :
+       {std::vector<std::string>{}, std::vector<std::string>{"--threshold", "3"}}) {
+    std::vector<std::string> arguments = {"-o", dir_ / "p.html"};
+    arguments.insert(arguments.end(), threshold.begin(), threshold.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("operator 99"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(dir_.names().empty());
+  }
+  EXPECT_EQ(run({"--operator", "sobel", "-o", dir_ / "p.html"}).exit_code, 0);
+}
+
 TEST_F(ViewTest, EveryOperatorBeginsAtItsOwnThreshold) {
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CENTRAL);
   service_.job.mutable_skeleton()->set_threshold(0.25);
