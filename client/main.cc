@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "client/client.h"
-#include "client/interrupt.h"
+#include "client/cli/interrupt.h"
+#include "client/commands/run_client.h"
 
 int main(int argc, char** argv) {
   using namespace affskel::client;

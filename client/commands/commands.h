@@ -1,38 +1,40 @@
 #pragma once
 
-#include <string>
+#include <array>
 
-#include "client/commands/context.h"
-#include "client/options.h"
+#include "client/commands/command_line.h"
 
 namespace affskel::client {
 
-/// The commands.  Each prints its results and throws ClientError when it fails; a job that ended badly is a
-/// failure of the commands that wait for it.
+// The commands.  Each adds itself, its options and its action, in the file of its name.
 
-void run_submit(Context& context, const SubmitOptions& options);
-void run_list(Context& context, const ListOptions& options);
-void run_status(Context& context, const JobOptions& options);
-void run_watch(Context& context, const JobOptions& options);
-void run_cancel(Context& context, const JobOptions& options);
-void run_resume(Context& context, const JobOptions& options);
-void run_delete(Context& context, const JobOptions& options);
-void run_server_info(Context& context);
-void run_fetch(Context& context, const JobOptions& options);
-void run_skeleton(Context& context, const JobOptions& options);
-void run_surface(Context& context, const JobOptions& options);
-void run_erode(Context& context, const JobOptions& options);
-void run_render(Context& context, const JobOptions& options);
-void run_view(Context& context, const JobOptions& options);
-/// Needs no server.
-void run_inspect(Console& console, const std::string& file);
-/// Needs no server.
-void run_make(Console& console, const MakeOptions& options);
-/// Needs no server.
-void run_compare(Console& console, const CompareOptions& options);
-/// Needs no server.
-void run_transform(Console& console, const TransformOptions& options);
-/// Needs no server.
-void run_perturb(Console& console, const PerturbOptions& options);
+using AddCommand = void (*)(CommandLine& line);
+
+void add_submit(CommandLine& line);
+void add_list(CommandLine& line);
+void add_status(CommandLine& line);
+void add_watch(CommandLine& line);
+void add_cancel(CommandLine& line);
+void add_resume(CommandLine& line);
+void add_delete(CommandLine& line);
+void add_fetch(CommandLine& line);
+void add_skeleton(CommandLine& line);
+void add_surface(CommandLine& line);
+void add_erode(CommandLine& line);
+void add_render(CommandLine& line);
+void add_view(CommandLine& line);
+void add_inspect(CommandLine& line);
+void add_make(CommandLine& line);
+void add_compare(CommandLine& line);
+void add_transform(CommandLine& line);
+void add_perturb(CommandLine& line);
+void add_server_info(CommandLine& line);
+void add_completions(CommandLine& line);
+
+/// All of them, in the order of the help.
+inline constexpr std::array kCommands = {
+    add_submit, add_list,     add_status,    add_watch,   add_cancel,      add_resume,     add_delete,
+    add_fetch,  add_skeleton, add_surface,   add_erode,   add_render,      add_view,       add_inspect,
+    add_make,   add_compare,  add_transform, add_perturb, add_server_info, add_completions};
 
 }  // namespace affskel::client

@@ -1,10 +1,12 @@
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/exporters/numbers.h"
-#include "client/input_file.h"
-#include "client/job_text.h"
-#include "client/mesh_defects.h"
+#include "client/files/read/input_file.h"
+#include "client/files/read/mesh_defects.h"
+#include "client/text/key_line.h"
+#include "core/base/number_text.h"
 #include "core/solid/solid.h"
 #include "wire/sha256.h"
 
@@ -20,7 +22,7 @@ ordered_json vec(const core::Vec3& v) {
 std::string text_of(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_float()) return shortest(value.get<double>());
+  if (value.is_number_float()) return core::to_text(value.get<double>());
   if (!value.is_array()) return value.dump();
   std::string text;
   for (const ordered_json& element : value) text += (text.empty() ? "" : " ") + text_of(element);
@@ -118,9 +120,7 @@ void show(Console& console, const ordered_json& facts) {
   console.document(facts);
 }
 
-}  // namespace
-
-void run_inspect(Console& console, const std::string& file) {
+void run(Console& console, const std::string& file) {
   const InputFile input = read_input(file);
   ordered_json facts = file_facts(input);
   try {
@@ -135,6 +135,18 @@ void run_inspect(Console& console, const std::string& file) {
     show(console, facts);
     throw;
   }
+}
+
+}  // namespace
+
+void add_inspect(CommandLine& line) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App* command = line.add("inspect", "What a mesh is, and every defect with its place; needs no server",
+                               "  affskel-client inspect body.off\n  affskel-client --json inspect scan.stl",
+                               [file](Context& context) { run(context.console(), *file); });
+  command->add_option("FILE", *file, "Geomview OFF text, .ply, .obj, .stl or .vtp")
+      ->required()
+      ->type_name("");
 }
 
 }  // namespace affskel::client

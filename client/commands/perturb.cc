@@ -1,20 +1,33 @@
 #include "core/mesh/perturb.h"
 
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/cli/number_parsers.h"
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/shapes.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/shape_writer.h"
-#include "client/number_list.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/job_options.h"
+#include "client/commands/shared/shape_notes.h"
+#include "client/commands/shared/shape_options.h"
+#include "client/files/read/read_shape.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/same_place.h"
 #include "core/mesh/self_intersection.h"
 
 namespace affskel::client {
 namespace {
+
+struct Options {
+  std::string file, output, format;
+  std::string noise;            // share of the box diagonal, "0.5%" or "0.005"; empty = sigma
+  std::optional<double> sigma;  // mesh units
+  std::uint64_t seed = 1;
+};
 
 // "0.5%" or "0.005"
 double fraction_of(const std::string& text) {
@@ -38,9 +51,7 @@ bool crosses_itself(core::Mesh mesh) {
   return !core::self_intersections(mesh, options).empty();
 }
 
-}  // namespace
-
-void run_perturb(Console& console, const PerturbOptions& options) {
+void run(Console& console, const Options& options) {
   if (options.noise.empty() == !options.sigma) {
     throw ClientError(ExitCode::kUsage, "give either --noise (a share of the box diagonal) or --sigma");
   }
@@ -63,13 +74,13 @@ void run_perturb(Console& console, const PerturbOptions& options) {
   tell_what_is_lost(console, shape, FileFormat::kOff, destination.name());
   shape.columns.clear();
 
-  const std::string noise = "Gaussian noise of standard deviation " + shortest(sigma) +
+  const std::string noise = "Gaussian noise of standard deviation " + core::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);
   AtomicFile file(destination.file);
-  write_shape(format, shape, {noise}, file);
+  write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {noise}, write); });
   file.commit();
-  console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " + rounded(sigma, 6) +
-               ", seed " + std::to_string(options.seed) + ")");
+  console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " +
+               core::rounded(sigma, 6) + ", seed " + std::to_string(options.seed) + ")");
   const bool crosses = crosses_itself(shape.mesh());
   if (crosses) {
     console.warning(destination.name() +
@@ -83,6 +94,35 @@ void run_perturb(Console& console, const PerturbOptions& options) {
                     {"sigma", sigma},
                     {"seed", options.seed},
                     {"self_intersecting", crosses}});
+}
+
+}  // namespace
+
+void add_perturb(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      line.add("perturb", "Gaussian noise on the vertices of a mesh; needs no server",
+               "  affskel-client perturb body.off -o noisy.off --noise 0.5% --seed 7\n"
+               "  affskel-client perturb body.off -o noisy.off --sigma 12\n"
+               "Every vertex moves by sigma times a normal number in x, y and z; vertices at one "
+               "place move together.\n"
+               "The same seed gives the same noise on every machine.",
+               [options](Context& context) { run(context.console(), *options); });
+  add_file(command, "FILE", options->file, "Mesh: .off .ply .obj .stl .vtp");
+  add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");
+  add_format(command, options->format);
+  CLI::Option* noise =
+      command->add_option("--noise", options->noise, "Sigma as a share of the box diagonal: 0.5% or 0.005")
+          ->check(given())
+          ->type_name("SHARE");
+  command->add_option("--sigma", options->sigma, "Sigma in mesh units")
+      ->check(positive_number())
+      ->excludes(noise)
+      ->type_name("S");
+  command->add_option("--seed", options->seed, "Whole number")
+      ->check(whole_in(0, ~std::uint64_t{0}))
+      ->capture_default_str()
+      ->type_name("N");
 }
 
 }  // namespace affskel::client

@@ -1,19 +1,29 @@
 // The picture of a job: fetches what it needs, hands it to client/render.
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/artifacts/skeleton_points.h"
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/fetch.h"
-#include "client/commands/follow.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/skeleton_writer.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/fetch_artifact.h"
+#include "client/commands/shared/follow.h"
+#include "client/commands/shared/job_options.h"
+#include "client/commands/shared/skeleton_options.h"
+#include "client/files/write/atomic_file.h"
 #include "client/render/scene.h"
-#include "client/skeleton_text.h"
+#include "client/text/skeleton_text.h"
 #include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
+
+struct Options {
+  std::string job, output;
+  SkeletonOptions skeleton;  // no operator: the job's
+  int width = 1600;          // pixels
+};
 
 // The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
 std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
@@ -33,7 +43,8 @@ std::string title_of(const RenderInput& input, const v1::Job& job, const v1::Ske
                                    : core::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
          core::counted(job.prepared().points(), "sample point") + " at spacing " +
-         rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) + ")";
+         core::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
+         ")";
 }
 
 // @param own whether the parameters are the job's, whose skeleton is stored.
@@ -61,9 +72,7 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
   return quality.threshold();
 }
 
-}  // namespace
-
-void run_render(Context& context, const JobOptions& options) {
+void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, picture_formats(), "picture");
   AtomicFile file(destination.file);
@@ -80,6 +89,24 @@ void run_render(Context& context, const JobOptions& options) {
   file.commit();
   context.console().note("wrote " + destination.name());
   context.console().document({{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}});
+}
+
+}  // namespace
+
+void add_render(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = line.add("render", "Picture of the body with its skeleton",
+                               "  affskel-client render @last -o body.png --width 2400\n"
+                               "  affskel-client render @last --operator chords -o sheet.png\n"
+                               "A skeleton by chords is drawn as its sheet, any other as its points",
+                               [options](Context& context) { run(context, *options); });
+  add_job(command, options->job);
+  add_skeleton_options(command, options->skeleton);
+  command->add_option("--width", options->width, "Pixels")
+      ->check(whole_in(200, 8000))
+      ->capture_default_str()
+      ->type_name("W");
+  add_output(command, options->output, "PNG file to write, or -");
 }
 
 }  // namespace affskel::client

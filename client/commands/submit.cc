@@ -1,29 +1,46 @@
+#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "client/commands/follow.h"
-#include "client/commands/transfer.h"
-#include "client/input_file.h"
-#include "client/job_json.h"
-#include "client/utf8.h"
+#include "client/commands/shared/follow.h"
+#include "client/commands/shared/skeleton_options.h"
+#include "client/commands/shared/transfer.h"
+#include "client/files/read/input_file.h"
+#include "client/text/message_json.h"
+#include "client/text/words.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "wire/sha256.h"
+#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
+
+struct SubmitOptions {
+  std::string file;
+  bool wait = false;
+  std::string output_dir;  // empty = fetch nothing; otherwise implies wait
+  double spacing = 0;      // mesh units; 0 = by points
+  std::uint64_t points = 100000;
+  std::string directions = "triangles";
+  std::string frame = "axis";
+  SkeletonOptions skeleton{"zucker-hummel"};
+  std::string name;  // empty = the file's stem
+  unsigned priority = 5;
+  std::string request_id;
+  std::string repair = "auto";
+};
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // bytes, by the protocol
 
-// Cuts at a character, not inside one.
-std::string shortened(std::string text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
-  text.resize(bytes);
-  return text;
+// As the protocol takes it.
+std::string protocol_text(const std::string& text, std::size_t max_bytes) {
+  return std::string(wire::truncate_utf8(wire::to_utf8(text), max_bytes));
 }
 
 void require_short(const std::string& text, std::size_t bytes, const std::string& option) {
@@ -33,21 +50,14 @@ void require_short(const std::string& text, std::size_t bytes, const std::string
   }
 }
 
-v1::Frame frame_named(const std::string& name) {
-  if (name == "pca") return v1::FRAME_PCA;
-  if (name == "obb") return v1::FRAME_OBB;
-  if (name == "affine") return v1::FRAME_AFFINE;
-  return v1::FRAME_AXIS;
-}
-
 v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& input,
                                const std::string& owner) {
   require_short(options.name, kMaxName, "--name");
   require_short(options.request_id, kMaxRequestId, "--request-id");
   v1::SubmitJobHeader header;
-  header.set_name(options.name.empty() ? shortened(to_utf8(fs::path(input.path).stem().string()), kMaxName)
+  header.set_name(options.name.empty() ? protocol_text(fs::path(input.path).stem().string(), kMaxName)
                                        : options.name);
-  header.set_owner(shortened(to_utf8(owner), kMaxOwner));
+  header.set_owner(protocol_text(owner, kMaxOwner));
   header.set_priority(options.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (options.spacing > 0) {
@@ -110,9 +120,7 @@ void check_mesh(const InputFile& input, const SubmitOptions& options, Console& c
   }
 }
 
-}  // namespace
-
-void run_submit(Context& context, const SubmitOptions& options) {
+void run(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const InputFile input = read_input(options.file);
   tell_conversion(input, console);
@@ -137,6 +145,78 @@ void run_submit(Context& context, const SubmitOptions& options) {
   for (const Written& file : written) document["files"][file.kind] = file.destination.file.string();
   console.document(document);
   if (wait) throw_unless_done(job);
+}
+
+void add_following_options(CLI::App* command, SubmitOptions& o) {
+  command->add_flag("-w,--wait", o.wait, "Follow the job to its end");
+  command
+      ->add_option("-o,--output-dir", o.output_dir,
+                   "Wait, then write STEM.field.vtkhdf, STEM.skeleton.ply and STEM.surface.off here")
+      ->type_name("DIR");
+}
+
+void add_field_options(CLI::App* command, SubmitOptions& o) {
+  CLI::Option* spacing = command->add_option("--spacing", o.spacing, "Lattice spacing in mesh units")
+                             ->check(positive_number())
+                             ->type_name("DT");
+  command->add_option("--points", o.points, "Aim at this many sample points")
+      ->check(whole_in(1, std::uint64_t{1} << 31))
+      ->capture_default_str()
+      ->type_name("R")
+      ->excludes(spacing);
+  command->add_option("--directions", o.directions, "triangles, sphere:N, random:N:SEED, joined by +")
+      ->check(direction_set())
+      ->capture_default_str()
+      ->type_name("SET");
+  command
+      ->add_option("--frame", o.frame,
+                   "Axes of the lattice: the mesh's, the principal ones, the least box's, or those that make "
+                   "the result affinely invariant")
+      ->check(CLI::IsMember(frame_words()))
+      ->capture_default_str()
+      ->type_name("FRAME");
+}
+
+void add_queue_options(CLI::App* command, SubmitOptions& o) {
+  command->add_option("--name", o.name, "Name for people (default: the file's)")
+      ->check(utf8_text())
+      ->type_name("NAME");
+  command->add_option("--priority", o.priority, "0 .. 9, higher first")
+      ->check(whole_in(0, 9))
+      ->capture_default_str()
+      ->type_name("P");
+  command
+      ->add_option("--request-id", o.request_id,
+                   "Submitting again with the same key and content gives the same job")
+      ->check(utf8_text())
+      ->type_name("KEY");
+  command->add_option("--repair", o.repair, "Weld, turn and drop what needs it, and say so, or refuse")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str()
+      ->type_name("MODE");
+}
+
+}  // namespace
+
+void add_submit(CommandLine& line) {
+  const auto options = std::make_shared<SubmitOptions>();
+  SubmitOptions& o = *options;
+  CLI::App* command =
+      line.add("submit", "Check a mesh and submit it; prints the job id",
+               "  affskel-client submit body.off --spacing 200 -o OUT\n"
+               "  affskel-client submit cube.off --points 50000 --directions triangles+sphere:1000 --wait\n"
+               "  JOB=$(affskel-client submit body.off --name subject-7)",
+               [options](Context& context) { run(context, *options); });
+  command
+      ->add_option(
+          "FILE", o.file,
+          "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp, which are submitted as OFF text")
+      ->required()
+      ->type_name("");
+  add_following_options(command, o);
+  add_field_options(command, o);
+  add_skeleton_options(command, o.skeleton);
+  add_queue_options(command, o);
 }
 
 }  // namespace affskel::client

@@ -1,17 +1,28 @@
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/cli/affine_steps.h"
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/shapes.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/exporters/shape_writer.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/job_options.h"
+#include "client/commands/shared/shape_notes.h"
+#include "client/commands/shared/shape_options.h"
+#include "client/files/read/read_shape.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
+
+struct Options {
+  std::string file, output, format;
+  bool inverse = false;
+};
 
 using nlohmann::ordered_json;
 
@@ -62,18 +73,16 @@ std::vector<double> numbers_of(const core::AffineMap& map) {
 
 std::string comment_for(const std::vector<double>& numbers) {
   std::string text = "mapped by the affine map";
-  for (const double number : numbers) text += " " + shortest(number);
+  for (const double number : numbers) text += " " + core::to_text(number);
   return text;
 }
 
-}  // namespace
-
-void run_transform(Console& console, const TransformOptions& options) {
-  if (options.steps.empty()) {
+void run(Console& console, const Options& options, const std::vector<AffineStep>& steps) {
+  if (steps.empty()) {
     throw ClientError(ExitCode::kUsage,
                       "no map was given; use --matrix, --scale, --rotate, --translate or --shear");
   }
-  core::AffineMap map = affine_map_of(options.steps);
+  core::AffineMap map = affine_map_of(steps);
   if (options.inverse) map = core::inverse(map);
   const Destination destination = destination_of(options.output, options.format, console);
   ShapeFile shape = read_shape(options.file);
@@ -89,16 +98,40 @@ void run_transform(Console& console, const TransformOptions& options) {
 
   const std::vector<double> numbers = numbers_of(map);
   AtomicFile file(destination.file);
-  write_shape(format, shape, {comment_for(numbers)}, file);
+  write_into(file,
+             [&](const WriteBytes& write) { write_shape(format, shape, {comment_for(numbers)}, write); });
   file.commit();
   const double det = core::determinant(map);
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", volumes times " +
-               rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
+               core::rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
   console.document({{"file", options.output},
                     {"points", shape.mesh().points.size()},
                     {"triangles", shape.mesh().triangles.size()},
                     {"determinant", det},
                     {"matrix", numbers}});
+}
+
+}  // namespace
+
+void add_transform(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  const auto steps = std::make_shared<AffineStepOptions>();
+  CLI::App* command = line.add(
+      "transform", "Affine map of a mesh or a skeleton; needs no server",
+      "  affskel-client transform body.off -o sheared.off --shear y+=z\n"
+      "  affskel-client transform body.off -o moved.off --rotate z:30 --scale 2,1,0.5 --translate 0,0,100\n"
+      "  affskel-client transform sheared.ply -o back.ply --shear y+=z --inverse\n"
+      "Steps are taken in the order given. Normals are mapped as those of planes, E as a volume; H and "
+      "other\n"
+      "columns stay. A mirrored surface is turned over, so that it stays outward.",
+      [options, steps](Context& context) { run(context.console(), *options, steps->in_order()); });
+  add_file(command, "FILE", options->file,
+           "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
+  add_output(command, options->output,
+             "File to write: .off .ply .obj .stl .vtp for triangles,\n.csv .ply .off .xyz .vtp for points");
+  add_format(command, options->format);
+  steps->add_to(command);
+  command->add_flag("--inverse", options->inverse, "The inverse of the whole");
 }
 
 }  // namespace affskel::client

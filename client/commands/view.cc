@@ -1,15 +1,20 @@
 // The page that shows a job: fetches what it needs, hands it to client/view.
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "client/commands/commands.h"
-#include "client/commands/destination.h"
-#include "client/commands/fetch.h"
-#include "client/commands/follow.h"
-#include "client/exporters/atomic_file.h"
-#include "client/exporters/numbers.h"
-#include "client/job_json.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/fetch_artifact.h"
+#include "client/commands/shared/follow.h"
+#include "client/commands/shared/job_options.h"
+#include "client/commands/shared/skeleton_options.h"
+#include "client/files/write/atomic_file.h"
+#include "client/text/words.h"
 #include "client/view/page.h"
 #include "core/base/number_text.h"
 #include "core/chords/chord_pruning.h"
@@ -17,6 +22,11 @@
 
 namespace affskel::client {
 namespace {
+
+struct Options {
+  std::string job, output;
+  SkeletonOptions skeleton;  // no operator: the job's
+};
 
 // Beyond this a phone takes long to open the page; about 19 bytes each.
 constexpr std::uint64_t kMostPoints = 400000;
@@ -39,27 +49,31 @@ class PointSink : public ArtifactSink {
   FieldDecoder decoder_;
 };
 
-// For an operator of H; `chords` has none.
-core::ShockOperator core_operator(v1::Operator which) {
-  switch (which) {
-    case v1::OPERATOR_INTERMEDIATE:
-      return core::ShockOperator::kIntermediate;
-    case v1::OPERATOR_CENTRAL:
-      return core::ShockOperator::kCentral;
-    case v1::OPERATOR_SOBEL:
-      return core::ShockOperator::kSobel;
-    case v1::OPERATOR_FLUX:
-      return core::ShockOperator::kFlux;
-    default:
-      return core::ShockOperator::kZuckerHummel;
+// The operators of H, all but `chords`.
+constexpr std::array<std::pair<v1::Operator, core::ShockOperator>, 5> kShockOperators = {
+    {{v1::OPERATOR_ZUCKER_HUMMEL, core::ShockOperator::kZuckerHummel},
+     {v1::OPERATOR_INTERMEDIATE, core::ShockOperator::kIntermediate},
+     {v1::OPERATOR_CENTRAL, core::ShockOperator::kCentral},
+     {v1::OPERATOR_SOBEL, core::ShockOperator::kSobel},
+     {v1::OPERATOR_FLUX, core::ShockOperator::kFlux}}};
+
+// A server of a later version may know more operators.
+core::ShockOperator shock_operator(v1::Operator which) {
+  for (const auto& [known, shock_operator] : kShockOperators) {
+    if (known == which) return shock_operator;
   }
+  throw ClientError(ExitCode::kUsage, "the job's skeleton is by operator " + std::to_string(which) +
+                                          " of the protocol, which this version does not know; name another "
+                                          "with --operator");
 }
 
 // Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
+// @throws ClientError kUsage for an unknown operator.
 double first_threshold(const v1::SkeletonParams& params, double spacing) {
-  if (params.threshold() > 0) return params.threshold();
-  if (params.operator_() == v1::OPERATOR_CHORDS) return core::ChordPruningOptions().significance;
-  return core::default_threshold(core_operator(params.operator_()), spacing);
+  const bool chords = params.operator_() == v1::OPERATOR_CHORDS;
+  const double preset = chords ? core::ChordPruningOptions().significance
+                               : core::default_threshold(shock_operator(params.operator_()), spacing);
+  return params.threshold() > 0 ? params.threshold() : preset;
 }
 
 std::vector<float> fetch_divergences(Context& context, const std::string& job,
@@ -83,7 +97,7 @@ std::vector<float> fetch_divergences(Context& context, const std::string& job,
 ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
   ViewInput input;
   input.job = job;
-  input.operator_name = enum_word(*v1::Operator_descriptor()->FindValueByNumber(params.operator_()));
+  input.operator_name = operator_word(params.operator_());
   input.sheet_is_skeleton = params.operator_() == v1::OPERATOR_CHORDS;
   input.threshold = first_threshold(params, job.prepared().spacing());
   const LatticePoints lattice(
@@ -111,9 +125,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
   return input;
 }
 
-}  // namespace
-
-void run_view(Context& context, const JobOptions& options) {
+void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, page_formats(), "page");
   AtomicFile file(destination.file);
@@ -130,6 +142,22 @@ void run_view(Context& context, const JobOptions& options) {
                               {"file", options.output},
                               {"points", input.points.size()},
                               {"bytes", page.size()}});
+}
+
+}  // namespace
+
+void add_view(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      line.add("view",
+               "Page for any browser: the body and its skeleton to turn, with sliders for the\n"
+               "shock threshold and the erosion level; one file that needs no network",
+               "  affskel-client view @last -o body.html\n"
+               "  affskel-client view 3f2a9c --threshold 5 -o body.html",
+               [options](Context& context) { run(context, *options); });
+  add_job(command, options->job);
+  add_skeleton_options(command, options->skeleton);
+  add_output(command, options->output, "HTML file to write, or -");
 }
 
 }  // namespace affskel::client

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "client/console.h"
-#include "client/exporters/numbers.h"
-#include "client/xml_text.h"
+#include "client/text/printable.h"
+#include "client/text/xml_text.h"
+#include "core/base/number_text.h"
+#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -15,14 +16,16 @@ constexpr double kLeft = 70, kRight = 770, kTop = 150, kBottom = 490;
 
 // A place on the picture, to a hundredth of a pixel.
 std::string pixel(double value) {
-  return shortest(std::round(100 * value) / 100);
+  return core::to_text(std::round(100 * value) / 100);
 }
 
 // What fits beside the left margin; the end of a file's name tells more than its beginning.
 std::string shortened(const std::string& words) {
   constexpr std::size_t kMost = 95, kHead = 20;
   if (words.size() <= kMost) return words;
-  return words.substr(0, kHead) + " ... " + words.substr(words.size() - (kMost - kHead - 5));
+  const std::size_t head = wire::truncate_utf8(words, kHead).size();
+  const std::size_t tail = wire::truncate_utf8(words, words.size() - (kMost - kHead - 5)).size();
+  return words.substr(0, head) + " ... " + words.substr(tail);
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
@@ -66,7 +69,7 @@ class Drawing {
     for (const double x : round_ticks(plot_.x_max, 8)) {
       svg_ += line(across(x), kTop, across(x), kBottom, "stroke=\"#e3e3e3\"");
       svg_ += line(across(x), kBottom, across(x), kBottom + 5, "stroke=\"#222\"");
-      svg_ += text(across(x), kBottom + 21, "text-anchor=\"middle\"", rounded(x, 6));
+      svg_ += text(across(x), kBottom + 21, "text-anchor=\"middle\"", core::rounded(x, 6));
     }
     for (int share = 0; share <= 100; share += 20) {
       const double y = up(share / 100.0);

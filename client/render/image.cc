@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "client/error.h"
+#include "client/base/error.h"
 
 namespace affskel::client {
 namespace {

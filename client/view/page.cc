@@ -7,11 +7,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "client/error.h"
-#include "client/exporters/numbers.h"
-#include "client/job_json.h"
-#include "client/mesh_box.h"
-#include "client/base64.h"
+#include "client/base/error.h"
+#include "client/base/mesh_box.h"
+#include "client/files/base64.h"
+#include "client/text/words.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
 #include "wire/version.h"
@@ -148,19 +147,13 @@ float highest_share(const ViewInput& input) {
   return highest;
 }
 
-std::string frame_name(const v1::Job& job) {
-  const auto* value = v1::Frame_descriptor()->FindValueByNumber(job.params().frame());
-  const std::string word = value == nullptr ? "" : enum_word(*value);
-  return word.empty() ? "axis" : word;
-}
-
 ordered_json facts_of(const ViewInput& input, const Box& box, const Scale& scale) {
   const v1::PreparedSummary& prepared = input.job.prepared();
   const Vec3 size = box.size();
   return {{"name", input.job.name()},
           {"job", input.job.id()},
           {"operator", input.operator_name},
-          {"frame", frame_name(input.job)},
+          {"frame", frame_word(input.job.params().frame())},
           {"threshold", input.threshold},
           {"lowestThreshold", input.selection.lowest_threshold},
           {"thinning", input.selection.thinning},

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "client/exporters/field_writer.h"
-#include "client/exporters/lattice_points.h"
+#include "client/artifacts/field_decoder.h"
+#include "client/base/lattice_points.h"
 #include "core/base/vec3.h"
 
 namespace affskel::client {
@@ -51,7 +51,7 @@ ViewSelection select_view_points(std::uint64_t points, const std::vector<float>&
                                  double threshold, std::uint64_t most);
 
 /// Gathers a page's points from a field.
-class ViewPointCollector : public FieldWriter {
+class ViewPointCollector : public FieldReceiver {
  public:
   /// All arguments must outlive it.  @param divergences as in select_view_points.
   ViewPointCollector(const ViewGrid& grid, const ViewSelection& selection,

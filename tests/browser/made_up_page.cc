@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "client/exporters/atomic_file.h"
+#include "client/files/write/atomic_file.h"
 #include "client/view/page.h"
 #include "core/shapes/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "client/render/text.h"
+#include "client/render/stroke_text.h"
 
 namespace affskel::experiments {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/client.h"
+#include "client/commands/run_client.h"
 #include "fake_service.h"
 
 namespace affskel::client {

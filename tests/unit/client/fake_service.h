@@ -27,7 +27,7 @@ class FakeService final : public v1::ErosionService::Service {
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
   int busy = 0;                           ///< so many questions about a job get busy_status first
   grpc::Status busy_status{grpc::StatusCode::UNAVAILABLE, "too many calls"};
-  bool damage = false;                    ///< flip a byte of every artefact
+  bool damage = false;  ///< flip a byte of every artefact
   bool existed = false;
   std::uint64_t max_mesh_bytes = 1 << 30;
 

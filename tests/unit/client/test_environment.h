@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "client/environment.h"
+#include "client/connection/environment.h"
 
 namespace affskel::client {
 

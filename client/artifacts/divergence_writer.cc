@@ -1,0 +1,22 @@
+#include "client/artifacts/divergence_writer.h"
+
+#include <cstring>
+#include <limits>
+
+namespace affskel::client {
+
+DivergenceWriter::DivergenceWriter(FileFormat format, AtomicFile& file, const LatticePoints& points)
+    : table_(format, file, points, {{"H", {"H"}, false, std::numeric_limits<double>::quiet_NaN()}}),
+      values_(points, sizeof(double), "divergence", "values",
+              [this](const SamplePoint& at, const char* bytes) {
+                double divergence = 0;
+                std::memcpy(&divergence, bytes, sizeof divergence);
+                table_.put(at, {&divergence, 1});
+              }) {}
+
+void DivergenceWriter::finish() {
+  values_.finish();
+  table_.finish();
+}
+
+}  // namespace affskel::client

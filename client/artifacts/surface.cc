@@ -1,0 +1,55 @@
+#include "client/artifacts/surface.h"
+
+#include <vector>
+
+#include "client/base/error.h"
+
+namespace affskel::client {
+namespace {
+
+[[noreturn]] void damaged(const std::string& what) {
+  throw ClientError(ExitCode::kInternal, "the server sent a damaged surface: " + what);
+}
+
+// Values of a vertex stand together in the message: a column takes every n-th of them.
+void add_columns(ShapeFile& shape, const std::vector<std::string>& names,
+                 const google::protobuf::RepeatedField<double>& values) {
+  if (values.empty()) return;
+  const std::size_t n = names.size(), vertices = shape.mesh().points.size();
+  if (static_cast<std::size_t>(values.size()) != n * vertices) damaged("a vertex without its properties");
+  for (std::size_t c = 0; c < n; ++c) {
+    PointColumn column{names[c], false, std::vector<double>(vertices)};
+    for (std::size_t v = 0; v < vertices; ++v) column.values[v] = values[static_cast<int>(n * v + c)];
+    shape.columns.push_back(std::move(column));
+  }
+}
+
+}  // namespace
+
+FetchedSurface parse_surface(const std::string& bytes) {
+  v1::TriangleMesh message;
+  if (!message.ParseFromString(bytes) || message.xyz_size() % 3 != 0 || message.corners_size() % 3 != 0) {
+    damaged("odd numbers");
+  }
+  FetchedSurface surface;
+  for (int i = 0; i < message.xyz_size(); i += 3) {
+    surface.shape.off.mesh.points.push_back({message.xyz(i), message.xyz(i + 1), message.xyz(i + 2)});
+  }
+  for (int i = 0; i < message.corners_size(); i += 3) {
+    const core::Triangle t = {message.corners(i), message.corners(i + 1), message.corners(i + 2)};
+    for (const std::uint32_t corner : t) {
+      if (corner >= surface.shape.off.mesh.points.size()) damaged("a corner out of range");
+    }
+    surface.shape.off.mesh.triangles.push_back(t);
+  }
+  add_columns(surface.shape, {"E"}, message.erosion());
+  add_columns(surface.shape, {"strength"}, message.strength());
+  add_columns(surface.shape, {"area"}, message.area());
+  add_columns(surface.shape, {"nx_a", "ny_a", "nz_a"}, message.normal_a());
+  add_columns(surface.shape, {"nx_b", "ny_b", "nz_b"}, message.normal_b());
+  surface.quality = message.quality();
+  surface.volume = message.volume();
+  return surface;
+}
+
+}  // namespace affskel::client

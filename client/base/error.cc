@@ -1,0 +1,71 @@
+#include "client/base/error.h"
+
+#include <cerrno>
+#include <cstring>
+
+namespace affskel::client {
+const char* exit_code_name(ExitCode code) {
+  switch (code) {
+    case ExitCode::kDone:
+      return "DONE";
+    case ExitCode::kJobFailed:
+      return "JOB_FAILED";
+    case ExitCode::kUsage:
+      return "USAGE";
+    case ExitCode::kBadInput:
+      return "BAD_INPUT";
+    case ExitCode::kNotFound:
+      return "NOT_FOUND";
+    case ExitCode::kUnreachable:
+      return "UNREACHABLE";
+    case ExitCode::kCancelled:
+      return "CANCELLED";
+    case ExitCode::kNotAllowed:
+      return "NOT_ALLOWED";
+    case ExitCode::kLimit:
+      return "LIMIT";
+    case ExitCode::kInternal:
+      break;
+  }
+  return "INTERNAL";
+}
+
+std::string ClientError::for_people() const {
+  std::string text = file_;
+  if (line_ > 0) text += (text.empty() ? "line " : ":") + std::to_string(line_);
+  if (!text.empty()) text += ": ";
+  return text + what();
+}
+
+ClientError error_from_core(const core::CoreError& error, const std::string& file) {
+  ExitCode code = ExitCode::kInternal;
+  switch (error.code()) {
+    case core::CoreError::Code::kBadInput:
+      code = file.empty() ? ExitCode::kUsage : ExitCode::kBadInput;
+      break;
+    case core::CoreError::Code::kLimit:
+      code = ExitCode::kLimit;
+      break;
+    case core::CoreError::Code::kCancelled:
+      code = ExitCode::kCancelled;
+      break;
+    case core::CoreError::Code::kInternal:
+      break;
+  }
+  std::string message = error.what();
+  // The place is told apart from the message here, and once is enough.
+  const std::string place = "line " + std::to_string(error.line()) + ": ";
+  if (error.line() > 0 && message.starts_with(place)) message.erase(0, place.size());
+  return {code, message, file, error.line()};
+}
+
+ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
+                             ExitCode otherwise) {
+  ExitCode code = otherwise;
+  if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG || error_number == EPIPE)
+    code = ExitCode::kLimit;
+  if (error_number == EACCES || error_number == EPERM || error_number == EROFS) code = ExitCode::kNotAllowed;
+  return {code, action + ": " + std::strerror(error_number), file};
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,233 @@
+// Completion scripts.  All three walk the words already typed to find the command (a path such as
+// "/make/torus"), then offer the values of the option before the cursor, or the command's subcommands,
+// options and fixed positional values.
+#include "client/cli/completions.h"
+
+#include <CLI/CLI.hpp>
+
+#include "client/base/error.h"
+#include "client/cli/help_format.h"
+
+namespace affskel::client {
+namespace {
+
+struct CompletedOption {
+  std::vector<std::string> names;  // with dashes
+  std::string description;
+  bool takes_value = false;
+  bool takes_file = false;
+  std::vector<std::string> values;  // if only these are possible
+};
+
+struct CompletedCommand {
+  std::string path;  // "" = top, "/submit", "/make/torus"
+  std::string name;
+  std::string description;
+  std::vector<CompletedOption> options;  // its own and the global ones
+  std::vector<std::string> positional_values;
+  bool positional_file = false;
+  std::vector<std::pair<std::string, std::string>> subcommands;  // name, description
+};
+
+bool wants_file(const CLI::Option& option) {
+  const std::string type = placeholder(option);
+  return type == "FILE" || type == "DIR" || option.get_name() == "FILE";
+}
+
+void add_options(CompletedCommand& command, const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional()) {
+      for (const std::string& value : possible_values(*option)) command.positional_values.push_back(value);
+      if (option->get_name() == "JOB") command.positional_values.push_back("@last");
+      command.positional_file = command.positional_file || wants_file(*option);
+      continue;
+    }
+    CompletedOption completed;
+    for (const std::string& name : option->get_snames()) completed.names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) completed.names.push_back("--" + name);
+    completed.description = option->get_description();
+    completed.takes_value = option->get_items_expected_max() > 0;
+    completed.takes_file = wants_file(*option);
+    completed.values = possible_values(*option);
+    command.options.push_back(std::move(completed));
+  }
+}
+
+void collect(std::vector<CompletedCommand>& all, const CLI::App& app, const std::string& path) {
+  CompletedCommand command;
+  command.path = path;
+  command.name = app.get_name();
+  command.description = app.get_description();
+  for (const CLI::App* level = &app; level != nullptr; level = level->get_parent()) {
+    // Help exists on every level, once is enough.
+    const std::size_t known = command.options.size();
+    add_options(command, *level);
+    if (level != &app) {
+      std::erase_if(command.options, [&, i = std::size_t{0}](const CompletedOption& o) mutable {
+        return i++ >= known && o.names.back() == "--help";
+      });
+    }
+  }
+  const auto children = app.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* child : children)
+    command.subcommands.emplace_back(child->get_name(), child->get_description());
+  all.push_back(std::move(command));
+  for (const CLI::App* child : children) collect(all, *child, path + "/" + child->get_name());
+}
+
+std::string join(const std::vector<std::string>& words, const std::string& between) {
+  return CLI::detail::join(words, between);
+}
+
+std::vector<std::string> subcommand_paths(const std::vector<CompletedCommand>& commands) {
+  std::vector<std::string> paths;
+  for (const CompletedCommand& c : commands) {
+    if (!c.path.empty()) paths.push_back("'" + c.path + "'");
+  }
+  return paths;
+}
+
+// Shell patterns "path:option" that an option's names give.
+std::string value_pattern(const CompletedCommand& c, const CompletedOption& o) {
+  std::vector<std::string> patterns;
+  for (const std::string& name : o.names) patterns.push_back("'" + c.path + ":" + name + "'");
+  return join(patterns, "|");
+}
+
+std::string bash_script(const std::vector<CompletedCommand>& commands) {
+  std::string s =
+      "# Completion of affskel-client for bash: source this file.\n_affskel_client() {\n"
+      "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} at= i\n"
+      "  COMPREPLY=()\n"
+      "  for ((i = 1; i < COMP_CWORD; i++)); do\n    case \"$at/${COMP_WORDS[i]}\" in\n      " +
+      join(subcommand_paths(commands), "|") +
+      ") at+=/${COMP_WORDS[i]} ;;\n    esac\n  done\n"
+      "  case \"$at:$prev\" in\n";
+  for (const CompletedCommand& c : commands) {
+    for (const CompletedOption& o : c.options) {
+      if (!o.takes_value) continue;
+      const std::string reply =
+          !o.values.empty() ? "COMPREPLY=($(compgen -W '" + join(o.values, " ") + "' -- \"$cur\"))"
+          : o.takes_file    ? "COMPREPLY=($(compgen -f -- \"$cur\")); compopt -o filenames 2>/dev/null"
+                            : "";
+      s += "    " + value_pattern(c, o) + ") " + reply + (reply.empty() ? "" : "; ") + "return ;;\n";
+    }
+  }
+  s += "  esac\n  local words= files=\n  case \"$at\" in\n";
+  for (const CompletedCommand& c : commands) {
+    std::vector<std::string> words = c.positional_values;
+    for (const auto& sub : c.subcommands) words.push_back(sub.first);
+    std::vector<std::string> options;
+    for (const CompletedOption& o : c.options) options.push_back(o.names.back());
+    s += "    '" + c.path + "') words='" + join(words, " ") + "'; [[ $cur == -* ]] && words='" +
+         join(options, " ") + "'" + (c.positional_file ? "; files=1" : "") + " ;;\n";
+  }
+  return s +
+         "  esac\n  COMPREPLY=($(compgen -W \"$words\" -- \"$cur\"))\n"
+         "  if [[ $files && $cur != -* ]]; then\n    COMPREPLY+=($(compgen -f -- \"$cur\"))\n"
+         "    compopt -o filenames 2>/dev/null\n  fi\n}\n"
+         "complete -F _affskel_client affskel-client\n";
+}
+
+// For single quotes; zsh's _describe splits at colons, which a backslash prevents.
+std::string quoted(const std::string& text, bool zsh) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '\'') {
+      safe += "'\\''";
+    } else {
+      if (zsh && c == ':') safe += '\\';
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string zsh_script(const std::vector<CompletedCommand>& commands) {
+  std::string s =
+      "#compdef affskel-client\n# Completion of affskel-client for zsh: a file named _affskel-client in "
+      "$fpath, or source it.\n"
+      "_affskel_client() {\n  local at= i\n  local -a found\n  for ((i = 2; i < CURRENT; i++)); do\n"
+      "    case \"$at/${words[i]}\" in\n      (" +
+      join(subcommand_paths(commands), "|") +
+      ") at+=/${words[i]} ;;\n    esac\n  done\n"
+      "  case \"$at:${words[CURRENT-1]}\" in\n";
+  for (const CompletedCommand& c : commands) {
+    for (const CompletedOption& o : c.options) {
+      if (!o.takes_value) continue;
+      const std::string reply = !o.values.empty() ? "compadd -- " + join(o.values, " ") + "; "
+                                : o.takes_file    ? "_files; "
+                                                  : "";
+      s += "    (" + value_pattern(c, o) + ") " + reply + "return ;;\n";
+    }
+  }
+  s += "  esac\n  case \"$at\" in\n";
+  for (const CompletedCommand& c : commands) {
+    s += "    ('" + c.path + "')\n      if [[ ${words[CURRENT]} == -* ]]; then\n        found=(";
+    for (const CompletedOption& o : c.options)
+      s += "\n          '" + quoted(o.names.back(), true) + ":" + quoted(o.description, true) + "'";
+    s += ")\n        _describe -o option found\n      else\n";
+    if (!c.subcommands.empty()) {
+      s += "        found=(";
+      for (const auto& sub : c.subcommands)
+        s += "\n          '" + sub.first + ":" + quoted(sub.second, true) + "'";
+      s += ")\n        _describe command found\n";
+    }
+    if (!c.positional_values.empty()) s += "        compadd -- " + join(c.positional_values, " ") + "\n";
+    if (c.positional_file) s += "        _files\n";
+    s += "      fi ;;\n";
+  }
+  return s +
+         "  esac\n}\n"
+         "if [[ ${funcstack[1]} == _affskel-client ]]; then _affskel_client; else compdef _affskel_client "
+         "affskel-client; fi\n";
+}
+
+std::string fish_condition(const CompletedCommand& c, const std::vector<CompletedCommand>& commands) {
+  std::string condition;
+  if (c.path.empty()) {
+    std::vector<std::string> names;
+    for (const auto& sub : commands.front().subcommands) names.push_back(sub.first);
+    return "not __fish_seen_subcommand_from " + join(names, " ");
+  }
+  for (const std::string& word : CLI::detail::split(c.path.substr(1), '/')) {
+    condition += (condition.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
+  }
+  return condition;
+}
+
+std::string fish_script(const std::vector<CompletedCommand>& commands) {
+  std::string s =
+      "# Completion of affskel-client for fish: source this file.\ncomplete -c affskel-client -f\n";
+  for (const CompletedCommand& c : commands) {
+    const std::string head = "complete -c affskel-client -n '" + fish_condition(c, commands) + "' ";
+    for (const auto& sub : c.subcommands) {
+      s += head + "-a " + sub.first + " -d '" + quoted(sub.second, false) + "'\n";
+    }
+    if (!c.positional_values.empty()) s += head + "-a '" + join(c.positional_values, " ") + "'\n";
+    if (c.positional_file) s += head + "-F\n";
+    for (const CompletedOption& o : c.options) {
+      s += head;
+      for (const std::string& name : o.names)
+        s += name.starts_with("--") ? "-l " + name.substr(2) + " " : "-s " + name.substr(1) + " ";
+      if (o.takes_value) s += "-r ";
+      if (o.takes_file) s += "-F ";
+      if (!o.values.empty()) s += "-a '" + join(o.values, " ") + "' ";
+      s += "-d '" + quoted(o.description, false) + "'\n";
+    }
+  }
+  return s;
+}
+
+}  // namespace
+
+std::string completion_script(const CLI::App& app, const std::string& shell) {
+  std::vector<CompletedCommand> commands;
+  collect(commands, app, "");
+  if (shell == "bash") return bash_script(commands);
+  if (shell == "zsh") return zsh_script(commands);
+  if (shell == "fish") return fish_script(commands);
+  throw ClientError(ExitCode::kUsage, "no completions for '" + shell + "'; possible are bash, zsh and fish");
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,86 @@
+#include "client/cli/console.h"
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "client/text/printable.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kRed = "\033[31m";
+constexpr const char* kYellow = "\033[33m";
+constexpr const char* kCyan = "\033[36m";
+constexpr const char* kClearLine = "\r\033[K";
+constexpr const char* kReset = "\033[0m";
+
+// Invalid UTF-8 (file names may hold any bytes) must not make the output fail.
+std::string dump(const ordered_json& value) {
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void Console::erase_transient() {
+  if (transient_shown_) err_ << kClearLine << std::flush;
+  transient_shown_ = false;
+}
+
+void Console::line(const char* colour, std::string_view label, std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  erase_transient();
+  if (!label.empty()) err_ << (style_.colour ? colour : "") << label << (style_.colour ? kReset : "") << ' ';
+  err_ << text << '\n' << std::flush;
+}
+
+void Console::result(std::string_view text) {
+  if (style_.json) return;
+  const std::lock_guard lock(mutex_);
+  erase_transient();
+  out_ << text << std::flush;
+}
+
+void Console::document(const ordered_json& value) {
+  if (!style_.json) return;
+  const std::lock_guard lock(mutex_);
+  out_ << dump(value) << '\n' << std::flush;
+}
+
+void Console::transient(std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  err_ << kClearLine << (style_.colour ? kCyan : "") << printable(text) << (style_.colour ? kReset : "")
+       << std::flush;
+  transient_shown_ = true;
+}
+
+void Console::clear_transient() {
+  const std::lock_guard lock(mutex_);
+  erase_transient();
+}
+
+void Console::note(std::string_view text) {
+  if (!style_.quiet) line("", "", printable(text));
+}
+
+void Console::warning(std::string_view text) {
+  line(kYellow, "warning:", printable(text));
+}
+
+void Console::error(const ClientError& error) {
+  if (!style_.json) return line(kRed, "error:", printable(error.for_people()));
+  ordered_json body = {{"code", exit_code_name(error.exit_code())}, {"message", error.what()}};
+  if (!error.file().empty()) body["file"] = error.file();
+  if (error.line() > 0) body["line"] = error.line();
+  line("", "", dump({{"error", body}}));
+}
+
+void Console::finish() {
+  out_.flush();
+  if (!out_)
+    throw ClientError(ExitCode::kLimit,
+                      "cannot write to standard output: it is closed, or there is no room left");
+}
+
+}  // namespace affskel::client

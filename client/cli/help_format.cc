@@ -1,0 +1,43 @@
+#include "client/cli/help_format.h"
+
+#include <CLI/CLI.hpp>
+
+namespace affskel::client {
+
+HelpFormatter::HelpFormatter() {
+  column_width(28);
+  label("SUBCOMMAND", "COMMAND");
+  label("Subcommands", "Commands");
+}
+
+std::string placeholder(const CLI::Option& option) {
+  // The full name is TYPE:VALIDATOR:...
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
+std::vector<std::string> possible_values(const CLI::Option& option) {
+  // CLI11 shows the values of IsMember as {a,b,c} in the type's name.
+  const std::string type = option.get_type_name();
+  const std::size_t open = type.find('{'), close = type.find('}');
+  if (open == std::string::npos || close == std::string::npos || close < open) return {};
+  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  const std::string name = placeholder(*option);
+  return name.empty() || option->get_positional() ? "" : " " + name;
+}
+
+std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
+  std::string text = option->get_description();
+  if (const auto values = possible_values(*option); !values.empty()) {
+    text += (text.empty() ? "" : ": ") + CLI::detail::join(values, ", ");
+  }
+  std::string preset = option->get_default_str();
+  if (preset.empty()) return text;
+  if (preset.front() == '[') preset = preset.substr(1, preset.size() - 2);  // a list
+  return text + " (default: " + preset + ")";
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,81 @@
+#include "client/cli/value_checks.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "client/cli/number_parsers.h"
+#include "core/base/number_text.h"
+#include "wire/params.h"
+#include "wire/utf8.h"
+
+namespace affskel::client {
+
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = error == std::errc{} && end == text.data() + text.size();
+        return good && std::isfinite(value) && value > 0 ? "" : "must be a number > 0, not '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator proper_share() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const std::optional<double> share = parse_share(text);
+        if (!share || !(*share > 0 && *share < 1)) {
+          return "must be a share between 0 and 1 as in 0.1 or 10%, not '" + text + "'";
+        }
+        text = core::to_text(*share);
+        return "";
+      },
+      "");
+}
+
+CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
+  return CLI::Validator(
+      [low, high](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc{} && end == text.data() + text.size();
+        return whole && value >= low && value <= high
+                   ? ""
+                   : "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+                         ", not '" + text + "'";
+      },
+      "");
+}
+
+CLI::Validator given() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
+CLI::Validator utf8_text() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        return wire::is_utf8(text) ? "" : "must be UTF-8 text, not '" + wire::to_utf8(text) + "'";
+      },
+      "");
+}
+
+CLI::Validator direction_set() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        try {
+          text = wire::canonical_directions(text);
+          return {};
+        } catch (const std::invalid_argument& error) {
+          return error.what();
+        }
+      },
+      "");
+}
+
+}  // namespace affskel::client

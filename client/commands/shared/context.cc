@@ -1,0 +1,12 @@
+#include "client/commands/shared/context.h"
+
+namespace affskel::client {
+
+Session& Context::session() {
+  if (!session_) {
+    session_.emplace(choose_server(server_, environment_), environment_, console_, policy_);
+  }
+  return *session_;
+}
+
+}  // namespace affskel::client

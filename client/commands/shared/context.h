@@ -1,0 +1,42 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "client/cli/console.h"
+#include "client/connection/environment.h"
+#include "client/connection/session.h"
+
+namespace affskel::client {
+
+/// What every command works with.  The server is looked for when it is first needed.
+class Context {
+ public:
+  /// @param out standard output, for what is printed as it is in every mode; results go to the console.
+  /// @param server the value of --server; empty = see choose_server.
+  Context(Console& console, std::ostream& out, Environment environment, std::string server,
+          RetryPolicy policy = {})
+      : console_(console),
+        out_(out),
+        environment_(std::move(environment)),
+        server_(std::move(server)),
+        policy_(policy) {}
+
+  Console& console() { return console_; }
+  std::ostream& out() { return out_; }
+  const Environment& environment() const { return environment_; }
+
+  /// @throws ClientError as choose_server.
+  Session& session();
+
+ private:
+  Console& console_;
+  std::ostream& out_;
+  Environment environment_;
+  std::string server_;
+  RetryPolicy policy_;
+  std::optional<Session> session_;
+};
+
+}  // namespace affskel::client

@@ -1,0 +1,91 @@
+#include "client/commands/shared/fetch_artifact.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "client/files/read/input_file.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::chrono::seconds kWaitBeforeNote{2};
+
+// Says that a computation is being waited for, unless it is over soon.
+class WaitingNote {
+ public:
+  WaitingNote(Console& console, const std::string& what)
+      : thread_([this, &console, what] {
+          std::unique_lock lock(mutex_);
+          if (!over_.wait_for(lock, kWaitBeforeNote, [this] { return done_; })) {
+            console.note("waiting for a worker to compute the " + what);
+          }
+        }) {}
+  ~WaitingNote() {
+    {
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+    }
+    over_.notify_all();
+    thread_.join();
+  }
+  WaitingNote(const WaitingNote&) = delete;
+  WaitingNote& operator=(const WaitingNote&) = delete;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool done_ = false;  // guarded by mutex_
+  std::thread thread_;
+};
+
+bool is_sheet(const v1::TriangleMesh& mesh) {
+  const int vertices = mesh.xyz_size() / 3;
+  const auto in_range = [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); };
+  return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices &&
+         mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 &&
+         std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range);
+}
+
+}  // namespace
+
+v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind) {
+  v1::FetchArtifactRequest request;
+  request.set_job(job);
+  request.set_kind(kind);
+  return request;
+}
+
+std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+                            v1::ArtifactHeader& header, const std::string& what) {
+  context.session();  // an embedded server is announced before anything is waited for
+  const WaitingNote note(context.console(), what);
+  return context.session().fetch_bytes(request, &header);
+}
+
+v1::ArtifactHeader fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+                                   const std::function<std::unique_ptr<ArtifactSink>()>& make_sink,
+                                   const std::string& what) {
+  const WaitingNote note(context.console(), what);
+  return context.session().fetch(request, make_sink);
+}
+
+v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params) {
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
+  *request.mutable_surface()->mutable_skeleton() = params;
+  v1::ArtifactHeader header;
+  v1::TriangleMesh sheet;
+  if (!sheet.ParseFromString(fetch_patiently(context, request, header, "sheet")) || !is_sheet(sheet)) {
+    throw ClientError(ExitCode::kInternal, "the server sent a damaged sheet");
+  }
+  return sheet;
+}
+
+core::Mesh fetch_mesh(Context& context, const std::string& job) {
+  return parse_mesh(context.session().fetch_bytes(request_for(job, v1::ARTIFACT_KIND_MESH)),
+                    "mesh of job " + job)
+      .mesh;
+}
+
+}  // namespace affskel::client

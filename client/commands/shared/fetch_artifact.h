@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "client/base/error.h"
+#include "client/commands/shared/context.h"
+#include "core/mesh/mesh.h"
+
+namespace affskel::client {
+
+/// A request for an artefact without parameters.
+v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind);
+
+/// An artefact that is there as soon as the job is prepared. @param what names it in an error.
+/// @throws ClientError kInternal when it is no such message.
+template <typename Message>
+Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
+  Message message;
+  if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
+    throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);
+  }
+  return message;
+}
+
+/// Runs a fetch that may have to wait for a worker; says so after a moment. @param what is computed.
+std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+                            v1::ArtifactHeader& header, const std::string& what);
+v1::ArtifactHeader fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+                                   const std::function<std::unique_ptr<ArtifactSink>()>& make_sink,
+                                   const std::string& what);
+
+/// The mesh of a job, as it was submitted. @throws ClientError as parse_mesh.
+core::Mesh fetch_mesh(Context& context, const std::string& job);
+
+/// The sheet of operator chords, whole: for pictures.  Waits while it is computed.
+/// @throws ClientError kInternal when a corner is out of range or a vertex lacks E or its strength.
+v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params);
+
+}  // namespace affskel::client

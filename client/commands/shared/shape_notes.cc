@@ -1,0 +1,44 @@
+#include "client/commands/shared/shape_notes.h"
+
+#include <string>
+#include <vector>
+
+#include "client/files/write/shape_writer.h"
+#include "core/base/number_text.h"
+
+namespace affskel::client {
+namespace {
+
+void tell_renamed(Console& console, const ShapeFile& shape, const std::string& output) {
+  const std::vector<std::string> names = written_names(shape);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == shape.columns[i].name) continue;
+    console.note(output + ": column '" + shape.columns[i].name + "' is written as '" + names[i] +
+                 "', so that it can be read back");
+  }
+}
+
+}  // namespace
+
+std::string counts_text(const ShapeFile& shape) {
+  std::string text = core::counted(shape.mesh().points.size(), "point");
+  if (shape.is_surface()) text += ", " + core::counted(shape.mesh().triangles.size(), "triangle");
+  return text;
+}
+
+void tell_what_is_lost(Console& console, const ShapeFile& shape, FileFormat format,
+                       const std::string& output) {
+  if (!shape.columns.empty() && !holds_columns(format)) {
+    std::string names;
+    for (const PointColumn& column : shape.columns) names += (names.empty() ? "" : ", ") + column.name;
+    console.note(output + " is without the columns " + names + " of " + shape.path);
+  }
+  if (holds_columns(format)) tell_renamed(console, shape, output);
+  if (shape.off.polygons_cut > 0) {
+    console.note(shape.path + ": " + core::counted(shape.off.polygons_cut, "face") +
+                 " of more than three sides " + (shape.off.polygons_cut == 1 ? "was" : "were") +
+                 " cut into triangles");
+  }
+}
+
+}  // namespace affskel::client

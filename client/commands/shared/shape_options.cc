@@ -1,0 +1,13 @@
+#include "client/commands/shared/shape_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "client/cli/value_checks.h"
+
+namespace affskel::client {
+
+void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what) {
+  command->add_option(name, file, what)->required()->check(given())->type_name("FILE");
+}
+
+}  // namespace affskel::client

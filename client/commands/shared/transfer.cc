@@ -1,0 +1,279 @@
+#include "client/commands/shared/transfer.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "client/artifacts/divergence_writer.h"
+#include "client/artifacts/field_writer.h"
+#include "client/artifacts/skeleton_points.h"
+#include "client/artifacts/surface.h"
+#include "client/commands/shared/fetch_artifact.h"
+#include "client/commands/shared/follow.h"
+#include "client/files/write/atomic_file.h"
+#include "client/files/write/shape_writer.h"
+#include "client/text/message_json.h"
+#include "client/text/skeleton_text.h"
+#include "client/text/words.h"
+#include "core/base/number_text.h"
+
+namespace affskel::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A field on its way into a file; a transfer that breaks off leaves nothing behind.
+class FieldSink : public ArtifactSink {
+ public:
+  FieldSink(FileFormat format, const fs::path& file, const LatticePoints& points,
+            const v1::Directions& directions)
+      : file_(file), writer_(format, file_, points), decoder_(points, directions, writer_) {}
+  void begin(const v1::ArtifactHeader&) override {}
+  void data(std::string_view bytes) override { decoder_.data(bytes); }
+  void end() override {
+    decoder_.finish();
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  FieldWriter writer_;
+  FieldDecoder decoder_;
+};
+
+class RawSink : public ArtifactSink {
+ public:
+  explicit RawSink(const fs::path& file) : file_(file) {}
+  void begin(const v1::ArtifactHeader&) override {}
+  void data(std::string_view bytes) override { file_.write(bytes); }
+  void end() override { file_.commit(); }
+
+ private:
+  AtomicFile file_;
+};
+
+class DivergenceSink : public ArtifactSink {
+ public:
+  DivergenceSink(FileFormat format, const fs::path& file, const LatticePoints& points)
+      : file_(file), writer_(format, file_, points) {}
+  void begin(const v1::ArtifactHeader&) override {}
+  void data(std::string_view bytes) override { writer_.data(bytes); }
+  void end() override {
+    writer_.finish();
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  DivergenceWriter writer_;
+};
+
+// What a file should say about where it comes from.
+std::vector<std::string> comments_for(const v1::Job& job, const std::string& what, const std::string& how,
+                                      const v1::SkeletonQuality* quality = nullptr) {
+  std::vector<std::string> comments = {
+      what + " of " + job.name(),
+      "job " + job.id(),
+      "mesh sha256 " + job.mesh_sha256(),
+      "spacing " + core::to_text(job.prepared().spacing()) + ", " +
+          core::counted(job.prepared().points(), "sample point") + ", v0 " +
+          core::to_text(job.prepared().volume()),
+      "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) + " (" +
+          std::to_string(job.prepared().directions()) + "), frame " + frame_word(job.params().frame()),
+      how};
+  if (quality != nullptr) {
+    for (const auto& [key, value] : quality_lines(*quality))
+      comments.push_back("quality " + key + ": " + value);
+  }
+  return comments;
+}
+
+// The points' share of v0.  The lattice's cells would give another sum, wrong where the solid is thin; this
+// is v0 when all points are left.
+double volume_of_points(const v1::Job& job, int points) {
+  const double all = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
+  return job.prepared().volume() * (points / all);
+}
+
+std::string volume_text(const Written& written) {
+  if (!written.volume) return "";
+  return (written.unit == "point" ? ", volume about " : ", volume ") + core::rounded(*written.volume, 6);
+}
+
+// A sheet of chords comes with its quality, an alpha shape does not.
+std::string advice_for_empty_surface(const Written& written) {
+  if (!written.quality) {
+    return "no three skeleton points are near enough; try a larger --alpha or a smaller --threshold";
+  }
+  const std::string& advice = written.quality->advice();
+  return advice.empty() ? "no piece of the sheet is significant enough; try a smaller --threshold" : advice;
+}
+
+}  // namespace
+
+Written transfer_field(Context& context, const std::string& job, const Destination& destination) {
+  const FileFormat format = choose_format(destination, field_formats(), "field");
+  const v1::Job now = context.session().get_job(job);
+  // The finished field first: its absence is the error to report.
+  if (now.state() != v1::JOB_STATE_DONE &&
+      now.directions_done() < std::max<std::uint64_t>(1, now.directions_total())) {
+    throw ClientError(ExitCode::kNotFound,
+                      "there is no finished field: job " + now.id() + " " + unfinished_text(now));
+  }
+  const LatticePoints points(
+      fetch_message<v1::Lattice>(context, now.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  const auto directions =
+      fetch_message<v1::Directions>(context, now.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
+  const v1::ArtifactHeader header = context.session().fetch(
+      request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
+        return std::make_unique<FieldSink>(format, destination.file, points, directions);
+      });
+  return {destination, "field", "point", points.count(), header.job()};
+}
+
+Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
+                          const Destination& destination) {
+  const FileFormat format = choose_format(destination, skeleton_formats(), "skeleton");
+  AtomicFile out(destination.file);
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SKELETON);
+  if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
+  v1::ArtifactHeader header;
+  const v1::SkeletonPoints points = parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
+  const v1::SkeletonParams& params = skeleton ? *skeleton : header.job().skeleton();
+  const v1::SkeletonQuality* quality = points.has_quality() ? &points.quality() : nullptr;
+  const auto comments =
+      comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality);
+  write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
+  out.commit();
+  Written written{destination, "skeleton", "point", static_cast<std::uint64_t>(points.point_size()),
+                  header.job()};
+  if (quality != nullptr) written.quality = *quality;
+  return written;
+}
+
+Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
+                         const Destination& destination) {
+  const FileFormat format = choose_format(destination, surface_formats(), "surface");
+  AtomicFile out(destination.file);
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
+  if (surface != nullptr) *request.mutable_surface() = *surface;
+  v1::ArtifactHeader header;
+  const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "surface"));
+  const bool own = surface == nullptr || !surface->has_skeleton();
+  const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
+  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
+  const auto comments =
+      comments_for(header.job(), "affine skeleton, triangulated", "operator " + skeleton_params_text(params),
+                   sheet ? &fetched.quality : nullptr);
+  write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
+  out.commit();
+  Written written{destination, "surface", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
+  if (sheet) written.quality = fetched.quality;
+  return written;
+}
+
+Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
+                            const Destination& destination) {
+  const FileFormat format = choose_format(destination, divergence_formats(), "divergence");
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_DIVERGENCE);
+  if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
+  request.set_job(context.session().get_job(job).id());
+  const LatticePoints points(
+      fetch_message<v1::Lattice>(context, request.job(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  const v1::ArtifactHeader header = fetch_patiently(
+      context, request,
+      [&]() -> std::unique_ptr<ArtifactSink> {
+        return std::make_unique<DivergenceSink>(format, destination.file, points);
+      },
+      "divergence");
+  return {destination, "divergence", "point", points.count(), header.job()};
+}
+
+Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
+                               const Destination& destination) {
+  const FileFormat format = choose_format(destination, skeleton_formats(), "eroded solid's points");
+  AtomicFile out(destination.file);
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_POINTS);
+  *request.mutable_eroded() = params;
+  v1::ArtifactHeader header;
+  const v1::SkeletonPoints points =
+      parse_eroded_points(fetch_patiently(context, request, header, "eroded solid"));
+  const double volume = volume_of_points(header.job(), points.point_size());
+  const auto comments =
+      comments_for(header.job(), "eroded solid",
+                   "level " + eroded_params_text(params) + ", volume about " + core::rounded(volume, 6));
+  write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
+  out.commit();
+  Written written{destination, "eroded", "point", static_cast<std::uint64_t>(points.point_size()),
+                  header.job()};
+  written.volume = volume;
+  written.advice = points.quality().advice();
+  return written;
+}
+
+Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
+                                const Destination& destination) {
+  const FileFormat format = choose_format(destination, surface_formats(), "eroded solid's surface");
+  AtomicFile out(destination.file);
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_SURFACE);
+  *request.mutable_eroded() = params;
+  v1::ArtifactHeader header;
+  const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "eroded solid"));
+  const auto comments =
+      comments_for(header.job(), "eroded solid",
+                   "level " + eroded_params_text(params) + ", volume " + core::to_text(fetched.volume));
+  write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
+  out.commit();
+  Written written{destination, "eroded", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
+  written.volume = fetched.volume;
+  written.advice = fetched.quality.advice();
+  return written;
+}
+
+Written transfer_mesh(Context& context, const std::string& job, const Destination& destination) {
+  const v1::ArtifactHeader header = context.session().fetch(
+      request_for(job, v1::ARTIFACT_KIND_MESH),
+      [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(destination.file); });
+  return {destination, "mesh", "byte", header.bytes(), header.job()};
+}
+
+// Formats that hold only points mean points; the others can hold a surface.
+bool holds_eroded_surface(const Destination& destination) {
+  const std::string extension = destination.extension();
+  const auto formats = surface_formats();
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](FileFormat format) { return extension == extension_of(format); });
+}
+
+void tell_result(Context& context, const Written& written) {
+  if (written.kind == "skeleton") {
+    warn_if_empty(context.console(), written.items, written.quality.value_or(v1::SkeletonQuality()),
+                  written.job);
+  }
+  if (written.kind == "surface" && written.items == 0) {
+    context.console().warning("the surface is empty: " + advice_for_empty_surface(written));
+  }
+  if (written.kind == "eroded" && written.items == 0) {
+    context.console().warning("the eroded solid is empty: " +
+                              (written.advice.empty() ? "no sample point has such an E" : written.advice) +
+                              "; try a lower level");
+  }
+  tell_written(context.console(), written);
+  context.console().document(written_json(written));
+}
+
+nlohmann::ordered_json written_json(const Written& written) {
+  nlohmann::ordered_json document = {{"job", written.job.id()},
+                                     {"artefact", written.kind},
+                                     {"file", written.destination.file.string()},
+                                     {written.unit + "s", written.items}};
+  if (written.volume) document["volume"] = *written.volume;
+  if (written.quality) document["quality"] = to_json(*written.quality);
+  return document;
+}
+
+void tell_written(Console& console, const Written& written) {
+  console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
+               core::counted(written.items, written.unit) + volume_text(written) + ")");
+}
+
+}  // namespace affskel::client

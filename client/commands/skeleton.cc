@@ -1,0 +1,36 @@
+#include <memory>
+
+#include "client/commands/commands.h"
+#include "client/commands/shared/destination.h"
+#include "client/commands/shared/job_options.h"
+#include "client/commands/shared/skeleton_options.h"
+#include "client/commands/shared/transfer.h"
+
+namespace affskel::client {
+namespace {
+
+struct Options {
+  std::string job, output, format;
+  SkeletonOptions skeleton;  // no operator: the job's
+};
+
+void run(Context& context, const Options& options) {
+  const Destination destination = destination_of(options.output, options.format, context.console());
+  const ChosenSkeleton chosen = choose_skeleton(context, options.job, options.skeleton);
+  tell_result(context, transfer_skeleton(context, chosen.job, chosen.get(), destination));
+}
+
+}  // namespace
+
+void add_skeleton(CommandLine& line) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = line.add("skeleton", "Skeleton with other parameters, from the stored field",
+                               "  affskel-client skeleton @last --threshold 5 -o fine.ply",
+                               [options](Context& context) { run(context, *options); });
+  add_job(command, options->job);
+  add_skeleton_options(command, options->skeleton);
+  add_output(command, options->output, "File to write: .csv .ply .off .xyz .vtp, or -");
+  add_format(command, options->format);
+}
+
+}  // namespace affskel::client

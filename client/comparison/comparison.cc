@@ -1,0 +1,186 @@
+#include "client/comparison/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "client/base/error.h"
+#include "client/cli/number_parsers.h"
+#include "client/files/read/input_file.h"
+#include "client/files/read/read_shape.h"
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/solid/inner_points.h"
+#include "core/solid/surface_samples.h"
+
+namespace affskel::client {
+namespace {
+
+// Squares and fourth powers of lengths must stay well inside the range of a double: squared radii are
+// printed, areas of triangles summed.
+constexpr double kLeastLength = 1e-150, kMostLength = 1e150;
+constexpr double kLeastSurface = 1e-60, kMostSurface = 1e60;
+constexpr const char* kScaleFirst = "; scale the files first (affskel-client transform --scale)";
+
+double longest_side(const core::Vec3& low, const core::Vec3& high) {
+  const core::Vec3 size = high - low;
+  return std::max({size.x, size.y, size.z});
+}
+
+double longest_side(std::initializer_list<const std::vector<core::Vec3>*> sets) {
+  core::Vec3 low = sets.begin()[0]->front(), high = low;
+  for (const std::vector<core::Vec3>* set : sets) {
+    for (const core::Vec3& p : *set) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  }
+  return longest_side(low, high);
+}
+
+void check_surface_size(const core::Mesh& mesh, const std::string& path) {
+  const double side = longest_side({&mesh.points});
+  if (side == 0 || (side >= kLeastSurface && side <= kMostSurface)) return;
+  throw ClientError(ExitCode::kBadInput,
+                    "a surface of size " + core::rounded(side, 3) +
+                        "; those from 1e-60 to 1e60 can be compared" + kScaleFirst,
+                    path);
+}
+
+ComparedPoints read_points(const std::string& path, std::uint64_t samples, Console& console) {
+  ShapeFile shape = read_shape(path);
+  ComparedPoints result{path, shape.is_surface(), {}};
+  if (!shape.is_surface()) {
+    result.points = std::move(shape.off.mesh.points);
+  } else {
+    check_surface_size(shape.mesh(), path);
+    try {
+      result.points = core::surface_samples(shape.mesh(), {samples});
+    } catch (const core::CoreError& error) {
+      throw error_from_core(error, path);
+    }
+    const double spacing =
+        std::sqrt(core::surface_area(shape.mesh()) / static_cast<double>(result.points.size()));
+    console.note(path + ": a surface, compared by " + core::counted(result.points.size(), "point") +
+                 " spread over it, about " + core::rounded(spacing, 3) + " apart");
+  }
+  if (result.points.empty()) {
+    throw ClientError(ExitCode::kBadInput,
+                      "holds no points; an empty skeleton has no similarity (was its threshold too high?)",
+                      path);
+  }
+  return result;
+}
+
+core::Solid read_solid(const std::string& path, Console& console) {
+  InputFile input;
+  input.path = path;
+  input.off = read_shape(path).off;
+  if (input.off.mesh.triangles.empty()) {
+    throw ClientError(ExitCode::kBadInput, "has no triangles, so it bounds no solid", path);
+  }
+  core::Solid solid = check_solid(input, true);
+  tell_notes(solid, input, console);
+  return solid;
+}
+
+// sqrt(3) / 128 of the box's longest side: the diagonal of a voxel when 128 of them make the longest side.
+double voxel_diagonal(double side) {
+  return std::sqrt(3.0) * side / 128;
+}
+
+// 0 means none was given.
+double plain_radius(double shown, bool squared, const char* option) {
+  const double radius = squared ? std::sqrt(shown) : shown;
+  if (radius != 0 && !(radius >= kLeastLength && radius <= kMostLength)) {
+    throw ClientError(ExitCode::kUsage, std::string(option) + ": a radius must lie within " +
+                                            (squared ? "1e-300 to 1e300 (squared)" : "1e-150 to 1e150") +
+                                            ", not " + core::to_text(shown));
+  }
+  return radius;
+}
+
+double default_radius(double side) {
+  const double radius = voxel_diagonal(side);
+  if (radius == 0) {
+    throw ClientError(ExitCode::kUsage, "all points lie at one place; give a radius (--radius)");
+  }
+  if (radius < kLeastLength) {
+    throw ClientError(ExitCode::kUsage, "all points lie within " + core::rounded(side, 3) +
+                                            ", too near for a radius of their own; give one (--radius)" +
+                                            std::string(", or") + (kScaleFirst + 1));
+  }
+  return radius;
+}
+
+// Longest side of the box round both sets.
+double common_side(const ComparedPoints& a, const ComparedPoints& b) {
+  const double side = longest_side({&a.points, &b.points});
+  if (side > kMostLength) {
+    throw ClientError(ExitCode::kBadInput,
+                      "the points of A and B are up to " + core::rounded(side, 3) +
+                          " apart; lengths up to 1e150 can be compared" + kScaleFirst,
+                      a.file);
+  }
+  return side;
+}
+
+std::vector<core::Vec3> inner_points_of(const core::Solid& solid, const std::string& path) {
+  try {
+    return core::inner_points(solid);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, path);
+  }
+}
+
+std::vector<double> listed_radii(const ComparisonOptions& options) {
+  std::optional<std::vector<double>> radii = parse_numbers(options.radii);
+  if (!radii || std::any_of(radii->begin(), radii->end(), [](double r) { return r < 0; })) {
+    throw ClientError(ExitCode::kUsage,
+                      "--radii: expected numbers >= 0 separated by commas, not '" + options.radii + "'");
+  }
+  for (double& r : *radii) r = plain_radius(r, options.squared, "--radii");
+  std::sort(radii->begin(), radii->end());
+  radii->erase(std::unique(radii->begin(), radii->end()), radii->end());
+  if (!(radii->back() > 0)) throw ClientError(ExitCode::kUsage, "--radii: the largest radius must be > 0");
+  return *radii;
+}
+
+// From 0 to four times the radius, in even steps of what is shown.
+std::vector<double> default_radii(double radius, bool squared) {
+  constexpr int kSteps = 16;
+  std::vector<double> radii;
+  for (int i = 0; i <= kSteps; ++i) {
+    radii.push_back(squared ? std::sqrt(i) * radius : 4 * radius * i / kSteps);
+  }
+  return radii;
+}
+
+}  // namespace
+
+Comparison compare_files(const ComparisonOptions& options, Console& console) {
+  const std::vector<double> listed = options.radii.empty() ? std::vector<double>() : listed_radii(options);
+  double radius = plain_radius(options.radius, options.squared, "--radius");
+  ComparedPoints a = read_points(options.a, options.samples, console);
+  ComparedPoints b = read_points(options.b, options.samples, console);
+  const double side = common_side(a, b);
+  std::optional<ChanceLevel> chance;
+  if (!options.solid.empty()) {
+    const core::Solid solid = read_solid(options.solid, console);
+    const std::vector<core::Vec3> inner = inner_points_of(solid, options.solid);
+    chance =
+        ChanceLevel{inner.size(), core::DistanceCurve(inner, a.points), core::DistanceCurve(inner, b.points)};
+    if (radius == 0) radius = voxel_diagonal(longest_side(solid.bbox_min, solid.bbox_max));
+  }
+  if (radius == 0) radius = default_radius(side);
+  core::Similarity curves = core::similarity(a.points, b.points);
+  return {std::move(a),
+          std::move(b),
+          std::move(curves),
+          std::move(chance),
+          radius,
+          options.squared,
+          listed.empty() ? default_radii(radius, options.squared) : listed};
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/cli/console.h"
+#include "client/render/curve_plot.h"
+#include "core/quality/similarity.h"
+
+namespace affskel::client {
+
+/// What is compared, and how.
+struct ComparisonOptions {
+  std::string a, b;               ///< files of points or of triangles
+  double radius = 0;              ///< as given, squared or not; 0 = the voxel diagonal of the box
+  std::string radii;              ///< comma-separated; empty = 0 .. 4 radius
+  bool squared = false;           ///< radii are given and shown squared
+  std::string solid;              ///< mesh for the chance level; empty = none
+  std::uint64_t samples = 50000;  ///< points on a surface
+};
+
+/// One side of a comparison.
+struct ComparedPoints {
+  std::string file;
+  bool from_surface = false;       ///< spread over triangles, not the file's own points
+  std::vector<core::Vec3> points;  ///< not empty
+};
+
+/// Chance level: how near the skeletons the inside of the solid lies anyway.
+struct ChanceLevel {
+  std::size_t inner_points = 0;
+  core::DistanceCurve in_a, in_b;  ///< of the solid's inner points from A and from B
+};
+
+/// What `compare` found.  A curve is the share of points within r; its area is taken from 0 to the largest
+/// radius.
+struct Comparison {
+  ComparedPoints a, b;
+  core::Similarity curves;
+  std::optional<ChanceLevel> chance;
+  double radius = 0;          ///< the one that matters: --radius or the voxel diagonal of the box
+  bool squared = false;       ///< people read squared radii, as in the published work
+  std::vector<double> radii;  ///< ascending, not squared; the last is > 0
+};
+
+/// Reads and compares.  Notes and warnings go to the console.
+/// @throws ClientError kUsage for radii that are none, kBadInput for files without points.
+Comparison compare_files(const ComparisonOptions& options, Console& console);
+
+/// The table and the summary, for people.
+std::string comparison_text(const Comparison& comparison);
+/// Header line and one row per radius, 17 significant digits.
+std::string comparison_csv(const Comparison& comparison);
+nlohmann::ordered_json comparison_json(const Comparison& comparison);
+SharePlot comparison_plot(const Comparison& comparison);
+
+}  // namespace affskel::client

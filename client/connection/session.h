@@ -1,0 +1,94 @@
+#pragma once
+
+#include <grpcpp/channel.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "affskel/v1/client_service.grpc.pb.h"
+#include "client/cli/console.h"
+#include "client/connection/environment.h"
+#include "client/connection/server_choice.h"
+
+namespace affskel::client {
+
+/// How long to keep trying when a server that was there goes away.
+struct RetryPolicy {
+  std::chrono::milliseconds first_pause{100};
+  std::chrono::milliseconds longest_pause{2000};
+  std::chrono::milliseconds patience{5 * 60 * 1000};  ///< without any success
+};
+
+/// Receives one artefact.  A transfer that breaks off starts again with a new sink.
+class ArtifactSink {
+ public:
+  virtual ~ArtifactSink() = default;
+  virtual void begin(const v1::ArtifactHeader& header) = 0;
+  virtual void data(std::string_view bytes) = 0;
+  /// All bytes are there and their SHA-256 is right.
+  virtual void end() = 0;
+};
+
+/// The connection to a server, and its calls.  A server that was never reached is an error at once; one
+/// that answered may go away and come back, or have too much to do: calls that change nothing twice (all of
+/// them) are then repeated with growing pauses, and the embedded server is started again.  All calls throw
+/// ClientError. Not thread-safe.
+class Session {
+ public:
+  Session(ServerChoice choice, Environment environment, Console& console, RetryPolicy policy = {});
+  ~Session();
+
+  /// @param existed set to whether an earlier job answers this submission.
+  v1::Job submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed);
+  v1::Job get_job(const std::string& job);
+  /// The newest `limit` jobs that the request is about, whatever its own limit; from as many answers as
+  /// needed.
+  std::vector<v1::Job> list_jobs(v1::ListJobsRequest request, std::size_t limit);
+  /// Calls `seen` with every state of the job until a final one, which is returned; re-attaches when the
+  /// stream breaks.
+  v1::Job watch(const std::string& job, const std::function<void(const v1::Job&)>& seen);
+  v1::Job cancel(const std::string& job);
+  v1::Job resume(const std::string& job);
+  std::string delete_job(const std::string& job);
+  v1::ServerInfo server_info();
+  /// Checks size and SHA-256 of what arrives.
+  v1::ArtifactHeader fetch(const v1::FetchArtifactRequest& request,
+                           const std::function<std::unique_ptr<ArtifactSink>()>& make_sink);
+  /// The whole artefact in memory.
+  std::string fetch_bytes(const v1::FetchArtifactRequest& request, v1::ArtifactHeader* header = nullptr);
+
+ private:
+  using Stub = v1::ErosionService::Stub;
+
+  void connect();
+  // Runs `attempt` until it succeeds or fails for good.
+  void run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet = ExitCode::kNotAllowed);
+  // One stream; OK when it ended with a final state, or broke after something had arrived.
+  grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
+                          const std::function<void(const v1::Job&)>& seen);
+  [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
+  void tell_away();
+  void tell_busy(const std::string& why);
+  template <typename Request, typename Response>
+  Response unary(const Request& request,
+                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
+
+  ServerChoice choice_;
+  Environment environment_;
+  Console& console_;
+  RetryPolicy policy_;
+  std::string target_;
+  std::shared_ptr<grpc::Channel> channel_;  // of stub_
+  std::unique_ptr<Stub> stub_;
+  bool proven_ = false;     // the server answered at least once
+  bool told_away_ = false;  // that it went away; until it is back
+};
+
+/// Whether nothing more will happen to the job by itself.
+bool is_final(v1::JobState state);
+
+}  // namespace affskel::client

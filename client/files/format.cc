@@ -1,0 +1,86 @@
+#include "client/files/format.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "client/base/error.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
+constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
+constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz,
+                                  FileFormat::kVtp};
+constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
+                                 FileFormat::kVtp};
+constexpr std::array kPicture = {FileFormat::kPng};
+constexpr std::array kPage = {FileFormat::kHtml};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+std::span<const FileFormat> field_formats() {
+  return kField;
+}
+std::span<const FileFormat> divergence_formats() {
+  return kDivergence;
+}
+std::span<const FileFormat> skeleton_formats() {
+  return kSkeleton;
+}
+std::span<const FileFormat> surface_formats() {
+  return kSurface;
+}
+
+std::span<const FileFormat> picture_formats() {
+  return kPicture;
+}
+
+std::span<const FileFormat> page_formats() {
+  return kPage;
+}
+
+std::string_view extension_of(FileFormat format) {
+  constexpr std::array<std::string_view, 12> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off", ".xyz",
+                                                       ".obj", ".stl", ".vtp",    ".png", ".svg", ".html"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  return lower(file.extension().string());
+}
+
+std::string Destination::extension() const {
+  if (format.empty()) return is_stdout() ? std::string() : lower_extension(file);
+  return lower(format.starts_with('.') ? format : "." + format);
+}
+
+FileFormat choose_format(const Destination& destination, std::span<const FileFormat> possible,
+                         const std::string& what) {
+  const std::string extension = destination.extension();
+  if (extension.empty() && destination.is_stdout() && possible.size() == 1) return possible.front();
+  std::string names;
+  for (const FileFormat format : possible) {
+    if (extension == extension_of(format)) return format;
+    names += (names.empty() ? "" : ", ") + std::string(extension_of(format));
+  }
+  std::string refused = "cannot write the " + what + " as '" + extension + "'";
+  if (extension.empty()) refused = "cannot tell from no extension how to write the " + what;
+  if (extension.empty() && destination.is_stdout()) refused = "say by --format how to write the " + what;
+  throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, destination.name());
+}
+
+FileFormat choose_format(const std::filesystem::path& file, std::span<const FileFormat> possible,
+                         const std::string& what) {
+  if (file == "-") return choose_format(Destination{"./-"}, possible, what);
+  return choose_format(Destination{file}, possible, what);
+}
+
+}  // namespace affskel::client

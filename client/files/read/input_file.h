@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "client/base/error.h"
+#include "client/cli/console.h"
+#include "core/mesh/mesh_io.h"
+#include "core/solid/solid.h"
+
+namespace affskel::client {
+
+/// A mesh file that was read and parsed.
+struct InputFile {
+  std::string path;
+  std::string bytes;           ///< OFF text: the file's own bytes, or what was made of another format
+  core::OffMesh off;           ///< with the lines of the file, where it is text
+  std::string format = "off";  ///< of the file: off, ply, obj, stl or vtp
+  std::uint64_t file_bytes = 0;
+  std::string file_sha256;  ///< hexadecimal
+  bool converted() const { return format != "off"; }
+};
+
+/// Reads and parses a mesh: .ply, .obj, .stl and .vtp as read_shape does, after which `bytes` are the OFF
+/// text of their surface; everything else as OFF text, kept byte for byte.
+/// @throws ClientError as read_file, and kBadInput with the line for malformed text.
+InputFile read_input(const std::string& path);
+
+/// Parses bytes that came from `path`, or from the server when `path` names no file.
+core::OffMesh parse_mesh(const std::string& bytes, const std::string& path);
+
+/// Checks that the mesh bounds a solid. @throws ClientError kBadInput with the place.
+core::Solid check_solid(const InputFile& input, bool repair);
+
+/// Tells when the file is not what is submitted.
+void tell_conversion(const InputFile& input, Console& console);
+
+/// Tells the notes of the solid: repairs as notes, oddities as warnings.
+void tell_notes(const core::Solid& solid, const InputFile& input, Console& console);
+
+}  // namespace affskel::client

@@ -1,0 +1,122 @@
+#include "client/files/read/mesh_defects.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "core/mesh/same_place.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::size_t kPlaces = 5;
+
+using Corners = std::array<std::uint32_t, 3>;
+
+struct Edge {
+  std::uint32_t low, high;  // welded vertices
+  std::uint32_t triangle;
+};
+
+// Collects places of one kind of defect.
+class Collector {
+ public:
+  Collector(std::string code, std::string one, std::string many, const core::OffMesh& off)
+      : one_(std::move(one)), many_(std::move(many)), off_(off) {
+    defect_.code = std::move(code);
+  }
+
+  void add(std::uint32_t triangle, const std::string& detail) {
+    if (++defect_.count > kPlaces) return;
+    const std::uint64_t line = triangle < off_.triangle_line.size() ? off_.triangle_line[triangle] : 0;
+    defect_.lines.push_back(line);
+    places_ += (places_.empty() ? "" : "; ") +
+               (line > 0 ? "line " + std::to_string(line) + ", " : std::string()) + "triangle " +
+               std::to_string(triangle) + detail;
+  }
+
+  void finish(std::vector<MeshDefect>& defects) {
+    if (defect_.count == 0) return;
+    defect_.message = std::to_string(defect_.count) + " " + (defect_.count == 1 ? one_ : many_) + ": " +
+                      places_ + (defect_.count > kPlaces ? "; ..." : "");
+    defects.push_back(std::move(defect_));
+  }
+
+ private:
+  MeshDefect defect_;
+  std::string one_, many_, places_;
+  const core::OffMesh& off_;
+};
+
+std::string edge_text(const Edge& e) {
+  return ", vertices " + std::to_string(e.low) + " and " + std::to_string(e.high);
+}
+
+// Welded corners; degenerate triangles are reported and left out.
+std::vector<std::pair<Corners, std::uint32_t>> proper_triangles(const core::OffMesh& off,
+                                                                std::vector<MeshDefect>& defects) {
+  Collector degenerate("degenerate-triangles", "triangle has two corners at one place",
+                       "triangles have two corners at one place", off);
+  const std::vector<std::uint32_t> first = core::first_at_same_place(off.mesh.points);
+  std::vector<std::pair<Corners, std::uint32_t>> proper;
+  for (std::uint32_t t = 0; t < off.mesh.triangles.size(); ++t) {
+    Corners corners{};
+    for (std::size_t c = 0; c < 3; ++c) corners[c] = first[off.mesh.triangles[t][c]];
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+      degenerate.add(t, "");
+    } else {
+      proper.emplace_back(corners, t);
+    }
+  }
+  degenerate.finish(defects);
+  return proper;
+}
+
+void find_edge_defects(const std::vector<std::pair<Corners, std::uint32_t>>& triangles,
+                       const core::OffMesh& off, std::vector<MeshDefect>& defects) {
+  std::vector<Edge> edges;
+  for (const auto& [corners, t] : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(corners[c], corners[(c + 1) % 3]);
+      edges.push_back({low, high, t});
+    }
+  }
+  const auto key = [](const Edge& e) { return std::tuple(e.low, e.high, e.triangle); };
+  std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
+  Collector open("open-edges", "edge has a triangle on one side only (a hole)",
+                 "edges have a triangle on one side only (a hole)", off);
+  Collector crowded("crowded-edges", "edge has more than two triangles", "edges have more than two triangles",
+                    off);
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high)
+      ++end;
+    if (end - begin == 1) open.add(edges[begin].triangle, edge_text(edges[begin]));
+    if (end - begin > 2) crowded.add(edges[begin].triangle, edge_text(edges[begin]));
+  }
+  open.finish(defects);
+  crowded.finish(defects);
+}
+
+void find_repeated(std::vector<std::pair<Corners, std::uint32_t>> triangles, const core::OffMesh& off,
+                   std::vector<MeshDefect>& defects) {
+  for (auto& entry : triangles) std::sort(entry.first.begin(), entry.first.end());
+  std::sort(triangles.begin(), triangles.end());
+  Collector repeated("repeated-triangles", "triangle repeats another", "triangles repeat others", off);
+  for (std::size_t i = 1; i < triangles.size(); ++i) {
+    if (triangles[i].first != triangles[i - 1].first) continue;
+    repeated.add(triangles[i].second, ", like triangle " + std::to_string(triangles[i - 1].second));
+  }
+  repeated.finish(defects);
+}
+
+}  // namespace
+
+std::vector<MeshDefect> find_defects(const core::OffMesh& off) {
+  std::vector<MeshDefect> defects;
+  const auto triangles = proper_triangles(off, defects);
+  find_edge_defects(triangles, off, defects);
+  find_repeated(triangles, off, defects);
+  return defects;
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,359 @@
+// VTK XML PolyData: points, arrays per point, and cells of which the polygons and strips of triangles are
+// taken; in one or several pieces, which are put together.
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "client/files/read/shape_parsers.h"
+#include "client/files/read/vtk_data.h"
+#include "client/files/read/xml_tags.h"
+#include "client/files/vtk_arrays.h"
+#include "core/base/number_text.h"
+#include "core/mesh/text_rows.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::size_t kMostColumns = 4096;  // of all arrays together; far more than any file has
+
+// What a piece holds: the arrays of each of its sections ("Points", "PointData", "Polys", ...).
+struct Piece {
+  std::map<std::string, std::vector<VtkArray>> arrays;
+  std::map<std::string, std::uint64_t>
+      announced;  // "Points", "Polys", ...: as many as its tag says, if it does
+  std::uint64_t line = 0;
+};
+
+struct Description {
+  VtkEncoding encoding;
+  std::vector<Piece> pieces;
+  std::deque<std::string> joined_texts;  // of arrays, where comments cut them in pieces
+};
+
+// Reads the text, up to the appended data.
+class DescriptionReader {
+ public:
+  explicit DescriptionReader(std::string_view bytes) : bytes_(bytes), tags_(bytes) {}
+
+  Description run() {
+    read_head();
+    while (tags_.next()) {
+      if (tags_.name() == "AppendedData") {
+        read_appended();
+        return std::move(description_);
+      }
+      if (tags_.name() == "Piece" && tags_.opens()) {
+        begin_piece();
+      } else if (tags_.name() == "DataArray" || tags_.name() == "Array") {
+        read_array();
+      } else if (tags_.name() == "VTKFile") {
+        return std::move(description_);
+      } else {
+        section_ = tags_.opens() && !tags_.closes() ? tags_.name() : std::string_view();
+      }
+    }
+    fail_at(tags_.line(), "the file ends without </VTKFile>");
+  }
+
+ private:
+  void begin_piece() {
+    Piece piece{{}, {}, tags_.line()};
+    for (const char* what : {"Points", "Verts", "Strips", "Polys"}) {
+      const std::string name = std::string("NumberOf") + what;
+      const std::string count = tags_.attribute(name);
+      if (!count.empty()) piece.announced[what] = core::parse_count(count, tags_.line(), name.c_str());
+    }
+    description_.pieces.push_back(std::move(piece));
+  }
+
+  void read_head() {
+    if (!tags_.next() || tags_.name() != "VTKFile") fail_at(tags_.line(), "not a VTK XML file");
+    if (tags_.attribute("type") != "PolyData") {
+      fail_at(tags_.line(), "a VTK file of type " + core::quoted_piece(tags_.attribute("type")) +
+                                "; only PolyData is read");
+    }
+    description_.encoding.big_endian = tags_.attribute("byte_order") == "BigEndian";
+    description_.encoding.long_headers = tags_.attribute("header_type") == "UInt64";
+    description_.encoding.compressor = tags_.attribute("compressor");
+  }
+
+  void read_appended() {
+    description_.encoding.base64 = tags_.attribute("encoding") == "base64";
+    const std::size_t mark = bytes_.find('_', tags_.end());
+    if (mark == std::string_view::npos) fail_at(tags_.line(), "the appended data do not begin with '_'");
+    std::string_view& appended = description_.encoding.appended;
+    appended = bytes_.substr(mark + 1);
+    if (description_.encoding.base64) appended = appended.substr(0, appended.find('<'));
+  }
+
+  void read_array() {
+    if (!tags_.opens()) return;
+    VtkArray array{tags_.attribute("Name"),
+                   tags_.attribute("type"),
+                   tags_.attribute("format"),
+                   tags_.attribute("offset"),
+                   1,
+                   {},
+                   tags_.line()};
+    const std::string components = tags_.attribute("NumberOfComponents");
+    if (!components.empty()) {
+      array.components = core::parse_count(components, tags_.line(), "NumberOfComponents");
+    }
+    if (!tags_.closes()) array.text = read_text(array.line);
+    if (!description_.pieces.empty() && !section_.empty()) {
+      description_.pieces.back().arrays[std::string(section_)].push_back(std::move(array));
+    }
+  }
+
+  // What stands in the element of an array up to its end, without that of elements within it, which describe
+  // it.
+  std::string_view read_text(std::uint64_t line) {
+    std::vector<std::string_view> parts;
+    for (std::size_t depth = 0; tags_.next();) {
+      if (depth == 0) parts.insert(parts.end(), tags_.text_before().begin(), tags_.text_before().end());
+      if (!tags_.closes()) {
+        ++depth;
+      } else if (!tags_.opens()) {
+        if (depth-- == 0) return joined(parts);
+      }
+    }
+    fail_at(line, "the element of an array does not end");
+  }
+
+  std::string_view joined(const std::vector<std::string_view>& parts) {
+    if (parts.size() == 1) return parts.front();
+    std::string& text = description_.joined_texts.emplace_back();
+    for (const std::string_view part : parts) text += part;
+    return text;
+  }
+
+  std::string_view bytes_;
+  XmlTags tags_;
+  std::string_view section_;
+  Description description_;
+};
+
+class VtpReader {
+ public:
+  explicit VtpReader(std::string_view bytes)
+      : description_(DescriptionReader(bytes).run()), values_left_(bytes.size()) {}
+
+  ShapeFile run() {
+    if (description_.pieces.empty()) fail_at(0, "the file holds no <Piece>");
+    for (Piece& piece : description_.pieces) {
+      ++pieces_begun_;
+      first_point_ = file_.off.mesh.points.size();
+      read_points(piece);
+      read_columns(piece);
+      for (const char* section : {"Verts", "Polys", "Strips"}) read_cells(piece, section);
+      piece = {};  // a file may be made of very many empty ones
+    }
+    return std::move(file_);
+  }
+
+ private:
+  // A value takes a byte of the file at least, so more values than bytes come from arrays over the same
+  // bytes, which could take any amount of memory.
+  std::vector<double> numbers(const VtkArray& array) {
+    std::vector<double> values = vtk_numbers(array, description_.encoding);
+    if (values.size() > values_left_) {
+      fail_at(array.line, "array " + core::quoted_piece(array.name) +
+                              " takes the file beyond one value per byte; arrays must not share their data");
+    }
+    values_left_ -= values.size();
+    return values;
+  }
+
+  void read_points(Piece& piece) {
+    const std::vector<VtkArray>& arrays = piece.arrays["Points"];
+    if (!arrays.empty()) add_points(arrays.front());
+    check_count(piece, "Points", file_.off.mesh.points.size() - first_point_);
+  }
+
+  static void check_count(const Piece& piece, const std::string& what, std::size_t count) {
+    const auto announced = piece.announced.find(what);
+    if (announced == piece.announced.end() || announced->second == count) return;
+    fail_at(piece.line, "the piece announces NumberOf" + what + " " + std::to_string(announced->second) +
+                            ", but holds " + std::to_string(count));
+  }
+
+  void add_points(const VtkArray& array) {
+    const std::vector<double> xyz = numbers(array);
+    if (array.components != 3 || xyz.size() % 3 != 0)
+      fail_at(array.line, "points must have three coordinates");
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const core::Vec3 point = {xyz[i], xyz[i + 1], xyz[i + 2]};
+      if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+        fail_at(array.line, "point " + std::to_string(i / 3) + " has a coordinate that is not finite");
+      }
+      file_.off.mesh.points.push_back(point);
+    }
+  }
+
+  void read_columns(Piece& piece) {
+    const bool empty = file_.off.mesh.points.size() == first_point_;
+    const bool known = !file_.columns.empty();
+    columns_filled_ = 0;
+    for (const VtkArray& array : piece.arrays["PointData"]) {
+      if (!is_vtk_number(array.type)) continue;
+      const std::vector<double> values = point_values(array);
+      // Where there are no values, taking names could cost far more than the file is long.
+      if (!(empty && known)) add_values(array, values);
+    }
+    if (empty || columns_filled_ == file_.columns.size()) return;
+    for (const PointColumn& column : file_.columns) {
+      if (column.values.size() != file_.off.mesh.points.size()) {
+        fail_at(piece.line, "this piece is without the values of " + core::quoted_piece(column.name) +
+                                " that others have");
+      }
+    }
+  }
+
+  std::vector<double> point_values(const VtkArray& array) {
+    const std::size_t points = file_.off.mesh.points.size() - first_point_;
+    if (array.components == 0 || array.components > kMostColumns) {
+      fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
+                              std::to_string(array.components) + " components; 1 to " +
+                              std::to_string(kMostColumns) + " are read");
+    }
+    std::vector<double> values = numbers(array);
+    if (values.size() != points * array.components) {
+      fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
+                              std::to_string(values.size()) + " numbers for " + std::to_string(points) +
+                              " points of " + std::to_string(array.components) + " components");
+    }
+    return values;
+  }
+
+  void add_values(const VtkArray& array, const std::vector<double>& values) {
+    const std::vector<std::string> names = columns_of_array(array.name, array.components);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      PointColumn& column = column_of(names[c], array);
+      for (std::size_t v = c; v < values.size(); v += names.size()) column.values.push_back(values[v]);
+      ++columns_filled_;
+    }
+  }
+
+  PointColumn& column_of(const std::string& name, const VtkArray& array) {
+    const auto [place, is_new] = places_.try_emplace(name, ColumnPlace{file_.columns.size(), pieces_begun_});
+    if (!is_new) {
+      if (std::exchange(place->second.piece, pieces_begun_) == pieces_begun_) {
+        fail_at(array.line, "two arrays give values called " + core::quoted_piece(name));
+      }
+      PointColumn& column = file_.columns[place->second.index];
+      column.whole = column.whole && is_vtk_whole(array.type);
+      return column;
+    }
+    if (first_point_ > 0) {
+      fail_at(array.line, "the pieces before are without the values of " + core::quoted_piece(name));
+    }
+    if (file_.columns.size() == kMostColumns) {
+      fail_at(array.line, "the arrays have more than " + std::to_string(kMostColumns) + " components in all");
+    }
+    file_.columns.push_back({name, is_vtk_whole(array.type), {}});
+    return file_.columns.back();
+  }
+
+  static const VtkArray* find_array(const std::vector<VtkArray>& arrays, std::string_view name) {
+    const auto found =
+        std::find_if(arrays.begin(), arrays.end(), [&](const VtkArray& a) { return a.name == name; });
+    return found == arrays.end() ? nullptr : &*found;
+  }
+
+  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) {
+    const VtkArray* found = find_array(arrays, name);
+    std::vector<std::int64_t> whole;
+    if (found == nullptr) return whole;
+    for (const double value : numbers(*found)) {
+      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
+        fail_at(found->line, std::string("the ") + name + " hold a number that is not whole");
+      }
+      whole.push_back(static_cast<std::int64_t>(value));
+    }
+    return whole;
+  }
+
+  // Vertices are counted only.
+  void read_cells(Piece& piece, const std::string& section) {
+    if (section == "Verts" && !piece.announced.contains(section)) return;
+    const std::vector<VtkArray>& arrays = piece.arrays[section];
+    const std::vector<std::int64_t> corners = whole_numbers(arrays, "connectivity");
+    const std::vector<std::int64_t> ends = whole_numbers(arrays, "offsets");
+    check_count(piece, section, ends.size());
+    const VtkArray* array = find_array(arrays, "connectivity");
+    const std::uint64_t line = array == nullptr ? piece.line : array->line;
+    check_ends(ends, corners.size(), section, line);
+    if (section == "Verts") return;
+    std::vector<std::int64_t> cell;
+    for (std::size_t i = 0, begin = 0; i < ends.size(); ++i) {
+      const auto end = static_cast<std::size_t>(ends[i]);
+      cell.clear();
+      for (; begin < end; ++begin) cell.push_back(vertex(corners[begin]));
+      section == "Polys" ? add_face(cell, "polygon " + std::to_string(i), line) : add_strip(cell, i, line);
+    }
+  }
+
+  // The vertex of all pieces for one of the piece in hand; -1 when there is none.
+  std::int64_t vertex(std::int64_t corner) const {
+    const auto first = static_cast<std::int64_t>(first_point_);
+    return corner < 0 || corner >= static_cast<std::int64_t>(file_.off.mesh.points.size()) - first
+               ? -1
+               : corner + first;
+  }
+
+  static void check_ends(const std::vector<std::int64_t>& ends, std::size_t corners,
+                         const std::string& section, std::uint64_t line) {
+    std::int64_t last = 0;
+    bool fit = true;
+    for (const std::int64_t end : ends) fit = std::exchange(last, end) <= end && fit;
+    if (!fit || last != static_cast<std::int64_t>(corners)) {
+      fail_at(line, "the offsets of " + section + " do not fit their connectivity of " +
+                        std::to_string(corners) + " corners");
+    }
+  }
+
+  void add_face(const std::vector<std::int64_t>& corners, const std::string& place, std::uint64_t line) {
+    add_polygon(file_, corners, place, line);
+    ++file_.off.polygons;
+    if (corners.size() > 3) ++file_.off.polygons_cut;
+  }
+
+  // Every corner from the third on makes a triangle with the two before it, every other one turned over.
+  // Triangles with equal corners join strips into one and are left out.
+  void add_strip(const std::vector<std::int64_t>& corners, std::size_t strip, std::uint64_t line) {
+    const std::string place = "strip " + std::to_string(strip);
+    if (corners.size() < 3) {
+      fail_at(line, place + " has " + core::counted(corners.size(), "corner") + ", needs 3");
+    }
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const std::int64_t a = corners[i - 2], b = corners[i - 1], c = corners[i];
+      if ((a == b || b == c || c == a) && std::min({a, b, c}) >= 0) continue;
+      const bool turned = i % 2 != 0;
+      add_face({turned ? b : a, turned ? a : b, c}, place + ", triangle " + std::to_string(i - 2), line);
+    }
+  }
+
+  // Where a column is, and the last piece that gave it values, counted from 1.
+  struct ColumnPlace {
+    std::size_t index, piece;
+  };
+
+  Description description_;
+  std::uint64_t values_left_;
+  std::size_t pieces_begun_ = 0;
+  std::size_t first_point_ = 0;     // of the piece in hand
+  std::size_t columns_filled_ = 0;  // by the piece in hand
+  std::unordered_map<std::string, ColumnPlace> places_;
+  ShapeFile file_;
+};
+
+}  // namespace
+
+ShapeFile parse_vtp(std::string_view bytes) {
+  return VtpReader(bytes).run();
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,119 @@
+#include "client/files/write/shape_writer.h"
+
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include "client/base/error.h"
+#include "client/files/write/shape_writer.h"
+#include "client/files/write/shape_writers.h"
+#include "core/mesh/mesh_io.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::size_t kMostElements = std::numeric_limits<std::int32_t>::max();  // of each kind
+
+// Words without what separates or ends them in a header line of CSV or PLY.
+std::string safe_name(std::string name) {
+  for (char& c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code <= ' ' || code == 127 || c == ',' || c == '#' || c == '"' || c == '\'') c = '_';
+  }
+  return name.empty() ? "_" : name;
+}
+
+// The columns under the names that read back.
+std::vector<PointColumn> columns_as_written(const ShapeFile& shape) {
+  std::vector<PointColumn> columns = shape.columns;
+  const std::vector<std::string> names = written_names(shape);
+  for (std::size_t c = 0; c < columns.size(); ++c) columns[c].name = names[c];
+  return columns;
+}
+
+}  // namespace
+
+std::span<const FileFormat> shape_formats(const ShapeFile& shape) {
+  return shape.is_surface() ? surface_formats() : skeleton_formats();
+}
+
+bool holds_columns(FileFormat format) {
+  return format == FileFormat::kCsv || format == FileFormat::kPly || format == FileFormat::kVtp;
+}
+
+std::vector<std::string> written_names(const ShapeFile& shape) {
+  // Names that stay go first, so that none of them gives way to a changed one.
+  std::set<std::string> taken = {"x", "y", "z"};
+  std::vector<std::string> names(shape.columns.size());
+  for (const bool keeps : {true, false}) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string safe = safe_name(shape.columns[i].name);
+      const bool stays = safe == shape.columns[i].name && taken.count(safe) == 0;
+      if (!names[i].empty() || (keeps && !stays)) continue;
+      names[i] = safe;
+      for (int n = 2; !taken.insert(names[i]).second; ++n) names[i] = safe + "_" + std::to_string(n);
+    }
+  }
+  return names;
+}
+
+void write_points(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                  const WriteBytes& write) {
+  if (shape.mesh().points.size() > kMostElements) {
+    throw ClientError(ExitCode::kLimit, "the shape has too many points for this format");
+  }
+  switch (format) {
+    case FileFormat::kCsv:
+      return write_csv(shape, written_names(shape), write);
+    case FileFormat::kPly:
+      return write_ply(shape, written_names(shape), false, comments, write);
+    case FileFormat::kVtp:
+      return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
+    case FileFormat::kOff:
+      write("OFF\n" + std::to_string(shape.mesh().points.size()) + " 0 0\n");
+      return write_xyz(shape, write);
+    case FileFormat::kXyz:
+      return write_xyz(shape, write);
+    default:
+      throw ClientError(ExitCode::kInternal, "no point writer for " + std::string(extension_of(format)));
+  }
+}
+
+void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                   const WriteBytes& write) {
+  const core::Mesh& mesh = shape.mesh();
+  if (mesh.points.size() > kMostElements || mesh.triangles.size() > kMostElements) {
+    throw ClientError(ExitCode::kLimit, "the mesh has too many elements for this format");
+  }
+  switch (format) {
+    case FileFormat::kOff:
+      return write(core::write_off(mesh));
+    case FileFormat::kPly:
+      return write_ply(shape, written_names(shape), true, comments, write);
+    case FileFormat::kObj:
+      return write_obj(mesh, comments, write);
+    case FileFormat::kStl:
+      return write_stl(mesh, write);
+    case FileFormat::kVtp:
+      return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
+    default:
+      throw ClientError(ExitCode::kInternal, "no mesh writer for " + std::string(extension_of(format)));
+  }
+}
+
+void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                 const WriteBytes& write) {
+  if (shape.is_surface()) return write_surface(format, shape, comments, write);
+  write_points(format, shape, comments, write);
+}
+
+void write_into(AtomicFile& file, const std::function<void(const WriteBytes&)>& writer) {
+  try {
+    writer([&](std::string_view bytes) { file.write(bytes); });
+  } catch (const ClientError& error) {
+    if (!error.file().empty()) throw;
+    throw ClientError(error.exit_code(), error.what(), file.target());
+  }
+}
+
+}  // namespace affskel::client

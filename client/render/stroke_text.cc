@@ -1,0 +1,197 @@
+// The stroke font.  A glyph is a list of polylines separated by '|'; a point is two characters, x then y, on
+// a grid of 6 units for the height of a capital: x = 0 .. 4, baseline y = 0, small letters 4 high, 'a' = -1
+// and 'b' = -2 below the baseline.  A polyline whose points coincide is a dot.
+#include "client/render/stroke_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace affskel::client {
+namespace {
+
+constexpr std::string_view kMissing = "0006464000";
+
+constexpr std::array<std::string_view, 95> kGlyphs = {
+    "",                                     // space
+    "0602|0000",                            // !
+    "0605|1615",                            // "
+    "1016|3036|0242|0444",                  // #
+    "453616050413334241301001|2726|202a",   // $
+    "0046|0506161505|3031414030",           // %
+    "40051626350201102042",                 // &
+    "0605",                                 // '
+    "16050110",                             // (
+    "06151100",                             // )
+    "1333|1432|1234",                       // *
+    "0343|2521",                            // +
+    "100a",                                 // ,
+    "0333",                                 // -
+    "0000",                                 // .
+    "0046",                                 // /
+    "163645413010010516",                   // 0
+    "152620|1030",                          // 1
+    "05163645440040",                       // 2
+    "05163645443313|334241301001",          // 3
+    "30360242",                             // 4
+    "460603334241301001",                   // 5
+    "36160501103041423303",                 // 6
+    "064610",                               // 7
+    "163645443313040516|1302011030414233",  // 8
+    "10304145361605041343",                 // 9
+    "0000|0303",                            // :
+    "100a|1313",                            // ;
+    "450341",                               // <
+    "0242|0444",                            // =
+    "054301",                               // >
+    "05163645442322|2020",                  // ?
+    "33322221314244361605011030",           // @
+    "002640|1232",                          // A
+    "00063645443303|3342413000",            // B
+    "4536160501103041",                     // C
+    "00062644422000",                       // D
+    "46060040|0333",                        // E
+    "460600|0333",                          // F
+    "45361605011030414323",                 // G
+    "0006|4046|0343",                       // H
+    "0006",                                 // I
+    "3631201001",                           // J
+    "0006|4602|1340",                       // K
+    "060040",                               // L
+    "0006234640",                           // M
+    "00064046",                             // N
+    "163645413010010516",                   // O
+    "00063645443303",                       // P
+    "163645413010010516|2240",              // Q
+    "00063645443303|2340",                  // R
+    "453616050413334241301001",             // S
+    "0646|2620",                            // T
+    "060110304146",                         // U
+    "062046",                               // V
+    "0610243046",                           // W
+    "0640|0046",                            // X
+    "062346|2320",                          // Y
+    "06460040",                             // Z
+    "16060010",                             // [
+    "0640",                                 // backslash
+    "06161000",                             // ]
+    "042644",                               // ^
+    "0a4a",                                 // _
+    "0615",                                 // `
+    "3324140301102031|3430",                // a
+    "0600|0314243331201001",                // b
+    "3324140301102031",                     // c
+    "3630|3324140301102031",                // d
+    "02323324140301102031",                 // e
+    "36261510|0434",                        // f
+    "343a2b1b0a|3324140301102031",          // g
+    "0600|0314243330",                      // h
+    "0400|0606",                            // i
+    "141a0b|1616",                          // j
+    "0600|3401|1230",                       // k
+    "0600",                                 // l
+    "0400|03142320|23344340",               // m
+    "0400|0314243330",                      // n
+    "142433312010010314",                   // o
+    "040b|0314243331201001",                // p
+    "343b|3324140301102031",                // q
+    "0400|021424",                          // r
+    "33241403122231201001",                 // s
+    "161120|0424",                          // t
+    "0401102031|3430",                      // u
+    "042044",                               // v
+    "0410233044",                           // w
+    "0430|0034",                            // x
+    "0420|441b",                            // y
+    "04340030",                             // z
+    "26150413021120",                       // {
+    "060a",                                 // |
+    "06152413221100",                       // }
+    "03142334",                             // ~
+};
+
+constexpr double kUnits = 6;  // grid units per capital height
+constexpr double kGap = 1.8;  // between glyphs
+constexpr double kSpaceWidth = 2;
+constexpr double kStroke = 0.72;  // stroke width in grid units
+
+std::string_view glyph_of(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return code >= 32 && code < 127 ? kGlyphs[code - 32] : kMissing;
+}
+
+double glyph_width(std::string_view glyph) {
+  if (glyph.empty()) return kSpaceWidth;
+  double width = 0;
+  std::size_t at = 0;
+  while (at + 1 < glyph.size()) {
+    if (glyph[at] == '|') {
+      ++at;
+      continue;
+    }
+    width = std::max(width, double(glyph[at] - '0'));
+    at += 2;
+  }
+  return width;
+}
+
+double unit_y(char c) {
+  return c >= 'a' ? -double(c - 'a' + 1) : double(c - '0');
+}
+
+void draw_glyph(Image& image, ScreenPoint at, std::string_view glyph, double unit, Rgb colour) {
+  bool pen_down = false;
+  ScreenPoint last;
+  for (std::size_t i = 0; i + 1 < glyph.size();) {
+    if (glyph[i] == '|') {
+      pen_down = false;
+      ++i;
+      continue;
+    }
+    const ScreenPoint next{at.x + unit * double(glyph[i] - '0'), at.y - unit * unit_y(glyph[i + 1])};
+    if (pen_down) draw_stroke(image, last, next, kStroke * unit, colour);
+    last = next;
+    pen_down = true;
+    i += 2;
+  }
+}
+
+// Distance of p from the segment a b.
+double distance(ScreenPoint p, ScreenPoint a, ScreenPoint b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double length2 = dx * dx + dy * dy;
+  const double t = length2 > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(p.x - (a.x + t * dx), p.y - (a.y + t * dy));
+}
+
+}  // namespace
+
+void draw_stroke(Image& image, ScreenPoint from, ScreenPoint to, double width, Rgb colour) {
+  const double reach = width / 2 + 1;
+  const int x_end = static_cast<int>(std::ceil(std::max(from.x, to.x) + reach));
+  const int y_end = static_cast<int>(std::ceil(std::max(from.y, to.y) + reach));
+  for (int y = static_cast<int>(std::floor(std::min(from.y, to.y) - reach)); y <= y_end; ++y) {
+    for (int x = static_cast<int>(std::floor(std::min(from.x, to.x) - reach)); x <= x_end; ++x) {
+      if (!image.contains(x, y)) continue;
+      const double outside = distance({x + 0.5, y + 0.5}, from, to) - width / 2;
+      const auto cover = static_cast<float>(std::clamp(0.5 - outside, 0.0, 1.0));
+      image.at(x, y) = mix(image.at(x, y), colour, cover);
+    }
+  }
+}
+
+double text_width(std::string_view text, double size) {
+  double width = text.empty() ? 0 : -kGap;
+  for (const char c : text) width += glyph_width(glyph_of(c)) + kGap;
+  return width * size / kUnits;
+}
+
+void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour) {
+  const double unit = size / kUnits;
+  for (const char c : text) {
+    draw_glyph(image, at, glyph_of(c), unit, colour);
+    at.x += unit * (glyph_width(glyph_of(c)) + kGap);
+  }
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,161 @@
+#include "client/text/job_text.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "client/text/key_line.h"
+#include "client/text/printable.h"
+#include "client/text/skeleton_text.h"
+#include "client/text/time_text.h"
+#include "client/text/words.h"
+#include "core/base/number_text.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::size_t kShortId = 12;
+
+std::string triple(const google::protobuf::RepeatedField<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + core::to_text(value);
+  return text;
+}
+
+// By columns, as the message holds it.
+bool is_identity(const google::protobuf::RepeatedField<double>& frame) {
+  for (int i = 0; i < 9; ++i) {
+    if (frame[i] != (i % 4 == 0 ? 1 : 0)) return false;
+  }
+  return true;
+}
+
+std::string frame_text(const google::protobuf::RepeatedField<double>& frame) {
+  std::string text;
+  for (int i = 0; i < 9; ++i) text += (i == 0 ? "" : i % 3 == 0 ? ", " : " ") + core::to_text(frame[i]);
+  return text;
+}
+
+std::string prepared_details(const v1::PreparedSummary& p) {
+  std::string text;
+  text += key_line("points", std::to_string(p.points()));
+  text += key_line("spacing", core::to_text(p.spacing()));
+  text += key_line("v0", core::to_text(p.volume()));
+  text += key_line("triangles", std::to_string(p.triangles()));
+  text += key_line("vertices", std::to_string(p.vertices()));
+  text += key_line("solids", std::to_string(p.solids()));
+  text += key_line("surfaces", std::to_string(p.components()));
+  text += key_line("cavities", std::to_string(p.cavities()));
+  text += key_line("genus", std::to_string(p.genus()));
+  if (p.frame_size() == 9 && !is_identity(p.frame())) {
+    text += key_line("frame_vectors", frame_text(p.frame()));
+  }
+  text += key_line("bbox_min", triple(p.bbox_min()));
+  text += key_line("bbox_max", triple(p.bbox_max()));
+  for (const v1::MeshNote& note : p.notes()) {
+    text += key_line(note.severity(), note.code() + ": " + note.message());
+  }
+  return text;
+}
+
+std::string asked_sampling(const v1::Sampling& s) {
+  return s.density_case() == v1::Sampling::kSpacing ? "spacing " + core::to_text(s.spacing())
+                                                    : "about " + core::counted(s.target_points(), "point");
+}
+
+std::string counters_details(const v1::JobCounters& c) {
+  std::string text;
+  text += key_line("directions_reported", std::to_string(c.directions_reported()));
+  text += key_line("directions_repeated", std::to_string(c.directions_repeated()));
+  text += key_line("reports", std::to_string(c.reports()));
+  text += key_line("leases_granted", std::to_string(c.leases_granted()));
+  text += key_line("leases_lost", std::to_string(c.leases_lost()));
+  text += key_line("longest_report_gap", duration_text(std::chrono::milliseconds(c.longest_report_gap_ms())));
+  if (c.directions_lost_estimate() > 0) {
+    text += key_line("directions_lost", "about " + core::rounded(c.directions_lost_estimate(), 3));
+  }
+  return text;
+}
+
+std::string progress_text(const v1::Job& job) {
+  if (job.directions_total() == 0) return "-";
+  return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total());
+}
+
+// Columns in bytes; names with multi-byte characters stand last, where alignment does not matter.
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      text += row[c];
+      if (c + 1 < row.size()) text.append(widths[c] - row[c].size() + 2, ' ');
+    }
+    text.push_back('\n');
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string job_details(const v1::Job& job) {
+  std::string text;
+  text += key_line("job", job.id());
+  text += key_line("name", job.name());
+  text += key_line("owner", job.owner());
+  text += key_line("state", state_word(job.state()));
+  text += key_line("stage", stage_word(job.stage()));
+  if (job.state() == v1::JOB_STATE_FAILED) text += key_line("reason", failure_text(job.error()));
+  if (!job.waiting_reason().empty()) text += key_line("reason", job.waiting_reason());
+  if (job.cancel_requested()) text += key_line("cancel_requested", "yes");
+  text += key_line("directions", progress_text(job));
+  if (job.state() == v1::JOB_STATE_DONE) {
+    text += key_line("skeleton_points", std::to_string(job.skeleton_points()));
+    for (const auto& [key, value] : quality_lines(job.quality())) {
+      if (job.has_quality() && key != "points") text += key_line("skeleton_" + key, value);
+    }
+  }
+  if (job.has_prepared()) text += prepared_details(job.prepared());
+  text += key_line("asked_sampling", asked_sampling(job.params().sampling()));
+  text += key_line("asked_directions",
+                   job.params().directions().empty() ? "triangles" : job.params().directions());
+  if (frame_word(job.params().frame()) != "axis") {
+    text += key_line("asked_frame", frame_word(job.params().frame()));
+  }
+  text += key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
+  text += key_line("repair", job.params().repair() ? "auto" : "none");
+  text += key_line("priority", std::to_string(job.priority()));
+  text += key_line("mesh_bytes", std::to_string(job.mesh_bytes()));
+  text += key_line("mesh_sha256", job.mesh_sha256());
+  text += key_line("created", utc_time(job.created_ms()));
+  text += key_line("started", utc_time(job.started_ms()));
+  text += key_line("finished", utc_time(job.finished_ms()));
+  if (job.started_ms() > 0 && job.finished_ms() >= job.started_ms()) {
+    text += key_line("took", age_text(job.started_ms(), job.finished_ms()));
+  }
+  return text + counters_details(job.counters());
+}
+
+std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms) {
+  std::vector<std::vector<std::string>> rows = {
+      {"JOB", "STATE", "STAGE", "DIRECTIONS", "POINTS", "SKELETON", "AGE", "OWNER", "NAME"}};
+  for (const v1::Job& job : jobs) {
+    rows.push_back({printable(job.id().substr(0, kShortId)), state_word(job.state()), stage_word(job.stage()),
+                    progress_text(job), job.has_prepared() ? std::to_string(job.prepared().points()) : "-",
+                    job.state() == v1::JOB_STATE_DONE ? std::to_string(job.skeleton_points()) : "-",
+                    age_text(job.created_ms(), now_ms), printable(job.owner()), printable(job.name())});
+    for (std::string& cell : rows.back()) std::replace(cell.begin(), cell.end(), '\n', ' ');
+  }
+  return aligned(rows);
+}
+
+std::string failure_text(const v1::JobError& error) {
+  std::string text = error.code().empty() ? "no reason was given" : error.code() + ": " + error.message();
+  if (error.line() > 0) text += " (line " + std::to_string(error.line()) + " of the submitted file)";
+  return text;
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "affskel/v1/types.pb.h"
+
+namespace affskel::client {
+
+// The command line's words for the protocol's enumerations.  Each is the name in the protocol without its
+// type, in lower case, with `-` for `_`; so what the protocol gains, the command line knows.
+
+/// "queued", "running", "done", "failed", "cancelled"; "unknown" for anything else.
+std::string state_word(v1::JobState state);
+/// "prepare", "erode", "derive", "complete"; "unknown" for anything else.
+std::string stage_word(v1::JobStage stage);
+/// "axis", "pca", "obb" or "affine"; "axis" when none is specified, "unknown" for anything else.
+std::string frame_word(v1::Frame frame);
+/// "zucker-hummel", "intermediate", ...; "zucker-hummel" when none is specified, "unknown" for anything else.
+std::string operator_word(v1::Operator which);
+
+/// All words of a kind, in the protocol's order.
+std::vector<std::string> state_words();
+std::vector<std::string> frame_words();
+std::vector<std::string> operator_words();
+
+/// The value that a word stands for.  @throws ClientError kUsage naming the possible words.
+v1::JobState state_named(const std::string& word);
+v1::Frame frame_named(const std::string& word);
+v1::Operator operator_named(const std::string& word);
+
+}  // namespace affskel::client

@@ -1,0 +1,117 @@
+#include "client/cli/interrupt.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "client/base/error.h"
+#include "client/files/write/atomic_file.h"
+#include "temp_dir.h"
+
+namespace affskel::client {
+namespace {
+
+void limit_file_size(rlim_t bytes) {
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+// Each runs in a process of its own.
+TEST(InterruptDeathTest, TellsThatTheJobGoesOn) {
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        set_interrupt_message("job 7 goes on\n");
+        raise(SIGINT);
+      },
+      ::testing::ExitedWithCode(130), "job 7 goes on");
+}
+
+TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
+  const TempDir dir;
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        AtomicFile file(dir / "out.csv");
+        file.write(std::string(3 << 20, 'x'));
+        if (dir.names().size() != 1) _exit(1);
+        raise(SIGTERM);
+      },
+      ::testing::ExitedWithCode(143), "");
+  EXPECT_TRUE(dir.names().empty());
+}
+
+// 0 when an AtomicFile into a pipe that nobody reads fails with a message about it.
+[[noreturn]] void write_to_nobody() {
+  install_interrupt_handlers();
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) _exit(3);
+  close(ends[0]);
+  dup2(ends[1], STDOUT_FILENO);
+  try {
+    AtomicFile file("-");
+    file.write("x");
+    file.commit();
+  } catch (const ClientError& error) {
+    const bool told = error.for_people() == "standard output: cannot write: Broken pipe";
+    _exit(told && error.exit_code() == ExitCode::kLimit ? 0 : 1);
+  }
+  _exit(2);
+}
+
+TEST(InterruptDeathTest, APipeThatNobodyReadsIsAnErrorNotADeath) {
+  EXPECT_EXIT(write_to_nobody(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(InterruptDeathTest, RemovesEveryUnfinishedFile) {
+  const TempDir dir;
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        AtomicFile first(dir / "a.csv");
+        AtomicFile second(dir / "b.svg");
+        { AtomicFile third(dir / "c.svg"); }
+        AtomicFile fourth(dir / "d.csv");
+        fourth.commit();
+        if (dir.names().size() != 3) _exit(1);
+        raise(SIGTERM);
+      },
+      ::testing::ExitedWithCode(143), "");
+  EXPECT_EQ(dir.names(), (std::vector<std::string>{"d.csv"}));
+}
+
+TEST(InterruptDeathTest, AFileBeyondTheLimitIsAnErrorAndRemoved) {
+  const TempDir dir;
+  EXPECT_EXIT(
+      {
+        install_interrupt_handlers();
+        limit_file_size(1 << 16);
+        try {
+          AtomicFile file(dir / "out.csv");
+          file.write(std::string(3 << 20, 'x'));
+          file.commit();
+        } catch (const ClientError& error) {
+          _exit(static_cast<int>(error.exit_code()));
+        }
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(8), "");
+  EXPECT_TRUE(dir.names().empty());
+}
+
+TEST(InterruptDeathTest, KeepsIgnoredSignalsIgnored) {
+  EXPECT_EXIT(
+      {
+        signal(SIGHUP, SIG_IGN);
+        install_interrupt_handlers();
+        raise(SIGHUP);
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace affskel::client

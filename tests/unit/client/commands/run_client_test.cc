@@ -1,0 +1,374 @@
+// The client from its arguments to its exit code, against a server in this process.
+#include "client/commands/run_client.h"
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "client_fixture.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
+#include "test_environment.h"
+#include "wire/sha256.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
+  const Outcome done = run({"submit", dir_ / "cube.off", "--spacing", "200", "--frame", "affine",
+                            "--directions", "triangles+sphere:20", "--priority", "7", "--request-id", "k1",
+                            "--threshold", "5", "--repair", "none"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, service_.job.id() + "\n");
+  EXPECT_EQ(service_.mesh, mesh_);
+  const v1::SubmitJobHeader& header = service_.submitted;
+  EXPECT_EQ(header.mesh_sha256(), wire::sha256_hex(mesh_));
+  EXPECT_EQ(header.mesh_bytes(), mesh_.size());
+  EXPECT_EQ(header.name(), "cube");
+  EXPECT_FALSE(header.owner().empty());
+  EXPECT_EQ(header.priority(), 7u);
+  EXPECT_EQ(header.request_id(), "k1");
+  EXPECT_EQ(header.params().sampling().spacing(), 200);
+  EXPECT_EQ(header.params().directions(), "triangles+sphere:20");
+  EXPECT_EQ(header.params().frame(), v1::FRAME_AFFINE);
+  EXPECT_FALSE(header.params().repair());
+  EXPECT_EQ(header.skeleton().threshold(), 5);
+  EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+}
+
+// Nothing is sent: there is no server.
+TEST_F(ClientTest, SubmitRefusesWhatIsBeyondTheCoresLimits) {
+  const std::string file = dir_ / "cube.off", nowhere = "unix:/nowhere/s";
+  for (const char* frame : {"axis", "affine"}) {
+    const Outcome fine = run({"submit", file, "--spacing", "1e-9", "--frame", frame}, nowhere);
+    EXPECT_EQ(fine.exit_code, 8);
+    EXPECT_EQ(fine.out, "");
+    for (const char* part :
+         {"cube.off: spacing 1e-09 would give about ", " sample points on ", " lattice lines; ",
+          "at most 2.15e+09 points on 4e+08 lines", "take a spacing of "}) {
+      EXPECT_NE(fine.err.find(part), std::string::npos) << part << "\n" << fine.err;
+    }
+  }
+  const Outcome many = run({"submit", file, "--directions", "triangles+sphere:16777205"}, nowhere);
+  EXPECT_EQ(many.exit_code, 8);
+  EXPECT_NE(many.err.find(
+                "cube.off: directions 'triangles+sphere:16777205': 16777217 directions; at most 16777216"),
+            std::string::npos)
+      << many.err;
+  const Outcome as_json = run({"--json", "submit", file, "--spacing", "1e-300"}, nowhere);
+  EXPECT_EQ(as_json.exit_code, 8);
+  const json error = json::parse(as_json.err).at("error");
+  EXPECT_EQ(error.at("code"), "LIMIT");
+  EXPECT_EQ(error.at("file"), file);
+  EXPECT_TRUE(
+      error.at("message").get<std::string>().starts_with("spacing 1e-300 would give more than 1e+308"));
+}
+
+TEST_F(ClientTest, SubmitSendsWhatIsWithinTheCoresLimits) {
+  const std::string file = dir_ / "cube.off";
+  const std::string refusal = run({"submit", file, "--spacing", "1e-9"}).err;
+  EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+  const std::string before = "take a spacing of ";
+  std::string least = refusal.substr(refusal.find(before) + before.size());
+  least.resize(least.find(' '));
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--spacing", least},
+                                                  {"--spacing", least, "--frame", "obb"},
+                                                  {"--points", "2147483648"},
+                                                  {"--directions", "triangles+sphere:16777204"}}) {
+    std::vector<std::string> arguments = {"submit", file};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome sent = run(arguments);
+    EXPECT_EQ(sent.exit_code, 0) << sent.err;
+  }
+}
+
+TEST_F(ClientTest, SubmitAimsAtAHundredThousandPointsByDefault) {
+  EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 0);
+  EXPECT_EQ(service_.submitted.params().sampling().target_points(), 100000u);
+  EXPECT_EQ(service_.submitted.params().frame(), v1::FRAME_AXIS);
+  EXPECT_EQ(service_.submitted.priority(), 5u);
+  EXPECT_TRUE(service_.submitted.params().repair());
+}
+
+TEST_F(ClientTest, SubmitRefusesBadMeshesWithoutTheServer) {
+  const Outcome malformed = run({"--json", "submit", dir_ / "bad.off"}, "unix:/nowhere/s");
+  EXPECT_EQ(malformed.exit_code, 3);
+  EXPECT_EQ(malformed.out, "");
+  const json error = json::parse(malformed.err).at("error");
+  EXPECT_EQ(error.at("code"), "BAD_INPUT");
+  EXPECT_EQ(error.at("file"), dir_ / "bad.off");
+  EXPECT_EQ(error.at("line"), 5);
+  EXPECT_EQ(run({"submit", dir_ / "open.off"}, "unix:/nowhere/s").exit_code, 3);
+  EXPECT_EQ(run({"submit", dir_ / "missing.off"}, "unix:/nowhere/s").exit_code, 3);
+  EXPECT_EQ(run({"submit", dir_.path()}, "unix:/nowhere/s").exit_code, 3);
+}
+
+TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
+  const std::string stem("c\xFF_e");
+  spit(dir_ / (stem + ".off"), mesh_);
+  const Outcome done = run({"submit", dir_ / (stem + ".off"), "-o", dir_ / "OUT"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(service_.submitted.name(), "c\xEF\xBF\xBD_e");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / ("OUT/" + stem + ".field.vtkhdf")));
+}
+
+TEST_F(ClientTest, TextForTheServerMustBeUtf8) {
+  const std::string bad = "k\xFF";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"submit", dir_ / "cube.off", "--name", bad},
+        {"submit", dir_ / "cube.off", "--request-id", bad},
+        {"list", "--owner", bad},
+        {"status", bad}}) {
+    const Outcome refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("UTF-8"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(service_.mesh, "");
+}
+
+TEST_F(ClientTest, AMisspeltCommandIsNamed) {
+  EXPECT_NE(run({"statsu", "@last"}).err.find("no command 'statsu'"), std::string::npos);
+  EXPECT_NE(run({"make", "cuboid", "-o", dir_ / "x.off"}).err.find("no command 'cuboid'"), std::string::npos);
+  EXPECT_NE(run({}).err.find("no command was given"), std::string::npos);
+}
+
+TEST_F(ClientTest, SubmitKeepsToTheServersLimit) {
+  service_.max_mesh_bytes = 10;
+  const Outcome outcome = run({"submit", dir_ / "cube.off"});
+  EXPECT_EQ(outcome.exit_code, 8);
+  EXPECT_EQ(service_.mesh, "");
+}
+
+TEST_F(ClientTest, SubmitIntoADirectoryWritesAllThree) {
+  const Outcome done = run({"--json", "submit", dir_ / "cube.off", "-o", dir_ / "OUT/deep"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const json document = json::parse(done.out);
+  EXPECT_EQ(document.at("id"), service_.job.id());
+  EXPECT_EQ(document.at("files").at("field"), dir_ / "OUT/deep/cube.field.vtkhdf");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "OUT/deep/cube.field.vtkhdf"));
+  EXPECT_EQ(slurp(dir_ / "OUT/deep/cube.skeleton.ply").substr(0, 4), "ply\n");
+  EXPECT_EQ(slurp(dir_ / "OUT/deep/cube.surface.off").substr(0, 3), "OFF");
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir_ / "OUT/deep")) ++files;
+  EXPECT_EQ(files, 3u);
+}
+
+TEST_F(ClientTest, WaitEndsWithTheJobsState) {
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--wait"}).exit_code, 0);
+  service_.watch.back() = sample_job(v1::JOB_STATE_CANCELLED);
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--wait"}).exit_code, 6);
+  service_.watch.back() = sample_job(v1::JOB_STATE_FAILED);
+  service_.watch.back().mutable_error()->set_code("WORKER_LOST");
+  service_.watch.back().mutable_error()->set_message("lost 5 workers");
+  const Outcome failed = run({"submit", dir_ / "cube.off", "-w"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_EQ(failed.out, service_.job.id() + "\n");
+  EXPECT_NE(failed.err.find("WORKER_LOST: lost 5 workers"), std::string::npos);
+}
+
+TEST_F(ClientTest, AnEmptySkeletonIsAWarning) {
+  service_.watch.back().set_skeleton_points(0);
+  const Outcome done = run({"watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find("warning: the skeleton is empty"), std::string::npos);
+  EXPECT_NE(done.err.find("--spacing"), std::string::npos);
+}
+
+TEST_F(ClientTest, AnEmptySurfaceIsAWarning) {
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = "";
+  const Outcome done = run({"surface", "@last", "-o", dir_ / "s.off"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find("warning: the surface is empty"), std::string::npos) << done.err;
+}
+
+TEST_F(ClientTest, AnEmptyAddressIsNotThePrivateServer) {
+  std::ostringstream out, err;
+  EXPECT_EQ(
+      run_client({"--server", "", "list"}, {out, err, false, test_environment({{"HOME", dir_.path()}}), {}}),
+      2);
+  EXPECT_NE(err.str().find("--server"), std::string::npos) << err.str();
+}
+
+TEST_F(ClientTest, WatchReattachesWhenTheStreamBreaks) {
+  service_.watch_breaks_after = 2;
+  const Outcome done = run({"--json", "watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(service_.watches, 2);
+  std::istringstream lines(done.out);
+  std::vector<std::string> states;
+  for (std::string line; std::getline(lines, line);) states.push_back(json::parse(line).at("state"));
+  EXPECT_EQ(states, (std::vector<std::string>{"queued", "running", "queued", "running", "done"}));
+}
+
+TEST_F(ClientTest, WatchReattachesWhenTheStreamEndsTooEarly) {
+  service_.watch_ends_after = 2;
+  const Outcome done = run({"watch", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "done\n");
+  EXPECT_NE(done.err.find("the server went away"), std::string::npos);
+}
+
+TEST_F(ClientTest, ABusyServerIsAskedAgain) {
+  service_.busy = 2;
+  const Outcome done = run({"status", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("trying again: too many calls"), std::string::npos) << done.err;
+  EXPECT_LT(service_.busy, 0);
+}
+
+TEST_F(ClientTest, AServerThatClosesIsAskedAgain) {
+  service_.busy = 2;
+  service_.busy_status = {grpc::StatusCode::CANCELLED, "CANCELLED"};
+  const Outcome done = run({"status", "@last"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
+TEST_F(ClientTest, WatchGivesUpWhenTheServerStaysAway) {
+  service_.watch_stays_away = true;
+  service_.watch_breaks_after = 1;
+  EXPECT_EQ(run({"watch", "@last"}).exit_code, 5);
+  EXPECT_GT(service_.watches, 2);
+}
+
+TEST_F(ClientTest, WatchPrintsTheFinalState) {
+  EXPECT_EQ(run({"watch", "@last"}).out, "done\n");
+}
+
+TEST_F(ClientTest, StatusTellsEveryFieldAsJson) {
+  const Outcome outcome = run({"--json", "status", "@last"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+  const json job = json::parse(outcome.out);
+  EXPECT_EQ(job.at("state"), "done");
+  EXPECT_EQ(job.at("stage"), "complete");
+  EXPECT_EQ(job.at("mesh_bytes"), std::uint64_t{1} << 53);
+  EXPECT_EQ(job.at("counters").at("reports"), 3);
+  EXPECT_EQ(job.at("counters").at("leases_lost"), 0);
+  EXPECT_EQ(job.at("prepared").at("volume"), 8e9);
+  EXPECT_EQ(job.size(), 20u) << "all fields but the absent messages params, skeleton, error; got "
+                             << outcome.out;
+}
+
+TEST_F(ClientTest, StatusIsKeyValueLines) {
+  const Outcome outcome = run({"status", "@last"});
+  for (const char* line :
+       {"job:                  0123456789abcdef0123456789abcdef\n", "state:                done\n",
+        "directions:           12/12\n", "v0:                   8e+09\n", "spacing:              200\n",
+        "points:               5\n"}) {
+    EXPECT_NE(outcome.out.find(line), std::string::npos) << line << outcome.out;
+  }
+}
+
+TEST_F(ClientTest, ListPassesFiltersOn) {
+  const Outcome outcome =
+      run({"list", "--state", "done", "--state", "failed", "--owner", "me", "--limit", "3"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(service_.listed.states_size(), 2);
+  EXPECT_EQ(service_.listed.states(1), v1::JOB_STATE_FAILED);
+  EXPECT_EQ(service_.listed.owner(), "me");
+  EXPECT_EQ(service_.listed.limit(), 3u);
+  EXPECT_NE(outcome.out.find("0123456789ab  done"), std::string::npos) << outcome.out;
+  service_.jobs = 1;
+  EXPECT_EQ(json::parse(run({"--json", "list"}).out).at("jobs").size(), 1u);
+}
+
+TEST_F(ClientTest, ListFollowsPagesUpToItsLimit) {
+  service_.jobs = 5000;
+  EXPECT_EQ(json::parse(run({"--json", "list", "--limit", "2300"}).out).at("jobs").size(), 2300u);
+  ASSERT_EQ(service_.lists.size(), 3u);
+  EXPECT_EQ(service_.lists[0].page_token(), "");
+  EXPECT_EQ(service_.lists[1].page_token(), "left 4000");
+  EXPECT_EQ(service_.lists[2].page_token(), "left 3000");
+  EXPECT_EQ(service_.lists[2].limit(), 300u);
+  service_.jobs = 1200;
+  EXPECT_EQ(json::parse(run({"--json", "list", "--limit", "9000"}).out).at("jobs").size(), 1200u);
+}
+
+TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {
+  EXPECT_EQ(run({"status", "000000"}).exit_code, 4);
+  EXPECT_EQ(run({"list"}, "unix:/nowhere/s").exit_code, 5);
+  service_.fails = {grpc::StatusCode::FAILED_PRECONDITION, "the job is done"};
+  EXPECT_EQ(run({"resume", "@last"}).exit_code, 7);
+  service_.fails = {grpc::StatusCode::RESOURCE_EXHAUSTED, "disk full"};
+  EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 8);
+  service_.fails = {grpc::StatusCode::ALREADY_EXISTS, "other content"};
+  EXPECT_EQ(run({"submit", dir_ / "cube.off"}).exit_code, 2);
+  service_.fails = {grpc::StatusCode::INTERNAL, "oops"};
+  EXPECT_EQ(run({"delete", "@last"}).exit_code, 70);
+}
+
+TEST_F(ClientTest, JobCommandsPrintTheState) {
+  EXPECT_EQ(run({"resume", "@last"}).out, "done\n");
+  EXPECT_EQ(run({"delete", "@last"}).out, "deleted\n");
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  service_.job.set_cancel_requested(true);
+  service_.watch = {service_.job, sample_job(v1::JOB_STATE_CANCELLED)};
+  EXPECT_EQ(run({"cancel", "@last"}).out, "cancelled\n");
+}
+
+TEST_F(ClientTest, ServerInfo) {
+  EXPECT_NE(run({"server-info"}).out.find("version:              9.8.7\n"), std::string::npos);
+  EXPECT_EQ(json::parse(run({"--json", "server-info"}).out).at("workers").at(0).at("id"), "0123456789abcdef");
+}
+
+TEST_F(ClientTest, InspectNeedsNoServer) {
+  const json facts = json::parse(run({"--json", "inspect", dir_ / "cube.off"}, "unix:/nowhere/s").out);
+  EXPECT_EQ(facts.at("triangles"), 12);
+  EXPECT_EQ(facts.at("genus"), 0);
+  EXPECT_EQ(facts.at("volume"), 8e9);
+  EXPECT_EQ(facts.at("solids"), 1);
+  EXPECT_TRUE(facts.at("computable"));
+  const Outcome open = run({"--json", "inspect", dir_ / "open.off"});
+  EXPECT_EQ(open.exit_code, 3);
+  EXPECT_FALSE(json::parse(open.out).at("computable"));
+  EXPECT_EQ(json::parse(open.out).at("defects").at(0).at("count"), 3);
+}
+
+TEST_F(ClientTest, OtherFormatsAreSubmittedAsOffText) {
+  ASSERT_EQ(run({"transform", dir_ / "cube.off", "-o", dir_ / "cube.stl", "--scale", "1"}).exit_code, 0);
+  const Outcome submitted = run({"submit", dir_ / "cube.stl"});
+  EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
+  EXPECT_NE(submitted.err.find("cube.stl: read as stl and submitted as OFF text, 8 vertices"),
+            std::string::npos)
+      << submitted.err;
+  EXPECT_EQ(core::read_off(service_.mesh).mesh.points.size(), 8u);
+  EXPECT_EQ(service_.submitted.mesh_sha256(), wire::sha256_hex(service_.mesh));
+  EXPECT_EQ(service_.submitted.mesh_bytes(), service_.mesh.size());
+  EXPECT_EQ(service_.submitted.name(), "cube");
+  const json facts = json::parse(run({"--json", "inspect", dir_ / "cube.stl"}).out);
+  EXPECT_EQ(facts.at("format"), "stl");
+  EXPECT_EQ(facts.at("bytes"), 84 + 12 * 50);
+  EXPECT_EQ(facts.at("submitted_bytes"), service_.mesh.size());
+  EXPECT_EQ(facts.at("submitted_sha256"), service_.submitted.mesh_sha256());
+  EXPECT_EQ(facts.at("volume"), 8e9);
+}
+
+TEST_F(ClientTest, MakeWritesShapes) {
+  EXPECT_EQ(run({"make", "torus", "--triangles", "18", "-o", dir_ / "t.off"}).exit_code, 0);
+  EXPECT_EQ(core::read_off(slurp(dir_ / "t.off")).mesh.triangles.size(), 18u);
+  ::testing::internal::CaptureStdout();
+  run({"make", "box", "--size", "3,2,1", "-o", "-"});
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), core::write_off(core::make_box(3, 2, 1)));
+  EXPECT_EQ(run({"make", "torus", "--triangles", "7", "-o", dir_ / "t.off"}).exit_code, 2);
+  EXPECT_EQ(run({"--json", "make", "box", "-o", "-"}).exit_code, 2);
+}
+
+TEST_F(ClientTest, WrongUsageIsTwoAndJsonOnRequest) {
+  EXPECT_EQ(run({}).exit_code, 2);
+  EXPECT_EQ(run({"frobnicate"}).exit_code, 2);
+  const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "-1", "--json"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(json::parse(outcome.err).at("error").at("code"), "USAGE");
+}
+
+TEST_F(ClientTest, HelpAndVersionGoToStandardOutput) {
+  EXPECT_EQ(run({"--version"}).out.substr(0, 15), "affskel-client ");
+  const Outcome help = run({"fetch", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.out.find("Examples:"), std::string::npos);
+  EXPECT_EQ(help.err, "");
+}
+
+}  // namespace
+}  // namespace affskel::client

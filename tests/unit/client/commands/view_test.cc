@@ -1,0 +1,200 @@
+// The command `view` against a server in this process; what is on the page is tested in page_test.cc.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "client/commands/run_client.h"
+#include "core/mesh/mesh_io.h"
+#include "core/shapes/shapes.h"
+#include "fake_service.h"
+#include "sample_data.h"
+#include "test_environment.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::json;
+
+struct Outcome {
+  int exit_code = 0;
+  std::string out, err;
+};
+
+class ViewTest : public ::testing::Test {
+ protected:
+  ViewTest() : server_(service_) {
+    service_.job.set_id("0123456789abcdef0123456789abcdef");
+    service_.job.set_name("cube");
+    service_.job.set_state(v1::JOB_STATE_DONE);
+    service_.job.mutable_prepared()->set_points(5);
+    service_.job.mutable_prepared()->set_volume(8e9);
+    service_.job.mutable_prepared()->set_spacing(200);
+    service_.artifacts[v1::ARTIFACT_KIND_MESH] = core::write_off(core::make_box(2000, 2000, 2000));
+    service_.artifacts[v1::ARTIFACT_KIND_LATTICE] = sample_lattice().SerializeAsString();
+    service_.artifacts[v1::ARTIFACT_KIND_DIRECTIONS] = sample_directions().SerializeAsString();
+    service_.artifacts[v1::ARTIFACT_KIND_FIELD] = sample_field();
+    std::string divergences;
+    for (const double h : {0.0, -7.25, 1.0 / 3, 2.0, 9.1}) {
+      divergences.append(reinterpret_cast<const char*>(&h), sizeof h);
+    }
+    service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE] = divergences;
+  }
+
+  Outcome run(std::vector<std::string> arguments) {
+    std::ostringstream out, err;
+    arguments.insert(arguments.begin(), {"--server", server_.address(), "view", "@last"});
+    RetryPolicy retry;
+    retry.first_pause = std::chrono::milliseconds(1);
+    retry.patience = std::chrono::milliseconds(200);
+    Outcome outcome;
+    outcome.exit_code =
+        run_client(arguments, {out, err, false, test_environment({{"HOME", dir_.path()}}), retry});
+    outcome.out = out.str();
+    outcome.err = err.str();
+    return outcome;
+  }
+
+  json facts() const {
+    const std::string page = slurp(dir_ / "p.html"), open = "id=\"facts\">";
+    const std::size_t begin = page.find(open) + open.size();
+    return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  }
+
+  v1::FetchArtifactRequest fetched(v1::ArtifactKind kind) const {
+    for (const v1::FetchArtifactRequest& request : service_.fetches) {
+      if (request.kind() == kind) return request;
+    }
+    return {};
+  }
+
+  TempDir dir_;
+  FakeService service_;
+  FakeServer server_;
+};
+
+TEST_F(ViewTest, WritesThePage) {
+  const Outcome done = run({"-o", dir_ / "p.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "");
+  const json all = facts();
+  EXPECT_EQ(all.at("name"), "cube");
+  EXPECT_EQ(all.at("operator"), "zucker-hummel");
+  EXPECT_EQ(all.at("threshold"), 7);
+  EXPECT_EQ(all.at("pointsHere"), 5);
+  EXPECT_EQ(all.at("thinning"), 1);
+  const json told = json::parse(run({"--json", "-o", dir_ / "p.html"}).out);
+  EXPECT_EQ(told.at("file"), dir_ / "p.html");
+  EXPECT_EQ(told.at("points"), 5);
+  EXPECT_EQ(told.at("bytes"), slurp(dir_ / "p.html").size());
+}
+
+TEST_F(ViewTest, TakesTheJobsSkeletonOrAnother) {
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CENTRAL);
+  service_.job.mutable_skeleton()->set_threshold(0.25);
+  ASSERT_EQ(run({"-o", dir_ / "p.html"}).exit_code, 0);
+  EXPECT_EQ(facts().at("operator"), "central");
+  EXPECT_EQ(facts().at("threshold"), 0.25);
+  EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_CENTRAL);
+  service_.fetches.clear();
+  ASSERT_EQ(run({"--threshold", "5", "-o", dir_ / "p.html"}).exit_code, 0);
+  EXPECT_EQ(facts().at("operator"), "central") << "a threshold alone is for the job's operator";
+  EXPECT_EQ(facts().at("threshold"), 5);
+  EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_CENTRAL);
+}
+
+TEST_F(ViewTest, AnEmptySkeletonIsAWarning) {
+  const std::string warning = "warning: the skeleton is empty";
+  EXPECT_EQ(run({"-o", dir_ / "p.html"}).err.find(warning), std::string::npos);
+  const Outcome done = run({"--threshold", "100", "-o", dir_ / "p.html"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_NE(done.err.find(warning), std::string::npos);
+}
+
+TEST_F(ViewTest, RefusesAnOperatorThatItDoesNotKnow) {
+  service_.job.mutable_skeleton()->set_operator_(static_cast<v1::Operator>(99));
+  for (const std::vector<std::string>& threshold :
+       {std::vector<std::string>{}, std::vector<std::string>{"--threshold", "3"}}) {
+    std::vector<std::string> arguments = {"-o", dir_ / "p.html"};
+    arguments.insert(arguments.end(), threshold.begin(), threshold.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("operator 99"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(dir_.names().empty());
+  }
+  EXPECT_EQ(run({"--operator", "sobel", "-o", dir_ / "p.html"}).exit_code, 0);
+}
+
+TEST_F(ViewTest, EveryOperatorBeginsAtItsOwnThreshold) {
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CENTRAL);
+  service_.job.mutable_skeleton()->set_threshold(0.25);
+  // types.proto; the spacing is 200.
+  for (const auto& [name, threshold] : {std::pair("zucker-hummel", 7.),
+                                        {"intermediate", 1 / 200.},
+                                        {"central", 0.57 / 200},
+                                        {"sobel", 18.25},
+                                        {"flux", 7 / 26.}}) {
+    ASSERT_EQ(run({"--operator", name, "-o", dir_ / "p.html"}).exit_code, 0) << name;
+    EXPECT_EQ(facts().at("operator"), name);
+    EXPECT_NEAR(facts().at("threshold").get<double>(), threshold, 0.005 * threshold) << name;
+  }
+}
+
+TEST_F(ViewTest, ChordsAreShownAsASheet) {
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  service_.artifacts.erase(v1::ARTIFACT_KIND_DIVERGENCE);
+  v1::TriangleMesh sheet;
+  for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) sheet.add_xyz(v);
+  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
+  for (const double v : {1., 2., 3.}) sheet.add_erosion(v);
+  for (const double v : {0.5, 0.6, 0.7}) sheet.add_strength(v);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  const Outcome done = run({"-o", dir_ / "p.html"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(facts().at("arrays").at("sheetPieces").at(2), 1);
+  EXPECT_EQ(facts().at("arrays").at("sheetPieceShares").at(2), 1);
+  EXPECT_EQ(facts().at("threshold"), 0.005);
+  EXPECT_EQ(fetched(v1::ARTIFACT_KIND_SURFACE).surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
+
+  sheet.set_corners(1, 3);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"-o", dir_ / "q.html"}).exit_code, 70) << "a corner that does not exist";
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "q.html"));
+}
+
+TEST_F(ViewTest, WantsAFinishedJobAndAPageToWrite) {
+  EXPECT_EQ(run({"-o", dir_ / "p.png"}).exit_code, 2);
+  EXPECT_EQ(run({}).exit_code, 2);
+  service_.job.set_state(v1::JOB_STATE_RUNNING);
+  service_.job.set_directions_done(5);
+  service_.job.set_directions_total(12);
+  const Outcome early = run({"-o", dir_ / "p.html"});
+  EXPECT_EQ(early.exit_code, 4);
+  EXPECT_NE(early.err.find("is running: 5 of 12"), std::string::npos) << early.err;
+  service_.job.set_state(v1::JOB_STATE_FAILED);
+  service_.job.set_directions_done(12);
+  service_.job.mutable_error()->set_code("LIMIT");
+  service_.job.mutable_error()->set_message("no skeleton");
+  const Outcome failed = run({"-o", dir_ / "p.html"});
+  EXPECT_EQ(failed.exit_code, 4);
+  EXPECT_NE(failed.err.find("failed: "), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("no skeleton"), std::string::npos) << failed.err;
+  EXPECT_EQ(failed.err.find("12 of 12"), std::string::npos) << failed.err;
+  service_.job.set_state(v1::JOB_STATE_CANCELLED);
+  EXPECT_NE(run({"-o", dir_ / "p.html"}).err.find("was cancelled"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "p.html"));
+}
+
+TEST_F(ViewTest, ADivergenceOfAnotherLatticeIsRefused) {
+  service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(32);
+  EXPECT_EQ(run({"-o", dir_ / "p.html"}).exit_code, 70);
+}
+
+TEST_F(ViewTest, DamagedTransfersLeaveNoFile) {
+  service_.damage = true;
+  EXPECT_EQ(run({"-o", dir_ / "p.html"}).exit_code, 70);
+  EXPECT_TRUE(dir_.names().empty());
+}
+
+}  // namespace
+}  // namespace affskel::client

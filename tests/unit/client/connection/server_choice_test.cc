@@ -1,0 +1,76 @@
+#include "client/connection/server_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "client/base/error.h"
+#include "temp_dir.h"
+#include "test_environment.h"
+
+namespace affskel::client {
+namespace {
+
+class ServerChoiceTest : public ::testing::Test {
+ protected:
+  void write_config(const std::string& text) {
+    std::filesystem::create_directories(dir_.path() / "affskel");
+    spit(dir_.path() / "affskel" / "config", text);
+  }
+  Environment environment(const std::string& server = "") {
+    return test_environment(
+        {{"XDG_CONFIG_HOME", dir_.path()}, {"HOME", "/nowhere"}, {"AFFSKEL_SERVER", server}});
+  }
+  TempDir dir_;
+};
+
+TEST_F(ServerChoiceTest, OptionThenEnvironmentThenConfigThenEmbedded) {
+  EXPECT_TRUE(choose_server("", environment()).embedded);
+  write_config("# our machine\n\n  server = unix:/run/from-config.sock \r\n");
+  EXPECT_EQ(choose_server("", environment()).address.path, "/run/from-config.sock");
+  EXPECT_EQ(choose_server("", environment("localhost:7")).address.port, 7);
+  EXPECT_EQ(choose_server("unix:/run/option.sock", environment("localhost:7")).address.path,
+            "/run/option.sock");
+  EXPECT_EQ(choose_server("unix:/run/option.sock", environment()).origin, "--server");
+}
+
+TEST_F(ServerChoiceTest, MalformedAddressesNameWhereTheyWereRead) {
+  write_config("server = 127.0.0.1\n");
+  try {
+    choose_server("", environment());
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
+    EXPECT_EQ(error.file(), (dir_.path() / "affskel" / "config").string());
+    EXPECT_EQ(error.line(), 1u);
+  }
+  try {
+    choose_server("", environment("nonsense"));
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_NE(std::string(error.what()).find("$AFFSKEL_SERVER"), std::string::npos);
+  }
+}
+
+TEST_F(ServerChoiceTest, ConfigErrorsHaveALine) {
+  for (const char* text : {"\nserver unix:/x\n", "\nservr = unix:/x\n", "\nserver =\n"}) {
+    write_config(text);
+    try {
+      choose_server("", environment());
+      FAIL() << text;
+    } catch (const ClientError& error) {
+      EXPECT_EQ(error.line(), 2u) << text;
+      EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
+    }
+  }
+}
+
+TEST(ConfigFile, DefaultsToTheHomeDirectory) {
+  EXPECT_EQ(config_file(test_environment({{"HOME", "/home/u"}})), "/home/u/.config/affskel/config");
+  EXPECT_EQ(config_file(test_environment({{"HOME", "/home/u"}, {"XDG_CONFIG_HOME", "/c"}})),
+            "/c/affskel/config");
+  // The XDG specification: relative paths are to be ignored.
+  EXPECT_EQ(config_file(test_environment({{"HOME", "/home/u"}, {"XDG_CONFIG_HOME", "c"}})),
+            "/home/u/.config/affskel/config");
+}
+
+}  // namespace
+}  // namespace affskel::client

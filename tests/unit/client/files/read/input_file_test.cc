@@ -1,0 +1,158 @@
+#include "client/files/read/input_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <sstream>
+#include <thread>
+
+#include "client/base/error.h"
+#include "client/files/read/read_file.h"
+#include "client/files/write/shape_writer.h"
+#include "core/shapes/shapes.h"
+#include "temp_dir.h"
+#include "wire/sha256.h"
+
+namespace affskel::client {
+namespace {
+
+ExitCode exit_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ClientError& error) {
+    return error.exit_code();
+  }
+  return ExitCode::kDone;
+}
+
+TEST(ReadFile, ReturnsTheBytesOfFilesAndPipes) {
+  const TempDir dir;
+  std::string bytes(200000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
+  spit(dir / "file", bytes);
+  EXPECT_EQ(read_file(dir / "file"), bytes);
+  ASSERT_EQ(mkfifo((dir / "pipe").c_str(), 0600), 0);
+  std::thread writer([&] { spit(dir / "pipe", bytes); });
+  EXPECT_EQ(read_file(dir / "pipe"), bytes);
+  writer.join();
+}
+
+TEST(ReadFile, KeepsToItsLimit) {
+  const TempDir dir;
+  spit(dir / "file", "12345");
+  EXPECT_EQ(read_file(dir / "file", 5), "12345");
+  EXPECT_EQ(exit_of([&] { read_file(dir / "file", 4); }), ExitCode::kLimit);
+  EXPECT_EQ(exit_of([&] { read_file("/dev/zero", 1000); }), ExitCode::kLimit) << "no size to ask for";
+}
+
+// Sanitizers need the address space for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void limit_memory(rlim_t bytes) {
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+TEST(ReadFileDeathTest, WithoutMemoryItNamesTheFile) {
+  EXPECT_EXIT(
+      {
+        limit_memory(rlim_t{1} << 30);
+        try {
+          read_file("/dev/zero");
+        } catch (const ClientError& error) {
+          std::fprintf(stderr, "%s\n", error.for_people().c_str());
+          _exit(static_cast<int>(error.exit_code()));
+        }
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(8), "/dev/zero: not enough memory");
+}
+#endif
+
+TEST(ReadFile, TakesNoMoreThanTheFileNeeds) {
+  const TempDir dir;
+  spit(dir / "file", std::string(10000000, 'x'));
+  EXPECT_LT(read_file(dir / "file").capacity(), 10100000u);
+}
+
+TEST(ReadFile, MissingFilesAndDirectoriesAreBadInput) {
+  const TempDir dir;
+  EXPECT_EQ(exit_of([&] { read_file(dir / "none"); }), ExitCode::kBadInput);
+  EXPECT_EQ(exit_of([&] { read_file(dir.path()); }), ExitCode::kBadInput);
+}
+
+// The box as the bytes of a format.
+std::string bytes_as(FileFormat format, const core::Mesh& mesh) {
+  std::string bytes;
+  write_surface(format, shape_of(mesh), {}, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+TEST(ReadInput, MakesOffTextOfOtherFormats) {
+  const TempDir dir;
+  const core::Mesh box = core::make_box(3, 2, 1);
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl}) {
+    const std::string path = dir / ("box" + std::string(extension_of(format))), bytes = bytes_as(format, box);
+    spit(path, bytes);
+    const InputFile input = read_input(path);
+    EXPECT_EQ("." + input.format, extension_of(format));
+    EXPECT_TRUE(input.converted());
+    EXPECT_EQ(input.file_bytes, bytes.size());
+    EXPECT_EQ(input.file_sha256, wire::sha256_hex(bytes));
+    // What is submitted is the surface, its corners joined, whatever STL repeats.
+    const core::Mesh read = core::read_off(input.bytes).mesh;
+    EXPECT_EQ(read.points.size(), 8u) << path;
+    EXPECT_EQ(read.triangles.size(), 12u) << path;
+    EXPECT_EQ(core::make_solid(read, {false}).volume, 6) << path;
+    std::ostringstream out, err;
+    Console console(out, err, {});
+    tell_conversion(input, console);
+    EXPECT_NE(err.str().find("8 vertices and 12 triangles"), std::string::npos) << err.str();
+  }
+}
+
+TEST(ReadInput, KeepsTheBytesOfOffText) {
+  const TempDir dir;
+  const std::string text = "# mine\n" + core::write_off(core::make_box(3, 2, 1));
+  for (const char* name : {"box.off", "box", "box.mesh"}) {
+    spit(dir / name, text);
+    const InputFile input = read_input(dir / name);
+    EXPECT_EQ(input.bytes, text);
+    EXPECT_FALSE(input.converted());
+    std::ostringstream out, err;
+    Console console(out, err, {});
+    tell_conversion(input, console);
+    EXPECT_EQ(err.str(), "");
+  }
+}
+
+TEST(ReadInput, KnowsAFormatByItsNameOrItsFirstBytes) {
+  const TempDir dir;
+  const std::string ply = bytes_as(FileFormat::kPly, core::make_box(3, 2, 1));
+  spit(dir / "scan", ply);
+  EXPECT_EQ(read_input(dir / "scan").format, "ply");
+  spit(dir / "scan.off", ply);
+  EXPECT_EQ(exit_of([&] { read_input(dir / "scan.off"); }), ExitCode::kBadInput);
+  spit(dir / "scan.STL", ply);
+  EXPECT_EQ(exit_of([&] { read_input(dir / "scan.STL"); }), ExitCode::kBadInput);
+  spit(dir / "points.obj", "v 0 0 0\nv 1 0 0\n");
+  EXPECT_EQ(exit_of([&] { read_input(dir / "points.obj"); }), ExitCode::kBadInput) << "no triangles";
+}
+
+TEST(CheckSolid, RepairsOnlyWhenAllowedAndTellsIt) {
+  const TempDir dir;
+  core::Mesh mesh = core::make_tetrahedron(10);
+  std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+  spit(dir / "t.off", core::write_off(mesh));
+  const InputFile input = read_input(dir / "t.off");
+  EXPECT_EQ(exit_of([&] { check_solid(input, false); }), ExitCode::kBadInput);
+  std::ostringstream out, err;
+  Console console(out, err, {});
+  tell_notes(check_solid(input, true), input, console);
+  EXPECT_NE(err.str().find("t.off: repaired: "), std::string::npos) << err.str();
+}
+
+}  // namespace
+}  // namespace affskel::client

@@ -1,0 +1,195 @@
+#include "client/text/job_text.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "client/cli/progress.h"
+#include "client/text/message_json.h"
+#include "client/text/server_text.h"
+#include "client/text/time_text.h"
+#include "client/text/words.h"
+
+namespace affskel::client {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(JobJson, UsesWordsNumbersAndNull) {
+  v1::Job job;
+  job.set_state(v1::JOB_STATE_QUEUED);
+  job.mutable_params()->mutable_sampling()->set_target_points(std::uint64_t{1} << 62);
+  job.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  job.add_done_positions()->set_end(7);
+  const nlohmann::ordered_json json = to_json(job);
+  EXPECT_EQ(json["state"], "queued");
+  EXPECT_TRUE(json["stage"].is_null());
+  EXPECT_EQ(json["skeleton"]["operator"], "zucker-hummel");
+  EXPECT_EQ(json["params"]["sampling"]["target_points"], std::uint64_t{1} << 62);
+  EXPECT_FALSE(json["params"]["sampling"].contains("spacing")) << "the other member of the oneof";
+  EXPECT_EQ(json["done_positions"][0]["end"], 7);
+  EXPECT_EQ(json["cancel_requested"], false);
+  EXPECT_FALSE(json.contains("prepared"));
+  EXPECT_EQ(json.begin().key(), "id") << "in the protocol's order";
+}
+
+TEST(StateWords, AreTheContractsWords) {
+  EXPECT_EQ(state_word(v1::JOB_STATE_DONE), "done");
+  EXPECT_EQ(state_word(v1::JOB_STATE_CANCELLED), "cancelled");
+  EXPECT_EQ(stage_word(v1::JOB_STAGE_PREPARE), "prepare");
+  EXPECT_EQ(state_word(static_cast<v1::JobState>(99)), "unknown");
+}
+
+TEST(UtcTime, IsReadable) {
+  EXPECT_EQ(utc_time(0), "-");
+  EXPECT_EQ(utc_time(1706702096789), "2024-01-31 11:54:56.789Z");
+}
+
+TEST(DurationText, PicksItsUnits) {
+  EXPECT_EQ(duration_text(milliseconds(-5)), "0.0 s");
+  EXPECT_EQ(duration_text(milliseconds(3456)), "3.4 s");
+  EXPECT_EQ(duration_text(milliseconds(59999)), "59 s");
+  EXPECT_EQ(duration_text(milliseconds(185000)), "3 min 05 s");
+  EXPECT_EQ(duration_text(milliseconds(7620000)), "2 h 07 min");
+  EXPECT_EQ(duration_text(std::chrono::hours(123)), "5 d 03 h");
+}
+
+TEST(JobTable, AlignsAndCannotBreakTheTerminal) {
+  v1::Job job;
+  job.set_id("0123456789abcdef0123456789abcdef");
+  job.set_name("evil\n\x1b[2J");
+  job.set_state(v1::JOB_STATE_RUNNING);
+  job.set_stage(v1::JOB_STAGE_ERODE);
+  job.set_directions_done(3);
+  job.set_directions_total(500);
+  job.set_created_ms(1000);
+  const std::string table = job_table({job}, 6000);
+  EXPECT_EQ(table,
+            "JOB           STATE    STAGE  DIRECTIONS  POINTS  SKELETON  AGE    OWNER  NAME\n"
+            "0123456789ab  running  erode  3/500       -       -         5.0 s         evil ?[2J\n");
+}
+
+TEST(JobDetails, TellsWhyAJobFailedOrWaits) {
+  v1::Job job;
+  job.set_state(v1::JOB_STATE_FAILED);
+  job.mutable_error()->set_code("BAD_INPUT");
+  job.mutable_error()->set_message("hole");
+  job.mutable_error()->set_line(12);
+  EXPECT_NE(job_details(job).find("reason:               BAD_INPUT: hole (line 12 of the submitted file)\n"),
+            std::string::npos);
+  job.Clear();
+  job.set_state(v1::JOB_STATE_QUEUED);
+  job.set_waiting_reason("no workers");
+  EXPECT_NE(job_details(job).find("reason:               no workers\n"), std::string::npos);
+}
+
+TEST(JobDetails, ShowsTheFrameUnlessItIsTheMeshs) {
+  v1::Job job;
+  for (const double v : {1, 0, 0, 0, 1, 0, 0, 0, 1}) job.mutable_prepared()->add_frame(v);
+  for (const v1::Frame own : {v1::FRAME_UNSPECIFIED, v1::FRAME_AXIS}) {
+    job.mutable_params()->set_frame(own);
+    EXPECT_EQ(job_details(job).find("frame"), std::string::npos);
+  }
+  job.mutable_params()->set_frame(v1::FRAME_AFFINE);
+  job.mutable_prepared()->clear_frame();
+  for (const double v : {2.0, 0.0, 0.25, 0.0, 1.0, 0.0, -1.0, 0.0, 0.5}) job.mutable_prepared()->add_frame(v);
+  const std::string text = job_details(job);
+  EXPECT_NE(text.find("asked_frame:          affine\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("frame_vectors:        2 0 0.25, 0 1 0, -1 0 0.5\n"), std::string::npos) << text;
+  const nlohmann::ordered_json json = to_json(job);
+  EXPECT_EQ(json["params"]["frame"], "affine");
+  EXPECT_EQ(json["prepared"]["frame"].size(), 9U);
+}
+
+v1::Job eroding(std::uint64_t done) {
+  v1::Job job;
+  job.set_state(v1::JOB_STATE_RUNNING);
+  job.set_stage(v1::JOB_STAGE_ERODE);
+  job.set_directions_done(done);
+  job.set_directions_total(400);
+  return job;
+}
+
+TEST(ProgressBar, ShowsTheShareAndFits) {
+  const ProgressRate rate{123.4, milliseconds(2500)};
+  EXPECT_EQ(progress_bar(eroding(100), rate, 90),
+            "erode     [#########..............................] 100/400 directions, 123/s, 2.5 s left");
+  for (int width = 0; width < 100; ++width) {
+    EXPECT_LE(progress_bar(eroding(100), rate, width).size(), std::size_t(width)) << width;
+  }
+}
+
+TEST(ProgressBar, TellsWhyARunningJobGetsNoFurther) {
+  v1::Job stuck = eroding(100);
+  stuck.set_waiting_reason("the disk is full");
+  EXPECT_EQ(progress_bar(stuck, {}, 60), "erode     [##.......] 100/400 directions (the disk is full)");
+  EXPECT_EQ(progress_line(stuck, {}), "erode (the disk is full): 100/400 directions");
+}
+
+class ProgressViewTest : public ::testing::Test {
+ protected:
+  void show(ConsoleStyle style, const std::vector<v1::Job>& jobs) {
+    Console console(out_, err_, style);
+    ProgressView view(console, [this] { return now_; });
+    for (const v1::Job& job : jobs) {
+      view.update(job);
+      now_ += std::chrono::seconds(1);
+    }
+  }
+  ProgressView::Clock::time_point now_{};
+  std::ostringstream out_, err_;
+};
+
+TEST_F(ProgressViewTest, PlainLinesComeAtStagesAndTenths) {
+  v1::Job queued;
+  queued.set_state(v1::JOB_STATE_QUEUED);
+  show({}, {queued, queued, eroding(0), eroding(10), eroding(39), eroding(40), eroding(400)});
+  EXPECT_EQ(err_.str(),
+            "queued\nerode: 0/400 directions\nerode: 40/400 directions, 10/s, 34 s left\n"
+            "erode: 400/400 directions, 180/s\n");
+}
+
+TEST_F(ProgressViewTest, ASteadyRateIsMeasuredExactly) {
+  show({}, {eroding(0), eroding(100), eroding(200)});
+  EXPECT_EQ(err_.str(),
+            "erode: 0/400 directions\nerode: 100/400 directions, 100/s, 3.0 s left\n"
+            "erode: 200/400 directions, 100/s, 2.0 s left\n");
+}
+
+TEST_F(ProgressViewTest, OnATerminalTheLineIsRedrawnAndRemoved) {
+  ConsoleStyle style;
+  style.terminal = true;
+  show(style, {eroding(100)});
+  EXPECT_EQ(err_.str().substr(0, 4), "\r\033[K");
+  EXPECT_EQ(err_.str().substr(err_.str().size() - 4), "\r\033[K");
+  EXPECT_EQ(err_.str().find('\n'), std::string::npos);
+}
+
+TEST_F(ProgressViewTest, QuietShowsNothing) {
+  ConsoleStyle style;
+  style.quiet = style.terminal = true;
+  show(style, {eroding(100), eroding(200)});
+  EXPECT_EQ(err_.str(), "");
+}
+
+TEST(ServerDetails, CountTheWorkersThatAreThere) {
+  v1::ServerInfo info;
+  v1::WorkerInfo* busy = info.add_workers();
+  busy->set_id("a");
+  busy->set_threads(1);
+  busy->set_last_seen_ms(9000);
+  busy->set_task("erode 123");
+  EXPECT_NE(server_details(info, 10000).find("workers:              1\n"), std::string::npos);
+  v1::WorkerInfo* gone = info.add_workers();
+  gone->set_id("b");
+  gone->set_threads(2);
+  gone->set_silent(true);
+  const std::string text = server_details(info, 10000);
+  EXPECT_NE(text.find("workers:              1 and 1 silent\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 thread, "), std::string::npos) << text;
+  EXPECT_NE(text.find("ago, erode 123\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("ago, silent: dead, stopped or cut off\n"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace affskel::client

@@ -1,0 +1,211 @@
+#include "client/view/page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "client/base/error.h"
+#include "core/shapes/shapes.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::json;
+
+// A box of 2 x 4 x 10 whose two points lie at its corner and at its centre.
+ViewInput sample_input() {
+  ViewInput input;
+  input.job.set_name("box");
+  input.job.set_id("0123456789abcdef0123456789abcdef");
+  input.job.mutable_prepared()->set_volume(80);
+  input.job.mutable_prepared()->set_spacing(1);
+  input.job.mutable_prepared()->set_points(2);
+  input.mesh = core::make_box(2, 4, 10);
+  input.operator_name = "zucker-hummel";
+  input.threshold = 7;
+  input.grid.axes = {{{1, 0, 0}, {0, 2, 0}, {0, 0, 5}}};
+  input.grid.lattice_steps = {1, 1, 1};
+  ViewPoint centre, corner;
+  centre.step = {1, 1, 1};
+  centre.share = 0.5f;
+  centre.divergence = 9;
+  centre.inward = {0, 0, -1};
+  corner.divergence = 1;
+  corner.inward = {1, 0, 0};
+  input.points = {centre, corner};
+  return input;
+}
+
+std::string element(const std::string& page, const std::string& id) {
+  const std::string open = "id=\"" + id + "\">";
+  const std::size_t begin = page.find(open) + open.size();
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+json facts(const std::string& page) {
+  return json::parse(element(page, "facts"));
+}
+
+std::string decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes += static_cast<char>(bits >> held & 255);
+  }
+  return bytes;
+}
+
+template <typename Number>
+std::vector<Number> array_of(const std::string& page, const char* name, const char* type) {
+  const json entry = facts(page).at("arrays").at(name);
+  EXPECT_EQ(entry.at(0), type) << name;
+  EXPECT_EQ(entry.at(1).get<std::size_t>() % 4, 0u) << name;
+  std::vector<Number> values(entry.at(2).get<std::size_t>());
+  const std::string bytes = decoded(element(page, "arrays"));
+  const std::size_t offset = entry.at(1).get<std::size_t>();
+  EXPECT_LE(offset + values.size() * sizeof(Number), bytes.size());
+  std::memcpy(values.data(), bytes.data() + offset, values.size() * sizeof(Number));
+  return values;
+}
+
+// The place of a step, as decode.js reckons it.
+std::array<double, 3> place(const json& grid, const std::vector<std::uint16_t>& steps, std::size_t point) {
+  std::array<double, 3> at{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    at[c] = grid.at("origin").at(c);
+    for (std::size_t a = 0; a < 3; ++a) {
+      at[c] += steps[3 * point + a] * grid.at("axes").at(a).at(c).get<double>();
+    }
+  }
+  return at;
+}
+
+TEST(Page, PointsComeBackInPageUnits) {
+  const std::string page = view_page(sample_input());
+  const json all = facts(page);
+  const auto steps = array_of<std::uint16_t>(page, "pointSteps", "u16");
+  EXPECT_EQ(place(all.at("pointGrid"), steps, 0), (std::array<double, 3>{0, 0, 0}));
+  EXPECT_EQ(place(all.at("pointGrid"), steps, 1), (std::array<double, 3>{-0.2, -0.4, -1}));
+  EXPECT_EQ(array_of<float>(page, "pointShares", "f32"), (std::vector<float>{0.5f, 0}));
+  EXPECT_EQ(array_of<float>(page, "pointDivergences", "f32"), (std::vector<float>{9, 1}));
+  EXPECT_EQ(array_of<std::int8_t>(page, "pointInward", "i8"),
+            (std::vector<std::int8_t>{0, 0, -127, 127, 0, 0}));
+  EXPECT_EQ(all.at("highestShare"), 0.5);
+  EXPECT_EQ(all.at("unit"), 5);
+  EXPECT_EQ(all.at("centre"), json({1, 2, 5}));
+  EXPECT_EQ(all.at("box"), json({2, 4, 10}));
+}
+
+TEST(Page, TheCellIsTheLatticesAlsoWhereTheGridIsCoarser) {
+  ViewInput input = sample_input();
+  input.grid.axes = {{{1, 0.5, 0}, {0, 2, 0}, {0, 0, 5}}};
+  input.grid.lattice_steps = {1, 2, 1};
+  EXPECT_EQ(facts(view_page(input)).at("cell"), json({{0.2, 0.1, 0}, {0, 0.2, 0}, {0, 0, 1}}));
+}
+
+TEST(Page, TheMeshComesBack) {
+  const ViewInput input = sample_input();
+  const std::string page = view_page(input);
+  const auto steps = array_of<std::uint16_t>(page, "meshSteps", "u16");
+  ASSERT_EQ(steps.size(), 3 * input.mesh.points.size());
+  for (std::size_t v = 0; v < input.mesh.points.size(); ++v) {
+    const core::Vec3 expected = 0.2 * (input.mesh.points[v] - core::Vec3{1, 2, 5});
+    const std::array<double, 3> at = place(facts(page).at("meshGrid"), steps, v);
+    EXPECT_NEAR(at[0], expected.x, 1e-5);
+    EXPECT_NEAR(at[1], expected.y, 1e-5);
+    EXPECT_NEAR(at[2], expected.z, 1e-5);
+  }
+  const auto corners = array_of<std::uint16_t>(page, "meshCorners", "u16");
+  ASSERT_EQ(corners.size(), 3 * input.mesh.triangles.size());
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    EXPECT_EQ(corners[c], input.mesh.triangles[c / 3][c % 3]);
+  }
+}
+
+TEST(Page, TheSheetOfChordsComesBack) {
+  ViewInput input = sample_input();
+  EXPECT_FALSE(facts(view_page(input)).at("arrays").contains("sheetCorners"));
+  input.sheet_is_skeleton = true;
+  for (const double v : {1., 2., 5., 2., 2., 5., 0., 0., 0.}) input.sheet.add_xyz(v);
+  for (const unsigned c : {2u, 0u, 1u}) input.sheet.add_corners(c);
+  for (const double e : {40., 20., 10.}) input.sheet.add_erosion(e);
+  for (const double s : {1., 0.75, 0.5}) input.sheet.add_strength(s);
+  const std::string page = view_page(input);
+  EXPECT_EQ(array_of<float>(page, "sheetPositions", "f32"),
+            (std::vector<float>{0, 0, 0, 0.2f, 0, 0, -0.2f, -0.4f, -1}));
+  EXPECT_EQ(array_of<float>(page, "sheetShares", "f32"), (std::vector<float>{0.5f, 0.25f, 0.125f}));
+  EXPECT_EQ(array_of<std::uint32_t>(page, "sheetPieces", "u32"), (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(array_of<float>(page, "sheetPieceShares", "f32"), (std::vector<float>{1}));
+  EXPECT_EQ(array_of<std::uint32_t>(page, "sheetCorners", "u32"), (std::vector<std::uint32_t>{2, 0, 1}));
+}
+
+TEST(Page, NoNameBreaksOutOfItsElement) {
+  ViewInput input = sample_input();
+  const std::string name = "</script><script>alert(\"1\")</script> & 'x' <!-- {{script}} \\u003c ü€𝄞";
+  input.job.set_name(name);
+  const std::string page = view_page(input);
+  EXPECT_EQ(facts(page).at("name"), name);
+  EXPECT_EQ(element(page, "facts").find_first_of("<>&"), std::string::npos);
+  EXPECT_EQ(page.find("alert(\"1\")</script>"), std::string::npos);
+  const std::string shown =
+      "&lt;/script&gt;&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;";
+  EXPECT_NE(page.find("<title>" + shown), std::string::npos);
+  EXPECT_NE(page.find("<h1>" + shown), std::string::npos);
+  EXPECT_LT(page.size(), view_page(sample_input()).size() + 2000) << "the name's own mark was filled";
+}
+
+TEST(Page, NamesThatAreNoUtf8AreShownAsFarAsTheyAre) {
+  ViewInput input = sample_input();
+  input.job.set_name("c\xFF");
+  EXPECT_EQ(facts(view_page(input)).at("name"), "c\xEF\xBF\xBD");
+}
+
+TEST(Page, AsksForNothing) {
+  const std::string page = view_page(sample_input());
+  // The policy forbids it; no element tries.
+  EXPECT_NE(page.find("Content-Security-Policy\"\n  content=\"default-src 'none'"), std::string::npos);
+  std::string markup = page;
+  const std::size_t script = markup.rfind("<script>");
+  const std::size_t end = markup.rfind("</script>");
+  const std::string program = markup.substr(script + 8, end - script - 8);
+  EXPECT_EQ(program.find("</script"), std::string::npos);
+  EXPECT_EQ(program.find("<!--"), std::string::npos);
+  markup.erase(script, end - script);
+  const std::regex link("(src|href)=\"(?!data:,)");
+  EXPECT_FALSE(std::regex_search(markup, link));
+  EXPECT_EQ(markup.find("@import"), std::string::npos);
+  EXPECT_EQ(markup.find("{{"), std::string::npos) << "a mark was not filled";
+}
+
+TEST(Page, KeepsTheLicenceOfThreeJs) {
+  const std::string page = view_page(sample_input());
+  EXPECT_NE(page.find("three.js authors"), std::string::npos);
+  EXPECT_NE(page.find("THE SOFTWARE IS PROVIDED \"AS IS\""), std::string::npos);
+}
+
+TEST(Page, UpIsZUnlessTheBodyStandsAlongY) {
+  EXPECT_EQ(up_axis({1, 1, 3}), 'z');
+  EXPECT_EQ(up_axis({12, 12, 4}), 'z') << "a lying torus";
+  EXPECT_EQ(up_axis({2, 0.4, 1.7}), 'z') << "arms spread";
+  EXPECT_EQ(up_axis({1.2, 3, 0.5}), 'y');
+}
+
+TEST(Page, NothingToDrawIsAnError) {
+  ViewInput input = sample_input();
+  input.mesh.triangles.clear();
+  EXPECT_THROW(view_page(input), ClientError);
+}
+
+}  // namespace
+}  // namespace affskel::client
