@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utf8.h"
 #include "client/text/time_text.h"
 #include "client/text/words.h"
 #include "core/base/number_text.h"
-#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -71,7 +71,7 @@ std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width
             std::string(static_cast<std::size_t>(cells - full), '.') + "]";
   }
   line += " " + tail;
-  return std::string(wire::truncate_utf8(line, static_cast<std::size_t>(std::max(0, width))));
+  return std::string(base::truncate_utf8(line, static_cast<std::size_t>(std::max(0, width))));
 }
 
 ProgressView::ProgressView(Console& console, std::function<Clock::time_point()> now)

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/utf8.h"
 #include "client/cli/number_parsers.h"
 #include "core/base/number_text.h"
 #include "wire/params.h"
-#include "wire/utf8.h"
 
 namespace affskel::client {
 
@@ -60,7 +60,7 @@ CLI::Validator given() {
 CLI::Validator utf8_text() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
-        return wire::is_utf8(text) ? "" : "must be UTF-8 text, not '" + wire::to_utf8(text) + "'";
+        return base::is_utf8(text) ? "" : "must be UTF-8 text, not '" + base::to_utf8(text) + "'";
       },
       "");
 }

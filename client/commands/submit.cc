@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/utf8.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/follow.h"
@@ -14,7 +15,6 @@
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "wire/sha256.h"
-#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -40,7 +40,7 @@ constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // 
 
 // As the protocol takes it.
 std::string protocol_text(const std::string& text, std::size_t max_bytes) {
-  return std::string(wire::truncate_utf8(wire::to_utf8(text), max_bytes));
+  return std::string(base::truncate_utf8(base::to_utf8(text), max_bytes));
 }
 
 void require_short(const std::string& text, std::size_t bytes, const std::string& option) {

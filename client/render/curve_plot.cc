@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "base/utf8.h"
 #include "client/text/printable.h"
 #include "client/text/xml_text.h"
 #include "core/base/number_text.h"
-#include "wire/utf8.h"
 
 namespace affskel::client {
 namespace {
@@ -23,8 +23,8 @@ std::string pixel(double value) {
 std::string shortened(const std::string& words) {
   constexpr std::size_t kMost = 95, kHead = 20;
   if (words.size() <= kMost) return words;
-  const std::size_t head = wire::truncate_utf8(words, kHead).size();
-  const std::size_t tail = wire::truncate_utf8(words, words.size() - (kMost - kHead - 5)).size();
+  const std::size_t head = base::truncate_utf8(words, kHead).size();
+  const std::size_t tail = base::truncate_utf8(words, words.size() - (kMost - kHead - 5)).size();
   return words.substr(0, head) + " ... " + words.substr(tail);
 }
 

@@ -1,12 +1,12 @@
 #include "client/text/xml_text.h"
 
-#include "wire/utf8.h"
+#include "base/utf8.h"
 
 namespace affskel::client {
 
 std::string xml_text(std::string_view text) {
   std::string safe;
-  for (const char c : wire::to_utf8(text)) {
+  for (const char c : base::to_utf8(text)) {
     switch (c) {
       case '&':
         safe += "&amp;";

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "wire/quoted.h"
+#include "base/quoted.h"
 
 namespace affskel::wire {
 namespace {
@@ -41,7 +41,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::invalid_argument bad_directions(std::string_view part, const char* why) {
-  return std::invalid_argument("directions " + quoted(part) + ": " + why +
+  return std::invalid_argument("directions " + base::quoted(part) + ": " + why +
                                "; expected triangles, sphere:N or random:N:SEED, joined by +");
 }
 

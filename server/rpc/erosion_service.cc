@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/quoted.h"
 #include "errors.h"
 #include "rpc/fetch_call.h"
 #include "rpc/status.h"
@@ -14,7 +15,6 @@
 #include "rpc/unary_call.h"
 #include "rpc/watch.h"
 #include "wire/limits.h"
-#include "wire/quoted.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -37,7 +37,7 @@ std::int64_t number_of_token(const std::string& token) {
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (number < 1 || token != token_of_number(number)) {
     throw StoreError(StoreError::Code::kInvalid,
-                     "page_token " + wire::quoted(token) + " is no next_page_token of an earlier answer");
+                     "page_token " + base::quoted(token) + " is no next_page_token of an earlier answer");
   }
   return number;
 }

@@ -5,9 +5,9 @@
 #include <new>
 #include <string>
 
+#include "base/quoted.h"
 #include "database/sqlite.h"
 #include "errors.h"
-#include "store/shorten.h"
 
 namespace affskel::server {
 namespace {
@@ -110,7 +110,7 @@ grpc::Status full_status_of(const std::exception_ptr& error) {
 
 grpc::Status status_of(const std::exception_ptr& error) {
   const grpc::Status status = full_status_of(error);
-  return {status.error_code(), shortened(status.error_message(), kMaxMessageBytes)};
+  return {status.error_code(), base::shortened(status.error_message(), kMaxMessageBytes)};
 }
 
 }  // namespace affskel::server

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/quoted.h"
 #include "errors.h"
-#include "wire/quoted.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -113,7 +113,7 @@ std::string checked_prefix(const std::string& text) {
   if (reference.size() < 6 || reference.size() > 32 || !hex) {
     throw StoreError(
         StoreError::Code::kInvalid,
-        "job " + wire::quoted(text) +
+        "job " + base::quoted(text) +
             ": expected an id of 32 hexadecimal digits, a prefix of at least 6 of them, or @last");
   }
   return reference;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/quoted.h"
 #include "errors.h"
 #include "store/blocks.h"
-#include "store/shorten.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/sha256.h"
@@ -172,7 +172,7 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
 v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable) {
   v1::JobError known = error;
   known.set_code(known_code(error.code()));
-  known.set_message(shortened(error.message(), kMaxReasonBytes));
+  known.set_message(base::shortened(error.message(), kMaxReasonBytes));
   if (known.message().empty()) known.set_message("the worker gave no reason");
   return write([&](Tx& tx) {
     const TaskRow task = task_of_token(tx.db, token);

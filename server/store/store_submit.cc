@@ -1,9 +1,9 @@
+#include "base/quoted.h"
 #include "errors.h"
 #include "store/store_impl.h"
 #include "store/submission.h"
 #include "store/tasks.h"
 #include "wire/identity.h"
-#include "wire/quoted.h"
 
 namespace affskel::server {
 namespace {
@@ -21,7 +21,7 @@ std::string find_request(Database& db, const Submission& submission) {
       submission.header.name(), submission.header.owner());
   if (!row.step()) return {};
   if (!row.flag(1)) {
-    throw StoreError(StoreError::Code::kExists, "the request id " + wire::quoted(request_id) +
+    throw StoreError(StoreError::Code::kExists, "the request id " + base::quoted(request_id) +
                                                     " was used before for another submission (job " +
                                                     row.text(0) + ")");
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/quoted.h"
 #include "errors.h"
 #include "wire/params.h"
-#include "wire/quoted.h"
 #include "wire/sha256.h"
 
 namespace affskel::server {
@@ -40,7 +40,7 @@ std::string checked_sha256(std::string digits) {
   if (digits.empty()) refuse("mesh_sha256 is not set");
   std::transform(digits.begin(), digits.end(), digits.begin(), lower);
   if (digits.size() != kSha256Digits || !std::all_of(digits.begin(), digits.end(), is_hex)) {
-    refuse("mesh_sha256 " + wire::quoted(digits) + " is no SHA-256: expected 64 hexadecimal digits");
+    refuse("mesh_sha256 " + base::quoted(digits) + " is no SHA-256: expected 64 hexadecimal digits");
   }
   return digits;
 }

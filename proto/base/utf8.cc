@@ -1,6 +1,6 @@
-#include "wire/utf8.h"
+#include "base/utf8.h"
 
-namespace affskel::wire {
+namespace affskel::base {
 namespace {
 
 unsigned char byte_at(std::string_view text, std::size_t i) {
@@ -51,4 +51,4 @@ std::string_view truncate_utf8(std::string_view text, std::size_t max_bytes) {
   return text.substr(0, max_bytes);
 }
 
-}  // namespace affskel::wire
+}  // namespace affskel::base

@@ -1,4 +1,4 @@
-#include "wire/utf8.h"
+#include "base/utf8.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-namespace affskel::wire {
+namespace affskel::base {
 namespace {
 
 TEST(Utf8Test, TakesEveryWellFormedCharacter) {
@@ -49,4 +49,4 @@ TEST(Utf8Test, CutsBetweenCharacters) {
 }
 
 }  // namespace
-}  // namespace affskel::wire
+}  // namespace affskel::base

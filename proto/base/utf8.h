@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace affskel::wire {
+namespace affskel::base {
 
 /// Whether the text is well-formed UTF-8 (Unicode 15, table 3-7: no overlong forms, no surrogates).
 /// Messages of the protocol carry nothing else; file names and arguments may hold any bytes.
@@ -17,4 +17,4 @@ std::string to_utf8(std::string_view text);
 /// Of text that is not well-formed it may be shorter than needed, never longer.
 std::string_view truncate_utf8(std::string_view text, std::size_t max_bytes);
 
-}  // namespace affskel::wire
+}  // namespace affskel::base
