@@ -2,14 +2,12 @@
 // taken; in one or several pieces, which are put together.
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <map>
 #include <unordered_map>
 #include <utility>
 
 #include "client/files/read/shape_parsers.h"
 #include "client/files/read/vtk_data.h"
-#include "client/files/read/xml_tags.h"
+#include "client/files/read/vtp_description.h"
 #include "client/files/vtk_arrays.h"
 #include "core/base/number_text.h"
 #include "core/mesh/text_rows.h"
@@ -19,131 +17,14 @@ namespace {
 
 constexpr std::size_t kMostColumns = 4096;  // of all arrays together; far more than any file has
 
-// What a piece holds: the arrays of each of its sections ("Points", "PointData", "Polys", ...).
-struct Piece {
-  std::map<std::string, std::vector<VtkArray>> arrays;
-  std::map<std::string, std::uint64_t>
-      announced;  // "Points", "Polys", ...: as many as its tag says, if it does
-  std::uint64_t line = 0;
-};
-
-struct Description {
-  VtkEncoding encoding;
-  std::vector<Piece> pieces;
-  std::deque<std::string> joined_texts;  // of arrays, where comments cut them in pieces
-};
-
-// Reads the text, up to the appended data.
-class DescriptionReader {
- public:
-  explicit DescriptionReader(std::string_view bytes) : bytes_(bytes), tags_(bytes) {}
-
-  Description run() {
-    read_head();
-    while (tags_.next()) {
-      if (tags_.name() == "AppendedData") {
-        read_appended();
-        return std::move(description_);
-      }
-      if (tags_.name() == "Piece" && tags_.opens()) {
-        begin_piece();
-      } else if (tags_.name() == "DataArray" || tags_.name() == "Array") {
-        read_array();
-      } else if (tags_.name() == "VTKFile") {
-        return std::move(description_);
-      } else {
-        section_ = tags_.opens() && !tags_.closes() ? tags_.name() : std::string_view();
-      }
-    }
-    fail_at(tags_.line(), "the file ends without </VTKFile>");
-  }
-
- private:
-  void begin_piece() {
-    Piece piece{{}, {}, tags_.line()};
-    for (const char* what : {"Points", "Verts", "Strips", "Polys"}) {
-      const std::string name = std::string("NumberOf") + what;
-      const std::string count = tags_.attribute(name);
-      if (!count.empty()) piece.announced[what] = core::parse_count(count, tags_.line(), name.c_str());
-    }
-    description_.pieces.push_back(std::move(piece));
-  }
-
-  void read_head() {
-    if (!tags_.next() || tags_.name() != "VTKFile") fail_at(tags_.line(), "not a VTK XML file");
-    if (tags_.attribute("type") != "PolyData") {
-      fail_at(tags_.line(), "a VTK file of type " + core::quoted_piece(tags_.attribute("type")) +
-                                "; only PolyData is read");
-    }
-    description_.encoding.big_endian = tags_.attribute("byte_order") == "BigEndian";
-    description_.encoding.long_headers = tags_.attribute("header_type") == "UInt64";
-    description_.encoding.compressor = tags_.attribute("compressor");
-  }
-
-  void read_appended() {
-    description_.encoding.base64 = tags_.attribute("encoding") == "base64";
-    const std::size_t mark = bytes_.find('_', tags_.end());
-    if (mark == std::string_view::npos) fail_at(tags_.line(), "the appended data do not begin with '_'");
-    std::string_view& appended = description_.encoding.appended;
-    appended = bytes_.substr(mark + 1);
-    if (description_.encoding.base64) appended = appended.substr(0, appended.find('<'));
-  }
-
-  void read_array() {
-    if (!tags_.opens()) return;
-    VtkArray array{tags_.attribute("Name"),
-                   tags_.attribute("type"),
-                   tags_.attribute("format"),
-                   tags_.attribute("offset"),
-                   1,
-                   {},
-                   tags_.line()};
-    const std::string components = tags_.attribute("NumberOfComponents");
-    if (!components.empty()) {
-      array.components = core::parse_count(components, tags_.line(), "NumberOfComponents");
-    }
-    if (!tags_.closes()) array.text = read_text(array.line);
-    if (!description_.pieces.empty() && !section_.empty()) {
-      description_.pieces.back().arrays[std::string(section_)].push_back(std::move(array));
-    }
-  }
-
-  // What stands in the element of an array up to its end, without that of elements within it, which describe
-  // it.
-  std::string_view read_text(std::uint64_t line) {
-    std::vector<std::string_view> parts;
-    for (std::size_t depth = 0; tags_.next();) {
-      if (depth == 0) parts.insert(parts.end(), tags_.text_before().begin(), tags_.text_before().end());
-      if (!tags_.closes()) {
-        ++depth;
-      } else if (!tags_.opens()) {
-        if (depth-- == 0) return joined(parts);
-      }
-    }
-    fail_at(line, "the element of an array does not end");
-  }
-
-  std::string_view joined(const std::vector<std::string_view>& parts) {
-    if (parts.size() == 1) return parts.front();
-    std::string& text = description_.joined_texts.emplace_back();
-    for (const std::string_view part : parts) text += part;
-    return text;
-  }
-
-  std::string_view bytes_;
-  XmlTags tags_;
-  std::string_view section_;
-  Description description_;
-};
-
 class VtpReader {
  public:
   explicit VtpReader(std::string_view bytes)
-      : description_(DescriptionReader(bytes).run()), values_left_(bytes.size()) {}
+      : description_(read_vtp_description(bytes)), values_left_(bytes.size()) {}
 
   ShapeFile run() {
     if (description_.pieces.empty()) fail_at(0, "the file holds no <Piece>");
-    for (Piece& piece : description_.pieces) {
+    for (VtpPiece& piece : description_.pieces) {
       ++pieces_begun_;
       first_point_ = file_.off.mesh.points.size();
       read_points(piece);
@@ -167,13 +48,13 @@ class VtpReader {
     return values;
   }
 
-  void read_points(Piece& piece) {
+  void read_points(VtpPiece& piece) {
     const std::vector<VtkArray>& arrays = piece.arrays["Points"];
     if (!arrays.empty()) add_points(arrays.front());
     check_count(piece, "Points", file_.off.mesh.points.size() - first_point_);
   }
 
-  static void check_count(const Piece& piece, const std::string& what, std::size_t count) {
+  static void check_count(const VtpPiece& piece, const std::string& what, std::size_t count) {
     const auto announced = piece.announced.find(what);
     if (announced == piece.announced.end() || announced->second == count) return;
     fail_at(piece.line, "the piece announces NumberOf" + what + " " + std::to_string(announced->second) +
@@ -193,7 +74,7 @@ class VtpReader {
     }
   }
 
-  void read_columns(Piece& piece) {
+  void read_columns(VtpPiece& piece) {
     const bool empty = file_.off.mesh.points.size() == first_point_;
     const bool known = !file_.columns.empty();
     columns_filled_ = 0;
@@ -277,7 +158,7 @@ class VtpReader {
   }
 
   // Vertices are counted only.
-  void read_cells(Piece& piece, const std::string& section) {
+  void read_cells(VtpPiece& piece, const std::string& section) {
     if (section == "Verts" && !piece.announced.contains(section)) return;
     const std::vector<VtkArray>& arrays = piece.arrays[section];
     const std::vector<std::int64_t> corners = whole_numbers(arrays, "connectivity");
@@ -341,7 +222,7 @@ class VtpReader {
     std::size_t index, piece;
   };
 
-  Description description_;
+  VtpDescription description_;
   std::uint64_t values_left_;
   std::size_t pieces_begun_ = 0;
   std::size_t first_point_ = 0;     // of the piece in hand

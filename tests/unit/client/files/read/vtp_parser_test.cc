@@ -292,7 +292,80 @@ TEST(VtpParser, CommentsDoNotEndTheTextOfAnArray) {
   EXPECT_EQ(
       parsed(begin + "binary\">" + digits.substr(0, 5) + comment + digits.substr(5) + end).mesh().points,
       (std::vector<core::Vec3>{{1, 2, 3}}));
-  expect_bad_pieces(begin + "ascii\"><![CDATA[1 2 3]]>" + end, 5, "CDATA");
+}
+
+// Points as text in an array whose element is as given.
+std::string points_in(const std::string& text) {
+  return "<Piece><Points><DataArray NumberOfComponents=\"3\" type=\"Int8\" format=\"ascii\">" + text +
+         "</DataArray></Points></Piece>";
+}
+
+TEST(VtpParser, TextMayStandInSectionsAndReferences) {
+  for (const char* text :
+       {"<![CDATA[1 2 3 4 5 6]]>", "1 2 <![CDATA[3 4]]> 5 <!-- 7 --><![CDATA[6]]>",
+        "1 2 &#51; &#x34; 5&#32;6", "1&#10;2\r\n3\r4\n5 6", "<![CDATA[1 2]]>&#x20;3 4<![CDATA[ 5]]> 6 "}) {
+    EXPECT_EQ(parsed(points_in(text)).mesh().points, (std::vector<core::Vec3>{{1, 2, 3}, {4, 5, 6}})) << text;
+  }
+  expect_bad_pieces(points_in("<![CDATA[1 2 <3>]]>"), 5, "'<3>'");
+  expect_bad_pieces(points_in("1 2 3<![CDATA["), 7, "does not end");  // where the file does
+}
+
+TEST(VtpParser, AttributesMayHoldReferences) {
+  const std::string arrays =
+      "<DataArray type=\"Int8\" Name=\"a&#38;&#x3c;&quot;&apos;&gt;\" format=\"ascii\">1</DataArray>"
+      "<DataArray type=\"Int&#56;\" Name='h&#xE9;' format=\"asc&#105;i\">2</DataArray>";
+  const ShapeFile shape = parsed("<Piece><PointData>" + arrays +
+                                 "</PointData><Points><DataArray type=\"Int8\" NumberOfComponents=\"&#x33;\" "
+                                 "format=\"ascii\">0 0 0</DataArray></Points></Piece>");
+  ASSERT_EQ(shape.columns.size(), 2u);
+  EXPECT_EQ(shape.columns[0].name, "a&<\"'>");
+  EXPECT_EQ(shape.columns[1].name, "h\xC3\xA9");
+}
+
+TEST(VtpParser, EntitiesAreRefused) {
+  const std::string body =
+      "<VTKFile type=\"PolyData\"><PolyData>" + points_in("&b;") + "</PolyData></VTKFile>";
+  expect_bad("<?xml version=\"1.0\"?>\n" + body, 2, "undefined entity");
+  expect_bad("<?xml version=\"1.0\"?>\n<!DOCTYPE VTKFile>\n" + body, 2, "<!DOCTYPE");
+  // Each entity is ten of the one before; a file of the machine's; what would be fetched.
+  std::string laughs = "<!DOCTYPE VTKFile [\n<!ENTITY a0 \"1 2 3 \">\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string before = "&a" + std::to_string(i - 1) + ";";
+    laughs += "<!ENTITY a" + std::to_string(i) + " \"";
+    for (int k = 0; k < 10; ++k) laughs += before;
+    laughs += "\">\n";
+  }
+  expect_bad(laughs + "<!ENTITY b \"&a11;\">]>\n" + body, 1, "<!DOCTYPE");
+  expect_bad("<!DOCTYPE VTKFile [<!ENTITY b SYSTEM \"file:///etc/passwd\">]>" + body, 1, "<!DOCTYPE");
+  expect_bad("\n\n<!DOCTYPE VTKFile SYSTEM \"http://127.0.0.1:1/a.dtd\">" + body, 3, "<!DOCTYPE");
+}
+
+TEST(VtpParser, ErrorsOfXmlNameTheLine) {
+  const std::string head = "<VTKFile type=\"PolyData\">\n<PolyData>\n";
+  expect_bad(head + "<Piece>\n</Points>\n", 4, "mismatched tag");
+  expect_bad(head + "<Piece a=\"1\"\n a=\"2\">", 4, "duplicate attribute");
+  expect_bad(head + "<Piece>\n\n<Points a>", 5, "NAME=\"VALUE\"");
+  expect_bad(head + "<Piece>\n\n\n\x01", 6, "not well-formed");
+  expect_bad(head + "<Piece>\n\n\n\n\xFF ", 7, "not well-formed");
+  expect_bad(head + "<Piece>\n&#0;", 4, "not well-formed");
+}
+
+TEST(VtpParser, WhatXmlTakesIsBounded) {
+  const std::string head = "<VTKFile type=\"PolyData\">\n";
+  std::string deep = head, names = head, many = head + "<Piece ";
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  expect_bad(deep, 2, "nested more than 100 deep");
+  for (int i = 0; i < 5000; ++i) names += "<a" + std::to_string(i) + "/>\n";
+  expect_bad(names, 1000, "more than 1000 different names");
+  for (int i = 0; i < 20000; ++i) many += "a" + std::to_string(i) + "='' ";
+  expect_bad(many + "/>", 2, "more than 1000 different names");
+  const std::string megabytes(5 << 20, 'x');
+  expect_bad(head + "<!--" + megabytes + "-->", 2, "longer than 1048576 bytes");
+  expect_bad(head + "<a b='" + megabytes + "'/>", 2, "longer than 1048576 bytes");
+  expect_bad("<!--" + megabytes, 1, "longer than 1048576 bytes");
+  // Text is not a tag, and a raw tail no text.
+  const std::string blanks(5 << 20, ' ');
+  EXPECT_EQ(parsed(points_in("1 2 3" + blanks + "4 5 6")).mesh().points.size(), 2u);
 }
 
 TEST(VtpParser, PiecesHoldWhatTheyAnnounce) {
