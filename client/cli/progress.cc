@@ -15,9 +15,9 @@ namespace affskel::client {
 namespace {
 
 constexpr int kDefaultWidth = 80;
-constexpr int kLongestBar = 40;
-constexpr std::chrono::seconds kShortestSilence{1};  // between plain lines of one stage
-constexpr double kSmoothing = 1.5;                   // seconds over which the rate forgets
+constexpr int kMaxBar = 40;
+constexpr std::chrono::seconds kMinSilence{1};  // between plain lines of one stage
+constexpr double kSmoothing = 1.5;              // seconds over which the rate forgets
 
 int terminal_width() {
   winsize size{};
@@ -65,7 +65,7 @@ std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width
   const int room = width - static_cast<int>(head.size() + tail.size()) - 5;
   std::string line = head;
   if (room >= 8 && job.directions_total() > 0) {
-    const int cells = std::min(room, kLongestBar);
+    const int cells = std::min(room, kMaxBar);
     const int full = static_cast<int>(std::floor(done_share(job) * cells));
     line += " [" + std::string(static_cast<std::size_t>(full), '#') +
             std::string(static_cast<std::size_t>(cells - full), '.') + "]";
@@ -115,7 +115,7 @@ void ProgressView::update(const v1::Job& job) {
 void ProgressView::print(const v1::Job& job, const ProgressRate& rate) {
   const std::string now = label(job) + reason_text(job);
   const auto tenth = static_cast<std::uint64_t>(10 * done_share(job));
-  const bool news = tenth != last_tenth_ && (!last_print_ || now_() - *last_print_ >= kShortestSilence);
+  const bool news = tenth != last_tenth_ && (!last_print_ || now_() - *last_print_ >= kMinSilence);
   if (now == last_label_ && !news) return;
   last_label_ = now;
   last_tenth_ = tenth;

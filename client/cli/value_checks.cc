@@ -38,7 +38,7 @@ CLI::Validator proper_share() {
       "");
 }
 
-CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
   return CLI::Validator(
       [low, high](std::string& text) -> std::string {
         std::uint64_t value = 0;
@@ -52,7 +52,7 @@ CLI::Validator whole_in(std::uint64_t low, std::uint64_t high) {
       "");
 }
 
-CLI::Validator given() {
+CLI::Validator non_empty() {
   return CLI::Validator(
       [](std::string& text) -> std::string { return text.empty() ? "must not be empty" : ""; }, "");
 }

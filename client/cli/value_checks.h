@@ -12,9 +12,9 @@ CLI::Validator positive_number();
 /// "0.1" or "10%", above 0 and below 1; rewrites it to a number.
 CLI::Validator proper_share();
 /// A whole number from `low` to `high`.
-CLI::Validator whole_in(std::uint64_t low, std::uint64_t high);
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
 /// Not empty: an empty variable of a script must not mean another server or file than the one that was meant.
-CLI::Validator given();
+CLI::Validator non_empty();
 /// Well-formed UTF-8: for what becomes a string of the protocol.
 CLI::Validator utf8_text();
 /// A direction set; rewrites it to its one spelling.

@@ -79,23 +79,23 @@ void add_compare(CommandLine& line) {
       ->type_name("R");
   command
       ->add_option("--radii", o.radii, "Radii of the table, comma-separated (default: 0 to 4 R in 16 steps)")
-      ->check(given())
+      ->check(non_empty())
       ->type_name("LIST");
   command->add_flag("--squared", o.squared, "Radii are given and shown squared, as in the published work");
   command
       ->add_option("--solid", o.solid,
                    "Mesh of the solid: adds the chance level, the share of its inside within r")
-      ->check(given())
+      ->check(non_empty())
       ->type_name("FILE");
   command->add_option("--samples", o.samples, "Points to spread over each surface")
-      ->check(whole_in(1, 100000000))
+      ->check(whole_number(1, 100000000))
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--plot", options->plot, "Write the curves as a plot (.svg)")
-      ->check(given())
+      ->check(non_empty())
       ->type_name("FILE");
   command->add_option("-o,--output,--csv", options->output, "Write the table (.csv)")
-      ->check(given())
+      ->check(non_empty())
       ->type_name("FILE");
 }
 

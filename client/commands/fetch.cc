@@ -19,7 +19,7 @@ struct Options {
   SkeletonOptions skeleton;  // of the divergence; no operator: the job's
 };
 
-// The mesh is what was submitted, whatever the file is called; surfaces of that name would be something else.
+// The mesh is written as it was submitted, OFF text, even where the file's name promises another format.
 void warn_of_foreign_extension(Context& context, const Destination& destination) {
   const std::string extension = destination.extension();
   for (const FileFormat format : surface_formats()) {

@@ -49,7 +49,7 @@ void add_list(CommandLine& line) {
       ->check(utf8_text())
       ->type_name("USER");
   command->add_option("--limit", options->limit, "At most this many")
-      ->check(whole_in(1, 1000000))
+      ->check(whole_number(1, 1000000))
       ->capture_default_str()
       ->type_name("N");
 }

@@ -113,14 +113,14 @@ void add_perturb(CommandLine& line) {
   add_format(command, options->format);
   CLI::Option* noise =
       command->add_option("--noise", options->noise, "Sigma as a share of the box diagonal: 0.5% or 0.005")
-          ->check(given())
+          ->check(non_empty())
           ->type_name("SHARE");
   command->add_option("--sigma", options->sigma, "Sigma in mesh units")
       ->check(positive_number())
       ->excludes(noise)
       ->type_name("S");
   command->add_option("--seed", options->seed, "Whole number")
-      ->check(whole_in(0, ~std::uint64_t{0}))
+      ->check(whole_number(0, ~std::uint64_t{0}))
       ->capture_default_str()
       ->type_name("N");
 }

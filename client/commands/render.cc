@@ -103,7 +103,7 @@ void add_render(CommandLine& line) {
   add_job(command, options->job);
   add_skeleton_options(command, options->skeleton);
   command->add_option("--width", options->width, "Pixels")
-      ->check(whole_in(200, 8000))
+      ->check(whole_number(200, 8000))
       ->capture_default_str()
       ->type_name("W");
   add_output(command, options->output, "PNG file to write, or -");

@@ -160,7 +160,7 @@ void add_field_options(CLI::App* command, SubmitOptions& o) {
                              ->check(positive_number())
                              ->type_name("DT");
   command->add_option("--points", o.points, "Aim at this many sample points")
-      ->check(whole_in(1, std::uint64_t{1} << 31))
+      ->check(whole_number(1, std::uint64_t{1} << 31))
       ->capture_default_str()
       ->type_name("R")
       ->excludes(spacing);
@@ -182,7 +182,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
       ->check(utf8_text())
       ->type_name("NAME");
   command->add_option("--priority", o.priority, "0 .. 9, higher first")
-      ->check(whole_in(0, 9))
+      ->check(whole_number(0, 9))
       ->capture_default_str()
       ->type_name("P");
   command

@@ -29,7 +29,7 @@ struct Options {
 };
 
 // Beyond this a phone takes long to open the page; about 19 bytes each.
-constexpr std::uint64_t kMostPoints = 400000;
+constexpr std::uint64_t kMaxPoints = 400000;
 
 // A field on its way into a page; a transfer that breaks off begins again from nothing.
 class PointSink : public ArtifactSink {
@@ -114,7 +114,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
                 static_cast<std::uint64_t>(input.sheet_is_skeleton ? input.sheet.corners_size() / 3 : kept),
                 input.sheet.quality(), job);
   input.grid = view_grid(lattice);
-  input.selection = select_view_points(lattice.count(), divergences, input.threshold, kMostPoints);
+  input.selection = select_view_points(lattice.count(), divergences, input.threshold, kMaxPoints);
   const auto directions =
       fetch_message<v1::Directions>(context, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
   context.session().fetch(

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "client/base/error.h"
+#include "client/base/mesh_box.h"
 #include "client/cli/number_parsers.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/read_shape.h"
@@ -18,29 +19,22 @@ namespace {
 
 // Squares and fourth powers of lengths must stay well inside the range of a double: squared radii are
 // printed, areas of triangles summed.
-constexpr double kLeastLength = 1e-150, kMostLength = 1e150;
-constexpr double kLeastSurface = 1e-60, kMostSurface = 1e60;
+constexpr double kMinLength = 1e-150, kMaxLength = 1e150;
+constexpr double kMinSurface = 1e-60, kMaxSurface = 1e60;
 constexpr const char* kScaleFirst = "; scale the files first (affskel-client transform --scale)";
 
-double longest_side(const core::Vec3& low, const core::Vec3& high) {
-  const core::Vec3 size = high - low;
-  return std::max({size.x, size.y, size.z});
-}
-
 double longest_side(std::initializer_list<const std::vector<core::Vec3>*> sets) {
-  core::Vec3 low = sets.begin()[0]->front(), high = low;
+  const core::Vec3& first = sets.begin()[0]->front();
+  Box box{first, first};
   for (const std::vector<core::Vec3>* set : sets) {
-    for (const core::Vec3& p : *set) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const core::Vec3& point : *set) box.add(point);
   }
-  return longest_side(low, high);
+  return box.longest_side();
 }
 
 void check_surface_size(const core::Mesh& mesh, const std::string& path) {
   const double side = longest_side({&mesh.points});
-  if (side == 0 || (side >= kLeastSurface && side <= kMostSurface)) return;
+  if (side == 0 || (side >= kMinSurface && side <= kMaxSurface)) return;
   throw ClientError(ExitCode::kBadInput,
                     "a surface of size " + core::rounded(side, 3) +
                         "; those from 1e-60 to 1e60 can be compared" + kScaleFirst,
@@ -92,7 +86,7 @@ double voxel_diagonal(double side) {
 // 0 means none was given.
 double plain_radius(double shown, bool squared, const char* option) {
   const double radius = squared ? std::sqrt(shown) : shown;
-  if (radius != 0 && !(radius >= kLeastLength && radius <= kMostLength)) {
+  if (radius != 0 && !(radius >= kMinLength && radius <= kMaxLength)) {
     throw ClientError(ExitCode::kUsage, std::string(option) + ": a radius must lie within " +
                                             (squared ? "1e-300 to 1e300 (squared)" : "1e-150 to 1e150") +
                                             ", not " + core::to_text(shown));
@@ -105,7 +99,7 @@ double default_radius(double side) {
   if (radius == 0) {
     throw ClientError(ExitCode::kUsage, "all points lie at one place; give a radius (--radius)");
   }
-  if (radius < kLeastLength) {
+  if (radius < kMinLength) {
     throw ClientError(ExitCode::kUsage, "all points lie within " + core::rounded(side, 3) +
                                             ", too near for a radius of their own; give one (--radius)" +
                                             std::string(", or") + (kScaleFirst + 1));
@@ -116,7 +110,7 @@ double default_radius(double side) {
 // Longest side of the box round both sets.
 double common_side(const ComparedPoints& a, const ComparedPoints& b) {
   const double side = longest_side({&a.points, &b.points});
-  if (side > kMostLength) {
+  if (side > kMaxLength) {
     throw ClientError(ExitCode::kBadInput,
                       "the points of A and B are up to " + core::rounded(side, 3) +
                           " apart; lengths up to 1e150 can be compared" + kScaleFirst,
@@ -170,7 +164,7 @@ Comparison compare_files(const ComparisonOptions& options, Console& console) {
     const std::vector<core::Vec3> inner = inner_points_of(solid, options.solid);
     chance =
         ChanceLevel{inner.size(), core::DistanceCurve(inner, a.points), core::DistanceCurve(inner, b.points)};
-    if (radius == 0) radius = voxel_diagonal(longest_side(solid.bbox_min, solid.bbox_max));
+    if (radius == 0) radius = voxel_diagonal(Box{solid.bbox_min, solid.bbox_max}.longest_side());
   }
   if (radius == 0) radius = default_radius(side);
   core::Similarity curves = core::similarity(a.points, b.points);

@@ -103,10 +103,10 @@ fs::path own_directory() {
 
 // One old log is kept.
 void rotate(const fs::path& log) {
-  constexpr std::uintmax_t kLargest = 8u << 20;
+  constexpr std::uintmax_t kMaxLogBytes = 8u << 20;
   std::error_code error;
   const std::uintmax_t size = fs::file_size(log, error);
-  if (!error && size > kLargest) fs::rename(log, log.string() + ".1", error);
+  if (!error && size > kMaxLogBytes) fs::rename(log, log.string() + ".1", error);
 }
 
 pid_t start_server(const EmbeddedPaths& paths, const fs::path& program) {

@@ -68,8 +68,8 @@ class CheckedTransfer {
   std::uint64_t received_ = 0;
 };
 
-// How a server that is away, or closes, ends calls: gRPC cancels those that it does not answer any more, and
-// on this side nobody cancels any.
+// Whether the server is away or closing.  A closing server cancels the calls that it no longer answers; this
+// side never cancels one.
 bool is_away(const grpc::Status& status) {
   return status.error_code() == grpc::StatusCode::UNAVAILABLE ||
          status.error_code() == grpc::StatusCode::CANCELLED;
@@ -163,11 +163,11 @@ void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode no
     const grpc::Status status = attempt(*stub_);
     if (status.ok()) break;
     const bool away = is_away(status);
-    // The connection stands: the server itself has said so.
+    // UNAVAILABLE over a connection that stands is the server's own answer.
     const bool busy = away && channel_->GetState(false) == GRPC_CHANNEL_READY;
     proven_ = proven_ || busy;
     if (!failing) failing = Clock::now();
-    // The embedded server may leave, idle, in the moment we come: that is no reason to give up.
+    // An idle embedded server may leave at this very moment: another is started.
     const bool retries = proven_ || choice_.embedded;
     const auto patience = proven_ ? policy_.patience : std::min(policy_.patience, kStartPatience);
     if (!away || !retries || Clock::now() >= *failing + patience) fail(status, not_yet);
@@ -254,7 +254,7 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   if (is_final(last.state())) return grpc::Status::OK;
   // A job without a final state has no last message: the server is shutting down.
   if (!status.ok() && !is_away(status)) return status;
-  // Whatever arrived is a success, from which the patience counts anew.
+  // A message is a success: the patience counts from it.
   if (any) return grpc::Status::OK;
   return {grpc::StatusCode::UNAVAILABLE, status.ok() ? "the server ended the watch" : status.error_message()};
 }

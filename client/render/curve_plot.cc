@@ -21,10 +21,10 @@ std::string pixel(double value) {
 
 // What fits beside the left margin; the end of a file's name tells more than its beginning.
 std::string shortened(const std::string& words) {
-  constexpr std::size_t kMost = 95, kHead = 20;
-  if (words.size() <= kMost) return words;
+  constexpr std::size_t kMaxBytes = 95, kHead = 20;
+  if (words.size() <= kMaxBytes) return words;
   const std::size_t head = base::truncate_utf8(words, kHead).size();
-  const std::size_t tail = base::truncate_utf8(words, words.size() - (kMost - kHead - 5)).size();
+  const std::size_t tail = base::truncate_utf8(words, words.size() - (kMaxBytes - kHead - 5)).size();
   return words.substr(0, head) + " ... " + words.substr(tail);
 }
 

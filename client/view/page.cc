@@ -38,8 +38,7 @@ struct Scale {
 };
 
 Scale scale_of(const Box& box) {
-  const Vec3 size = box.size();
-  return {box.centre(), 0.5 * std::max({size.x, size.y, size.z})};
+  return {box.centre(), 0.5 * box.longest_side()};
 }
 
 // The arrays of a page, one after the other, each at a multiple of 4 bytes.

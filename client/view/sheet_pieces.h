@@ -14,8 +14,9 @@ struct SheetPieces {
 };
 
 /// Triangles with a common vertex belong to one piece.  A triangle weighs its area times the mean strength of
-/// its corners.  The operator's significance is such a share too, of lattice edges instead of triangles,
-/// which also weigh the angle between the two normals; after that it joins pieces.
+/// its corners.  The significance of the operator is
+/// another share: it weighs lattice edges, also by the angle between their two normals, and is taken before
+/// pieces are joined.
 /// @param sheet with its strengths; its corners exist.
 SheetPieces sheet_pieces(const v1::TriangleMesh& sheet);
 

@@ -10,8 +10,8 @@
 
 namespace affskel::client {
 
-/// A sample point as a page holds it.  The two numbers that sliders compare are rounded to float so that a
-/// comparison with any float gives what it would have given before: |H| up, E / v0 down.
+/// A sample point as a page holds it.  Sliders compare |H| and E / v0 with floats.  |H| is rounded up to
+/// float and E / v0 down, so that every such comparison gives what it gives with the double.
 struct ViewPoint {
   std::array<std::uint16_t, 3> step{};  ///< place in the ViewGrid
   float share = 0;                      ///< E / v0

@@ -14,8 +14,8 @@ void show_state(Console& console, const v1::Job& job);
 /// @throws ClientError kJobFailed with the reason, or kCancelled, unless the job is done.
 void throw_unless_done(const v1::Job& job);
 
-/// Warns, with the likely reason and what to try, when the skeleton has no points; says what else its
-/// quality gives reason to say.
+/// Warns when the skeleton has no points, with the likely reason and what to try.  Passes on the advice that
+/// its quality holds.
 void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
                    const v1::Job& job);
 

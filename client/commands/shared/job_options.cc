@@ -14,12 +14,12 @@ void add_job(CLI::App* command, std::string& job) {
 }
 
 void add_output(CLI::App* command, std::string& output, const std::string& what) {
-  command->add_option("-o,--output", output, what)->required()->check(given())->type_name("FILE");
+  command->add_option("-o,--output", output, what)->required()->check(non_empty())->type_name("FILE");
 }
 
 void add_format(CLI::App* command, std::string& format) {
   command->add_option("--format", format, "Format, whatever the file's name: csv, ply, ...")
-      ->check(given())
+      ->check(non_empty())
       ->type_name("EXT");
 }
 

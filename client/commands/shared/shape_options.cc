@@ -7,7 +7,7 @@
 namespace affskel::client {
 
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what) {
-  command->add_option(name, file, what)->required()->check(given())->type_name("FILE");
+  command->add_option(name, file, what)->required()->check(non_empty())->type_name("FILE");
 }
 
 }  // namespace affskel::client

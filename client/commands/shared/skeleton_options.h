@@ -22,8 +22,9 @@ void add_skeleton_options(CLI::App* command, SkeletonOptions& skeleton);
 /// The message for the operator's name. @throws ClientError kUsage for an unknown one.
 v1::SkeletonParams skeleton_params(const SkeletonOptions& options);
 
-/// What the options mean for a job with skeleton parameters of its own: without any these, a threshold alone
-/// is for the job's operator, and an operator alone has its default threshold.  The operator is set.
+/// What the options mean for a job with skeleton parameters of its own.  Without options these hold; a
+/// threshold alone is for the job's operator; an operator alone takes its default threshold.  The result
+/// names an operator.
 v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job& job);
 
 /// The job that a command is about, and its skeleton's parameters when they are not the job's own.

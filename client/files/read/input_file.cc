@@ -11,8 +11,7 @@
 namespace affskel::client {
 namespace {
 
-// What OFF text is not is told by the name, or by the first bytes of a file that is named after nothing
-// known.
+// By the extension; PLY also by the first bytes of a file without a known one.  All else is OFF text.
 std::string format_of(const std::string& path, std::string_view bytes) {
   const std::string extension = lower_extension(path);
   for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl, FileFormat::kVtp}) {

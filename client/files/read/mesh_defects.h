@@ -16,8 +16,8 @@ struct MeshDefect {
   std::vector<std::uint64_t> lines;  ///< lines of the first places, at most five
 };
 
-/// Every kind of topological defect, with its first places, after vertices at the same place were taken as
-/// one (as the repair does).
+/// Every kind of topological defect, with its first places.  Coincident vertices count as one, as in the
+/// repair.
 std::vector<MeshDefect> find_defects(const core::OffMesh& off);
 
 }  // namespace affskel::client

@@ -34,13 +34,13 @@ ClientError too_large(const std::string& path, std::uint64_t max_bytes) {
   throw ClientError(ExitCode::kBadInput, "cannot read: " + std::system_category().message(errno), path);
 }
 
-// What the file announces is taken in one piece; what comes unannounced in pieces that double, up to one byte
-// more than is allowed.
+// Reads up to one byte more than is allowed: the announced size at once, of what comes beyond it pieces that
+// double.
 std::string read_all(int fd, const std::string& path, std::uint64_t announced, std::uint64_t max_bytes) {
-  constexpr std::uint64_t kLeastStep = 1 << 16;
+  constexpr std::uint64_t kMinStep = 1 << 16;
   std::string bytes;
   std::uint64_t size = 0;
-  for (std::uint64_t room = std::max(announced + 1, kLeastStep);;) {
+  for (std::uint64_t room = std::max(announced + 1, kMinStep);;) {
     room = std::min(room, max_bytes + 1);
     bytes.resize(room);
     const ssize_t got = read(fd, bytes.data() + size, room - size);
@@ -49,7 +49,7 @@ std::string read_all(int fd, const std::string& path, std::uint64_t announced, s
     if (got == 0) break;
     size += static_cast<std::uint64_t>(got);
     if (size > max_bytes) throw too_large(path, max_bytes);
-    if (size == room) room = size + std::max(size, kLeastStep);
+    if (size == room) room = size + std::max(size, kMinStep);
   }
   bytes.resize(size);
   return bytes;

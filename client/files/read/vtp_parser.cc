@@ -15,7 +15,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::size_t kMostColumns = 4096;  // of all arrays together; far more than any file has
+constexpr std::size_t kMaxColumns = 4096;  // of all arrays together; far more than any file has
 
 class VtpReader {
  public:
@@ -36,8 +36,8 @@ class VtpReader {
   }
 
  private:
-  // A value takes a byte of the file at least, so more values than bytes come from arrays over the same
-  // bytes, which could take any amount of memory.
+  // A value takes at least a byte of the file.  More values than bytes mean that arrays share their bytes,
+  // which could take any amount of memory.
   std::vector<double> numbers(const VtkArray& array) {
     std::vector<double> values = vtk_numbers(array, description_.encoding);
     if (values.size() > values_left_) {
@@ -81,7 +81,7 @@ class VtpReader {
     for (const VtkArray& array : piece.arrays["PointData"]) {
       if (!is_vtk_number(array.type)) continue;
       const std::vector<double> values = point_values(array);
-      // Where there are no values, taking names could cost far more than the file is long.
+      // An empty piece adds no columns: names without values could cost far more than the file is long.
       if (!(empty && known)) add_values(array, values);
     }
     if (empty || columns_filled_ == file_.columns.size()) return;
@@ -95,10 +95,10 @@ class VtpReader {
 
   std::vector<double> point_values(const VtkArray& array) {
     const std::size_t points = file_.off.mesh.points.size() - first_point_;
-    if (array.components == 0 || array.components > kMostColumns) {
+    if (array.components == 0 || array.components > kMaxColumns) {
       fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
                               std::to_string(array.components) + " components; 1 to " +
-                              std::to_string(kMostColumns) + " are read");
+                              std::to_string(kMaxColumns) + " are read");
     }
     std::vector<double> values = numbers(array);
     if (values.size() != points * array.components) {
@@ -131,8 +131,8 @@ class VtpReader {
     if (first_point_ > 0) {
       fail_at(array.line, "the pieces before are without the values of " + core::quoted_piece(name));
     }
-    if (file_.columns.size() == kMostColumns) {
-      fail_at(array.line, "the arrays have more than " + std::to_string(kMostColumns) + " components in all");
+    if (file_.columns.size() == kMaxColumns) {
+      fail_at(array.line, "the arrays have more than " + std::to_string(kMaxColumns) + " components in all");
     }
     file_.columns.push_back({name, is_vtk_whole(array.type), {}});
     return file_.columns.back();

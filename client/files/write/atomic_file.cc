@@ -26,10 +26,10 @@ mode_t default_mode() {
 
 // Where a symbolic link leads that points to no file yet: open(2) would make that file.
 fs::path follow_dangling(fs::path path) {
-  constexpr int kMostLinks = 40;  // as the kernel
+  constexpr int kMaxLinks = 40;  // as the kernel
   std::error_code error;
   for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
-    if (links == kMostLinks) throw error_from_errno(ELOOP, "cannot write", path);
+    if (links == kMaxLinks) throw error_from_errno(ELOOP, "cannot write", path);
     const fs::path to = fs::read_symlink(path, error);
     if (error) throw error_from_errno(error.value(), "cannot write", path);
     path = path.parent_path() / to;  // absolute targets replace the whole

@@ -12,7 +12,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::size_t kMostElements = std::numeric_limits<std::int32_t>::max();  // of each kind
+constexpr std::size_t kMaxElements = std::numeric_limits<std::int32_t>::max();  // of each kind
 
 // Words without what separates or ends them in a header line of CSV or PLY.
 std::string safe_name(std::string name) {
@@ -59,7 +59,7 @@ std::vector<std::string> written_names(const ShapeFile& shape) {
 
 void write_points(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                   const WriteBytes& write) {
-  if (shape.mesh().points.size() > kMostElements) {
+  if (shape.mesh().points.size() > kMaxElements) {
     throw ClientError(ExitCode::kLimit, "the shape has too many points for this format");
   }
   switch (format) {
@@ -82,7 +82,7 @@ void write_points(FileFormat format, const ShapeFile& shape, const std::vector<s
 void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                    const WriteBytes& write) {
   const core::Mesh& mesh = shape.mesh();
-  if (mesh.points.size() > kMostElements || mesh.triangles.size() > kMostElements) {
+  if (mesh.points.size() > kMaxElements || mesh.triangles.size() > kMaxElements) {
     throw ClientError(ExitCode::kLimit, "the mesh has too many elements for this format");
   }
   switch (format) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "client/base/error.h"
+#include "client/base/mesh_box.h"
 #include "core/base/number_text.h"
 
 namespace affskel::client {
@@ -17,20 +18,11 @@ using core::Vec3;
 constexpr const char* kInstead = "; write .off, .ply, .obj or .vtp, which hold double precision";
 
 // The box round the corners of the triangles.
-struct Extent {
-  Vec3 low, high;
-};
-
-Extent extent_of(const core::Mesh& mesh) {
+Box extent_of(const core::Mesh& mesh) {
   const Vec3& first = mesh.points[mesh.triangles.front()[0]];
-  Extent extent{first, first};
+  Box extent{first, first};
   for (const core::Triangle& t : mesh.triangles) {
-    for (const std::uint32_t corner : t) {
-      const Vec3& p = mesh.points[corner];
-      Vec3 &low = extent.low, &high = extent.high;
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const std::uint32_t corner : t) extent.add(mesh.points[corner]);
   }
   return extent;
 }
@@ -39,7 +31,7 @@ std::string text_of(const Vec3& p) {
   return "(" + core::rounded(p.x, 9) + ", " + core::rounded(p.y, 9) + ", " + core::rounded(p.z, 9) + ")";
 }
 
-std::string text_of(const Extent& extent) {
+std::string text_of(const Box& extent) {
   return "the surface reaches from " + text_of(extent.low) + " to " + text_of(extent.high);
 }
 
@@ -50,9 +42,8 @@ Vec3 single(const Vec3& p) {
 // Areas in units of the extent, so that they neither vanish nor overflow.
 class Areas {
  public:
-  explicit Areas(const Extent& extent) {
-    const Vec3 size = extent.high - extent.low;
-    const double side = std::max({size.x, size.y, size.z});
+  explicit Areas(const Box& extent) {
+    const double side = extent.longest_side();
     exponent_ = side > 0 ? -std::ilogb(side) : 0;
   }
 
@@ -68,19 +59,19 @@ class Areas {
   int exponent_;
 };
 
-void check_range(const Extent& extent) {
-  constexpr double kMost = std::numeric_limits<float>::max();
+void check_range(const Box& extent) {
+  constexpr double kMaxFloat = std::numeric_limits<float>::max();
   for (const Vec3& p : {extent.low, extent.high}) {
     for (int k = 0; k < 3; ++k) {
-      if (std::abs(p[k]) <= kMost) continue;
+      if (std::abs(p[k]) <= kMaxFloat) continue;
       throw ClientError(ExitCode::kLimit, ".stl holds single precision, coordinates up to 3.4e38; " +
                                               text_of(extent) + kInstead);
     }
   }
 }
 
-// How many triangles with an area are flat in single precision; 0 also when they are mere slivers: with a
-// negligible area in all, and at no vertex alone, so that no part of the surface is lost with them.
+// How many triangles become flat in single precision.  0 also when these are mere slivers: their area is
+// negligible, and every vertex keeps another triangle, so that no part of the surface is lost.
 std::size_t count_spoilt(const core::Mesh& mesh, const Areas& area) {
   double total = 0, lost = 0;
   std::size_t flat = 0;
@@ -105,7 +96,7 @@ std::size_t count_spoilt(const core::Mesh& mesh, const Areas& area) {
 
 void check_fits_stl(const core::Mesh& mesh) {
   if (mesh.triangles.empty()) return;
-  const Extent extent = extent_of(mesh);
+  const Box extent = extent_of(mesh);
   check_range(extent);
   const std::size_t flat = count_spoilt(mesh, Areas(extent));
   if (flat == 0) return;

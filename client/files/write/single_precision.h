@@ -4,7 +4,7 @@
 
 namespace affskel::client {
 
-/// Refuses what .stl would spoil, because it holds single precision: see write_mesh.
+/// Refuses what .stl would spoil, because it holds single precision: see write_surface.
 /// @throws ClientError kLimit with the cause, the extent and the formats to take instead.
 void check_fits_stl(const core::Mesh& mesh);
 

@@ -4,11 +4,11 @@
 //
 // Point (i, j, k) lies at Origin + Direction (Spacing * (i, j, k)), Direction's columns being the unit
 // vectors along the lattice's axes.  Of an affine frame these are not orthogonal; VTK's image data applies
-// and inverts the matrix as it stands, so that places, cells and isosurfaces are right all the same (tried
-// with 9.1, whose reader of these files only keeps the matrix, turned or sheared, without using it until
-// SetDirectionMatrix is called with it).  The attribute "frame", 9 numbers, one vector of the frame after the
-// other, says that a lattice is not parallel to the mesh's axes: then whoever takes Origin and Spacing alone
-// gets wrong places.  It is an attribute because VTK 9.1 refuses images with a FieldData group.
+// and inverts the matrix as it stands, so that places, cells and isosurfaces are right all the same.  (Tried
+// with 9.1, whose reader keeps the matrix but does not use it until SetDirectionMatrix is called with it.)
+// The attribute "frame" marks a lattice that is not parallel to the mesh's axes, whose places do not follow
+// from Origin and Spacing alone: 9 numbers, one vector of the frame after the other.  It is an attribute
+// because VTK 9.1 refuses images with a FieldData group.
 #include "client/files/write/vtkhdf_image.h"
 
 #include <hdf5.h>
@@ -27,7 +27,7 @@ constexpr std::uint32_t kSlab = 8;  // planes of constant x per slab; a chunk is
 constexpr hsize_t kChunk = 32;      // edge of a chunk in y and z
 constexpr unsigned kCompression = 4;
 
-// What failed, and why as far as the system told: HDF5 leaves errno as the failed call set it.
+// What failed, with the cause in errno, which HDF5 leaves as the failed system call set it.
 ClientError hdf5_error(const std::string& what) {
   const std::string action = "HDF5 failed: " + what;
   for (const int cause : {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, EACCES, EPERM}) {

@@ -46,8 +46,7 @@ class VtkHdfArray : public VtkHdfArrayBase {
 /// A VTKHDF file of ImageData (version 1.0) that is written plane by plane: places by WholeExtent, Origin,
 /// Spacing and Direction (and `frame` where the lattice is not upright), PointData datasets with dimensions
 /// in the order z, y, x.  Holds eight planes of constant x at a time.  All members throw ClientError naming
-/// the file: kNotFound for a lattice without points, kLimit for a full
-/// disk.
+/// the file: kNotFound for a lattice without points, kLimit for a full disk.
 class VtkHdfImage {
  public:
   /// `file` must outlive it.
