@@ -13,7 +13,7 @@ namespace affskel::client {
 /// arrive, in pieces of any size.
 class RecordDecoder {
  public:
-  /// @param bytes of the record `at` this point.
+  /// Called with each record, which begins at `bytes`, and its point.
   using Take = std::function<void(const SamplePoint& at, const char* bytes)>;
 
   /// @param points must outlive it.  @param artifact, @param records name both in errors: "field", "records".

@@ -23,8 +23,8 @@ void run(Context& context, const Options& options) {
   if (options.fraction > 0) params.set_fraction(options.fraction);
   if (options.volume > 0) params.set_volume(options.volume);
   const bool surface = options.form.empty() ? holds_eroded_surface(destination) : options.form == "surface";
-  tell_result(context, surface ? transfer_eroded_surface(context, options.job, params, destination)
-                               : transfer_eroded_points(context, options.job, params, destination));
+  tell_result(context.console(), surface ? transfer_eroded_surface(context, options.job, params, destination)
+                                         : transfer_eroded_points(context, options.job, params, destination));
 }
 
 }  // namespace

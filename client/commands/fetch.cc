@@ -83,7 +83,7 @@ void run(Context& context, const Options& options) {
   const auto chosen = std::find_if(kArtifacts.begin(), kArtifacts.end(), [&](const Artifact& artifact) {
     return options.artifact == artifact.name;
   });
-  tell_result(context, chosen->fetch(context, options, destination));
+  tell_result(context.console(), chosen->fetch(context, options, destination));
 }
 
 // Options that only some artefacts have.

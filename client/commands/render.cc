@@ -68,7 +68,7 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
   }
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
   const int items = sheet ? input.sheet.corners_size() / 3 : input.skeleton.point_size();
-  warn_if_empty(context.console(), static_cast<std::uint64_t>(items), quality, job);
+  warn_about_skeleton(context.console(), static_cast<std::uint64_t>(items), quality, job);
   return quality.threshold();
 }
 

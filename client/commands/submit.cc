@@ -137,7 +137,7 @@ void run(Context& context, const SubmitOptions& options) {
   if (wait) job = follow(context, job.id(), false);
   std::vector<Written> written;
   if (wait && job.state() == v1::JOB_STATE_DONE) {
-    warn_if_empty(console, job.skeleton_points(), job.quality(), job);
+    warn_about_skeleton(console, job.skeleton_points(), job.quality(), job);
     if (!options.output_dir.empty()) written = fetch_results(context, job, options);
   }
   nlohmann::ordered_json document = to_json(job);

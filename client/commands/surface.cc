@@ -23,7 +23,7 @@ void run(Context& context, const Options& options) {
   const ChosenSkeleton chosen = choose_skeleton(context, options.job, options.skeleton);
   if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
-  tell_result(context, transfer_surface(context, chosen.job, &params, destination));
+  tell_result(context.console(), transfer_surface(context, chosen.job, &params, destination));
 }
 
 }  // namespace

@@ -110,9 +110,10 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
   }
   const auto kept = std::count_if(divergences.begin(), divergences.end(),
                                   [&](float h) { return double{h} > input.threshold; });
-  warn_if_empty(context.console(),
-                static_cast<std::uint64_t>(input.sheet_is_skeleton ? input.sheet.corners_size() / 3 : kept),
-                input.sheet.quality(), job);
+  warn_about_skeleton(
+      context.console(),
+      static_cast<std::uint64_t>(input.sheet_is_skeleton ? input.sheet.corners_size() / 3 : kept),
+      input.sheet.quality(), job);
   input.grid = view_grid(lattice);
   input.selection = select_view_points(lattice.count(), divergences, input.threshold, kMaxPoints);
   const auto directions =

@@ -12,7 +12,7 @@ void run(Context& context, const std::string& name) {
   const v1::Job job = follow(context, name, true);
   context.console().result(state_word(job.state()) + "\n");
   throw_unless_done(job);
-  warn_if_empty(context.console(), job.skeleton_points(), job.quality(), job);
+  warn_about_skeleton(context.console(), job.skeleton_points(), job.quality(), job);
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ void throw_unless_done(const v1::Job& job) {
   }
 }
 
-void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
-                   const v1::Job& job) {
+void warn_about_skeleton(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
+                         const v1::Job& job) {
   if (!quality.advice().empty()) {
     console.warning((skeleton_points == 0 ? "the skeleton is empty: " : "the skeleton: ") + quality.advice());
     return;

@@ -16,8 +16,8 @@ void throw_unless_done(const v1::Job& job);
 
 /// Warns when the skeleton has no points, with the likely reason and what to try.  Passes on the advice that
 /// its quality holds.
-void warn_if_empty(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
-                   const v1::Job& job);
+void warn_about_skeleton(Console& console, std::uint64_t skeleton_points, const v1::SkeletonQuality& quality,
+                         const v1::Job& job);
 
 /// "failed: CODE: message", "was cancelled at 5 of 12 directions" or "is running: 5 of 12 directions are
 /// done", for a job that does not have what was asked for.

@@ -1,7 +1,6 @@
 #include "client/commands/shared/transfer.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "client/artifacts/divergence_writer.h"
 #include "client/artifacts/field_writer.h"
@@ -11,7 +10,6 @@
 #include "client/commands/shared/follow.h"
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
-#include "client/text/message_json.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
 #include "core/base/number_text.h"
@@ -92,20 +90,6 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
 double volume_of_points(const v1::Job& job, int points) {
   const double all = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
   return job.prepared().volume() * (points / all);
-}
-
-std::string volume_text(const Written& written) {
-  if (!written.volume) return "";
-  return (written.unit == "point" ? ", volume about " : ", volume ") + core::rounded(*written.volume, 6);
-}
-
-// A sheet of chords comes with its quality, an alpha shape does not.
-std::string advice_for_empty_surface(const Written& written) {
-  if (!written.quality) {
-    return "no three skeleton points are near enough; try a larger --alpha or a smaller --threshold";
-  }
-  const std::string& advice = written.quality->advice();
-  return advice.empty() ? "no piece of the sheet is significant enough; try a smaller --threshold" : advice;
 }
 
 }  // namespace
@@ -242,38 +226,6 @@ bool holds_eroded_surface(const Destination& destination) {
   const auto formats = surface_formats();
   return std::any_of(formats.begin(), formats.end(),
                      [&](FileFormat format) { return extension == extension_of(format); });
-}
-
-void tell_result(Context& context, const Written& written) {
-  if (written.kind == "skeleton") {
-    warn_if_empty(context.console(), written.items, written.quality.value_or(v1::SkeletonQuality()),
-                  written.job);
-  }
-  if (written.kind == "surface" && written.items == 0) {
-    context.console().warning("the surface is empty: " + advice_for_empty_surface(written));
-  }
-  if (written.kind == "eroded" && written.items == 0) {
-    context.console().warning("the eroded solid is empty: " +
-                              (written.advice.empty() ? "no sample point has such an E" : written.advice) +
-                              "; try a lower level");
-  }
-  tell_written(context.console(), written);
-  context.console().document(written_json(written));
-}
-
-nlohmann::ordered_json written_json(const Written& written) {
-  nlohmann::ordered_json document = {{"job", written.job.id()},
-                                     {"artefact", written.kind},
-                                     {"file", written.destination.file.string()},
-                                     {written.unit + "s", written.items}};
-  if (written.volume) document["volume"] = *written.volume;
-  if (written.quality) document["quality"] = to_json(*written.quality);
-  return document;
-}
-
-void tell_written(Console& console, const Written& written) {
-  console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
-               core::counted(written.items, written.unit) + volume_text(written) + ")");
 }
 
 }  // namespace affskel::client

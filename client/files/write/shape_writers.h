@@ -7,8 +7,8 @@
 
 namespace affskel::client {
 
-// One writer per format; see write_points and write_surface.  Columns get
-// `names`, which read back.
+// One writer per format; see write_points and write_surface.  `names` are what the columns are called in the
+// file.
 
 /// A header line and a row per point.
 void write_csv(const ShapeFile& shape, const std::vector<std::string>& names, const WriteBytes& write);
