@@ -9,8 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/mesh/mesh_io.h"
 #include "core/solid/solid_frame.h"
+#include "core/text/off_file.h"
 #include "wire/limits.h"
 
 namespace affskel::worker {
@@ -167,8 +167,8 @@ v1::Lattice PreparedJob::lattice_message() const {
   const core::SamplePlaces places(solid_, lattice_);
   add(places.origin(), message.mutable_origin());
   for (const core::Vec3& axis : places.axes()) add(axis, message.mutable_axes());
-  for (std::uint32_t n : lattice_.frame.dims) message.add_dims(n);
-  const std::uint64_t ny = lattice_.frame.dims[1], nz = lattice_.frame.dims[2];
+  for (std::uint32_t n : lattice_.grid.dims) message.add_dims(n);
+  const std::uint64_t ny = lattice_.grid.dims[1], nz = lattice_.grid.dims[2];
   std::uint64_t end = 0;
   for (const core::LatticeRun& run : lattice_.axis[2].runs) {
     const std::uint64_t start = (run.start[0] * ny + run.start[1]) * nz + run.start[2];

@@ -44,7 +44,7 @@ class PreparedJob {
   core::Erosion& erosion(unsigned threads, std::string_view stored);
   bool has_erosion() const { return erosion_ != nullptr; }
 
-  /// Mesh units cubed per inner unit cubed, and squared.
+  /// Mesh units cubed per scaled unit cubed, and squared.
   double volume_unit() const;
   double area_unit() const;
 

@@ -9,6 +9,7 @@
 #include "client/exporters/numbers.h"
 #include "client/exporters/shape_writer.h"
 #include "core/base/error.h"
+#include "core/mesh/map_mesh.h"
 
 namespace affskel::client {
 namespace {

@@ -9,7 +9,7 @@
 #include "client/exporters/numbers.h"
 #include "client/exporters/single_precision.h"
 #include "client/exporters/vtp_writer.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 
 namespace affskel::client {
 namespace {

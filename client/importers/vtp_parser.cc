@@ -12,7 +12,7 @@
 #include "client/importers/xml_tags.h"
 #include "client/vtk_arrays.h"
 #include "core/base/number_text.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

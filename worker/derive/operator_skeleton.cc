@@ -6,7 +6,7 @@
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "core/shocks/skeleton.h"
-#include "core/surface/surface.h"
+#include "core/surface/alpha_shape.h"
 #include "derive/messages.h"
 #include "result_bytes.h"
 
@@ -79,10 +79,10 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
   std::vector<core::Vec3> points;
   for (const core::LatticePlace& place : places_of(field, kept)) points.push_back(field.in_frame(place));
   field.throw_if_stopped();
-  core::AlphaSurfaceOptions options;
+  core::AlphaShapeOptions options;
   options.alpha = params.alpha();
   options.spacing = field.lattice().spacing;
-  const core::Mesh surface = core::alpha_surface(points, options);
+  const core::Mesh surface = core::alpha_shape(points, options);
   v1::TriangleMesh message;
   for (const core::Vec3& p : surface.points) append(field.to_mesh(p), message.mutable_xyz());
   append_corners(surface, message);

@@ -8,7 +8,7 @@
 #include "client/client.h"
 #include "client/importers/shape_file.h"
 #include "core/base/affine_map.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "temp_dir.h"

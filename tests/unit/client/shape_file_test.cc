@@ -10,7 +10,7 @@
 #include "client/exporters/numbers.h"
 #include "client/exporters/shape_writer.h"
 #include "client/exporters/skeleton_writer.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "sample_data.h"

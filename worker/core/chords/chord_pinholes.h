@@ -6,7 +6,7 @@
 #include "core/chords/chord_shocks.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
-#include "core/solid/solid_parts.h"
+#include "core/lattice/solid_parts.h"
 
 namespace affskel::core {
 

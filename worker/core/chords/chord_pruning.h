@@ -5,7 +5,7 @@
 
 #include "core/chords/chord_shocks.h"
 #include "core/lattice/lattice.h"
-#include "core/solid/solid_parts.h"
+#include "core/lattice/solid_parts.h"
 
 namespace affskel::core {
 
@@ -34,7 +34,7 @@ struct ChordPruningOptions {
   /// Least E of a strong shock, as a share of the volume of the sample points' cells in its part of the
   /// solid. Where a thousandth of the solid is cut off, the tips of fingers and toes, one shock in three is
   /// lost under vertex noise that nine of ten others survive.
-  double least_erosion = 0.001;
+  double min_erosion = 0.001;
   /// Pieces that weaker shocks join at no greater cost than this are weighed as one: noise cuts limbs into
   /// small pieces near each other, and specks lie alone.
   double near_cost = 40;

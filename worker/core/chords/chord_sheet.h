@@ -21,7 +21,7 @@ struct ChordSheetOptions {
   /// Where hardly a turn is as wide as pruning.strong_turn, this share of the widest one takes its place, 0
   /// .. 1: a frame that makes a flat solid as thick as it is wide makes all its turns narrow...
   double strong_share = 0.8;
-  double least_strong_turn = 0.1;  ///< ... but no less than this takes its place, 0 .. 1
+  double min_strong_turn = 0.1;  ///< ... but no less than this takes its place, 0 .. 1
   /// Pull of the shocks' mean on a vertex, against 1 for all tangent planes together, > 0.
   double regularisation = 0.05;
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers

@@ -19,11 +19,11 @@ struct ChordShockOptions {
   /// Least relative strength r = s / (|g_x.delta| + |g_y.delta|), 0 <= r <= 1.  The same shock has r near 1
   /// on the edges across it and a small r on those along it, so that a high bound (0.5, say) tears holes
   /// into a slanting sheet; what tells shocks from facets is the opening.
-  double least_strength = 0.05;
+  double min_strength = 0.05;
   /// Least opening o = (1 - n_x.n_y) / 2 of the two normals, 0 (equal) .. 1 (opposite); 0.005 is an angle of
   /// 8 degrees.  The facets that a finite direction set cuts into the level surfaces of E are shocks, too;
   /// which ones matter is for measure_turns() and significant_shocks() to say.
-  double least_opening = 0.005;
+  double min_opening = 0.005;
   /// How far outside [0, 1] t may lie; it is then moved to the nearer end.  The branches bend between x and
   /// y, and a third one may come between them: without slack one crossing in fifteen is missed, and
   /// each leaves a hole.  A larger slack takes jumps of E for shocks.

@@ -7,7 +7,7 @@
 #include "core/chords/chord_shocks.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
-#include "core/solid/solid_parts.h"
+#include "core/lattice/solid_parts.h"
 
 namespace affskel::core {
 
@@ -22,15 +22,15 @@ struct ChordTurnOptions {
   /// candidates lead to within as many cells as the band reaches, 0 .. 1.  Beside a sheet the normals turn
   /// fast along it, too, where it ends or where chords hang on to a few directions; the sheet itself jumps
   /// more.
-  double least_share = 0.4;
+  double min_share = 0.4;
   /// Least kink s of a shock that speaks, as a share of the change of slope over its band, 0 .. 1.  Round the
   /// centre of a ball the normals turn by a right angle within the band, too, but evenly, in the many small
   /// steps of the direction set.
-  double least_concentration = 0.2;
+  double min_concentration = 0.2;
   /// Least relative strength r of a shock that speaks, 0 .. 1.  Below one half E hardly falls to one side of
   /// it: it lies between two facets of one side.  Where a torus of few triangles bends away from its sheet,
   /// such pairs of facets, 0.55 and less, would be wings beside it.
-  double least_strength = 0.56;
+  double min_strength = 0.56;
   /// Rounds of averaging along the sheet, at most 16.
   std::uint32_t rounds = 1;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
@@ -44,8 +44,8 @@ struct ChordTurnOptions {
 /// each other (rounded) the one with the largest kink s (the first of equal ones) speaks for all: its turn is
 /// the opening between the places q edges beyond both of its ends (in the solid, as far as the line stays in
 /// it; between two sample points in proportion), at least its own.  The others keep their own opening, and so
-/// do one that is weak (least_strength), one where the normals turn evenly (least_concentration) and one
-/// beside a sheet that jumps much more (least_share): the sheet stays one layer (non-maximum suppression, as
+/// do one that is weak (min_strength), one where the normals turn evenly (min_concentration) and one
+/// beside a sheet that jumps much more (min_share): the sheet stays one layer (non-maximum suppression, as
 /// in Canny 1986).
 ///
 /// The band goes with the solid's own size at the place, not with the lattice: where the spacing is halved it

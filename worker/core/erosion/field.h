@@ -25,7 +25,7 @@ struct FieldValue {
 
 /// The E field while it is computed: per sample point the least (E, direction) offered so far, with its
 /// area.  A semilattice (design section 3): offers commute, repeat without effect and may come from any
-/// thread.  Volumes and areas in inner units of the solid.
+/// thread.  Volumes and areas in scaled units of the solid.
 ///
 /// Threads: offer(), bound(), erosion() and value() from any; take_changes() from any, too, each change going
 /// to one.

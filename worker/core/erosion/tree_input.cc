@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/mesh/locality_order.h"
 #include "core/solid/solid_membership.h"
+#include "core/spatial/locality_order.h"
 
 namespace affskel::core {
 namespace {

@@ -14,7 +14,7 @@
 namespace affskel::core {
 
 /// Lattice point (i, j, k) lies at origin + i axes[0] + j axes[1] + k axes[2], 0 <= i < dims[0] etc.
-struct LatticeFrame {
+struct LatticeGrid {
   Vec3 origin;
   std::array<Vec3, 3> axes;
   std::array<std::uint32_t, 3> dims{};
@@ -41,7 +41,7 @@ struct AxisRuns {
 
 /// The sample points of a solid: lattice points inside it, numbered in lattice order (axis 2 fastest).
 struct Lattice {
-  LatticeFrame frame;  ///< inner coordinates of the solid
+  LatticeGrid grid;  ///< scaled coordinates of the solid
   /// dT, mesh units: the cube root of the volume of the frame's cell.
   double spacing = 0;
   std::uint32_t points = 0;
@@ -52,9 +52,9 @@ struct Lattice {
 class SamplePlaces {
  public:
   SamplePlaces(const Solid& solid, const Lattice& lattice)
-      : origin_(solid.centre + solid.scale() * lattice.frame.origin),
-        axes_{solid.scale() * lattice.frame.axes[0], solid.scale() * lattice.frame.axes[1],
-              solid.scale() * lattice.frame.axes[2]} {}
+      : origin_(solid.centre + solid.scale() * lattice.grid.origin),
+        axes_{solid.scale() * lattice.grid.axes[0], solid.scale() * lattice.grid.axes[1],
+              solid.scale() * lattice.grid.axes[2]} {}
 
   const Vec3& origin() const { return origin_; }
   const std::array<Vec3, 3>& axes() const { return axes_; }
@@ -106,8 +106,8 @@ void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 /// it would refuse them as too many, or too many lines.
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
-/// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1,
+/// The same for a given frame in scaled coordinates; axes need not be orthogonal or of equal length.
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads = 1,
                      ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -20,7 +20,7 @@ struct ChanceLevelOptions {
 /// many from each, to one; a seeded generator), those outside the solid dropped.  Sample points themselves
 /// would not do: no two of them are that near.
 /// @param skeleton in coordinates of the lattice's frame (see frame_field.h), mesh units; not empty.
-/// @param solid of the lattice, in inner coordinates.
+/// @param solid of the lattice, in scaled coordinates.
 /// 0 when no draw falls inside.
 double chance_level(const Lattice& lattice, const SolidMembership& solid, std::span<const Vec3> skeleton,
                     const ChanceLevelOptions& options = {});

@@ -127,7 +127,7 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
   std::string advice;
   if (census.wide > 0) {
     advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-             " where equal chords clearly differ is E " + rounded(pruning.least_erosion, 3) +
+             " where equal chords clearly differ is E " + rounded(pruning.min_erosion, 3) +
              " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
     advice = on_turn(lattice, census, pruning);

@@ -7,12 +7,12 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/mesh/coincident_points.h"
 #include "core/mesh/mesh_topology.h"
-#include "core/mesh/same_place.h"
-#include "core/mesh/self_intersection.h"
 #include "core/mesh/unused_points.h"
 #include "core/solid/shell_nesting.h"
 #include "core/solid/specks.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::core {
 namespace {
@@ -69,7 +69,7 @@ class SolidBuilder {
     throw_if_stopped(options_.context);
     nest();
     throw_if_stopped(options_.context);
-    const std::vector<double> volumes = inner_volumes();
+    const std::vector<double> volumes = scaled_volumes();
     // Before surfaces are turned: which way those of specks face may be rounding.
     const std::vector<std::uint8_t> specks = find_specks(solid_, volumes);
     if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks);
@@ -128,7 +128,7 @@ class SolidBuilder {
 
   void weld() {
     Mesh& mesh = solid_.mesh;
-    const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
+    const std::vector<std::uint32_t> first = first_coincident_point(mesh.points);
     std::uint64_t merged = 0;
     for (std::size_t v = 0; v < first.size(); ++v) merged += first[v] != v;
     if (merged == 0) return;
@@ -252,7 +252,7 @@ class SolidBuilder {
   }
 
   // Per solid, its cavities subtracted; whichever way the surfaces face.
-  std::vector<double> inner_volumes() const {
+  std::vector<double> scaled_volumes() const {
     std::vector<CompensatedSum> sums(solid_.solid_volume.size());
     for (const Shell& shell : solid_.shells) {
       sums[shell.solid].add(shell.cavity ? -std::abs(shell.volume) : std::abs(shell.volume));
@@ -286,7 +286,7 @@ class SolidBuilder {
                                " surfaces faced inward and were turned, the first at " + place(first));
   }
 
-  // What the input is without these solids.  From the beginning: the box, and with it all inner coordinates,
+  // What the input is without these solids.  From the beginning: the box, and with it all scaled coordinates,
   // may be another one.
   Solid without(const std::vector<std::uint8_t>& specks) {
     std::vector<std::uint32_t> kept, left_out;
@@ -325,7 +325,7 @@ class SolidBuilder {
   void set_volumes(const std::vector<double>& volumes) {
     const double unit = std::ldexp(1.0, 3 * solid_.exponent);
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-      if (!(volumes[i] > kLeastInnerVolume)) refuse_volume(i, volumes[i] * unit);
+      if (!(volumes[i] > kMinScaledVolume)) refuse_volume(i, volumes[i] * unit);
       solid_.solid_volume[i] = volumes[i] * unit;
     }
     CompensatedSum total;
@@ -344,7 +344,7 @@ class SolidBuilder {
     const std::string which =
         "solid " + std::to_string(solid) + " of " + std::to_string(solid_.solid_volume.size());
     const SolidSize size = solid_sizes(solid_)[solid];
-    if (size.longest_side() < kLeastInnerSide) {
+    if (size.longest_side() < kMinScaledSide) {
       refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
              place(size.first_triangle) + ", is " + rounded(size.longest_side() * solid_.scale(), 3) +
              " long, the whole mesh " + rounded(extent(), 3) + "; take them one by one");
