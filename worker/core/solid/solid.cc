@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/double_sum.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/mesh/coincident_points.h"
@@ -20,21 +21,6 @@ namespace {
 [[noreturn]] void refuse(const std::string& message, std::uint64_t line = 0) {
   throw CoreError(CoreError::Code::kBadInput, message, line);
 }
-
-// Sum with the rounding errors carried along (Neumaier 1974).
-class CompensatedSum {
- public:
-  void add(double value) {
-    const double sum = sum_ + value;
-    error_ += std::abs(sum_) >= std::abs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
-    sum_ = sum;
-  }
-  double value() const { return sum_ + error_; }
-
- private:
-  double sum_ = 0;
-  double error_ = 0;
-};
 
 class SolidBuilder {
  public:
@@ -215,7 +201,7 @@ class SolidBuilder {
     solid_.triangle_shell = connected_surfaces(mates, count);
     solid_.shells.resize(count);
     const Mesh& mesh = solid_.mesh;
-    std::vector<CompensatedSum> volume(count);
+    std::vector<DoubleSum> volume(count);
     std::vector<std::uint32_t> vertex_shell(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& c = mesh.triangles[t];
@@ -253,12 +239,12 @@ class SolidBuilder {
 
   // Per solid, its cavities subtracted; whichever way the surfaces face.
   std::vector<double> scaled_volumes() const {
-    std::vector<CompensatedSum> sums(solid_.solid_volume.size());
+    std::vector<DoubleSum> sums(solid_.solid_volume.size());
     for (const Shell& shell : solid_.shells) {
       sums[shell.solid].add(shell.cavity ? -std::abs(shell.volume) : std::abs(shell.volume));
     }
     std::vector<double> volumes;
-    for (const CompensatedSum& sum : sums) volumes.push_back(sum.value());
+    for (const DoubleSum& sum : sums) volumes.push_back(sum.value());
     return volumes;
   }
 
@@ -328,7 +314,7 @@ class SolidBuilder {
       if (!(volumes[i] > kMinScaledVolume)) refuse_volume(i, volumes[i] * unit);
       solid_.solid_volume[i] = volumes[i] * unit;
     }
-    CompensatedSum total;
+    DoubleSum total;
     for (const Shell& shell : solid_.shells) total.add(shell.volume);
     for (Shell& shell : solid_.shells) shell.volume *= unit;
     solid_.volume = total.value() * unit;

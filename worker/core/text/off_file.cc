@@ -1,10 +1,10 @@
 #include "core/text/off_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 #include "core/text/text_rows.h"
@@ -195,12 +195,6 @@ class OffReader {
   OffMesh result_;
 };
 
-void append_number(std::string& text, double value) {
-  char digits[32];
-  const auto result = std::to_chars(digits, digits + sizeof digits, value);
-  text.append(digits, result.ptr);
-}
-
 }  // namespace
 
 OffMesh read_off(std::string_view bytes, const ReadOffOptions& options) {
@@ -211,11 +205,11 @@ std::string write_off(const Mesh& mesh) {
   std::string text =
       "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n";
   for (const Vec3& p : mesh.points) {
-    append_number(text, p.x);
+    append_shortest(text, p.x);
     text.push_back(' ');
-    append_number(text, p.y);
+    append_shortest(text, p.y);
     text.push_back(' ');
-    append_number(text, p.z);
+    append_shortest(text, p.z);
     text.push_back('\n');
   }
   for (const Triangle& t : mesh.triangles) {
