@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/plain_math.h"
+
 namespace affskel::core {
 namespace {
 
@@ -57,7 +59,7 @@ class SpacingSearch {
 
   void try_single_layers() {
     const double middle = single_layer_spacing();
-    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * std::exp(i * kStep));
+    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * plain_exp(i * kStep));
   }
 
   // A lattice beyond the limits has too many.

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "core/base/matrix3.h"
 #include "core/base/number_text.h"
+#include "core/base/plain_math.h"
 #include "core/erosion/field.h"
 #include "core/erosion/frame_field.h"
 
@@ -66,9 +68,10 @@ std::string on_few_points(const Lattice& lattice) {
 
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
 std::string degrees(double opening) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const double o = std::clamp(opening, 0.0, 1.0);
   char text[32];
-  std::snprintf(text, sizeof text, "%.0f", 2 * std::asin(std::sqrt(std::clamp(opening, 0.0, 1.0))) / kDegree);
+  std::snprintf(text, sizeof text, "%.0f",
+                2 * plain_angle(std::sqrt(o), std::sqrt(1 - o)) * (180 / std::numbers::pi));
   return text;
 }
 
