@@ -11,6 +11,7 @@
 #include "core/base/number_text.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
+#include "enum_word.h"
 #include "wire/limits.h"
 
 namespace affskel::worker {
@@ -36,20 +37,11 @@ core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, 
 }
 
 core::FrameKind frame_kind(v1::Frame frame) {
-  switch (frame) {
-    case v1::FRAME_UNSPECIFIED:
-    case v1::FRAME_AXIS:
-      return core::FrameKind::kAxis;
-    case v1::FRAME_PCA:
-      return core::FrameKind::kPca;
-    case v1::FRAME_OBB:
-      return core::FrameKind::kObb;
-    case v1::FRAME_AFFINE:
-      return core::FrameKind::kAffine;
-    default:
-      throw core::CoreError(core::CoreError::Code::kBadInput,
-                            "frame " + std::to_string(frame) + " is not known to this worker");
-  }
+  if (frame == v1::FRAME_UNSPECIFIED) return core::FrameKind::kAxis;
+  const std::string word = enum_word(v1::Frame_Name(frame), "FRAME_");
+  if (!word.empty()) return core::parse_frame(word);
+  throw core::CoreError(core::CoreError::Code::kBadInput,
+                        "frame " + std::to_string(frame) + " is not known to this worker");
 }
 
 core::DirectionSet take_directions(const core::Solid& solid, const std::string& spec,
