@@ -220,7 +220,7 @@ RC_GTEST_PROP(FieldProperties, DisjointCopiesHaveCopiesOfE, ()) {
   }
 }
 
-// The merge that the service relies on (design section 3).
+// The merge that the service relies on: commutative, associative, idempotent.
 void merge(std::vector<FieldValue>& into, const std::vector<FieldValue>& from) {
   for (std::size_t p = 0; p < into.size(); ++p) {
     if (from[p].improves(into[p])) into[p] = from[p];

@@ -1,6 +1,6 @@
-// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A(t) is
-// the area of a component's section at height t, V(t) its integral, the component's volume below t.  A is
-// quadratic between vertices; what changes at them is prepared by section_bends.
+// Notation (see README.md in worker/core).  d: the direction; h(y) = d.y; ranks order the vertices by height.
+// A(t) is the area of a component's section at height t, V(t) its integral, the component's volume below t.
+// A is quadratic between vertices; what changes at them is prepared by section_bends.
 //
 // A surface that crosses itself bounds the region that it winds round at least once, with overlaps counted
 // twice in volumes.  Components of that region are those of the surface's parts, joined where parts cross

@@ -43,7 +43,7 @@ struct Arc {
 };
 
 /// The sublevel join tree of a solid for one direction d: the components of {y in V : d.y <= t} as t
-/// rises, with their exact volumes (design section 2).
+/// rises, with their exact volumes (see README.md in worker/core).
 struct JoinTree {
   std::vector<Arc> arcs;
   std::vector<Cubic> cubics;
@@ -70,8 +70,8 @@ struct JoinTree {
     return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
   }
 
-  /// A volume that V is not below at h or anywhere above on the way to the root, but for twice
-  /// TreeInput::volume_tolerance(): V at or shortly under h, unless it falls further up.  One look-up.
+  /// A lower bound of V at h and everywhere above on the way to the root, within twice
+  /// TreeInput::volume_tolerance().  Close to V at h, unless V falls further up.  One look-up.
   double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
 
   /// The cubic of `arc` that holds height h: the last one that starts at or below h, else the first.

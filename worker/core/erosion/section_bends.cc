@@ -1,7 +1,8 @@
-// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A triangle
-// T has corners of rank lo < mid < hi at heights a <= b <= c, and p = -d.a_T, a_T its outward area vector.
-// The share f_T(t) of T below t is quadratic between the heights, and A(t) = sum p_T f_T(t) is the area of
-// the section, V(t) its integral.  f_T starts at a, bends at b and ends at c with f and f' continuous, so
+// Notation (see README.md in worker/core).  d: the direction; h(y) = d.y; ranks order the vertices by height.
+// A triangle T has corners of rank lo < mid < hi at heights a <= b <= c, and p = -d.a_T, a_T its outward area
+// vector. The share f_T(t) of T below t is quadratic between the heights, and A(t) = sum p_T f_T(t) is the
+// area of the section, V(t) its integral.  f_T starts at a, bends at b and ends at c with f and f'
+// continuous, so
 //   f_T'' / 2 jumps by  1/((b-a)(c-a)),  -1/((b-a)(c-a)) - 1/((c-b)(c-a)),  1/((c-b)(c-a))  at a, b, c:
 // per vertex only the bend of A changes.  Bends of nearly level triangles are huge and must cancel exactly
 // later.  Every bend is split into a multiple of a unit near v0, of which doubles hold sums exactly, and a

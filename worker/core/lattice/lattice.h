@@ -34,8 +34,8 @@ struct LatticeRun {
 struct AxisRuns {
   std::vector<LatticeRun> runs;
   std::vector<std::uint32_t> order;  ///< sample points run by run; empty for axis 2, where it is 0, 1, 2, ...
-  /// Points within rounding of the surface whose line along this axis says "outside": runs of one point
-  /// along axis 2 (low and high belong to that axis; `first` is the point).
+  /// Sample points within rounding of the surface that lie outside on their line along this axis: each is a
+  /// run of one point along axis 2 (low and high belong to axis 2; `first` is the point).
   std::vector<LatticeRun> strays;
 };
 
@@ -96,9 +96,9 @@ struct LatticeOptions {
 ///   or before they take more than the memory budget; kCancelled when the context asks to stop.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
-/// Throws what make_lattice would throw in this frame for options beyond its limits, before it is made; the
-/// frame is looked for only where that depends on it.  Whether any point falls inside, and whether a spacing
-/// is found for target_points in few enough lines, only make_lattice can tell.
+/// Checks the limits of make_lattice before a lattice is made, and throws what that would throw.  The frame
+/// is computed only when the answer depends on it.  Not found out: whether a point falls inside, and whether
+/// a search for target_points ends within the limits.
 /// @param options `frame` is not used.
 void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 

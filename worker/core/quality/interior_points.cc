@@ -17,8 +17,8 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-// A piece of a line along x that lies inside the solid.
-struct Piece {
+// An interval of a line along x that lies inside the solid.
+struct Interval {
   Vec3 begin;
   double length;
 };
@@ -29,8 +29,8 @@ class TurnedSolid {
   TurnedSolid(const Solid& solid, const Matrix3& frame)
       : mesh_(turned(solid.mesh, frame)), box_(box_round(mesh_)), tree_(boxes_of(mesh_)) {}
 
-  // Appends the inner pieces of line number i.
-  void cut(double i, std::vector<Piece>& pieces) {
+  // Appends the intervals inside of line number i.
+  void cut(double i, std::vector<Interval>& intervals) {
     // 1/g and 1/g^2 with g^3 = g + 1.
     const Vec3 q = {box_.low[0], within(1, fraction(0.5 + i * 0.75487766624669276)),
                     within(2, fraction(0.5 + i * 0.56984029099805327))};
@@ -47,7 +47,7 @@ class TurnedSolid {
       winding += crossings_[c].second;
       if (winding <= 0 || c + 1 == crossings_.size()) continue;
       const double begin = crossings_[c].first, length = crossings_[c + 1].first - begin;
-      if (length > 0) pieces.push_back({{q.x + begin, q.y, q.z}, length});
+      if (length > 0) intervals.push_back({{q.x + begin, q.y, q.z}, length});
     }
   }
 
@@ -74,35 +74,35 @@ class TurnedSolid {
 };
 
 // Half as many lines through the solid as points, so that neither lines nor the places on them stand out.
-std::vector<Piece> inner_pieces(TurnedSolid& solid, std::uint32_t count) {
-  std::vector<Piece> pieces;
+std::vector<Interval> inside_intervals(TurnedSolid& solid, std::uint32_t count) {
+  std::vector<Interval> intervals;
   const std::uint64_t most = std::uint64_t{8} * count;
   std::uint64_t hits = 0;
   for (std::uint64_t line = 0; line < most && 2 * hits < count; ++line) {
-    const std::size_t before = pieces.size();
-    solid.cut(static_cast<double>(line), pieces);
-    hits += pieces.size() > before ? 1 : 0;
+    const std::size_t before = intervals.size();
+    solid.cut(static_cast<double>(line), intervals);
+    hits += intervals.size() > before ? 1 : 0;
   }
-  return pieces;
+  return intervals;
 }
 
 // Point i stands for the lengths from i to i + 1 times the total / count, and lies somewhere there.
-std::vector<Vec3> spread(const std::vector<Piece>& pieces, std::uint32_t count) {
+std::vector<Vec3> spread(const std::vector<Interval>& intervals, std::uint32_t count) {
   double total = 0;
-  for (const Piece& piece : pieces) total += piece.length;
+  for (const Interval& interval : intervals) total += interval.length;
   const double step = total / count;
   std::vector<Vec3> points;
   points.reserve(count);
   double swept = 0;
-  for (const Piece& piece : pieces) {
-    const bool last = &piece == &pieces.back();
+  for (const Interval& interval : intervals) {
+    const bool last = &interval == &intervals.back();
     while (points.size() < count) {
       const auto i = static_cast<double>(points.size());
       const double at = (i + fraction(0.5 + i * 0.61803398874989485)) * step - swept;
-      if (at > piece.length && !last) break;
-      points.push_back(piece.begin + Vec3{std::clamp(at, 0.0, piece.length), 0, 0});
+      if (at > interval.length && !last) break;
+      points.push_back(interval.begin + Vec3{std::clamp(at, 0.0, interval.length), 0, 0});
     }
-    swept += piece.length;
+    swept += interval.length;
   }
   return points;
 }
@@ -113,13 +113,13 @@ std::vector<Vec3> interior_points(const Solid& solid, const InteriorPointsOption
   const std::uint32_t count = std::max<std::uint32_t>(options.count, 1);
   const Matrix3 frame = solid_frame(solid, FrameKind::kPca);
   TurnedSolid turned(solid, frame);
-  const std::vector<Piece> pieces = inner_pieces(turned, count);
-  if (pieces.empty()) {
+  const std::vector<Interval> intervals = inside_intervals(turned, count);
+  if (intervals.empty()) {
     throw CoreError(CoreError::Code::kBadInput, "the solid is so thin that none of " +
                                                     std::to_string(std::uint64_t{8} * count) +
                                                     " lines through its box meets its inside");
   }
-  std::vector<Vec3> points = spread(pieces, count);
+  std::vector<Vec3> points = spread(intervals, count);
   for (Vec3& p : points) p = solid.centre + solid.scale() * (frame * p);
   return points;
 }

@@ -35,8 +35,8 @@ std::vector<SolidSize> solid_sizes(const Solid& solid);
 /// Specks: solids with no more than kMinScaledVolume, flat or tiny, beside others that have more, as scans
 /// have them.  No sample point comes to lie in them, and heights within them are rounding.
 ///
-/// Where a speck lies so far away that no solid has more in the mesh's box, the largest solid is what the
-/// others are compared with, provided that it has more in its own box.
+/// A speck may lie so far away that, beside the mesh's whole box, no solid has more.  Then the others are
+/// compared with the largest solid, provided that it has more beside its own box.
 ///
 /// A solid is no speck when its volume, or that of one of its surfaces (a skin thinner than rounding has
 /// such), is more than kSpeckShare of the largest solid's; nor when it has a surface of more than the least

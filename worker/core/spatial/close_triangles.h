@@ -90,8 +90,8 @@ class CloseTriangles {
   UnitTriangles triangles_;
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_;  // per triangle, or kNone; empty without groups
-  Loose loose_;                          // the triangles of no group; members empty when these are all
-  BoxTree group_tree_;                   // over the boxes of whole groups
+  Loose loose_;         // the triangles of no group; `members` stays empty when there is no group
+  BoxTree group_tree_;  // over the boxes of whole groups
 };
 
 }  // namespace affskel::core

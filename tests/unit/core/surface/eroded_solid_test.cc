@@ -95,7 +95,7 @@ Eroded uneroded(const Mesh& mesh, double spacing) {
       mesh, spacing, [](const Vec3&) { return 1.0; }, [](const Vec3&) { return Vec3{}; });
 }
 
-// The unit ball's closed form (design, section 7).
+// The unit ball's closed form: E = pi (1 - p)^2 (2 + p) / 3 at the distance p from the centre.
 double ball_level(double p) {
   return kPi * (1 - p) * (1 - p) * (2 + p) / 3;
 }
