@@ -8,8 +8,8 @@
 
 namespace affskel::core {
 
-/// A balanced tree over boxes for overlap queries.  Immutable after construction; queries from several
-/// threads are safe.
+/// A balanced tree over boxes for overlap queries: self-intersection, rays, membership.  Immutable after
+/// construction; queries from several threads are safe.
 class BoxTree {
  public:
   BoxTree() = default;

@@ -2,15 +2,15 @@
 
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/spatial/box_tree.h"
 
 namespace affskel::core {
 
-/// Shoots rays from vertices of a closed mesh; a bounding volume hierarchy over the triangles (median
-/// split of the longest side of the centroids' box), built once, O(N log N), on up to `threads` threads.
-/// Immutable afterwards, so threads may share it.
+/// Shoots rays from vertices of a closed mesh, through a tree of its triangles' boxes, which is built once:
+/// O(N log N), on up to `threads` threads.  Immutable afterwards, so threads may share it.  Keeps a reference
+/// to the mesh.
 class RayShooter {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -26,26 +26,8 @@ class RayShooter {
                                  const std::function<bool(std::uint32_t)>& accept) const;
 
  private:
-  struct Box {
-    Vec3 low, high;
-  };
-  // Inner node: children at the next place and at `first`, count 0.  Leaf: triangles_[first .. first +
-  // count).
-  struct Node {
-    Box box;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
-
-  std::uint32_t first_exit_with_slack(std::uint32_t vertex, const Vec3& d,
-                                      const std::function<bool(std::uint32_t)>& accept, double slack) const;
-  void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end, const std::vector<Vec3>& centroids,
-             unsigned threads);
-  Box bounds(std::uint32_t begin, std::uint32_t end) const;
-
   const Mesh& mesh_;
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> triangles_;
+  BoxTree tree_;
 };
 
 }  // namespace affskel::core
