@@ -7,8 +7,8 @@
 
 namespace affskel::worker {
 
-/// Pauses between attempts: each about twice the one before, up to a longest one, and each between half of
-/// that and all of it by chance, so that workers that failed together do not come back together.
+/// Exponential backoff with jitter: each pause is twice the one before, up to a longest one, times a random
+/// factor of 1/2 to 1, so that workers that failed together do not come back together.
 class Backoff {
  public:
   Backoff(std::chrono::milliseconds first, std::chrono::milliseconds longest, std::uint64_t seed)

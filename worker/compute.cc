@@ -17,9 +17,9 @@
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
 #include "core/lattice/lattice.h"
-#include "core/mesh/mesh_io.h"
 #include "core/solid/solid.h"
 #include "core/solid/solid_frame.h"
+#include "core/text/off_file.h"
 #include "field_file.h"
 #include "wire/direction_order.h"
 

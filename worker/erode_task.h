@@ -21,9 +21,9 @@ enum class ErodeEnd {
 /// finished and which points improved.  A report claims a direction only after all its offers are in the
 /// field and before the field's changes are taken, so that what is acknowledged is complete.
 ///
-/// The block's last report is sent by `last`, so that the next block need not wait for it; a report of that
-/// one may hold points that this one improved, and the other way round, so nothing is reported before the
-/// report that `last` holds from the block before is acknowledged.
+/// `last` sends the block's last report while the next block is computed.  Points that one block improved may
+/// be in a report of the other, so a block reports nothing before the last report of the block before is
+/// acknowledged.
 /// @param nearly_done called once, shortly before the block ends: the time to lease the next one.
 /// @throws LeaseLost (also when it was the block before that lost its lease), ServerGone, core::CoreError;
 ///   then, too, discard the engine.

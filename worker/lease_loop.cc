@@ -70,6 +70,16 @@ void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
   }
 }
 
+// The job's parameters with the spacing that its prepare task found.  The search for it compares doubles:
+// done anew, on another machine, it may end one rounding away, at another lattice.
+v1::ErosionParams prepared_params(const v1::Job& job) {
+  v1::ErosionParams params = job.params();
+  if (job.has_prepared() && !params.sampling().has_spacing()) {
+    params.mutable_sampling()->set_spacing(job.prepared().spacing());
+  }
+  return params;
+}
+
 v1::JobError describe(const core::CoreError& error) {
   v1::JobError message;
   switch (error.code()) {
@@ -341,7 +351,7 @@ class LeaseLoop {
     // What is prepared already fitted somewhere: one worker short of memory must not fail the job for all.
     const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
     job_ = std::make_unique<PreparedJob>(
-        mesh, lease.job().params(), options_.threads, &context,
+        mesh, prepared_params(lease.job()), options_.threads, &context,
         first ? std::function<std::uint64_t()>([] { return available_memory(); })
               : std::function<std::uint64_t()>());
     job_id_ = lease.job().id();

@@ -9,8 +9,9 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/mesh/mesh_io.h"
 #include "core/solid/solid_frame.h"
+#include "core/text/off_file.h"
+#include "enum_word.h"
 #include "wire/limits.h"
 
 namespace affskel::worker {
@@ -36,20 +37,11 @@ core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, 
 }
 
 core::FrameKind frame_kind(v1::Frame frame) {
-  switch (frame) {
-    case v1::FRAME_UNSPECIFIED:
-    case v1::FRAME_AXIS:
-      return core::FrameKind::kAxis;
-    case v1::FRAME_PCA:
-      return core::FrameKind::kPca;
-    case v1::FRAME_OBB:
-      return core::FrameKind::kObb;
-    case v1::FRAME_AFFINE:
-      return core::FrameKind::kAffine;
-    default:
-      throw core::CoreError(core::CoreError::Code::kBadInput,
-                            "frame " + std::to_string(frame) + " is not known to this worker");
-  }
+  if (frame == v1::FRAME_UNSPECIFIED) return core::FrameKind::kAxis;
+  const std::string word = enum_word(v1::Frame_Name(frame), "FRAME_");
+  if (!word.empty()) return core::parse_frame(word);
+  throw core::CoreError(core::CoreError::Code::kBadInput,
+                        "frame " + std::to_string(frame) + " is not known to this worker");
 }
 
 core::DirectionSet take_directions(const core::Solid& solid, const std::string& spec,
@@ -167,8 +159,8 @@ v1::Lattice PreparedJob::lattice_message() const {
   const core::SamplePlaces places(solid_, lattice_);
   add(places.origin(), message.mutable_origin());
   for (const core::Vec3& axis : places.axes()) add(axis, message.mutable_axes());
-  for (std::uint32_t n : lattice_.frame.dims) message.add_dims(n);
-  const std::uint64_t ny = lattice_.frame.dims[1], nz = lattice_.frame.dims[2];
+  for (std::uint32_t n : lattice_.grid.dims) message.add_dims(n);
+  const std::uint64_t ny = lattice_.grid.dims[1], nz = lattice_.grid.dims[2];
   std::uint64_t end = 0;
   for (const core::LatticeRun& run : lattice_.axis[2].runs) {
     const std::uint64_t start = (run.start[0] * ny + run.start[1]) * nz + run.start[2];

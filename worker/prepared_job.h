@@ -20,11 +20,11 @@ namespace affskel::worker {
 /// members: neither copied nor moved.
 class PreparedJob {
  public:
-  /// @throws core::CoreError when the mesh or a parameter is wrong; kCancelled when the context, if there is
-  /// one,
-  ///   asks to stop; kLimit when
-  ///   the lattice and the erosion would take more than is available.
+  /// @param context asked whether to stop; may be null.
   /// @param available tells the bytes that may be taken, see available_memory; none: no bound.
+  /// @throws core::CoreError kBadInput when the mesh or a parameter is wrong; kCancelled when the context
+  /// asks
+  ///   to stop; kLimit when lattice and erosion would take more than is available.
   PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1,
               core::ExecutionContext* context = nullptr,
               const std::function<std::uint64_t()>& available = nullptr);
@@ -44,7 +44,7 @@ class PreparedJob {
   core::Erosion& erosion(unsigned threads, std::string_view stored);
   bool has_erosion() const { return erosion_ != nullptr; }
 
-  /// Mesh units cubed per inner unit cubed, and squared.
+  /// Mesh units cubed per scaled unit cubed, and squared.
   double volume_unit() const;
   double area_unit() const;
 

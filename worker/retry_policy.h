@@ -32,9 +32,9 @@ class RetryPolicy {
 
   RetryPolicy(Duration patience, std::uint64_t seed);
 
-  /// A server that closes ends calls with UNAVAILABLE or CANCELLED: both mean "again", for as long as patience
-  /// lasts without an answer.  One that is full (RESOURCE_EXHAUSTED), or says itself that it cannot answer now,
-  /// is there: it is asked until somebody helps it.
+  /// A server that closes ends calls with UNAVAILABLE or CANCELLED: both mean "again", until patience has
+  /// passed without an answer.  A server that is full (RESOURCE_EXHAUSTED), or says itself that it cannot
+  /// answer now, has answered: it is asked without end.
   /// @param code of a call that this side did not cancel.
   /// @param elapsed since the call was first made.
   /// @param connected whether the connection stands, so that the status is the server's own word.

@@ -47,8 +47,8 @@ struct ServerLinkOptions {
   std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
 };
 
-/// The worker's side of WorkerService.  Calls, all of which the server can repeat safely, are made again,
-/// with growing pauses, while it is away, full or in trouble, see RetryPolicy.  Any thread.
+/// The worker's side of WorkerService.  All calls are safe to repeat: while the server is away, full or in
+/// trouble they are made again, with growing pauses (see RetryPolicy).  Any thread.
 class ServerLink {
  public:
   ServerLink(const ServerLinkOptions& options, std::stop_token stop);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/mesh/mesh.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 
 namespace affskel::client {
 

@@ -16,8 +16,8 @@
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/mesh/same_place.h"
-#include "core/mesh/self_intersection.h"
+#include "core/mesh/coincident_points.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::client {
 namespace {
@@ -42,7 +42,7 @@ double fraction_of(const std::string& text) {
 
 // The surface crosses itself when it does so as one whose corners at the same place are joined.
 bool crosses_itself(core::Mesh mesh) {
-  const std::vector<std::uint32_t> first = core::first_at_same_place(mesh.points);
+  const std::vector<std::uint32_t> first = core::first_coincident_point(mesh.points);
   for (core::Triangle& t : mesh.triangles) {
     for (std::uint32_t& corner : t) corner = first[corner];
   }

@@ -15,6 +15,7 @@
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/mesh/map_mesh.h"
 
 namespace affskel::client {
 namespace {

@@ -11,7 +11,7 @@
 #include "client/files/read/read_shape.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/solid/inner_points.h"
+#include "core/quality/interior_points.h"
 #include "core/solid/surface_samples.h"
 
 namespace affskel::client {
@@ -121,7 +121,7 @@ double common_side(const ComparedPoints& a, const ComparedPoints& b) {
 
 std::vector<core::Vec3> inner_points_of(const core::Solid& solid, const std::string& path) {
   try {
-    return core::inner_points(solid);
+    return core::interior_points(solid);
   } catch (const core::CoreError& error) {
     throw error_from_core(error, path);
   }

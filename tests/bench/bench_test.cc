@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "forked.h"
 #include "growth.h"
 #include "job.h"

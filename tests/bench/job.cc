@@ -8,13 +8,13 @@
 
 #include "clocks.h"
 #include "core/base/execution_context.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "wire/direction_order.h"
 
 namespace affskel::bench {
 namespace {
 
-constexpr std::size_t kMostBatches = 256;
+constexpr std::size_t kMaxBatches = 256;
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -80,7 +80,7 @@ void Job::run(std::size_t begin, std::size_t end) {
 }
 
 std::vector<Batch> Job::run_in_batches(std::size_t begin, std::size_t end) {
-  const std::size_t step = (end - begin + kMostBatches - 1) / kMostBatches;
+  const std::size_t step = (end - begin + kMaxBatches - 1) / kMaxBatches;
   std::vector<Batch> batches;
   for (std::size_t at = begin; at < end; at += step) {
     const JobCost before = cost_;

@@ -10,8 +10,8 @@ namespace affskel::bench {
 namespace {
 
 // make_sphere() goes no further.
-constexpr std::uint32_t kMostTriangles = std::uint32_t{1} << 26;
-constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 31;
+constexpr std::uint32_t kMaxTriangles = std::uint32_t{1} << 26;
+constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 31;
 
 RowSpec job_of(std::uint32_t triangles, std::uint64_t points) {
   RowSpec row;
@@ -74,7 +74,7 @@ std::vector<LimitSearch> find_limits(MeshStore& meshes, const LimitOptions& opti
   std::vector<LimitSearch> searches(2);
   searches[0].what = "triangles N";
   for (std::uint32_t n = options.first_triangles;; n *= 2) {
-    if (n > kMostTriangles) {
+    if (n > kMaxTriangles) {
       searches[0].reason = "the generator's limit";
       break;
     }
@@ -82,7 +82,7 @@ std::vector<LimitSearch> find_limits(MeshStore& meshes, const LimitOptions& opti
   }
   searches[1].what = "points R";
   for (std::uint64_t r = options.first_points;; r *= 2) {
-    if (r > kMostPoints) {
+    if (r > kMaxPoints) {
       searches[1].reason = "the lattice's limit";
       break;
     }

@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/mesh/mesh_io.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 #include "forked.h"
 
 namespace affskel::bench {

@@ -82,7 +82,7 @@ void print_hash(const char* name, const Mesh& mesh, const std::string& direction
   ExecutionContext context;
   erosion.run(list, context);
   Hash hash;
-  for (const Vec3& axis : lattice.frame.axes) {
+  for (const Vec3& axis : lattice.grid.axes) {
     if (frame == FrameKind::kAxis) break;  // known, and not in the hashes of old
     for (int k = 0; k < 3; ++k) hash.add(axis[k]);
   }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/affine_map.h"
-#include "core/solid/inner_points.h"
+#include "core/mesh/map_mesh.h"
+#include "core/quality/interior_points.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"
@@ -57,7 +57,7 @@ SimilarityStudy study(const std::vector<Images>& all, Operator shock_operator) {
   const Images& first = all[0];
   const Cloud measure = mapped(first.maps[0].map, skeleton_by(shock_operator, first.original));
   SimilarityStudy result{{},
-                         core::DistanceCurve(core::inner_points(first.moved[0].solid), measure.place),
+                         core::DistanceCurve(core::interior_points(first.moved[0].solid), measure.place),
                          first.original.lattice.spacing};
   for (const Images& images : all) {
     const Cloud skeleton = skeleton_by(shock_operator, images.original);

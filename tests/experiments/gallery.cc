@@ -19,7 +19,7 @@ constexpr Rgb kFaint{0.45f, 0.48f, 0.52f};
 constexpr Rgb kSurface{0.93f, 0.62f, 0.28f};
 constexpr double kText = 13;    // height of a capital letter, pixels
 constexpr double kMargin = 22;  // round a view, pixels
-constexpr double kMostHeight = 900;
+constexpr double kMaxHeight = 900;
 
 View view_of(Side side) {
   switch (side) {
@@ -113,7 +113,7 @@ Image gallery(const std::vector<Exhibit>& exhibits, const GalleryOptions& option
     }
   }
   const double room = options.width - 2 * kMargin * static_cast<double>(extents.size());
-  const double scale = std::min(room / across, kMostHeight / tallest);
+  const double scale = std::min(room / across, kMaxHeight / tallest);
   const double spare = (room - scale * across) / static_cast<double>(extents.size());
   const int head = static_cast<int>(1.9 * kText * static_cast<double>(lines) + 2.6 * kText);
   const int height = static_cast<int>(std::ceil(scale * tallest + kMargin));

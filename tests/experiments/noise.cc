@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "core/mesh/perturb.h"
-#include "core/solid/inner_points.h"
+#include "core/quality/interior_points.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"
@@ -15,8 +15,8 @@ constexpr double kPublishedShare = 0.94;
 
 struct Level {
   std::string name, colour;
-  double sigma = 0;        // mesh units
-  double least_share = 0;  // of similar points, at least
+  double sigma = 0;      // mesh units
+  double min_share = 0;  // of similar points, at least
 };
 
 std::vector<Level> levels(const core::Mesh& mesh) {
@@ -50,7 +50,7 @@ Bodies compute_bodies(const Setting& setting, std::uint32_t triangles, double dt
 SimilarityStudy study(const Bodies& bodies, Operator shock_operator, Report& report) {
   const Cloud skeleton = skeleton_by(shock_operator, bodies.clean);
   SimilarityStudy result{
-      {}, core::DistanceCurve(core::inner_points(bodies.clean.solid), skeleton.place), bodies.dt()};
+      {}, core::DistanceCurve(core::interior_points(bodies.clean.solid), skeleton.place), bodies.dt()};
   for (std::size_t n = 0; n < bodies.noisy.size(); ++n) {
     const Level& level = bodies.levels[n];
     const Cloud other = skeleton_by(shock_operator, bodies.noisy[n]);
@@ -58,7 +58,7 @@ SimilarityStudy study(const Bodies& bodies, Operator shock_operator, Report& rep
                             core::similarity(skeleton.place, other.place)});
     report.expect(format("noise of %s, body of %u, dT %g, %s: lesser share within a voxel diagonal",
                          level.name.c_str(), bodies.triangles, bodies.dt(), name_of(shock_operator)),
-                  result.lesser_share(n), level.least_share, 1);
+                  result.lesser_share(n), level.min_share, 1);
   }
   report.subsection(
       format("Body of %u triangles, dT = %g, %s", bodies.triangles, bodies.dt(), name_of(shock_operator)));

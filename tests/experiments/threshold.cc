@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "core/solid/surface_samples.h"
-#include "core/surface/surface.h"
+#include "core/surface/alpha_shape.h"
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"
@@ -63,9 +63,9 @@ void write_thresholds(const Job& job, const std::vector<Result>& results, Report
 }
 
 void write_surface(const Job& job, const Cloud& skeleton, Report& report) {
-  core::AlphaSurfaceOptions options;
+  core::AlphaShapeOptions options;
   options.spacing = job.lattice.spacing;
-  const core::Mesh surface = core::alpha_surface(skeleton.place, options);
+  const core::Mesh surface = core::alpha_shape(skeleton.place, options);
   const double area = core::surface_area(surface);
   report.section("The skeleton as a surface (6.2.1, figure 6.11)");
   report.table({{"skeleton", "triangles of its alpha shape", "points used", "area"},

@@ -14,7 +14,7 @@ namespace affskel::property {
 namespace {
 
 using core::FieldValue;
-using core::LatticeFrame;
+using core::LatticeGrid;
 using core::Mesh;
 using core::Vec3;
 
@@ -85,16 +85,16 @@ Mesh draw_crooked_solid() {
   return mesh;
 }
 
-LatticeFrame draw_frame(const Mesh& mesh, double points) {
+LatticeGrid draw_grid(const Mesh& mesh, double points) {
   const core::Solid solid = core::make_solid(mesh);
   const double spacing = std::cbrt(solid.volume / points);
   const Vec3 side = solid.bbox_max - solid.bbox_min;
-  LatticeFrame frame;
-  frame.origin = solid.bbox_min + spacing * Vec3{draw(0.05, 0.95), draw(0.05, 0.95), draw(0.05, 0.95)};
-  frame.axes = {Vec3{spacing, 0, 0}, {0, spacing, 0}, {0, 0, spacing}};
+  LatticeGrid grid;
+  grid.origin = solid.bbox_min + spacing * Vec3{draw(0.05, 0.95), draw(0.05, 0.95), draw(0.05, 0.95)};
+  grid.axes = {Vec3{spacing, 0, 0}, {0, spacing, 0}, {0, 0, spacing}};
   for (int k = 0; k < 3; ++k)
-    frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(std::ceil(side[k] / spacing));
-  return frame;
+    grid.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(std::ceil(side[k] / spacing));
+  return grid;
 }
 
 std::vector<std::uint32_t> draw_order(std::size_t count) {
@@ -109,7 +109,7 @@ Mesh AffineMap::mesh(Mesh m) const {
   return m;
 }
 
-LatticeFrame AffineMap::frame(const LatticeFrame& f) const {
+LatticeGrid AffineMap::grid(const LatticeGrid& f) const {
   return {point(f.origin), {vector(f.axes[0]), vector(f.axes[1]), vector(f.axes[2])}, f.dims};
 }
 
@@ -123,19 +123,19 @@ AffineMap draw_unimodular_map() {
           {draw(-3, 3), draw(-3, 3), draw(-3, 3)}};
 }
 
-Field prepare(const Mesh& mesh, const LatticeFrame& frame, const std::string& directions) {
+Field prepare(const Mesh& mesh, const LatticeGrid& grid, const std::string& directions) {
   Field field{core::make_solid(mesh), {}, {}, {}};
   const double unit = 1 / field.solid.scale();
   field.lattice =
-      core::make_lattice(field.solid, {unit * (frame.origin - field.solid.centre),
-                                       {unit * frame.axes[0], unit * frame.axes[1], unit * frame.axes[2]},
-                                       frame.dims});
+      core::make_lattice(field.solid, {unit * (grid.origin - field.solid.centre),
+                                       {unit * grid.axes[0], unit * grid.axes[1], unit * grid.axes[2]},
+                                       grid.dims});
   field.directions = core::make_directions(field.solid, directions);
   return field;
 }
 
-std::vector<FieldValue> inner_values(const Field& field, const std::vector<std::uint32_t>& list,
-                                     unsigned threads) {
+std::vector<FieldValue> scaled_values(const Field& field, const std::vector<std::uint32_t>& list,
+                                      unsigned threads) {
   core::Erosion erosion(field.solid, field.lattice, field.directions, {threads, false, true});
   core::ExecutionContext context;
   erosion.run(list, context);
@@ -159,7 +159,7 @@ Field prepare_affine(const Mesh& mesh, const std::string& directions, std::uint6
 void compute_values(Field& field) {
   std::vector<std::uint32_t> all(field.directions.size());
   std::iota(all.begin(), all.end(), 0U);
-  field.value = inner_values(field, all);
+  field.value = scaled_values(field, all);
   const double unit = field.solid.scale();
   for (FieldValue& value : field.value) {
     value.erosion *= unit * unit * unit;
@@ -167,8 +167,8 @@ void compute_values(Field& field) {
   }
 }
 
-Field compute(const Mesh& mesh, const LatticeFrame& frame, const std::string& directions) {
-  Field field = prepare(mesh, frame, directions);
+Field compute(const Mesh& mesh, const LatticeGrid& grid, const std::string& directions) {
+  Field field = prepare(mesh, grid, directions);
   compute_values(field);
   return field;
 }

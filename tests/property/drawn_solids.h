@@ -31,7 +31,7 @@ core::Mesh draw_crooked_solid();
 
 /// About `points` sample points in an axis-parallel lattice with a random offset, so that no point keeps to
 /// the solid's planes of symmetry.  In mesh units, unlike the core's own frames.
-core::LatticeFrame draw_frame(const core::Mesh& mesh, double points = 150);
+core::LatticeGrid draw_grid(const core::Mesh& mesh, double points = 150);
 
 /// A random order of 0 .. count - 1.
 std::vector<std::uint32_t> draw_order(std::size_t count);
@@ -44,7 +44,7 @@ struct AffineMap {
   core::Vec3 vector(const core::Vec3& v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
   core::Vec3 point(const core::Vec3& p) const { return vector(p) + shift; }
   core::Mesh mesh(core::Mesh m) const;
-  core::LatticeFrame frame(const core::LatticeFrame& f) const;
+  core::LatticeGrid grid(const core::LatticeGrid& f) const;
 };
 
 /// Determinant 1 to rounding: shears by up to 1 and stretches between 1/2 and 2 along each axis.
@@ -61,7 +61,7 @@ struct Field {
 };
 
 /// The parts of a field but its values.
-Field prepare(const core::Mesh& mesh, const core::LatticeFrame& frame, const std::string& directions);
+Field prepare(const core::Mesh& mesh, const core::LatticeGrid& grid, const std::string& directions);
 
 /// The parts of a field but its values, in the solid's affine frame: about `points` sample points.
 Field prepare_affine(const core::Mesh& mesh, const std::string& directions, std::uint64_t points = 150);
@@ -69,12 +69,12 @@ Field prepare_affine(const core::Mesh& mesh, const std::string& directions, std:
 /// The values of a prepared field, of all its directions.
 void compute_values(Field& field);
 
-/// Values of the directions `list` alone, inner units, as they come from the core.
-std::vector<core::FieldValue> inner_values(const Field& field, const std::vector<std::uint32_t>& list,
-                                           unsigned threads = 1);
+/// Values of the directions `list` alone, scaled units, as they come from the core.
+std::vector<core::FieldValue> scaled_values(const Field& field, const std::vector<std::uint32_t>& list,
+                                            unsigned threads = 1);
 
 /// The whole field.
-Field compute(const core::Mesh& mesh, const core::LatticeFrame& frame,
+Field compute(const core::Mesh& mesh, const core::LatticeGrid& grid,
               const std::string& directions = "triangles");
 
 /// How far two fields differ, point by point.

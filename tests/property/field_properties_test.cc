@@ -18,7 +18,7 @@ namespace affskel::property {
 namespace {
 
 using core::FieldValue;
-using core::LatticeFrame;
+using core::LatticeGrid;
 using core::Mesh;
 using core::Vec3;
 
@@ -54,9 +54,9 @@ double draw_part() {
 RC_GTEST_PROP(FieldProperties, UnimodularMapsLeaveEUnchanged, ()) {
   static Record record("affine map");
   const Mesh mesh = draw_solid();
-  const LatticeFrame frame = draw_frame(mesh);
+  const LatticeGrid grid = draw_grid(mesh);
   const AffineMap map = draw_unimodular_map();
-  const Deviation d = deviation(compute(mesh, frame), compute(map.mesh(mesh), map.frame(frame)), 1e-9, 1e-11);
+  const Deviation d = deviation(compute(mesh, grid), compute(map.mesh(mesh), map.grid(grid)), 1e-9, 1e-11);
   record.add(d);
   RC_ASSERT(d.of_bound <= 1);
 }
@@ -68,7 +68,7 @@ bool attains(const Field& field, const std::vector<std::uint32_t>& mine) {
   for (std::size_t p = 0; p < mine.size(); ++p) {
     if (mine[p] == field.value[p].direction) continue;
     const auto [at, fresh] = alone.try_emplace(mine[p]);
-    if (fresh) at->second = inner_values(field, {mine[p]});
+    if (fresh) at->second = scaled_values(field, {mine[p]});
     if (at->second[p].erosion * unit > field.value[p].erosion + 1e-11 * field.volume()) return false;
   }
   return true;
@@ -109,7 +109,7 @@ RC_GTEST_PROP(FieldProperties, AffineFramesMakeTheWholeJobInvariant, ()) {
   Field before = prepare_affine(mesh, directions), after = prepare_affine(map.mesh(mesh), directions);
   RC_PRE(!before.solid.self_intersecting &&
          !after.solid.self_intersecting);  // bent into itself: E is not defined
-  RC_ASSERT(before.lattice.frame.dims == after.lattice.frame.dims);
+  RC_ASSERT(before.lattice.grid.dims == after.lattice.grid.dims);
   RC_ASSERT(before.lattice.points == after.lattice.points);
   RC_ASSERT(place_deviation(before, after, map) < 1e-10);
   RC_ASSERT(direction_deviation(before, after, map) < 1e-9);
@@ -126,11 +126,11 @@ RC_GTEST_PROP(FieldProperties, AffineFramesMakeTheWholeJobInvariant, ()) {
 RC_GTEST_PROP(FieldProperties, ScalingMultipliesEByItsCube, ()) {
   static Record record("scaling");
   const Mesh mesh = draw_solid();
-  const LatticeFrame frame = draw_frame(mesh);
+  const LatticeGrid grid = draw_grid(mesh);
   const double s = std::exp(20 * draw_part());  // 2e-9 .. 5e8
   const AffineMap map = {{Vec3{s, 0, 0}, {0, s, 0}, {0, 0, s}}, {}};
   const Deviation d =
-      deviation(compute(mesh, frame), compute(map.mesh(mesh), map.frame(frame)), 1e-9, 1e-11, s * s * s);
+      deviation(compute(mesh, grid), compute(map.mesh(mesh), map.grid(grid)), 1e-9, 1e-11, s * s * s);
   record.add(d);
   RC_ASSERT(d.of_bound <= 1);
 }
@@ -140,12 +140,12 @@ RC_GTEST_PROP(FieldProperties, ScalingMultipliesEByItsCube, ()) {
 RC_GTEST_PROP(FieldProperties, FarTranslationKeepsSixDigits, ()) {
   static Record record("translation by 1e6 sizes");
   const Mesh mesh = draw_solid();
-  const LatticeFrame frame = draw_frame(mesh);
+  const LatticeGrid grid = draw_grid(mesh);
   const core::Solid solid = core::make_solid(mesh);
   const double far = 1e6 * norm(solid.bbox_max - solid.bbox_min);
   const AffineMap map = {{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                          far * Vec3{draw_part(), draw_part(), draw_part()}};
-  const Deviation d = deviation(compute(mesh, frame), compute(map.mesh(mesh), map.frame(frame)), 1e-6, 2e-8);
+  const Deviation d = deviation(compute(mesh, grid), compute(map.mesh(mesh), map.grid(grid)), 1e-6, 2e-8);
   record.add(d);
   RC_ASSERT(d.of_bound <= 1);
 }
@@ -172,9 +172,9 @@ Shuffled draw_shuffled(const Mesh& mesh) {
 RC_GTEST_PROP(FieldProperties, OrderOfTrianglesAndVerticesChangesIndicesOnly, ()) {
   static Record record("permutation");
   const Mesh mesh = draw_solid();
-  const LatticeFrame frame = draw_frame(mesh);
+  const LatticeGrid grid = draw_grid(mesh);
   const Shuffled shuffled = draw_shuffled(mesh);
-  const Field before = compute(mesh, frame), after = compute(shuffled.mesh, frame);
+  const Field before = compute(mesh, grid), after = compute(shuffled.mesh, grid);
   const Deviation d = deviation(before, after, 1e-12, 1e-12);
   record.add(d);
   RC_ASSERT(d.of_bound <= 1);
@@ -192,8 +192,8 @@ bool same_bytes(const std::vector<FieldValue>& a, const std::vector<FieldValue>&
 
 RC_GTEST_PROP(FieldProperties, ReversingAllTrianglesChangesNothing, ()) {
   const Mesh mesh = draw_solid();
-  const LatticeFrame frame = draw_frame(mesh);
-  RC_ASSERT(same_bytes(compute(mesh, frame).value, compute(core::reversed(mesh), frame).value));
+  const LatticeGrid grid = draw_grid(mesh);
+  RC_ASSERT(same_bytes(compute(mesh, grid).value, compute(core::reversed(mesh), grid).value));
 }
 
 // Copies side by side along x, whole steps of the lattice apart: line by line its points are those of the
@@ -201,14 +201,14 @@ RC_GTEST_PROP(FieldProperties, ReversingAllTrianglesChangesNothing, ()) {
 RC_GTEST_PROP(FieldProperties, DisjointCopiesHaveCopiesOfE, ()) {
   static Record record("copies");
   const Mesh mesh = draw_solid();
-  LatticeFrame frame = draw_frame(mesh);
+  LatticeGrid grid = draw_grid(mesh);
   const auto copies = draw_in(2U, 5U);
   Mesh many = mesh;
-  LatticeFrame wide = frame;
+  LatticeGrid wide = grid;
   wide.dims[0] *= copies;
-  const double step = frame.dims[0] * frame.axes[0].x;  // at least the width
+  const double step = grid.dims[0] * grid.axes[0].x;  // at least the width
   for (std::uint32_t k = 1; k < copies; ++k) many = joined(many, core::moved(mesh, {k * (step), 0, 0}));
-  const Field one = compute(mesh, frame), all = compute(many, wide);
+  const Field one = compute(mesh, grid), all = compute(many, wide);
   RC_ASSERT(all.value.size() == copies * one.value.size());
   for (std::uint32_t k = 0; k < copies; ++k) {
     Field part = all;
@@ -220,7 +220,7 @@ RC_GTEST_PROP(FieldProperties, DisjointCopiesHaveCopiesOfE, ()) {
   }
 }
 
-// The merge that the service relies on (design section 3).
+// The merge that the service relies on: commutative, associative, idempotent.
 void merge(std::vector<FieldValue>& into, const std::vector<FieldValue>& from) {
   for (std::size_t p = 0; p < into.size(); ++p) {
     if (from[p].improves(into[p])) into[p] = from[p];
@@ -239,12 +239,12 @@ std::vector<std::uint32_t> range(std::uint32_t begin, std::uint32_t end) {
 
 RC_GTEST_PROP(FieldProperties, MoreDirectionsNeverRaiseE, ()) {
   const Mesh mesh = draw_solid();
-  const Field field = prepare(mesh, draw_frame(mesh), draw_directions());
+  const Field field = prepare(mesh, draw_grid(mesh), draw_directions());
   const auto count = static_cast<std::uint32_t>(field.directions.size());
   const auto few = draw_in(1U, count);
-  const std::vector<FieldValue> some = inner_values(field, range(0, few)),
-                                rest = inner_values(field, range(few, count)),
-                                all = inner_values(field, range(0, count));
+  const std::vector<FieldValue> some = scaled_values(field, range(0, few)),
+                                rest = scaled_values(field, range(few, count)),
+                                all = scaled_values(field, range(0, count));
   for (std::size_t p = 0; p < all.size(); ++p) {
     RC_ASSERT(all[p].erosion == std::min(some[p].erosion, rest[p].erosion));
     // On equal terms the earlier one stays.
@@ -254,10 +254,10 @@ RC_GTEST_PROP(FieldProperties, MoreDirectionsNeverRaiseE, ()) {
 
 RC_GTEST_PROP(FieldProperties, AnySplitIntoBlocksMergesToTheSameBytes, ()) {
   const Mesh mesh = draw_solid();
-  const Field field = prepare(mesh, draw_frame(mesh), draw_directions());
+  const Field field = prepare(mesh, draw_grid(mesh), draw_directions());
   const std::vector<std::uint32_t> order = draw_order(field.directions.size());
   const std::vector<FieldValue> whole =
-      inner_values(field, range(0, static_cast<std::uint32_t>(order.size())));
+      scaled_values(field, range(0, static_cast<std::uint32_t>(order.size())));
   // Every direction goes to one block at random, and now and then to a second one.
   std::vector<std::vector<std::uint32_t>> blocks(draw_in<std::size_t>(1, 9));
   for (const std::uint32_t direction : order) {
@@ -266,8 +266,8 @@ RC_GTEST_PROP(FieldProperties, AnySplitIntoBlocksMergesToTheSameBytes, ()) {
   }
   std::vector<FieldValue> merged(whole.size());
   for (const std::uint32_t b : draw_order(blocks.size())) {
-    merge(merged, inner_values(field, blocks[b], draw_in(1U, 4U)));
-    if (draw_in(0, 4) == 0) merge(merged, inner_values(field, blocks[b]));  // reported twice
+    merge(merged, scaled_values(field, blocks[b], draw_in(1U, 4U)));
+    if (draw_in(0, 4) == 0) merge(merged, scaled_values(field, blocks[b]));  // reported twice
   }
   RC_ASSERT(same_bytes(merged, whole));
 }

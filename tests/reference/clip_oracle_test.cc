@@ -153,13 +153,13 @@ void compare(const Plan& plan) {
 }
 
 // A lattice of 3 x 3 x 3 points close round x; its middle is x.
-core::LatticeFrame close_frame(const core::Solid& solid, const Vec3& x) {
+core::LatticeGrid close_frame(const core::Solid& solid, const Vec3& x) {
   constexpr double kStep = 1e-6;
-  core::LatticeFrame frame;
-  frame.axes = {Vec3{kStep, 0, 0}, {0, kStep, 0}, {0, 0, kStep}};
-  frame.origin = (1 / solid.scale()) * (x - solid.centre) - Vec3{kStep, kStep, kStep};
-  frame.dims = {3, 3, 3};
-  return frame;
+  core::LatticeGrid grid;
+  grid.axes = {Vec3{kStep, 0, 0}, {0, kStep, 0}, {0, 0, kStep}};
+  grid.origin = (1 / solid.scale()) * (x - solid.centre) - Vec3{kStep, kStep, kStep};
+  grid.dims = {3, 3, 3};
+  return grid;
 }
 
 // x's chord, or nothing when x is not inside, or too close to the surface to tell.
@@ -167,7 +167,7 @@ std::optional<double> core_chord(const Comparison& comparison, const Vec3& x, co
   try {
     const core::Lattice lattice = core::make_lattice(comparison.solid(), close_frame(comparison.solid(), x));
     if (lattice.points != 27) return {};
-    core::LatticeFrame middle = lattice.frame;
+    core::LatticeGrid middle = lattice.grid;
     middle.origin = middle.origin + middle.axes[0] + middle.axes[1] + middle.axes[2];
     middle.dims = {1, 1, 1};
     return comparison.core_chords(core::make_lattice(comparison.solid(), middle), d)[0];

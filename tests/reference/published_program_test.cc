@@ -111,11 +111,11 @@ class Limit {
   }
 
   void sweep_run(const core::LatticeRun& run, const Vec3& d, const JoinTree& tree, const Stretch& stretch) {
-    const core::LatticeFrame& frame = lattice_.frame;
-    const std::uint32_t foot = dot(d, frame.axes[2]) >= 0 ? run.low : run.high;
+    const core::LatticeGrid& grid = lattice_.grid;
+    const std::uint32_t foot = dot(d, grid.axes[2]) >= 0 ? run.low : run.high;
     for (std::uint32_t n = 0; n < run.length; ++n) {
-      const Vec3 x = frame.origin + run.start[0] * frame.axes[0] + run.start[1] * frame.axes[1] +
-                     (run.start[2] + n) * frame.axes[2];
+      const Vec3 x = grid.origin + run.start[0] * grid.axes[0] + run.start[1] * grid.axes[1] +
+                     (run.start[2] + n) * grid.axes[2];
       const double h = dot(d, x);
       if (h < stretch.begin || h > stretch.end) continue;
       const std::uint32_t arc = tree.climb(foot, h);
@@ -128,7 +128,7 @@ class Limit {
   core::Solid solid_;
   core::Lattice lattice_;
   std::vector<double> erosion_;
-  double half_ = 0;  // v0 / 2, inner units
+  double half_ = 0;  // v0 / 2, scaled units
 };
 
 struct Difference {

@@ -1,35 +1,32 @@
 #include "derive/operator_skeleton.h"
 
 #include <bit>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "core/shocks/skeleton.h"
-#include "core/surface/surface.h"
+#include "core/shocks/zucker_hummel.h"
+#include "core/surface/alpha_shape.h"
 #include "derive/messages.h"
+#include "enum_word.h"
 #include "result_bytes.h"
+#include "wire/params.h"
 
 namespace affskel::worker {
 namespace {
 
+// The server fills in this default by itself.
+static_assert(wire::kZuckerHummelThreshold == core::kZuckerHummelThreshold);
+
 core::ShockOperator core_operator(v1::Operator which) {
-  switch (which) {
-    case v1::OPERATOR_UNSPECIFIED:
-    case v1::OPERATOR_ZUCKER_HUMMEL:
-      return core::ShockOperator::kZuckerHummel;
-    case v1::OPERATOR_INTERMEDIATE:
-      return core::ShockOperator::kIntermediate;
-    case v1::OPERATOR_CENTRAL:
-      return core::ShockOperator::kCentral;
-    case v1::OPERATOR_SOBEL:
-      return core::ShockOperator::kSobel;
-    case v1::OPERATOR_FLUX:
-      return core::ShockOperator::kFlux;
-    default:
-      throw core::CoreError(core::CoreError::Code::kBadInput,
-                            "this worker does not know the skeleton operator; update the worker");
-  }
+  if (which == v1::OPERATOR_UNSPECIFIED) return core::ShockOperator::kZuckerHummel;
+  const std::optional<core::ShockOperator> found =
+      core::shock_operator_named(enum_word(v1::Operator_Name(which), "OPERATOR_"));
+  if (found) return *found;
+  throw core::CoreError(core::CoreError::Code::kBadInput,
+                        "this worker does not know the skeleton operator; update the worker");
 }
 
 std::vector<double> divergence_of(const FinishedField& field, core::ShockOperator which) {
@@ -79,10 +76,10 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
   std::vector<core::Vec3> points;
   for (const core::LatticePlace& place : places_of(field, kept)) points.push_back(field.in_frame(place));
   field.throw_if_stopped();
-  core::AlphaSurfaceOptions options;
+  core::AlphaShapeOptions options;
   options.alpha = params.alpha();
   options.spacing = field.lattice().spacing;
-  const core::Mesh surface = core::alpha_surface(points, options);
+  const core::Mesh surface = core::alpha_shape(points, options);
   v1::TriangleMesh message;
   for (const core::Vec3& p : surface.points) append(field.to_mesh(p), message.mutable_xyz());
   append_corners(surface, message);

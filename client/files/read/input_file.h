@@ -5,7 +5,7 @@
 
 #include "client/base/error.h"
 #include "client/cli/console.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/solid/solid.h"
 
 namespace affskel::client {

@@ -4,7 +4,7 @@
 #include <array>
 #include <tuple>
 
-#include "core/mesh/same_place.h"
+#include "core/mesh/coincident_points.h"
 
 namespace affskel::client {
 namespace {
@@ -57,7 +57,7 @@ std::vector<std::pair<Corners, std::uint32_t>> proper_triangles(const core::OffM
                                                                 std::vector<MeshDefect>& defects) {
   Collector degenerate("degenerate-triangles", "triangle has two corners at one place",
                        "triangles have two corners at one place", off);
-  const std::vector<std::uint32_t> first = core::first_at_same_place(off.mesh.points);
+  const std::vector<std::uint32_t> first = core::first_coincident_point(off.mesh.points);
   std::vector<std::pair<Corners, std::uint32_t>> proper;
   for (std::uint32_t t = 0; t < off.mesh.triangles.size(); ++t) {
     Corners corners{};

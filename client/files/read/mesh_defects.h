@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 
 namespace affskel::client {
 

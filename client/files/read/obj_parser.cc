@@ -1,5 +1,5 @@
 #include "client/files/read/shape_parsers.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "client/files/read/shape_parsers.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

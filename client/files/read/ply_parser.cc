@@ -12,7 +12,7 @@
 #include "client/files/read/shape_parsers.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

@@ -3,15 +3,15 @@
 #include <string>
 
 #include "client/files/read/shape_parsers.h"
-#include "core/mesh/same_place.h"
-#include "core/mesh/text_rows.h"
+#include "core/mesh/coincident_points.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {
 
 // STL repeats every corner; equal ones become one vertex, in the order of their first appearance.
 ShapeFile joined(const std::vector<core::Vec3>& corners) {
-  const std::vector<std::uint32_t> first = core::first_at_same_place(corners);
+  const std::vector<std::uint32_t> first = core::first_coincident_point(corners);
   ShapeFile file;
   core::Mesh& mesh = file.off.mesh;
   std::vector<std::uint32_t> vertex(corners.size());

@@ -14,7 +14,7 @@
 
 #include "client/files/base64.h"
 #include "client/files/read/shape_parsers.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

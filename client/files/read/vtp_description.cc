@@ -6,7 +6,7 @@
 #include "client/files/read/shape_parsers.h"
 #include "client/files/read/xml_reader.h"
 #include "core/base/number_text.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

@@ -10,7 +10,7 @@
 #include "client/files/read/vtp_description.h"
 #include "client/files/vtk_arrays.h"
 #include "core/base/number_text.h"
-#include "core/mesh/text_rows.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::client {
 namespace {

@@ -7,7 +7,7 @@
 #include "client/base/error.h"
 #include "client/files/write/shape_writer.h"
 #include "client/files/write/shape_writers.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 
 namespace affskel::client {
 namespace {

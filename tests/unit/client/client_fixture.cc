@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "sample_data.h"
 #include "test_environment.h"

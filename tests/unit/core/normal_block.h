@@ -19,11 +19,11 @@ class NormalBlock {
   explicit NormalBlock(const Place& dims, double spacing = 1)
       : solid(make_solid(make_box(spacing * dims[0], spacing * dims[1], spacing * dims[2]))), dims_(dims) {
     const double step = spacing / solid.scale();
-    LatticeFrame frame;
-    frame.axes = {Vec3{step, 0, 0}, {0, step, 0}, {0, 0, step}};
-    frame.origin = -0.5 * step * Vec3{dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0};
-    frame.dims = dims;
-    lattice = make_lattice(solid, frame);
+    LatticeGrid grid;
+    grid.axes = {Vec3{step, 0, 0}, {0, step, 0}, {0, 0, step}};
+    grid.origin = -0.5 * step * Vec3{dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0};
+    grid.dims = dims;
+    lattice = make_lattice(solid, grid);
     lattice.spacing = spacing;
   }
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <system_error>
 
-#include "core/mesh/mesh_io.h"
 #include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 
 namespace affskel::worker {
 namespace {

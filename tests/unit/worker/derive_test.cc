@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/base/affine_map.h"
-#include "core/mesh/mesh_io.h"
+#include "core/mesh/map_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/stopping_context.h"
+#include "core/text/off_file.h"
 #include "sample_job.h"
 
 namespace affskel::worker {
@@ -55,7 +55,7 @@ TEST_F(DeriveTest, StopsWhereverItIsAsked) {
   }
   const v1::Lease eroded = lease_of(v1::TASK_KIND_ERODED_SURFACE);
   core::expect_stops_wherever_it_is_asked(
-      prepared_.lattice().frame.dims[0],
+      prepared_.lattice().grid.dims[0],
       [&](core::ExecutionContext* context) { derive(eroded, prepared_, field_, context); });
 }
 

@@ -139,6 +139,22 @@ TEST_F(LoopTest, RefusesToDeriveFromAnotherLattice) {
   EXPECT_EQ(server_.completions().size(), 1U);
 }
 
+// As a host would whose search for the spacing of so many points ends one rounding away.
+TEST_F(LoopTest, LaysTheLatticeOfThePreparedSpacing) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_target_points(2000);
+  const PreparedJob searched(sample_mesh(), params);
+  const double elsewhere = std::nextafter(searched.lattice().spacing, 0.0);
+  server_.set_input(v1::ARTIFACT_KIND_FIELD, finished_field(searched));
+  v1::Lease lease = derive_lease(searched, "a", v1::TASK_KIND_SKELETON);
+  *lease.mutable_job()->mutable_params() = params;
+  lease.mutable_job()->mutable_prepared()->set_spacing(elsewhere);
+  offer(lease);
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(server_.failures().size(), 0U);
+  EXPECT_EQ(server_.completions().size(), 1U);
+}
+
 TEST_F(LoopTest, FailsATaskForGoodOnABadMeshAndParameter) {
   server_.set_input(v1::ARTIFACT_KIND_MESH, "OFF\n1 0 0\n0 0\n");
   offer(other_lease("a", v1::TASK_KIND_PREPARE));

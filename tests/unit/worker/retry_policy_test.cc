@@ -88,8 +88,10 @@ TEST(RetryPolicy, PatienceBeginsAnewWithEveryAnswer) {
   RetryPolicy policy(kPatience, 7);
   EXPECT_EQ(policy.after(grpc::StatusCode::RESOURCE_EXHAUSTED, milliseconds(500000), false).verdict,
             Verdict::kAgain);
-  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(530000), false).verdict, Verdict::kAgain);
-  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(560001), false).verdict, Verdict::kServerGone);
+  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(530000), false).verdict,
+            Verdict::kAgain);
+  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(560001), false).verdict,
+            Verdict::kServerGone);
 }
 
 TEST(RetryPolicy, WhatCannotSucceedIsNotTriedAgain) {

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "core/mesh/mesh_io.h"
 #include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 #include "wire/direction_order.h"
 
 namespace affskel::worker {

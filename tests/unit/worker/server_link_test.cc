@@ -63,8 +63,9 @@ TEST_F(LinkTest, SaysOnceThatTheServerIsAway) {
 TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {
   server_.fail_next("RenewLease", {grpc::StatusCode::ABORTED, "fenced"});
   EXPECT_THROW(link().renew("t"), LeaseLost);
-  EXPECT_THROW(ServerLink({"unix:/nowhere/server.sock", std::chrono::seconds(0)}, stop_.get_token()).renew("t"),
-               ServerGone);
+  EXPECT_THROW(
+      ServerLink({"unix:/nowhere/server.sock", std::chrono::seconds(0)}, stop_.get_token()).renew("t"),
+      ServerGone);
 }
 
 TEST_F(LinkTest, FetchesAgainWhatArrivedDamaged) {

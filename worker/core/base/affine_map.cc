@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/plain_math.h"
@@ -35,12 +33,6 @@ double triple(const std::array<Vec3, 3>& rows) {
 
 std::array<Vec3, 3> cofactors(const std::array<Vec3, 3>& rows) {
   return {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
-}
-
-void check_regular(const AffineMap& map) {
-  if (is_singular(map)) {
-    throw CoreError(CoreError::Code::kBadInput, "the map is singular or out of range: it has no inverse");
-  }
 }
 
 }  // namespace
@@ -112,8 +104,14 @@ bool is_singular(const AffineMap& map) {
   return std::abs(triple(rows)) < 1e-12 * norm(rows[0]) * norm(rows[1]) * norm(rows[2]);
 }
 
+void require_regular(const AffineMap& map) {
+  if (is_singular(map)) {
+    throw CoreError(CoreError::Code::kBadInput, "the map is singular or out of range: it has no inverse");
+  }
+}
+
 AffineMap inverse(const AffineMap& map) {
-  check_regular(map);
+  require_regular(map);
   double unit = 0;
   const std::array<Vec3, 3> rows = scaled_rows(map, unit);
   const std::array<Vec3, 3> c = cofactors(rows);
@@ -129,7 +127,7 @@ AffineMap inverse(const AffineMap& map) {
 }
 
 NormalMap::NormalMap(const AffineMap& map) {
-  check_regular(map);
+  require_regular(map);
   double unit = 0;
   const std::array<Vec3, 3> rows = scaled_rows(map, unit);
   cofactors_ = cofactors(rows);
@@ -147,22 +145,6 @@ Vec3 NormalMap::operator()(const Vec3& n) const {
   const double length = turned_ ? -norm(w) : norm(w);
   // Adding 0 turns a negative zero into a plain one.
   return Vec3{w.x / length, w.y / length, w.z / length} + Vec3{};
-}
-
-Mesh map_mesh(const AffineMap& map, const Mesh& mesh) {
-  check_regular(map);
-  Mesh result = mesh;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    result.points[v] = map(mesh.points[v]);
-    if (!is_finite(result.points[v])) {
-      throw CoreError(CoreError::Code::kBadInput,
-                      "the map takes vertex " + std::to_string(v) + " out of the range of a double");
-    }
-  }
-  if (determinant(map) < 0) {
-    for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
-  }
-  return result;
 }
 
 }  // namespace affskel::core

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "core/base/vec3.h"
-#include "core/mesh/mesh.h"
 
 namespace affskel::core {
 
@@ -36,6 +35,9 @@ double determinant(const AffineMap& map);
 bool is_singular(const AffineMap& map);
 
 /// @throws CoreError kBadInput when the map is singular.
+void require_regular(const AffineMap& map);
+
+/// @throws CoreError kBadInput when the map is singular.
 AffineMap inverse(const AffineMap& map);
 
 /// Maps normals of planes: a plane with the normal n becomes one with the normal M^-T n / |M^-T n|, and the
@@ -53,10 +55,5 @@ class NormalMap {
   bool turned_ = false;            // det M < 0
   bool identity_ = false;          // of M
 };
-
-/// The mesh with its points mapped; for a reflection the triangles are turned over, so that they still point
-/// outward.
-/// @throws CoreError kBadInput when the map is singular or a mapped coordinate is not finite.
-Mesh map_mesh(const AffineMap& map, const Mesh& mesh);
 
 }  // namespace affskel::core

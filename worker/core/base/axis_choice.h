@@ -8,9 +8,9 @@
 
 namespace affskel::core {
 
-// What a solid's symmetry leaves open about its axes is decided by those of the mesh.
+// Where a solid's symmetry leaves its axes open, the coordinate axes of the mesh decide.
 
-/// Of the largest: what counts as equal, or as 0.
+/// Values that differ by less than this share of the largest count as equal, smaller ones as 0.
 inline constexpr double kAxisTie = 1e-6;
 
 /// v / |v|; v is not 0.

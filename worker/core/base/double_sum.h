@@ -3,7 +3,7 @@
 namespace affskel::core {
 
 /// A number kept as an unevaluated sum of two doubles: about 104 bits, so that huge terms cancel and leave
-/// the small ones intact (Knuth's two-sum, Dekker 1971).
+/// the small ones intact (Knuth's two-sum, Dekker 1971).  The core's one compensated sum.
 struct DoubleSum {
   double hi = 0, lo = 0;
 

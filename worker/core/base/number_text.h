@@ -7,11 +7,18 @@
 
 namespace affskel::core {
 
-/// The shortest decimal text that reads back as `value`, for messages.
-inline std::string to_text(double value) {
+/// Appends the shortest decimal text that reads back as `value`: the one way in which the core prints a
+/// double.
+inline void append_shortest(std::string& text, double value) {
   char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return std::string(buffer, result.ptr);
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+/// The same as a text of its own.
+inline std::string to_text(double value) {
+  std::string text;
+  append_shortest(text, value);
+  return text;
 }
 
 /// Rounded to `digits` significant digits, for people: 9000, and 9e+09 only where that is shorter.

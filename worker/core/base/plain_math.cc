@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/double_sum.h"
+
 namespace affskel::core {
 
 double plain_log(double x) {
@@ -17,6 +19,34 @@ double plain_log(double x) {
   double sum = 0;
   for (int k = 21; k >= 1; k -= 2) sum = sum * square + 1.0 / k;
   return 2 * s * sum + exponent * std::numbers::ln2;
+}
+
+double plain_exp(double x) {
+  // Horner's scheme, 1 + x (1 + x / 2 (1 + x / 3 (...))), in two doubles; what is left out is below 1e-25.
+  DoubleSum sum{1, 0};
+  for (int k = 24; k >= 1; --k) {
+    const DoubleSum inverse = quotient(1, 1, k), scaled = times(sum, x);
+    DoubleSum term = product(scaled.hi, inverse.hi);
+    term.lo += scaled.hi * inverse.lo + scaled.lo * inverse.hi;
+    sum = {1, 0};
+    sum.add(term);
+  }
+  return sum.value();
+}
+
+double plain_angle(double y, double x) {
+  const double width = std::abs(x);
+  if (y == 0 && width == 0) return 0;
+  const bool steep = y > width;
+  double t = steep ? width / y : y / width;
+  // atan t = 2 atan(t / (1 + sqrt(1 + t^2))), twice: t < 0.2, so the first term left out is below 1e-19.
+  for (int halving = 0; halving < 2; ++halving) t /= 1 + std::sqrt(1 + t * t);
+  const double square = t * t;
+  double sum = 0;
+  for (int k = 25; k >= 1; k -= 2) sum = 1.0 / k - sum * square;
+  const double shallow = 4 * t * sum;
+  const double angle = steep ? std::numbers::pi / 2 - shallow : shallow;
+  return x < 0 ? std::numbers::pi - angle : angle;
 }
 
 std::pair<double, double> plain_sin_cos_degrees(double degrees) {

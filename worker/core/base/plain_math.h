@@ -4,11 +4,18 @@
 
 namespace affskel::core {
 
-// Functions of the mathematical library whose last digit differs between machines, from + - * / alone, so
-// that what is stored does not.
+// Functions of the mathematical library whose last digit differs between machines, from + - * / and sqrt
+// alone, so that nothing that is stored, lays a lattice or decides a sign does.  See cube_root.h, too.
 
 /// Natural logarithm of a normal double > 0, to about 1e-15 of the larger of 1 and itself.
 double plain_log(double x);
+
+/// e^x for |x| <= 1, rounded to nearest but where e^x lies within 1e-10 of an ulp of the middle of two
+/// doubles.
+double plain_exp(double x);
+
+/// The angle from the x axis to (x, y), y >= 0: 0 .. pi, radians, to about 1e-15; 0 for (0, 0).
+double plain_angle(double y, double x);
 
 /// (sin, cos) of a finite angle in degrees, to about 1e-16; exactly 0, 1 and -1 at the multiples of 90.
 std::pair<double, double> plain_sin_cos_degrees(double degrees);

@@ -22,7 +22,7 @@ class CellSorter {
  public:
   CellSorter(const Lattice& lattice, const SolidParts& parts, std::span<const ChordShock> shocks)
       : parts_(parts), shocks_(shocks) {
-    for (std::size_t k = 0; k < 3; ++k) side_[k] = std::uint64_t{lattice.frame.dims[k]} + 1;
+    for (std::size_t k = 0; k < 3; ++k) side_[k] = std::uint64_t{lattice.grid.dims[k]} + 1;
   }
 
   ChordCells run() {
@@ -85,8 +85,8 @@ class CellSorter {
 }  // namespace
 
 ChordCells chord_cells(const Lattice& lattice, const SolidParts& parts, std::span<const ChordShock> shocks) {
-  constexpr std::size_t kMostShocks = (std::size_t{1} << 30) - 1;  // four entries each, numbered in 32 bits
-  if (shocks.size() > kMostShocks) {
+  constexpr std::size_t kMaxShocks = (std::size_t{1} << 30) - 1;  // four entries each, numbered in 32 bits
+  if (shocks.size() > kMaxShocks) {
     throw CoreError(CoreError::Code::kLimit,
                     "too many shocks to join: " + std::to_string(shocks.size()) + "; take a larger spacing");
   }

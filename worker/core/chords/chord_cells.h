@@ -7,7 +7,7 @@
 
 #include "core/chords/chord_shocks.h"
 #include "core/lattice/lattice.h"
-#include "core/solid/solid_parts.h"
+#include "core/lattice/solid_parts.h"
 
 namespace affskel::core {
 

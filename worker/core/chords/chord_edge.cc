@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/base/near_one.h"
-#include "core/chords/edge_value.h"
+#include "core/base/scaled_to_unit.h"
+#include "core/erosion/edge_value.h"
 
 namespace affskel::core {
 namespace {
@@ -39,7 +39,7 @@ std::optional<std::array<std::uint32_t, 2>> ends_of_edge(const Lattice& lattice,
 }
 
 double opening_of(const Vec3& a, const Vec3& b) {
-  const Vec3 m = near_one(a), n = near_one(b);
+  const Vec3 m = scaled_to_unit(a), n = scaled_to_unit(b);
   return 0.5 * (1 - dot(m, n) / (norm(m) * norm(n)));
 }
 

@@ -26,7 +26,7 @@ std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const Ch
   std::vector<LatticeElement> result;
   for (std::size_t first = 0, last; first < asked.size(); first = last) {
     for (last = first + 1; last < asked.size() && asked[last] == asked[first];) ++last;
-    if (last - first >= kMostOfFour) result.push_back(asked[first]);
+    if (last - first >= kMaxOfFour) result.push_back(asked[first]);
   }
   return result;
 }

@@ -116,7 +116,7 @@ class Pruning {
         owner_(shocks.size(), kNone) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
     for (std::uint32_t p = 0; p < parts.count(); ++p) {
-      least_erosion_.push_back(options.least_erosion * (parts.points(p) * cell));
+      least_erosion_.push_back(options.min_erosion * (parts.points(p) * cell));
     }
   }
 
@@ -236,7 +236,7 @@ class Pruning {
       const auto& ring = cells_.ring[s];
       if (kept(s) || !std::all_of(ring.begin(), ring.end(), [&](std::uint32_t c) { return used[c] != 0; }))
         continue;
-      if (rim_round(s, rim) < kMostOfFour) continue;
+      if (rim_round(s, rim) < kMaxOfFour) continue;
       owner_[s] = s;
       any = true;
     }
@@ -270,7 +270,7 @@ SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& p
                                      const ChordPruningOptions& options) {
   require_within(options.significance, 0, 1, "the significance must lie between 0 and 1");
   require_within(options.strong_turn, 0, 1, "the turn of strong shocks must lie between 0 and 1");
-  require_within(options.least_erosion, 0, 1,
+  require_within(options.min_erosion, 0, 1,
                  "the least erosion must be a share of the volume between 0 and 1");
   require_within(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
   return Pruning(lattice, parts, candidates, options).run();

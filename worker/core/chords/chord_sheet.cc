@@ -9,15 +9,15 @@
 
 #include "core/base/error.h"
 #include "core/base/matrix3.h"
-#include "core/base/near_one.h"
 #include "core/base/require.h"
+#include "core/base/scaled_to_unit.h"
 #include "core/chords/chord_cells.h"
 #include "core/chords/chord_edge.h"
 #include "core/chords/chord_pinholes.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/slab_index.h"
+#include "core/lattice/solid_parts.h"
 #include "core/solid/solid_membership.h"
-#include "core/solid/solid_parts.h"
 
 namespace affskel::core {
 namespace {
@@ -31,7 +31,7 @@ Vec3 solve(const Matrix& m, const Vec3& b) {
 }
 
 Vec3 unit(const Vec3& v) {
-  const Vec3 near = near_one(v);
+  const Vec3 near = scaled_to_unit(v);
   const double length = norm(near);
   return length > 0 ? (1 / length) * near : Vec3{};
 }
@@ -45,7 +45,7 @@ class PartInterior {
   }
 
   bool contains(std::uint32_t part, const Vec3& u) const {
-    return membership_[part].contains(inner_place(lattice_, (1 / lattice_.spacing) * u));
+    return membership_[part].contains(scaled_place(lattice_, (1 / lattice_.spacing) * u));
   }
 
  private:
@@ -85,7 +85,9 @@ class Contouring {
   };
 
   // |grad_x E| = |F^-T g| for a gradient g in the frame: the area of the section.
-  double area(const Vec3& g) const { return std::ldexp(norm(to_mesh_ * near_one(g)), largest_exponent(g)); }
+  double area(const Vec3& g) const {
+    return std::ldexp(norm(to_mesh_ * scaled_to_unit(g)), largest_exponent(g));
+  }
 
   Side side(const ChordShock& shock, const Vec3& reference) const {
     const Vec3 normal = unit(shock.gradient_low - shock.gradient_high);
@@ -211,14 +213,14 @@ double strong_turn(const std::vector<ChordShock>& shocks, const ChordSheetOption
   double widest = 0;
   for (const ChordShock& shock : shocks) widest = std::max(widest, shock.turn);
   return std::min(options.pruning.strong_turn,
-                  std::max(options.least_strong_turn, options.strong_share * widest));
+                  std::max(options.min_strong_turn, options.strong_share * widest));
 }
 
 }  // namespace
 
 ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const ChordSheetOptions& options) {
-  for (const double share : {options.strong_share, options.least_strong_turn})
+  for (const double share : {options.strong_share, options.min_strong_turn})
     require_within(share, 0, 1, "the shares of strong turns must lie between 0 and 1");
   if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
     throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");

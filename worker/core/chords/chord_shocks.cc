@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/near_one.h"
 #include "core/base/require.h"
+#include "core/base/scaled_to_unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/erosion/field.h"
 
@@ -37,7 +37,7 @@ class ShockFinder {
     }
     ChordShock shock = tangents_on_edge(field_, x, y, axis, place);
     if (!(shock.strength > 0)) return {};
-    if (!(shock.strength >= options_.least_strength && shock.opening >= options_.least_opening)) return {};
+    if (!(shock.strength >= options_.min_strength && shock.opening >= options_.min_opening)) return {};
     if (!(shock.t >= -options_.slack && shock.t <= 1 + options_.slack)) return {};
     settle_on_edge(field_, shock);
     shock.turn = shock.opening;
@@ -54,15 +54,15 @@ class ShockFinder {
 
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
                                      const ChordShockOptions& options) {
-  require_within(options.least_strength, 0, 1, "the least strength of a shock must lie between 0 and 1");
-  require_within(options.least_opening, 0, 1, "the least opening of a shock must lie between 0 and 1");
+  require_within(options.min_strength, 0, 1, "the least strength of a shock must lie between 0 and 1");
+  require_within(options.min_opening, 0, 1, "the least opening of a shock must lie between 0 and 1");
   require_within(options.slack, 0, std::numeric_limits<double>::max(),
                  "the slack of a crossing must be a finite number >= 0");
   return ShockFinder(lattice, field, options).run();
 }
 
 double squares_of(const ChordShock& shock) {
-  const Vec3 normal = near_one(shock.gradient_low - shock.gradient_high);
+  const Vec3 normal = scaled_to_unit(shock.gradient_low - shock.gradient_high);
   return std::abs(normal[shock.axis]) / norm(normal);
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/chords/chord_shocks.h"
-#include "core/solid/solid_parts.h"
+#include "core/lattice/solid_parts.h"
 
 // What bounds what in the lattice.  Once round a square, the sheet is crossed as often one way as the other:
 // a square with a single shock on its four edges lies on the sheet's rim.
@@ -48,7 +48,7 @@ inline std::array<LatticeElement, 4> edges_of(const LatticeElement& square) {
 
 /// So many of the four squares round an edge must lie on the rim for a shock on it to close a hole: their rim
 /// then shrinks.
-inline constexpr std::size_t kMostOfFour = 3;
+inline constexpr std::size_t kMaxOfFour = 3;
 
 /// A square on the rim and its only shock (its place in the list).
 using RimSquare = std::pair<LatticeElement, std::uint32_t>;

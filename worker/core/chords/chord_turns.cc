@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/near_one.h"
 #include "core/base/require.h"
+#include "core/base/scaled_to_unit.h"
 #include "core/chords/chord_cells.h"
 #include "core/chords/chord_edge.h"
 
@@ -15,13 +15,13 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-constexpr std::uint32_t kMostRounds = 16;
+constexpr std::uint32_t kMaxRounds = 16;
 // Edges to either side of a shock's own: more are a depth of 184 spacings and more, in bodies of a billion
 // sample points, or chords through a neck that cut off much more than is near them.
-constexpr double kMostReach = 64;
+constexpr double kMaxReach = 64;
 // What a mean may make of a turn: twice as much.  Edges that lie in a sheet, between two facets of one of its
 // sides, have the sheet's own shocks round them.
-constexpr double kMostGain = 2;
+constexpr double kMaxGain = 2;
 
 class TurnGauge {
  public:
@@ -59,18 +59,18 @@ class TurnGauge {
       if (!speaks_[s]) continue;
       const auto& [a, b, c, d] = cells_.ring[s];
       const double along = 0.25 * ((mean[a] + mean[b]) + (mean[c] + mean[d]));
-      shocks_[s].turn = std::min(along, kMostGain * shocks_[s].turn);
+      shocks_[s].turn = std::min(along, kMaxGain * shocks_[s].turn);
     }
   }
 
  private:
-  static double length(const Vec3& v) { return std::ldexp(norm(near_one(v)), largest_exponent(v)); }
+  static double length(const Vec3& v) { return std::ldexp(norm(scaled_to_unit(v)), largest_exponent(v)); }
 
   // q, in edges.
   double reach_of(const ChordShock& shock) const {
     const double area = 0.5 * length(shock.gradient_low) + 0.5 * length(shock.gradient_high);
     const double depth = shock.erosion / area / field_.spacing;
-    return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMostReach);
+    return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMaxReach);
   }
 
   std::uint32_t whole_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
@@ -107,7 +107,7 @@ class TurnGauge {
 
   double jump(std::uint32_t s) const { return length(shocks_[s].gradient_low - shocks_[s].gradient_high); }
 
-  bool is_among_largest(std::uint32_t s) const { return jump(s) >= options_.least_share * largest_[s]; }
+  bool is_among_largest(std::uint32_t s) const { return jump(s) >= options_.min_share * largest_[s]; }
 
   // A line of sample points in the solid, and the shock on each edge from one to the next.
   void walk(std::uint8_t axis) {
@@ -129,8 +129,8 @@ class TurnGauge {
 
   void gauge(std::uint32_t n) {
     const std::uint32_t s = on_line_[n];
-    if (s == kNone || shocks_[s].strength < options_.least_strength || !is_greatest(n) ||
-        !is_concentrated(n) || !is_among_largest(s))
+    if (s == kNone || shocks_[s].strength < options_.min_strength || !is_greatest(n) || !is_concentrated(n) ||
+        !is_among_largest(s))
       return;
     speaks_[s] = true;
     const auto whole = static_cast<std::uint32_t>(reach_[s]);
@@ -156,7 +156,7 @@ class TurnGauge {
     const std::uint32_t s = on_line_[n];
     const int axis = shocks_[s].axis;
     const auto& [low, high] = ends_of_band(n, whole_reach(s));
-    return kink(s) >= options_.least_concentration * (low[axis] - high[axis]);
+    return kink(s) >= options_.min_concentration * (low[axis] - high[axis]);
   }
 
   bool is_greatest(std::uint32_t n) const {
@@ -192,14 +192,14 @@ class TurnGauge {
 
 void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
                    std::vector<ChordShock>& shocks, const ChordTurnOptions& options) {
-  if (options.rounds > kMostRounds) {
+  if (options.rounds > kMaxRounds) {
     throw CoreError(CoreError::Code::kBadInput, "the rounds of averaging turns must lie between 0 and 16");
   }
   require_within(options.width, 0, std::numeric_limits<double>::max(),
                  "the width of the band must be a finite number >= 0");
-  require_within(options.least_share, 0, 1, "the least share of the jump must lie between 0 and 1");
-  require_within(options.least_concentration, 0, 1, "the least concentration must lie between 0 and 1");
-  require_within(options.least_strength, 0, 1, "the least strength must lie between 0 and 1");
+  require_within(options.min_share, 0, 1, "the least share of the jump must lie between 0 and 1");
+  require_within(options.min_concentration, 0, 1, "the least concentration must lie between 0 and 1");
+  require_within(options.min_strength, 0, 1, "the least strength must lie between 0 and 1");
   const ChordCells cells = chord_cells(lattice, parts, shocks);
   TurnGauge gauge(lattice, field, cells, shocks, options);
   gauge.measure();

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/split_mix64.h"
-#include "core/shapes/icosahedron.h"
+#include "core/mesh/icosahedron.h"
 
 namespace affskel::core {
 namespace {

@@ -24,8 +24,8 @@ struct FieldValue {
 };
 
 /// The E field while it is computed: per sample point the least (E, direction) offered so far, with its
-/// area.  A semilattice (design section 3): offers commute, repeat without effect and may come from any
-/// thread.  Volumes and areas in inner units of the solid.
+/// area.  A semilattice (see README.md in worker/core): offers commute, repeat without effect and may come
+/// from any thread.  Volumes and areas in scaled units of the solid.
 ///
 /// Threads: offer(), bound(), erosion() and value() from any; take_changes() from any, too, each change going
 /// to one.
@@ -48,9 +48,9 @@ class ErosionField {
 
   void offer(std::uint32_t point, const FieldValue& value);
 
-  /// Makes it known that E is at most `most` at the point, by a direction that somebody else keeps.  A lesser
-  /// value here stays; a greater one, which cannot attain E, is dropped unless it was visited already, and
-  /// kNoDirection stands for the other's direction: whatever is equal still improves on it.
+  /// Makes it known that E is at most `most` at the point, by a direction that another worker reports.  A
+  /// lesser value here stays; a greater one, which cannot attain E, goes without being visited as a change.
+  /// The direction is then kNoDirection, so that an equal value still improves on the bound.
   void bound(std::uint32_t point, double most);
 
   /// A consistent copy of one value; without a direction after bound().

@@ -6,7 +6,7 @@
 
 namespace affskel::core {
 Matrix3 frame_matrix(const Lattice& lattice) {
-  const Matrix3& axes = lattice.frame.axes;
+  const Matrix3& axes = lattice.grid.axes;
   const bool parallel = axes[0].y == 0 && axes[0].z == 0 && axes[1].x == 0 && axes[1].z == 0 &&
                         axes[2].x == 0 && axes[2].y == 0 && axes[0].x > 0 && axes[0].x == axes[1].y &&
                         axes[0].x == axes[2].z;

@@ -1,6 +1,6 @@
-// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A(t) is
-// the area of a component's section at height t, V(t) its integral, the component's volume below t.  A is
-// quadratic between vertices; what changes at them is prepared by section_bends.
+// Notation (see README.md in worker/core).  d: the direction; h(y) = d.y; ranks order the vertices by height.
+// A(t) is the area of a component's section at height t, V(t) its integral, the component's volume below t.
+// A is quadratic between vertices; what changes at them is prepared by section_bends.
 //
 // A surface that crosses itself bounds the region that it winds round at least once, with overlaps counted
 // twice in volumes.  Components of that region are those of the surface's parts, joined where parts cross
@@ -30,15 +30,15 @@ constexpr std::uint32_t kFewCells = 1024;
 // ahead hides the wait.
 constexpr std::uint32_t kAhead = 16;
 
-// The exact A' and A'' / 2 of one component at its last piece, which has them rounded.  Nearly level
-// triangles make these two huge until they cancel; A and V stay moderate, and the piece's own are good
+// The exact A' and A'' / 2 of one component at its last cubic, which has them rounded.  Nearly level
+// triangles make these two huge until they cancel; A and V stay moderate, and the cubic's own are good
 // enough.
 struct Running {
   DoubleSum slope, bend;
 };
 
-// Up to `height` from the last piece; adds volume, area and the exact values there to `sum` and `exact`.
-inline void advance(const Running& running, const Piece& last, double height, Piece& sum, Running& exact) {
+// Up to `height` from the last cubic; adds volume, area and the exact values there to `sum` and `exact`.
+inline void advance(const Running& running, const Cubic& last, double height, Cubic& sum, Running& exact) {
   sum.volume += last.volume_at(height);
   sum.area += last.area_at(height);
   exact.slope.add(running.slope);
@@ -50,14 +50,14 @@ inline void advance(const Running& running, const Piece& last, double height, Pi
 struct Topology {
   std::vector<std::uint32_t> vertex_arc;      // per vertex
   std::vector<std::uint32_t> start_rank;      // per arc: the vertex it starts at
-  std::vector<std::uint32_t> piece_count;     // per arc
+  std::vector<std::uint32_t> cubic_count;     // per arc
   std::vector<std::uint32_t> arc_solid;       // per arc
   std::vector<std::uint32_t> children_begin;  // per arc and one more
   std::vector<std::uint32_t> children;
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-// Adds up the coefficients vertex by vertex and writes the pieces; returns the most negative step of a
+// Adds up the coefficients vertex by vertex and writes the cubics; returns the most negative step of a
 // volume.
 double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends& bends,
                     const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
@@ -72,33 +72,33 @@ double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends&
     const SectionBends::Vertex& vertex = bends.vertices[order[r]];
     const std::uint32_t a = topology.vertex_arc[order[r]];
     Arc& arc = tree.arcs[a];
-    Piece piece{.height = vertex.height};
+    Cubic cubic{.height = vertex.height};
     Running exact;
     double before = -kInfinity;
     if (topology.start_rank[a] == r) {
       for (std::uint32_t i = topology.children_begin[a]; i < topology.children_begin[a + 1]; ++i) {
         const std::uint32_t child = topology.children[i];
-        advance(running[child], tree.pieces[tree.arcs[child].last_piece], vertex.height, piece, exact);
+        advance(running[child], tree.cubics[tree.arcs[child].last_cubic], vertex.height, cubic, exact);
       }
     } else {
-      const Piece& last = tree.pieces[arc.last_piece];
-      advance(running[a], last, vertex.height, piece, exact);
+      const Cubic& last = tree.cubics[arc.last_cubic];
+      advance(running[a], last, vertex.height, cubic, exact);
       before = last.volume;
-      arc.last_piece += last.height != vertex.height ? 1 : 0;
+      arc.last_cubic += last.height != vertex.height ? 1 : 0;
     }
     exact.bend.add(vertex.bend[0], vertex.bend[1]);
     const std::uint32_t steep = bends.links[order[r]].steep;
     if (steep != kNone) exact.bend.add(bends.steep_bend[steep]);
     for (; jump != bends.jumps.end() && jump->rank == r; ++jump) {
-      piece.volume += jump->volume;
-      piece.area += jump->area;
+      cubic.volume += jump->volume;
+      cubic.area += jump->area;
       exact.slope.add(jump->slope);
     }
-    piece.half_slope = 0.5 * exact.slope.value();
-    piece.sixth_bend = kThird * exact.bend.value();
-    least_step = std::min(least_step, piece.volume - before);
+    cubic.half_slope = 0.5 * exact.slope.value();
+    cubic.sixth_bend = kThird * exact.bend.value();
+    least_step = std::min(least_step, cubic.volume - before);
     running[a] = exact;
-    tree.pieces[arc.last_piece] = piece;
+    tree.cubics[arc.last_cubic] = cubic;
   }
   return least_step;
 }
@@ -115,7 +115,7 @@ class JoinTreeBuilder::Work {
     const std::size_t vertices = input_.mesh.points.size(), triangles = input_.mesh.triangles.size();
     topology_.vertex_arc.resize(vertices);
     tree_.triangle_arc.resize(triangles);
-    tree_.pieces.resize(vertices);
+    tree_.cubics.resize(vertices);
   }
 
   const JoinTree& run(const Vec3& d) {
@@ -124,7 +124,7 @@ class JoinTreeBuilder::Work {
     reset();
     find_section_bends(input_, heights_, d, vertex_);
     find_arcs();
-    lay_out_pieces();
+    lay_out_cubics();
     running_.resize(tree_.arcs.size());
     tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
     fill_cells();
@@ -140,7 +140,7 @@ class JoinTreeBuilder::Work {
   void reset() {
     tree_.arcs.clear();
     topology_.start_rank.clear();
-    topology_.piece_count.clear();
+    topology_.cubic_count.clear();
     topology_.arc_solid.clear();
     topology_.children.clear();
     topology_.children_begin.assign(1, 0);
@@ -183,7 +183,7 @@ class JoinTreeBuilder::Work {
         arc = at_saddle(r);
       }
       topology_.vertex_arc[v] = arc;
-      ++topology_.piece_count[arc];
+      ++topology_.cubic_count[arc];
     }
   }
 
@@ -192,7 +192,7 @@ class JoinTreeBuilder::Work {
     tree_.arcs.emplace_back();
     tree_.arcs.back().top = kInfinity;
     topology_.start_rank.push_back(rank);
-    topology_.piece_count.push_back(0);
+    topology_.cubic_count.push_back(0);
     topology_.arc_solid.push_back(solid);
     topology_.current.push_back(arc);
     topology_.children_begin.push_back(static_cast<std::uint32_t>(topology_.children.size()));
@@ -264,55 +264,55 @@ class JoinTreeBuilder::Work {
     return arc;
   }
 
-  void lay_out_pieces() {
+  void lay_out_cubics() {
     std::uint32_t next = 0;
     tree_.roots = 0;
     for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
-      tree_.arcs[a].first_piece = tree_.arcs[a].last_piece = next;
-      next += topology_.piece_count[a];
+      tree_.arcs[a].first_cubic = tree_.arcs[a].last_cubic = next;
+      next += topology_.cubic_count[a];
       tree_.roots += tree_.arcs[a].parent == Arc::kNone;
     }
   }
 
-  // Cells of equal height, as many as pieces or, in small trees, a multiple of that.  Entry c: the last piece
-  // in a cell before c, else the first piece, which therefore reaches up to where cell c begins; one entry
-  // more after the last cell: the last piece.
+  // Cells of equal height, as many as cubics or, in small trees, a multiple of that.  Entry c: the last cubic
+  // in a cell before c, else the first cubic, which therefore reaches up to where cell c begins; one entry
+  // more after the last cell: the last cubic.
   void fill_cells() {
-    const auto pieces = static_cast<std::uint32_t>(tree_.pieces.size());
-    const std::uint32_t cells_per_piece = pieces < kFewCells ? kFewCells / pieces : 1;
-    tree_.cells.resize(std::size_t{pieces} * cells_per_piece + 2 * tree_.arcs.size());
+    const auto cubics = static_cast<std::uint32_t>(tree_.cubics.size());
+    const std::uint32_t cells_per_cubic = cubics < kFewCells ? kFewCells / cubics : 1;
+    tree_.cells.resize(std::size_t{cubics} * cells_per_cubic + 2 * tree_.arcs.size());
     tree_.cell_volume.resize(tree_.cells.size());
     std::uint32_t next = 0;
     for (Arc& arc : tree_.arcs) {
       arc.first_cell = next;
-      arc.last_cell = next + (arc.last_piece - arc.first_piece) * cells_per_piece;
+      arc.last_cell = next + (arc.last_cubic - arc.first_cubic) * cells_per_cubic;
       fill_cells(arc);
       next = arc.last_cell + 2;
     }
   }
 
-  // Without a branch: how many pieces fall into a cell cannot be foreseen.
+  // Without a branch: how many cubics fall into a cell cannot be foreseen.
   void fill_cells(Arc& arc) {
-    const std::uint32_t last = arc.last_piece - arc.first_piece, last_cell = arc.last_cell - arc.first_cell;
-    const Piece* pieces = &tree_.pieces[arc.first_piece];
-    const double span = pieces[last].height - pieces[0].height;
-    arc.bottom = pieces[0].height;
+    const std::uint32_t last = arc.last_cubic - arc.first_cubic, last_cell = arc.last_cell - arc.first_cell;
+    const Cubic* cubics = &tree_.cubics[arc.first_cubic];
+    const double span = cubics[last].height - cubics[0].height;
+    arc.bottom = cubics[0].height;
     arc.cell_scale = span > 0 ? last_cell / span : 0;
     const double side = span > 0 ? span / last_cell : 0;
     std::uint32_t* entry = &tree_.cells[arc.first_cell];
     double* volume = &tree_.cell_volume[arc.first_cell];
     std::fill(entry, entry + last_cell + 2, 0);
     for (std::uint32_t i = 0; i <= last; ++i) {
-      entry[JoinTree::cell(arc, pieces[i].height) - arc.first_cell + 1] = i;
+      entry[JoinTree::cell(arc, cubics[i].height) - arc.first_cell + 1] = i;
     }
     std::uint32_t before = 0;
     for (std::uint32_t c = 0; c <= last_cell; ++c) {
       before = std::max(before, entry[c]);
-      entry[c] = arc.first_piece + before;
-      volume[c] = pieces[before].volume_at(std::min(arc.bottom + c * side, pieces[last].height));
+      entry[c] = arc.first_cubic + before;
+      volume[c] = cubics[before].volume_at(std::min(arc.bottom + c * side, cubics[last].height));
     }
-    entry[last_cell + 1] = arc.last_piece;
-    volume[last_cell + 1] = pieces[last].volume;
+    entry[last_cell + 1] = arc.last_cubic;
+    volume[last_cell + 1] = cubics[last].volume;
   }
 
   // Where volumes may fall, a cell's entry becomes the least volume from there on, up to the root.
@@ -321,27 +321,27 @@ class JoinTreeBuilder::Work {
       const Arc& arc = tree_.arcs[a];
       const bool root = arc.parent == Arc::kNone;
       double least = root ? kInfinity : tree_.cell_volume[tree_.arcs[arc.parent].first_cell];
-      double end = root ? tree_.pieces[arc.last_piece].height : arc.top;
-      std::uint32_t p = arc.last_piece;  // `least` is for what lies above this piece, which ends at `end`
+      double end = root ? tree_.cubics[arc.last_cubic].height : arc.top;
+      std::uint32_t p = arc.last_cubic;  // `least` is for what lies above this cubic, which ends at `end`
       for (std::uint32_t c = arc.last_cell + 2; c-- > arc.first_cell;) {
         for (; p > tree_.cells[c]; --p) {
-          const Piece& piece = tree_.pieces[p];
-          least = std::min(least, piece.volume - fall(piece, end));
-          end = piece.height;
+          const Cubic& cubic = tree_.cubics[p];
+          least = std::min(least, cubic.volume - fall(cubic, end));
+          end = cubic.height;
         }
-        const Piece& piece = tree_.pieces[p];
-        const double own = fall(piece, end);
+        const Cubic& cubic = tree_.cubics[p];
+        const double own = fall(cubic, end);
         double& volume = tree_.cell_volume[c];
-        volume = std::min(least, own > tolerance_ ? piece.volume - own : volume);
+        volume = std::min(least, own > tolerance_ ? cubic.volume - own : volume);
       }
     }
   }
 
-  // At most so much V falls between a piece's beginning and its end.
-  static double fall(const Piece& piece, double end) {
-    const double b = piece.half_slope, c3 = 3 * piece.sixth_bend, width = end - piece.height;
-    double least = std::min(piece.area, piece.area_at(end));
-    if (b < 0 && -b < c3 * width) least = std::min(least, piece.area - b * b / c3);
+  // At most so much V falls between a cubic's beginning and its end.
+  static double fall(const Cubic& cubic, double end) {
+    const double b = cubic.half_slope, c3 = 3 * cubic.sixth_bend, width = end - cubic.height;
+    double least = std::min(cubic.area, cubic.area_at(end));
+    if (b < 0 && -b < c3 * width) least = std::min(least, cubic.area - b * b / c3);
     return least < 0 ? -least * width : 0;
   }
 
@@ -356,7 +356,7 @@ class JoinTreeBuilder::Work {
     }
     for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
       if (tree_.arcs[a].parent != Arc::kNone) continue;
-      const double volume = tree_.pieces[tree_.arcs[a].last_piece].volume;
+      const double volume = tree_.cubics[tree_.arcs[a].last_cubic].volume;
       const double expected = input_.solid_volume[topology_.arc_solid[a]];
       if (!(std::abs(volume - expected) <= tolerance_)) {
         throw_invariant("the tree of solid " + std::to_string(topology_.arc_solid[a]) + " holds 1 + " +

@@ -9,9 +9,9 @@
 
 namespace affskel::core {
 
-/// V(h) along one arc from one vertex height to the next, inner units:
+/// V(h) along one arc from one vertex height to the next, scaled units:
 ///   volume(h) = V + s (A + s (b + s c)),  area(h) = A + s (2 b + 3 s c),  s = h - height.
-struct Piece {
+struct Cubic {
   double height = 0;
   double volume = 0;      ///< V, volume of the component below `height`
   double area = 0;        ///< A, area of its section
@@ -33,28 +33,28 @@ struct Piece {
 struct Arc {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   double top = 0;                 ///< +infinity for a root
-  double bottom = 0;              ///< height of the first piece
+  double bottom = 0;              ///< height of the first cubic
   std::uint32_t parent = kNone;   ///< kNone for a root
-  std::uint32_t first_piece = 0;  ///< pieces [first_piece, last_piece], by height; at least one
-  std::uint32_t last_piece = 0;
+  std::uint32_t first_cubic = 0;  ///< cubics [first_cubic, last_cubic], by height; at least one
+  std::uint32_t last_cubic = 0;
   std::uint32_t first_cell = 0;  ///< of the look-up table, see JoinTree::cell()
   std::uint32_t last_cell = 0;
   double cell_scale = 0;  ///< cells per unit of height
 };
 
 /// The sublevel join tree of a solid for one direction d: the components of {y in V : d.y <= t} as t
-/// rises, with their exact volumes (design section 2).
+/// rises, with their exact volumes (see README.md in worker/core).
 struct JoinTree {
   std::vector<Arc> arcs;
-  std::vector<Piece> pieces;
-  /// Per cell, and one more per arc: the least piece of the cell's heights.
+  std::vector<Cubic> cubics;
+  /// Per cell, and one more per arc: the least cubic of the cell's heights.
   std::vector<std::uint32_t> cells;
   /// Parallel to cells: V at the least height of the cell, or the least V from there on up to the root, where
   /// volumes may fall (JoinTreeOptions).
   std::vector<double> cell_volume;
   std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
   std::uint32_t roots = 0;
-  double least_step = 0;  ///< the most negative change of volume between neighbouring pieces, inner units
+  double least_step = 0;  ///< the most negative change of volume between neighbouring cubics, scaled units
 
   /// The arc at height h of the component that holds the lowest vertex of `triangle`.
   std::uint32_t climb(std::uint32_t triangle, double h) const {
@@ -70,18 +70,18 @@ struct JoinTree {
     return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
   }
 
-  /// A volume that V is not below at h or anywhere above on the way to the root, but for twice
-  /// TreeInput::volume_tolerance(): V at or shortly under h, unless it falls further up.  One look-up.
+  /// A lower bound of V at h and everywhere above on the way to the root, within twice
+  /// TreeInput::volume_tolerance().  Close to V at h, unless V falls further up.  One look-up.
   double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
 
-  /// The piece of `arc` that holds height h: the last one that starts at or below h, else the first.
-  const Piece& locate(const Arc& arc, double h) const {
+  /// The cubic of `arc` that holds height h: the last one that starts at or below h, else the first.
+  const Cubic& locate(const Arc& arc, double h) const {
     // It lies between the entries of h's cell and of the next one.
     const std::uint32_t* entry = &cells[cell(arc, h)];
-    const Piece* first = &pieces[entry[0]];
-    const Piece* last = &pieces[entry[1]];
+    const Cubic* first = &cubics[entry[0]];
+    const Cubic* last = &cubics[entry[1]];
     while (last - first > 8) {
-      const Piece* middle = first + (last - first) / 2;
+      const Cubic* middle = first + (last - first) / 2;
       (middle->height <= h ? first : last) = middle->height <= h ? middle : middle - 1;
     }
     while (first != last && first[1].height <= h) ++first;
@@ -100,10 +100,10 @@ class TreeInput {
   struct Data;
   const Data& data() const { return *data_; }
 
-  /// Triangles and edges that rise less than this (inner units) count as level.
+  /// Triangles and edges that rise less than this (scaled units) count as level.
   static constexpr double kLevelHeight = 1e-11;
 
-  /// By how much a computed volume may be off or fall along a run, inner units: 1e-9 v0 and kLevelHeight
+  /// By how much a computed volume may be off or fall along a run, scaled units: 1e-9 v0 and kLevelHeight
   /// times the surface (which includes what the rounding of heights to 2^-44 moves it).
   double volume_tolerance() const;
 

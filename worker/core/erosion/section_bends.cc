@@ -1,7 +1,8 @@
-// Notation (design section 2).  d: the direction; h(y) = d.y; ranks order the vertices by height.  A triangle
-// T has corners of rank lo < mid < hi at heights a <= b <= c, and p = -d.a_T, a_T its outward area vector.
-// The share f_T(t) of T below t is quadratic between the heights, and A(t) = sum p_T f_T(t) is the area of
-// the section, V(t) its integral.  f_T starts at a, bends at b and ends at c with f and f' continuous, so
+// Notation (see README.md in worker/core).  d: the direction; h(y) = d.y; ranks order the vertices by height.
+// A triangle T has corners of rank lo < mid < hi at heights a <= b <= c, and p = -d.a_T, a_T its outward area
+// vector. The share f_T(t) of T below t is quadratic between the heights, and A(t) = sum p_T f_T(t) is the
+// area of the section, V(t) its integral.  f_T starts at a, bends at b and ends at c with f and f'
+// continuous, so
 //   f_T'' / 2 jumps by  1/((b-a)(c-a)),  -1/((b-a)(c-a)) - 1/((c-b)(c-a)),  1/((c-b)(c-a))  at a, b, c:
 // per vertex only the bend of A changes.  Bends of nearly level triangles are huge and must cancel exactly
 // later.  Every bend is split into a multiple of a unit near v0, of which doubles hold sums exactly, and a
@@ -17,14 +18,14 @@
 namespace affskel::core {
 namespace {
 
-// A triangle lower than this (inner units; the solid's size is 1) is a jump of A at its top, an edge a jump
+// A triangle lower than this (scaled units; the solid's size is 1) is a jump of A at its top, an edge a jump
 // of A'.  V is exact above them and off by less than p times this inside their height range.  Smaller
 // values cost accuracy too: bends reach p / kLevel^2, of which the double-double sums keep 2^-104.
 constexpr double kLevel = TreeInput::kLevelHeight;
 // Bends up to this times v0 may be as a division rounds them.  What a triangle adds at its start it takes
 // away b - a higher, equally rounded, so that V is off by less than 2^-53 of this times b - a: were b - a the
 // whole height of the solid, 2e-10 v0; where a bend is as large, b - a is a hundredth and less.
-constexpr double kMostPlainBend = 1 << 20;
+constexpr double kMaxPlainBend = 1 << 20;
 
 using Vertex = SectionBends::Vertex;
 using Link = SectionBends::Link;
@@ -114,7 +115,7 @@ void pass_triangles(const TreeInput::Data& input, const Vec3& d, SectionBends& o
   std::uint32_t* lowest = out.lowest.data();
   Vertex* vertex = out.vertices.data();
   Link* link = out.links.data();
-  const double most = kMostPlainBend * input.volume;
+  const double most = kMaxPlainBend * input.volume;
   // Adding and taking away 1.5 * 2^52 units rounds to units.
   const double unit = std::ldexp(1.5, 52 + std::ilogb(input.volume));
   const Pair rounder = {unit, unit};

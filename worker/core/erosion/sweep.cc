@@ -37,9 +37,9 @@ class Sweeper::Pass {
  public:
   Pass(Sweeper& owner, const JoinTree& tree, const Vec3& d, std::uint32_t index)
       : owner_(owner), tree_(tree), index_(index) {
-    const LatticeFrame& frame = owner.lattice_.frame;
-    base_ = dot(d, frame.origin);
-    for (std::size_t k = 0; k < 3; ++k) step_[k] = dot(d, frame.axes[k]);
+    const LatticeGrid& grid = owner.lattice_.grid;
+    base_ = dot(d, grid.origin);
+    for (std::size_t k = 0; k < 3; ++k) step_[k] = dot(d, grid.axes[k]);
   }
 
   SweepCounts run() {
@@ -60,7 +60,7 @@ class Sweeper::Pass {
     std::size_t best = 0;
     double best_slope = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double slope = std::abs(step_[k]) / norm(owner_.lattice_.frame.axes[k]);
+      const double slope = std::abs(step_[k]) / norm(owner_.lattice_.grid.axes[k]);
       if (slope < best_slope) {
         best = k;
         best_slope = slope;
@@ -96,13 +96,13 @@ class Sweeper::Pass {
 
   void evaluate(std::uint32_t p, const Arc& arc, double h) {
     ++counts_.evaluated;
-    const Piece& piece = tree_.locate(arc, h);
-    double volume = piece.volume_at(h);
+    const Cubic& cubic = tree_.locate(arc, h);
+    double volume = cubic.volume_at(h);
     // Rounding may leave a little less than nothing.
     if (volume < 0) volume = volume < -owner_.options_.margin ? owner_.options_.whole : 0;
     volume = rounded(volume);
     if (!owner_.field_.may_improve(p, volume)) return;
-    const double area = piece.area_at(h);
+    const double area = cubic.area_at(h);
     owner_.field_.offer(p, {volume, area > 0 ? area : 0, index_});
   }
 

@@ -12,8 +12,8 @@ namespace affskel::core {
 
 struct SweepOptions {
   bool prune = true;  ///< false: evaluate every point (yardstick and test of the pruning; same result)
-  double margin = 0;  ///< inner volume; computed chords may fall along a run by at most this
-  double whole = 0;   ///< inner volume of V: stands for chords that come out negative, see sweep()
+  double margin = 0;  ///< scaled volume; computed chords may fall along a run by at most this
+  double whole = 0;   ///< scaled volume of V: stands for chords that come out negative, see sweep()
 };
 
 /// Counts of what sweeps did.

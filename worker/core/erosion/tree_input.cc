@@ -6,14 +6,16 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/mesh/locality_order.h"
+#include "core/base/plain_math.h"
 #include "core/solid/solid_membership.h"
+#include "core/spatial/locality_order.h"
 
 namespace affskel::core {
 namespace {
 
+// Of the plain kind: which side of a vertex the solid lies on is decided by these.
 double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
+  return plain_angle(norm(cross(a, b)), dot(a, b));
 }
 
 Vec3 pseudonormal_of(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> fan) {

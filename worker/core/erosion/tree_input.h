@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/erosion/join_tree.h"
-#include "core/mesh/ray_shooter.h"
 #include "core/solid/solid.h"
+#include "core/spatial/ray_shooter.h"
 
 namespace affskel::core {
 
@@ -23,7 +23,7 @@ struct TreeInput::Data {
   std::vector<std::uint32_t> original_vertex;    ///< per vertex: its index in the solid's mesh
   std::vector<std::uint32_t> original_triangle;  ///< per triangle: its index in the solid's mesh
   Mesh mesh;                                     ///< the solid's, neighbours kept together in memory
-  std::vector<Vec3> area_vector;                 ///< per triangle: outward normal times area, inner units
+  std::vector<Vec3> area_vector;                 ///< per triangle: outward normal times area, scaled units
   std::vector<Vec3> pseudonormal;        ///< per vertex: unit normals weighted by the angles they span
   std::vector<std::uint32_t> fan_begin;  ///< per vertex and one more
   std::vector<std::uint32_t> fan_triangles;
@@ -43,9 +43,9 @@ struct TreeInput::Data {
   /// Per vertex: whether other parts of the surface wind round its outer side, so that the solid is there
   /// too; empty unless the surface crosses itself.
   std::vector<std::uint8_t> nested;
-  std::vector<double> solid_volume;  ///< inner units
-  double volume = 0;                 ///< all solids, inner units
-  double surface_area = 0;           ///< inner units
+  std::vector<double> solid_volume;  ///< scaled units
+  double volume = 0;                 ///< all solids, scaled units
+  double surface_area = 0;           ///< scaled units
   RayShooter rays;
 
  private:

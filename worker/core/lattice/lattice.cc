@@ -22,10 +22,10 @@ constexpr double kRounding = 1 + 1e-12;
 class LatticeBuilder {
  public:
   // Of the options those that do not say where the points are.
-  LatticeBuilder(const Solid& solid, const LatticeFrame& frame, const LatticeOptions& options)
+  LatticeBuilder(const Solid& solid, const LatticeGrid& grid, const LatticeOptions& options)
       : mesh_(solid.mesh), options_(options), threads_(options.threads), context_(options.context) {
-    lattice_.frame = frame;
-    const double cell = dot(frame.axes[0], cross(frame.axes[1], frame.axes[2]));
+    lattice_.grid = grid;
+    const double cell = dot(grid.axes[0], cross(grid.axes[1], grid.axes[2]));
     lattice_.spacing = solid.scale() * cube_root(std::abs(cell));
   }
 
@@ -65,20 +65,20 @@ class LatticeBuilder {
   }
 
   void require_memory(double points) const {
-    const double lines = static_cast<double>(lattice_.frame.dims[0]) * lattice_.frame.dims[1];
+    const double lines = static_cast<double>(lattice_.grid.dims[0]) * lattice_.grid.dims[1];
     require_lattice_memory({points, lines, lattice_.spacing}, options_.point_bytes, options_.memory_budget);
   }
 
   // Axis 2 decides what is inside and numbers the points.
   void fill_axis_2() {
     require_memory(0);
-    const LatticeFrame& frame = lattice_.frame;
-    const LineCrossings lines = scan_convert(mesh_, frame, 2, threads_, context_);
+    const LatticeGrid& grid = lattice_.grid;
+    const LineCrossings lines = scan_convert(mesh_, grid, 2, threads_, context_);
     StopCheck stop(context_);
     std::uint64_t points = 0;
-    for (std::uint32_t i = 0; i < frame.dims[0]; ++i) {
-      for (std::uint32_t j = 0; j < frame.dims[1]; ++j) {
-        const std::size_t line = std::size_t{i} * frame.dims[1] + j;
+    for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
+      for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
+        const std::size_t line = std::size_t{i} * grid.dims[1] + j;
         const std::uint64_t last = lines.begin[line + 1];
         Passage passage;
         stop.did(1 + last - lines.begin[line]);
@@ -106,13 +106,13 @@ class LatticeBuilder {
 
   std::uint32_t clip(double depth) const {
     return static_cast<std::uint32_t>(
-        std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.frame.dims[2]))));
+        std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.grid.dims[2]))));
   }
 
   // Sorts the points into the lines of another axis and cuts these into runs.
   void fill_axis(int axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const LineCrossings lines = scan_convert(mesh_, lattice_.frame, axis, 1, context_);
+    const LineCrossings lines = scan_convert(mesh_, lattice_.grid, axis, 1, context_);
     const std::size_t line_count = lines.begin.size() - 1;
     std::vector<std::uint32_t> begin(line_count + 1, 0);
     for_each_point([&](std::uint32_t, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
@@ -142,7 +142,7 @@ class LatticeBuilder {
   // Lines are numbered as in LineCrossings.
   std::size_t line_of(int axis, const std::array<std::uint32_t, 3>& at) const {
     const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
-    return std::size_t{at[u]} * lattice_.frame.dims[v] + at[v];
+    return std::size_t{at[u]} * lattice_.grid.dims[v] + at[v];
   }
 
   template <class Visit>
@@ -208,7 +208,7 @@ double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
 // The solid's bounding box in a frame's coordinates.
 struct FrameBox {
   Vec3 sides;   // mesh units
-  Vec3 centre;  // inner coordinates
+  Vec3 centre;  // scaled coordinates
 };
 
 FrameBox box_in(const Solid& solid, const Matrix3& f) {
@@ -226,10 +226,10 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
 
 // The lattice of a spacing before it is filled.
 struct Plan {
-  LatticeFrame frame;
+  LatticeGrid grid;
   double lines = 0;
   double estimate = 0;  // of the points
-  bool fits = false;    // within the limits; only then there is a frame
+  bool fits = false;    // within the limits; only then is there a grid
 };
 
 // An even number, or one: the middle planes of the box, where solids that are their own mirror images have
@@ -252,15 +252,15 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
               plan.lines <= static_cast<double>(options.max_lines);
   if (!plan.fits) return plan;
   const double step = std::ldexp(spacing, -solid.exponent);
-  plan.frame.axes = step * options.frame;
+  plan.grid.axes = step * options.frame;
   std::array<double, 3> origin{};
   for (int k = 0; k < 3; ++k) {
     const double count = points_per_side(sides[k] / spacing);
-    plan.frame.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
+    plan.grid.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
     origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
   }
   const Vec3 corner{origin[0], origin[1], origin[2]};
-  plan.frame.origin = box.centre + options.frame * corner;
+  plan.grid.origin = box.centre + options.frame * corner;
   return plan;
 }
 
@@ -301,23 +301,23 @@ bool may_search(const Plan& plan, const LatticeOptions& options) {
 
 }  // namespace
 
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads,
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads,
                      ExecutionContext* context) {
-  for (std::uint32_t n : frame.dims) {
+  for (std::uint32_t n : grid.dims) {
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
   LatticeOptions options;
   options.threads = threads;
   options.context = context;
-  return LatticeBuilder(solid, frame, options).run();
+  return LatticeBuilder(solid, grid, options).run();
 }
 
 namespace {
 
 Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
   const Plan plan = fitting_plan(solid, box, options, spacing);
-  Lattice lattice = LatticeBuilder(solid, plan.frame, options).run();
+  Lattice lattice = LatticeBuilder(solid, plan.grid, options).run();
   lattice.spacing = spacing;
   if (lattice.points == 0) {
     throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
@@ -332,7 +332,7 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);
   if (!plan.fits) return std::nullopt;
-  return LatticeBuilder(solid, plan.frame, options).count();
+  return LatticeBuilder(solid, plan.grid, options).count();
 }
 
 void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options) {
@@ -351,7 +351,7 @@ Lattice make_lattice(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box, options, spacing);
   if (may_search(plan, options)) {
     if (plan.fits && !is_foil(solid, spacing)) {
-      LatticeBuilder builder(solid, plan.frame, options);
+      LatticeBuilder builder(solid, plan.grid, options);
       if (is_near(builder.count(), options.target_points)) {
         Lattice lattice = builder.run();
         lattice.spacing = spacing;

@@ -14,7 +14,7 @@
 namespace affskel::core {
 
 /// Lattice point (i, j, k) lies at origin + i axes[0] + j axes[1] + k axes[2], 0 <= i < dims[0] etc.
-struct LatticeFrame {
+struct LatticeGrid {
   Vec3 origin;
   std::array<Vec3, 3> axes;
   std::array<std::uint32_t, 3> dims{};
@@ -34,14 +34,14 @@ struct LatticeRun {
 struct AxisRuns {
   std::vector<LatticeRun> runs;
   std::vector<std::uint32_t> order;  ///< sample points run by run; empty for axis 2, where it is 0, 1, 2, ...
-  /// Points within rounding of the surface whose line along this axis says "outside": runs of one point
-  /// along axis 2 (low and high belong to that axis; `first` is the point).
+  /// Sample points within rounding of the surface that lie outside on their line along this axis: each is a
+  /// run of one point along axis 2 (low and high belong to axis 2; `first` is the point).
   std::vector<LatticeRun> strays;
 };
 
 /// The sample points of a solid: lattice points inside it, numbered in lattice order (axis 2 fastest).
 struct Lattice {
-  LatticeFrame frame;  ///< inner coordinates of the solid
+  LatticeGrid grid;  ///< scaled coordinates of the solid
   /// dT, mesh units: the cube root of the volume of the frame's cell.
   double spacing = 0;
   std::uint32_t points = 0;
@@ -52,9 +52,9 @@ struct Lattice {
 class SamplePlaces {
  public:
   SamplePlaces(const Solid& solid, const Lattice& lattice)
-      : origin_(solid.centre + solid.scale() * lattice.frame.origin),
-        axes_{solid.scale() * lattice.frame.axes[0], solid.scale() * lattice.frame.axes[1],
-              solid.scale() * lattice.frame.axes[2]} {}
+      : origin_(solid.centre + solid.scale() * lattice.grid.origin),
+        axes_{solid.scale() * lattice.grid.axes[0], solid.scale() * lattice.grid.axes[1],
+              solid.scale() * lattice.grid.axes[2]} {}
 
   const Vec3& origin() const { return origin_; }
   const std::array<Vec3, 3>& axes() const { return axes_; }
@@ -96,9 +96,9 @@ struct LatticeOptions {
 ///   or before they take more than the memory budget; kCancelled when the context asks to stop.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
-/// Throws what make_lattice would throw in this frame for options beyond its limits, before it is made; the
-/// frame is looked for only where that depends on it.  Whether any point falls inside, and whether a spacing
-/// is found for target_points in few enough lines, only make_lattice can tell.
+/// Checks the limits of make_lattice before a lattice is made, and throws what that would throw.  The frame
+/// is computed only when the answer depends on it.  Not found out: whether a point falls inside, and whether
+/// a search for target_points ends within the limits.
 /// @param options `frame` is not used.
 void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 
@@ -106,8 +106,8 @@ void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 /// it would refuse them as too many, or too many lines.
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
-/// The same for a given frame in inner coordinates; axes need not be orthogonal or of equal length.
-Lattice make_lattice(const Solid& solid, const LatticeFrame& frame, unsigned threads = 1,
+/// The same for a given frame in scaled coordinates; axes need not be orthogonal or of equal length.
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads = 1,
                      ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

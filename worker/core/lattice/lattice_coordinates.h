@@ -16,10 +16,10 @@ using LatticePlace = std::array<std::uint32_t, 3>;
 /// @param points ranks of sample points, ascending.
 std::vector<LatticePlace> lattice_places(const Lattice& lattice, std::span<const std::uint32_t> points);
 
-/// Inner coordinates of the solid for real lattice indices.
-inline Vec3 inner_place(const Lattice& lattice, const Vec3& indices) {
-  const LatticeFrame& frame = lattice.frame;
-  return frame.origin + (indices.x * frame.axes[0] + (indices.y * frame.axes[1] + indices.z * frame.axes[2]));
+/// Scaled coordinates of the solid for real lattice indices.
+inline Vec3 scaled_place(const Lattice& lattice, const Vec3& indices) {
+  const LatticeGrid& grid = lattice.grid;
+  return grid.origin + (indices.x * grid.axes[0] + (indices.y * grid.axes[1] + indices.z * grid.axes[2]));
 }
 
 }  // namespace affskel::core

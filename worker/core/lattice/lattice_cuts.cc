@@ -15,23 +15,23 @@ bool has_axis(unsigned step, std::size_t axis) {
   return ((step >> (2 - axis)) & 1U) != 0;
 }
 
-/// A frame of the same lattice in which a step lies along the axis `main`.  The places' coordinates along
+/// A grid of the same lattice in which a step lies along the axis `main`.  The places' coordinates along
 /// the step's other axes are then less by the one along `main`, and shifted to start at 0.
-struct ShearedFrame {
-  LatticeFrame frame;
+struct ShearedGrid {
+  LatticeGrid grid;
   std::size_t main = 0;
   std::array<bool, 3> sheared{};
   std::int64_t shift = 0;
 
-  ShearedFrame(const LatticeFrame& lattice, unsigned step) : frame(lattice) {
+  ShearedGrid(const LatticeGrid& lattice, unsigned step) : grid(lattice) {
     while (!has_axis(step, main)) ++main;
     shift = std::int64_t{lattice.dims[main]} - 1;
     for (std::size_t a = main + 1; a < 3; ++a) {
       sheared[a] = has_axis(step, a);
       if (!sheared[a]) continue;
-      frame.axes[main] = frame.axes[main] + lattice.axes[a];
-      frame.origin = frame.origin - static_cast<double>(shift) * lattice.axes[a];
-      frame.dims[a] += lattice.dims[main] - 1;
+      grid.axes[main] = grid.axes[main] + lattice.axes[a];
+      grid.origin = grid.origin - static_cast<double>(shift) * lattice.axes[a];
+      grid.dims[a] += lattice.dims[main] - 1;
     }
   }
 
@@ -40,8 +40,8 @@ struct ShearedFrame {
     const std::size_t u = (main + 1) % 3, v = (main + 2) % 3;
     Place at{};
     at[main] = along;
-    at[u] = static_cast<std::int64_t>(line / frame.dims[v]);
-    at[v] = static_cast<std::int64_t>(line % frame.dims[v]);
+    at[u] = static_cast<std::int64_t>(line / grid.dims[v]);
+    at[v] = static_cast<std::int64_t>(line % grid.dims[v]);
     for (std::size_t a = 0; a < 3; ++a) {
       if (sheared[a]) at[a] += along - shift;
     }
@@ -73,16 +73,16 @@ LatticeCut cut_of(std::span<const CrossingOnLine> crossings, double low, std::in
 }  // namespace
 
 LatticeCuts::LatticeCuts(const Solid& solid, const Lattice& lattice) {
-  for (std::size_t a = 0; a < 3; ++a) size_[a] = std::int64_t{lattice.frame.dims[a]} + 2;
+  for (std::size_t a = 0; a < 3; ++a) size_[a] = std::int64_t{lattice.grid.dims[a]} + 2;
   for (unsigned step = 1; step < 8; ++step) add_step(solid, lattice, step);
   std::sort(cuts_.begin(), cuts_.end(),
             [](const LatticeCut& a, const LatticeCut& b) { return a.edge < b.edge; });
 }
 
 void LatticeCuts::add_step(const Solid& solid, const Lattice& lattice, unsigned step) {
-  const ShearedFrame sheared(lattice.frame, step);
+  const ShearedGrid sheared(lattice.grid, step);
   const std::vector<CrossingOnLine> found =
-      scan_convert_lines_met(solid.mesh, sheared.frame, static_cast<int>(sheared.main));
+      scan_convert_lines_met(solid.mesh, sheared.grid, static_cast<int>(sheared.main));
   const auto in_reach = [&](const Place& at) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (at[a] < (has_axis(step, a) ? -1 : 0) || at[a] > size_[a] - 3) return false;

@@ -22,13 +22,13 @@ struct LatticeCut {
 /// place (i, j, k) to (i + a, j + b, k + c), where a, b, c are 0 or 1 and `step` = 4a + 2b + c, 1 to 7.
 /// Places go from -1 to dims: one layer more on every side.
 ///
-/// Watertight scan conversion along the seven steps (a diagonal is an axis of a sheared frame of the same
+/// Watertight scan conversion along the seven steps (a diagonal is an axis of a sheared grid of the same
 /// lattice), so along the axes these are the crossings that made the lattice's runs.  Along the other steps a
 /// line may disagree, within rounding of the surface, with the lattice about what is inside: an edge can
 /// then have an end inside, one outside, and no cut.
 ///
 /// Memory in the order of the mesh's vertices and of the crossings, whatever the shape of the lattice: a
-/// sheared frame of a long lattice has the square of its length in lines, so only those that the surface
+/// sheared grid of a long lattice has the square of its length in lines, so only those that the surface
 /// meets are kept.  Time in that order, but for sorting the crossings, and in that of the lengths of the
 /// mesh's triangles in steps.
 class LatticeCuts {

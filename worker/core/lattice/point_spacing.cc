@@ -3,18 +3,20 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/plain_math.h"
+
 namespace affskel::core {
 namespace {
 
-constexpr int kMostDoublings = 60;
-constexpr int kMostHalvings = 24;  // of the bracket in the logarithm: to a part in 10^7
-constexpr int kSteps = 24;         // to either side of the spacing for single layers ...
-constexpr double kStep = 0.004;    // ... in the logarithm: 10 %
+constexpr int kMaxDoublings = 60;
+constexpr int kMaxHalvings = 24;  // of the bracket in the logarithm: to a part in 10^7
+constexpr int kSteps = 24;        // to either side of the spacing for single layers ...
+constexpr double kStep = 0.004;   // ... in the logarithm: 10 %
 
 constexpr double kMany = 4;  // thicknesses of a foil
 
 // Of the surface.
-double inner_area(const Solid& solid) {
+double scaled_area(const Solid& solid) {
   const std::vector<Vec3>& p = solid.mesh.points;
   double sum = 0;
   for (const Triangle& t : solid.mesh.triangles) {
@@ -37,12 +39,12 @@ class SpacingSearch {
     double low = best_, high = best_;  // with too many points, and with too few
     const bool many = too_many(best_);
     const double factor = many ? 2 : 0.5;
-    for (int i = 0; i < kMostDoublings && !found_; ++i) {
+    for (int i = 0; i < kMaxDoublings && !found_; ++i) {
       (many ? high : low) *= factor;
       if (too_many(many ? high : low) != many) break;
       (many ? low : high) *= factor;
     }
-    for (int i = 0; i < kMostHalvings && !found_; ++i) {
+    for (int i = 0; i < kMaxHalvings && !found_; ++i) {
       const double middle = std::sqrt(low * high);
       (too_many(middle) ? low : high) = middle;
     }
@@ -52,12 +54,12 @@ class SpacingSearch {
 
  private:
   double single_layer_spacing() const {
-    return solid_.scale() * std::sqrt(inner_area(solid_) / 2 / static_cast<double>(options_.target_points));
+    return solid_.scale() * std::sqrt(scaled_area(solid_) / 2 / static_cast<double>(options_.target_points));
   }
 
   void try_single_layers() {
     const double middle = single_layer_spacing();
-    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * std::exp(i * kStep));
+    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * plain_exp(i * kStep));
   }
 
   // A lattice beyond the limits has too many.
@@ -88,7 +90,7 @@ class SpacingSearch {
 
 bool is_foil(const Solid& solid, double spacing) {
   const double inner_volume = std::ldexp(solid.volume, -3 * solid.exponent);
-  return spacing > kMany * solid.scale() * 2 * inner_volume / inner_area(solid);
+  return spacing > kMany * solid.scale() * 2 * inner_volume / scaled_area(solid);
 }
 
 bool is_near(std::uint64_t points, std::uint64_t target) {

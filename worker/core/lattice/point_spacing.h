@@ -15,8 +15,8 @@ bool is_near(std::uint64_t points, std::uint64_t target);
 /// that are not: a plate between two layers of points has none, one that a layer runs through has too many.
 /// There the number of points jumps as dT changes and need not fall as dT grows.  From `first` dT is doubled
 /// or halved until the target is bracketed, and the bracket halved in the logarithm until a lattice is near.
-/// Where none is, and first of all for foils, spacings round (A / 2 target)^(1/2) are tried, A the area of the
-/// surface: a layer through the middle of all that is thin.  At last (two layers have twice the points of
+/// Where none is, and first of all for foils, spacings round (A / 2 target)^(1/2) are tried, A the area of
+/// the surface: a layer through the middle of all that is thin.  At last (two layers have twice the points of
 /// one) the nearest that was met.  A function of the solid and the options alone, the same on any number of
 /// threads.
 /// @param first a spacing, mesh units, > 0, finite; returned when no lattice met has any points.

@@ -22,11 +22,11 @@ struct Corner {
 
 class Scanner {
  public:
-  Scanner(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads, ExecutionContext* context)
+  Scanner(const Mesh& mesh, const LatticeGrid& grid, int axis, unsigned threads, ExecutionContext* context)
       : mesh_(mesh), threads_(threads), context_(context), u_((axis + 1) % 3), v_((axis + 2) % 3), w_(axis) {
-    u_count_ = frame.dims[static_cast<std::size_t>(u_)];
-    v_count_ = frame.dims[static_cast<std::size_t>(v_)];
-    transform(frame);
+    u_count_ = grid.dims[static_cast<std::size_t>(u_)];
+    v_count_ = grid.dims[static_cast<std::size_t>(v_)];
+    transform(grid);
   }
 
   LineCrossings run() {
@@ -62,8 +62,8 @@ class Scanner {
 
  private:
   // Lattice coordinates of all vertices: rows of the inverse of the axes' matrix (Cramer).
-  void transform(const LatticeFrame& frame) {
-    const auto& a = frame.axes;
+  void transform(const LatticeGrid& grid) {
+    const auto& a = grid.axes;
     const double det = dot(a[0], cross(a[1], a[2]));
     if (det == 0) throw CoreError(CoreError::Code::kBadInput, "the axes of the lattice are not independent");
     const std::array<Vec3, 3> rows = {cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
@@ -71,7 +71,7 @@ class Scanner {
     coordinates_.resize(mesh_.points.size());
     parallel_ranges(threads_, coordinates_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
-        const Vec3 q = mesh_.points[v] - frame.origin;
+        const Vec3 q = mesh_.points[v] - grid.origin;
         coordinates_[v] = {dot(q, rows[0]) / det, dot(q, rows[1]) / det, dot(q, rows[2]) / det};
       }
     });
@@ -170,14 +170,14 @@ class Scanner {
 
 }  // namespace
 
-LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads,
+LineCrossings scan_convert(const Mesh& mesh, const LatticeGrid& grid, int axis, unsigned threads,
                            ExecutionContext* context) {
-  return Scanner(mesh, frame, axis, threads, context).run();
+  return Scanner(mesh, grid, axis, threads, context).run();
 }
 
-std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeFrame& frame, int axis,
+std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeGrid& grid, int axis,
                                                    ExecutionContext* context) {
-  return Scanner(mesh, frame, axis, 1, context).run_lines_met();
+  return Scanner(mesh, grid, axis, 1, context).run_lines_met();
 }
 
 }  // namespace affskel::core

@@ -29,7 +29,7 @@ struct LineCrossings {
 /// between the u of its two crossing edges, lower bound included.  Every line therefore enters each
 /// closed surface as often as it leaves it, whatever the rounding.  On up to `threads` threads.
 /// @throws CoreError kCancelled when the context, if there is one, asks to stop.
-LineCrossings scan_convert(const Mesh& mesh, const LatticeFrame& frame, int axis, unsigned threads = 1,
+LineCrossings scan_convert(const Mesh& mesh, const LatticeGrid& grid, int axis, unsigned threads = 1,
                            ExecutionContext* context = nullptr);
 
 /// A crossing and the line it lies on, numbered as in LineCrossings.
@@ -40,7 +40,7 @@ struct CrossingOnLine {
 
 /// The same crossings line by line, without a word for the lines that the surface does not meet: for frames
 /// with far more lines than those.  Memory in the order of the vertices and the crossings.
-std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeFrame& frame, int axis,
+std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeGrid& grid, int axis,
                                                    ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

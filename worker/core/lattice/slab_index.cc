@@ -6,7 +6,7 @@
 namespace affskel::core {
 
 SlabIndex::SlabIndex(const Lattice& lattice) : lattice_(lattice) {
-  const auto& dims = lattice.frame.dims;
+  const auto& dims = lattice.grid.dims;
   for (auto& slab : slabs_) slab.assign(std::size_t{dims[1]} * dims[2], kOutside);
 }
 
@@ -18,7 +18,7 @@ void SlabIndex::move_to(std::uint32_t i) {
 void SlabIndex::fill(std::uint32_t i) {
   const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
   const auto begin_of = [&](const LatticeRun& run) {
-    const std::size_t place = std::size_t{run.start[1]} * lattice_.frame.dims[2] + run.start[2];
+    const std::size_t place = std::size_t{run.start[1]} * lattice_.grid.dims[2] + run.start[2];
     return slabs_[i % 3].begin() + static_cast<std::ptrdiff_t>(place);
   };
   // Only what i - 3 left there is wiped out: most of the box may be empty.

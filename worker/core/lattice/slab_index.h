@@ -23,7 +23,7 @@ class SlabIndex {
 
   /// Rank of the sample point, or kOutside; i as made available, j and k may lie outside the lattice's box.
   std::uint32_t at(std::int64_t i, std::int64_t j, std::int64_t k) const {
-    const auto& dims = lattice_.frame.dims;
+    const auto& dims = lattice_.grid.dims;
     if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2]) return kOutside;
     return slabs_[static_cast<std::size_t>(i) % 3][static_cast<std::size_t>(j * dims[2] + k)];
   }

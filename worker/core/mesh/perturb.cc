@@ -8,8 +8,8 @@
 #include "core/base/number_text.h"
 #include "core/base/plain_math.h"
 #include "core/base/split_mix64.h"
-#include "core/mesh/box_tree.h"
-#include "core/mesh/same_place.h"
+#include "core/mesh/box.h"
+#include "core/mesh/coincident_points.h"
 
 namespace affskel::core {
 namespace {
@@ -60,7 +60,7 @@ Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
     throw CoreError(CoreError::Code::kBadInput,
                     "the noise must be a finite number >= 0, not " + to_text(options.sigma));
   }
-  const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
+  const std::vector<std::uint32_t> first = first_coincident_point(mesh.points);
   Gaussian gaussian(options.seed);
   Mesh result = mesh;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {

@@ -2,7 +2,7 @@
 
 #include "core/base/split_mix64.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "core/mesh/point_index.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 
@@ -18,7 +18,7 @@ double chance_level(const Lattice& lattice, const SolidMembership& solid, std::s
     while (point - run->first >= run->length) ++run;
     const Vec3 place{run->start[0] + 0.5 * random.symmetric(), run->start[1] + 0.5 * random.symmetric(),
                      run->start[2] + (point - run->first) + 0.5 * random.symmetric()};
-    if (!solid.contains(inner_place(lattice, place))) continue;
+    if (!solid.contains(scaled_place(lattice, place))) continue;
     ++inside;
     near += index.nearest(lattice.spacing * place) <= radius;
   }

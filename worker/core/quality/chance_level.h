@@ -15,13 +15,14 @@ struct ChanceLevelOptions {
   std::uint64_t seed = 1;
 };
 
-/// The share of random inner points within a radius of the skeleton: what a set of points that knows nothing
-/// of the skeleton would score.  Points are drawn uniformly from the voxels of the sample points (equally
-/// many from each, to one; a seeded generator), those outside the solid dropped.  Sample points themselves
-/// would not do: no two of them are that near.
+/// The chance level at a radius: the share of the solid's inside that lies within it of the skeleton, which
+/// is what points that know nothing of the skeleton would score.  Estimated from points drawn uniformly from
+/// the voxels of the sample points (equally many from each, to one; a seeded generator), those outside the
+/// solid dropped.  Sample points themselves would not do: no two of them are that near.  Without a lattice,
+/// or for all radii at once: interior_points.h.
 /// @param skeleton in coordinates of the lattice's frame (see frame_field.h), mesh units; not empty.
-/// @param solid of the lattice, in inner coordinates.
-/// 0 when no draw falls inside.
+/// @param solid of the lattice, in scaled coordinates.
+/// @return 0 .. 1; 0 when no draw falls inside.
 double chance_level(const Lattice& lattice, const SolidMembership& solid, std::span<const Vec3> skeleton,
                     const ChanceLevelOptions& options = {});
 

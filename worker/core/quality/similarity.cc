@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/mesh/point_index.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 namespace {

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "core/base/matrix3.h"
 #include "core/base/number_text.h"
+#include "core/base/plain_math.h"
 #include "core/erosion/field.h"
 #include "core/erosion/frame_field.h"
 
@@ -66,9 +68,10 @@ std::string on_few_points(const Lattice& lattice) {
 
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
 std::string degrees(double opening) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const double o = std::clamp(opening, 0.0, 1.0);
   char text[32];
-  std::snprintf(text, sizeof text, "%.0f", 2 * std::asin(std::sqrt(std::clamp(opening, 0.0, 1.0))) / kDegree);
+  std::snprintf(text, sizeof text, "%.0f",
+                2 * plain_angle(std::sqrt(o), std::sqrt(1 - o)) * (180 / std::numbers::pi));
   return text;
 }
 
@@ -127,7 +130,7 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
   std::string advice;
   if (census.wide > 0) {
     advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-             " where equal chords clearly differ is E " + rounded(pruning.least_erosion, 3) +
+             " where equal chords clearly differ is E " + rounded(pruning.min_erosion, 3) +
              " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
     advice = on_turn(lattice, census, pruning);

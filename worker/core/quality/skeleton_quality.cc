@@ -19,7 +19,7 @@
 namespace affskel::core {
 namespace {
 
-// Inner units: far above rounding, far below anything that is seen.
+// Scaled units: far above rounding, far below anything that is seen.
 constexpr double kOnSurface = 1e-12;
 
 std::optional<double> farthest(std::span<const Vec3> from, std::span<const Vec3> to) {
@@ -30,7 +30,7 @@ std::optional<double> farthest(std::span<const Vec3> from, std::span<const Vec3>
 double share_inside(const Lattice& lattice, const SolidMembership& solid, const std::vector<Vec3>& points) {
   const double steps = 1 / lattice.spacing;
   const auto inside = std::count_if(points.begin(), points.end(), [&](const Vec3& p) {
-    return solid.contains(inner_place(lattice, steps * p), kOnSurface);
+    return solid.contains(scaled_place(lattice, steps * p), kOnSurface);
   });
   return static_cast<double>(inside) / static_cast<double>(points.size());
 }

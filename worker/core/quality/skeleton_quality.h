@@ -9,6 +9,7 @@
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
 #include "core/shocks/shock_operator.h"
+#include "core/shocks/zucker_hummel.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/solid.h"
 
@@ -26,13 +27,13 @@ struct SkeletonQuality {
   /// and back.  Of skeletons by the same H the higher threshold's is a subset, and the way back is 0.  Absent
   /// when one of them is empty.
   std::optional<double> hausdorff_there, hausdorff_back;
-  double chance_level = 0;  ///< share of random inner points within half a voxel's diagonal of the skeleton
+  double chance_level = 0;  ///< at half a voxel's diagonal, see chance_level.h
   std::string advice;       ///< why it is empty and what to try; empty when there is nothing to say
 };
 
 struct SkeletonQualityOptions {
   ShockOperator shock_operator = ShockOperator::kZuckerHummel;  ///< that gave H
-  double threshold = 7;                                         ///< of the skeleton
+  double threshold = kZuckerHummelThreshold;                    ///< of the skeleton
 };
 
 /// The quality of the skeleton of the points with |H| > threshold.

@@ -6,11 +6,11 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/mesh/edge_collapse.h"
-#include "core/mesh/implicit_mesh.h"
-#include "core/mesh/mirror.h"
-#include "core/mesh/self_intersection.h"
 #include "core/shapes/body_shape.h"
+#include "core/shapes/edge_collapse.h"
+#include "core/shapes/implicit_mesh.h"
+#include "core/shapes/mirror.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::core {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
-#include "core/shapes/icosahedron.h"
+#include "core/mesh/icosahedron.h"
 
 namespace affskel::core {
 namespace {

@@ -15,16 +15,8 @@
 namespace affskel::core {
 
 /// The optimal normals round one sample point.  A neighbour outside the solid counts as the centre itself, so
-/// that the solid's surface is no shock; a point without a direction has the normal 0.  The published text
-/// says nothing of neighbours outside.
-///
-/// Measured with Zucker-Hummel on ten bodies of 292 to 5000 triangles in the mesh's axes, mean shares of a
-/// skeleton within sqrt(3)/128 of the height of the other one, both ways: stretch by diag(2, 1, 1/2)
-/// 96.3/92.6 %, vertex noise of 1 %, five seeds, 94.9/94.3 %.  The normal 0 outside gives 95.6/92.3 and
-/// 96.4/95.1 %, but a constant field would diverge at the surface; the middle of a pair's row for its end
-/// outside gives 96.4/92.9 and 94.7/94.3 %.  On seven of the bodies, to leave such pairs out, to mirror their
-/// inner halves, or to leave such points out loses 0.3/0.7 points and more at the stretch and does not win
-/// both ways at the noise.
+/// that the solid's surface is no shock (measured against other rules: README.md in worker/core); a point
+/// without a direction has the normal 0.
 ///
 /// Goes along the lattice's last axis: of the 27 normals 18 are the point's before, and looking one up costs
 /// more than what an operator does with it.

@@ -1,6 +1,7 @@
 #include "core/shocks/shock_operator.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/base/error.h"
@@ -13,42 +14,58 @@
 namespace affskel::core {
 namespace {
 
-[[noreturn]] void unknown() {
-  throw CoreError(CoreError::Code::kInternal, "unknown shock operator");
+// Whatever the spacing.
+template <double threshold>
+double constant(double) {
+  return threshold;
+}
+
+constexpr std::array kOperators = {
+    ShockOperatorInfo{ShockOperator::kIntermediate, "intermediate", intermediate_difference_threshold,
+                      intermediate_difference_divergence},
+    ShockOperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
+                      central_difference_divergence},
+    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel", constant<kZuckerHummelThreshold>,
+                      [](const Lattice& lattice, const DirectionSet& directions,
+                         const OptimalDirections& optimal, ExecutionContext* context) {
+                        return zucker_hummel_divergence(lattice, directions, optimal, {}, context);
+                      }},
+    ShockOperatorInfo{ShockOperator::kSobel, "sobel", constant<kSobelThreshold>,
+                      [](const Lattice& lattice, const DirectionSet& directions,
+                         const OptimalDirections& optimal, ExecutionContext* context) {
+                        return sobel_divergence(lattice, directions, optimal, {}, context);
+                      }},
+    ShockOperatorInfo{ShockOperator::kFlux, "flux", constant<kAverageOutwardFluxThreshold>,
+                      average_outward_flux},
+};
+
+const ShockOperatorInfo& info_of(ShockOperator shock_operator) {
+  const auto found = std::find_if(kOperators.begin(), kOperators.end(), [&](const ShockOperatorInfo& info) {
+    return info.shock_operator == shock_operator;
+  });
+  if (found == kOperators.end()) throw CoreError(CoreError::Code::kInternal, "unknown shock operator");
+  return *found;
 }
 
 }  // namespace
 
-const char* name_of(ShockOperator shock_operator) {
-  switch (shock_operator) {
-    case ShockOperator::kIntermediate:
-      return "intermediate";
-    case ShockOperator::kCentral:
-      return "central";
-    case ShockOperator::kZuckerHummel:
-      return "zucker-hummel";
-    case ShockOperator::kSobel:
-      return "sobel";
-    case ShockOperator::kFlux:
-      return "flux";
+std::span<const ShockOperatorInfo> shock_operators() {
+  return kOperators;
+}
+
+std::optional<ShockOperator> shock_operator_named(std::string_view name) {
+  for (const ShockOperatorInfo& info : kOperators) {
+    if (name == info.name) return info.shock_operator;
   }
-  unknown();
+  return std::nullopt;
+}
+
+const char* name_of(ShockOperator shock_operator) {
+  return info_of(shock_operator).name;
 }
 
 double default_threshold(ShockOperator shock_operator, double spacing) {
-  switch (shock_operator) {
-    case ShockOperator::kIntermediate:
-      return intermediate_difference_threshold(spacing);
-    case ShockOperator::kCentral:
-      return central_difference_threshold(spacing);
-    case ShockOperator::kZuckerHummel:
-      return kZuckerHummelThreshold;
-    case ShockOperator::kSobel:
-      return kSobelThreshold;
-    case ShockOperator::kFlux:
-      return kAverageOutwardFluxThreshold;
-  }
-  unknown();
+  return info_of(shock_operator).default_threshold(spacing);
 }
 
 double next_threshold(double threshold) {
@@ -58,19 +75,7 @@ double next_threshold(double threshold) {
 std::vector<double> divergence(ShockOperator shock_operator, const Lattice& lattice,
                                const DirectionSet& directions, const OptimalDirections& optimal,
                                ExecutionContext* context) {
-  switch (shock_operator) {
-    case ShockOperator::kIntermediate:
-      return intermediate_difference_divergence(lattice, directions, optimal, context);
-    case ShockOperator::kCentral:
-      return central_difference_divergence(lattice, directions, optimal, context);
-    case ShockOperator::kZuckerHummel:
-      return zucker_hummel_divergence(lattice, directions, optimal, {}, context);
-    case ShockOperator::kSobel:
-      return sobel_divergence(lattice, directions, optimal, {}, context);
-    case ShockOperator::kFlux:
-      return average_outward_flux(lattice, directions, optimal, context);
-  }
-  unknown();
+  return info_of(shock_operator).divergence(lattice, directions, optimal, context);
 }
 
 }  // namespace affskel::core

@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/shocks/zucker_hummel.h"
+
 namespace affskel::core {
 
 struct SkeletonOptions {
-  double threshold = 7;  ///< keep points with |H| above this; > 0, of the operator (see shock_operator.h)
+  /// Keep points with |H| above this; > 0, of the operator that gave H (see shock_operator.h).
+  double threshold = kZuckerHummelThreshold;
 };
 
 struct SkeletonPoint {

@@ -62,9 +62,9 @@ Matrix3 least_box_axes(const Mesh& mesh) {
   const std::vector<Kernel::Point_3> hull = hull_points(mesh);
   std::vector<Vec3> points;
   for (const Kernel::Point_3& p : hull) points.push_back({p.x(), p.y(), p.z()});
-  OrientedBox least = shrink_box(points, kIdentity3);
+  FittedBox least = shrink_box(points, kIdentity3);
   for (unsigned seed = 1; seed <= kSearches; ++seed) {
-    const OrientedBox box = shrink_box(points, found_from(seed, hull));
+    const FittedBox box = shrink_box(points, found_from(seed, hull));
     if (box.volume < (1 - kTie) * least.volume) least = box;
   }
   return least.axes;

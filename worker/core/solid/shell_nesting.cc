@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/mesh/ray_crossing.h"
+#include "core/spatial/ray_crossing.h"
 
 namespace affskel::core {
 namespace {

@@ -102,8 +102,8 @@ double volume_of(std::span<const Vec3> points, const Matrix3& axes) {
 
 }  // namespace
 
-OrientedBox shrink_box(std::span<const Vec3> points, const Matrix3& start) {
-  OrientedBox box{orthonormal(start), 0};
+FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start) {
+  FittedBox box{orthonormal(start), 0};
   std::size_t idle = 0;
   for (int round = 0; round < kMaxRounds && idle < 3; ++round) {
     idle = turn_about(static_cast<std::size_t>(round) % 3, points, box.axes) ? 0 : idle + 1;

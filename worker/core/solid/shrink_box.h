@@ -7,7 +7,7 @@
 namespace affskel::core {
 
 /// A box about points: orthonormal axes and their volume.
-struct OrientedBox {
+struct FittedBox {
   Matrix3 axes = kIdentity3;
   double volume = 0;  ///< the product of the sides along the axes
 };
@@ -18,6 +18,6 @@ struct OrientedBox {
 /// the axes, so small errors of the start are forgotten.  Uses +, -, *, / and sqrt only.
 /// @param points at least one.
 /// @param start nearly orthonormal axes.
-OrientedBox shrink_box(std::span<const Vec3> points, const Matrix3& start);
+FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start);
 
 }  // namespace affskel::core

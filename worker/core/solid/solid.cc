@@ -5,14 +5,15 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/double_sum.h"
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/mesh/coincident_points.h"
 #include "core/mesh/mesh_topology.h"
-#include "core/mesh/same_place.h"
-#include "core/mesh/self_intersection.h"
 #include "core/mesh/unused_points.h"
 #include "core/solid/shell_nesting.h"
 #include "core/solid/specks.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::core {
 namespace {
@@ -20,21 +21,6 @@ namespace {
 [[noreturn]] void refuse(const std::string& message, std::uint64_t line = 0) {
   throw CoreError(CoreError::Code::kBadInput, message, line);
 }
-
-// Sum with the rounding errors carried along (Neumaier 1974).
-class CompensatedSum {
- public:
-  void add(double value) {
-    const double sum = sum_ + value;
-    error_ += std::abs(sum_) >= std::abs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
-    sum_ = sum;
-  }
-  double value() const { return sum_ + error_; }
-
- private:
-  double sum_ = 0;
-  double error_ = 0;
-};
 
 class SolidBuilder {
  public:
@@ -69,7 +55,7 @@ class SolidBuilder {
     throw_if_stopped(options_.context);
     nest();
     throw_if_stopped(options_.context);
-    const std::vector<double> volumes = inner_volumes();
+    const std::vector<double> volumes = scaled_volumes();
     // Before surfaces are turned: which way those of specks face may be rounding.
     const std::vector<std::uint8_t> specks = find_specks(solid_, volumes);
     if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks);
@@ -128,7 +114,7 @@ class SolidBuilder {
 
   void weld() {
     Mesh& mesh = solid_.mesh;
-    const std::vector<std::uint32_t> first = first_at_same_place(mesh.points);
+    const std::vector<std::uint32_t> first = first_coincident_point(mesh.points);
     std::uint64_t merged = 0;
     for (std::size_t v = 0; v < first.size(); ++v) merged += first[v] != v;
     if (merged == 0) return;
@@ -215,7 +201,7 @@ class SolidBuilder {
     solid_.triangle_shell = connected_surfaces(mates, count);
     solid_.shells.resize(count);
     const Mesh& mesh = solid_.mesh;
-    std::vector<CompensatedSum> volume(count);
+    std::vector<DoubleSum> volume(count);
     std::vector<std::uint32_t> vertex_shell(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& c = mesh.triangles[t];
@@ -252,13 +238,13 @@ class SolidBuilder {
   }
 
   // Per solid, its cavities subtracted; whichever way the surfaces face.
-  std::vector<double> inner_volumes() const {
-    std::vector<CompensatedSum> sums(solid_.solid_volume.size());
+  std::vector<double> scaled_volumes() const {
+    std::vector<DoubleSum> sums(solid_.solid_volume.size());
     for (const Shell& shell : solid_.shells) {
       sums[shell.solid].add(shell.cavity ? -std::abs(shell.volume) : std::abs(shell.volume));
     }
     std::vector<double> volumes;
-    for (const CompensatedSum& sum : sums) volumes.push_back(sum.value());
+    for (const DoubleSum& sum : sums) volumes.push_back(sum.value());
     return volumes;
   }
 
@@ -286,7 +272,7 @@ class SolidBuilder {
                                " surfaces faced inward and were turned, the first at " + place(first));
   }
 
-  // What the input is without these solids.  From the beginning: the box, and with it all inner coordinates,
+  // What the input is without these solids.  From the beginning: the box, and with it all scaled coordinates,
   // may be another one.
   Solid without(const std::vector<std::uint8_t>& specks) {
     std::vector<std::uint32_t> kept, left_out;
@@ -325,10 +311,10 @@ class SolidBuilder {
   void set_volumes(const std::vector<double>& volumes) {
     const double unit = std::ldexp(1.0, 3 * solid_.exponent);
     for (std::size_t i = 0; i < volumes.size(); ++i) {
-      if (!(volumes[i] > kLeastInnerVolume)) refuse_volume(i, volumes[i] * unit);
+      if (!(volumes[i] > kMinScaledVolume)) refuse_volume(i, volumes[i] * unit);
       solid_.solid_volume[i] = volumes[i] * unit;
     }
-    CompensatedSum total;
+    DoubleSum total;
     for (const Shell& shell : solid_.shells) total.add(shell.volume);
     for (Shell& shell : solid_.shells) shell.volume *= unit;
     solid_.volume = total.value() * unit;
@@ -344,7 +330,7 @@ class SolidBuilder {
     const std::string which =
         "solid " + std::to_string(solid) + " of " + std::to_string(solid_.solid_volume.size());
     const SolidSize size = solid_sizes(solid_)[solid];
-    if (size.longest_side() < kLeastInnerSide) {
+    if (size.longest_side() < kMinScaledSide) {
       refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
              place(size.first_triangle) + ", is " + rounded(size.longest_side() * solid_.scale(), 3) +
              " long, the whole mesh " + rounded(extent(), 3) + "; take them one by one");

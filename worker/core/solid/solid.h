@@ -39,11 +39,11 @@ struct Shell {
 
 /// A solid V bounded by closed outward-oriented triangle meshes, ready for the erosion.
 ///
-/// Inner coordinates: y = (x - centre) * 2^-exponent, so that the bounding box is centred at 0 and its
+/// Scaled coordinates: y = (x - centre) * 2^-exponent, so that the bounding box is centred at 0 and its
 /// longest side lies in (1/2, 1].  The scaling is exact, the shift rounds once; all further stages work in
-/// inner coordinates and give volumes times 2^(3 exponent), areas times 2^(2 exponent).
+/// scaled coordinates and give volumes times 2^(3 exponent), areas times 2^(2 exponent).
 struct Solid {
-  Mesh mesh;                                  ///< inner coordinates
+  Mesh mesh;                                  ///< scaled coordinates
   Vec3 centre;                                ///< of the bounding box, mesh units
   int exponent = 0;                           ///< see above
   Vec3 bbox_min, bbox_max;                    ///< mesh units
@@ -56,7 +56,7 @@ struct Solid {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<MeshNote> notes;
 
-  /// Mesh units per inner unit, 2^exponent.
+  /// Mesh units per scaled unit, 2^exponent.
   double scale() const;
 };
 

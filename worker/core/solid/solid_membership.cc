@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/mesh/ray_crossing.h"
+#include "core/spatial/ray_crossing.h"
 
 namespace affskel::core {
 SolidMembership::SolidMembership(const Mesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/mesh/box_tree.h"
 #include "core/mesh/mesh.h"
+#include "core/spatial/box_tree.h"
 
 namespace affskel::core {
 

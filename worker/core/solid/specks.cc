@@ -16,9 +16,9 @@ double longest_side_of(const Box& box) {
 
 // Whether so much could be told from rounding in a mesh with this box.
 bool counts_in(const Box& box, double volume) {
-  int exponent = 0;  // of the cube that would be 1 in inner coordinates
+  int exponent = 0;  // of the cube that would be 1 in scaled coordinates
   if (std::frexp(longest_side_of(box), &exponent) == 0.5) --exponent;
-  return volume > std::ldexp(kLeastInnerVolume, 3 * exponent);
+  return volume > std::ldexp(kMinScaledVolume, 3 * exponent);
 }
 
 bool is_larger(const SolidSize& a, const SolidSize& b) {
@@ -58,7 +58,7 @@ std::vector<SolidSize> solid_sizes(const Solid& solid) {
 
 std::vector<std::uint8_t> find_specks(const Solid& solid, const std::vector<double>& volumes) {
   std::vector<std::uint8_t> specks(volumes.size(), 0);
-  const auto large = [](double volume) { return volume > kLeastInnerVolume; };
+  const auto large = [](double volume) { return volume > kMinScaledVolume; };
   if (std::all_of(volumes.begin(), volumes.end(), large)) return specks;
 
   const std::vector<SolidSize> sizes = solid_sizes(solid);

@@ -12,7 +12,7 @@ void ErodedPlaces::Extent::take(std::int64_t low, std::int64_t high) {
 ErodedPlaces::ErodedPlaces(const Lattice& lattice, const FrameField& field, const LatticeCuts& cuts,
                            double level)
     : lattice_(lattice), field_(field), cuts_(cuts), level_(level) {
-  for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.frame.dims[a];
+  for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.grid.dims[a];
   for (Layer& layer : layers_) {
     const auto size = static_cast<std::size_t>((dims_[1] + 2) * (dims_[2] + 2));
     layer.full.assign(size, 0);

@@ -25,10 +25,10 @@
 #include "core/base/number_text.h"
 #include "core/lattice/lattice_cuts.h"
 #include "core/lattice/slab_index.h"
-#include "core/mesh/loose_vertices.h"
-#include "core/mesh/tidy_mesh.h"
 #include "core/surface/eroded_places.h"
 #include "core/surface/level_crossing.h"
+#include "core/tidy/loose_vertices.h"
+#include "core/tidy/tidy_mesh.h"
 
 namespace affskel::core {
 namespace {
@@ -51,7 +51,7 @@ class Marcher {
         cuts_(solid, lattice),
         places_(lattice, field, cuts_, level),
         ranks_(lattice) {
-    for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.frame.dims[a];
+    for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.grid.dims[a];
   }
 
   /// In lattice coordinates.
@@ -251,8 +251,8 @@ class Marcher {
       return {t, t, t};
     }
     const Vec3& h = field_.gradient[y];
-    constexpr double kMostCosine = 0.5;  // see level_crossing_between
-    const bool kinked = dot(g, h) < kMostCosine * norm(g) * norm(h);
+    constexpr double kMaxCosine = 0.5;  // see level_crossing_between
+    const bool kinked = dot(g, h) < kMaxCosine * norm(g) * norm(h);
     return level_crossing_between(here, {field_.erosion[y], dot(h, delta)}, level_, kinked);
   }
 

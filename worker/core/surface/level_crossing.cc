@@ -20,16 +20,16 @@ double root(Function f) {
 
 /// The concave kink of the two tangents, when there is one: writes its place on the edge.
 bool find_kink(const EdgeValue& x, const EdgeValue& y, double& t) {
-  constexpr double kLeastStrength = 0.5;
-  if (!(tangents_kink(x, y) > kLeastStrength * (std::abs(x.slope) + std::abs(y.slope)))) return false;
+  constexpr double kMinStrength = 0.5;
+  if (!(tangents_kink(x, y) > kMinStrength * (std::abs(x.slope) + std::abs(y.slope)))) return false;
   t = tangents_crossing(x, y);
   return t >= 0 && t <= 1;
 }
 
 /// Whether E falls faster than either end says.
 bool jumps(const EdgeValue& x, const EdgeValue& y) {
-  constexpr double kMostFall = 1.5;
-  return x.erosion - y.erosion > kMostFall * std::max({-x.slope, -y.slope, 0.0});
+  constexpr double kMaxFall = 1.5;
+  return x.erosion - y.erosion > kMaxFall * std::max({-x.slope, -y.slope, 0.0});
 }
 
 /// Above the level as far as the tangent at x says, below it as far as the one at y says.
@@ -69,8 +69,8 @@ double level_crossing_before_surface(const EdgeValue& above, double surface, dou
   const double power = -above.slope * surface / above.erosion;
   if (power < 1) return std::min(surface, (above.erosion - level) / -above.slope);
   // More than 8 means that E is far from any power law; the steepest curve will do.
-  constexpr double kMostFactors = 8;
-  const double factors = std::min(std::floor(power), kMostFactors);
+  constexpr double kMaxFactors = 8;
+  const double factors = std::min(std::floor(power), kMaxFactors);
   const double rest = std::min(power - factors, 1.0), wanted = level / above.erosion;
   return surface * root([&](double tau) {
            double product = 1 - rest * tau;

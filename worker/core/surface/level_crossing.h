@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/chords/edge_value.h"
+#include "core/erosion/edge_value.h"
 
 namespace affskel::core {
 

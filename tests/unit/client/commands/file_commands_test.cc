@@ -8,7 +8,7 @@
 #include "client/commands/run_client.h"
 #include "client/files/read/read_shape.h"
 #include "core/base/affine_map.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "temp_dir.h"

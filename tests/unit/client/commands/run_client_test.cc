@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "client_fixture.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "test_environment.h"
 #include "wire/sha256.h"

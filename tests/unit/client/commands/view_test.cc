@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "client/commands/run_client.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "fake_service.h"
 #include "sample_data.h"

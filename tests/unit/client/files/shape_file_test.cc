@@ -9,7 +9,7 @@
 #include "client/base/error.h"
 #include "client/files/numbers.h"
 #include "client/files/write/shape_writer.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "sample_data.h"

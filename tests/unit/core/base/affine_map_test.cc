@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/mesh/map_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 

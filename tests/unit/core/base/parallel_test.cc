@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/lattice/lattice.h"
-#include "core/mesh/self_intersection.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::core {
 namespace {

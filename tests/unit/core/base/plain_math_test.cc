@@ -17,6 +17,26 @@ TEST(PlainMathTest, LogarithmAgreesWithTheLibrarys) {
   for (double x = 0.5; x < 2; x += 1e-3) EXPECT_NEAR(plain_log(x), std::log(x), 4e-16) << x;
 }
 
+TEST(PlainMathTest, ExponentialAgreesWithTheLibrarys) {
+  for (double x = -1; x <= 1; x += 1e-3) EXPECT_NEAR(plain_exp(x), std::exp(x), 2.3e-16 * std::exp(x)) << x;
+  EXPECT_EQ(plain_exp(0), 1);
+  EXPECT_EQ(plain_exp(1), std::numbers::e);
+}
+
+TEST(PlainMathTest, AngleAgreesWithTheLibrarys) {
+  for (double degrees = 0; degrees <= 180; degrees += 0.37) {
+    const auto [sine, cosine] = plain_sin_cos_degrees(degrees);
+    for (const double size : {1e-100, 0.7, 1e100}) {
+      EXPECT_NEAR(plain_angle(size * sine, size * cosine), std::atan2(sine, cosine), 1e-15) << degrees;
+    }
+  }
+  EXPECT_EQ(plain_angle(0, 1), 0);
+  EXPECT_EQ(plain_angle(0, -1), std::numbers::pi);
+  EXPECT_EQ(plain_angle(1, 0), std::numbers::pi / 2);
+  EXPECT_EQ(plain_angle(0, 0), 0);
+  EXPECT_NEAR(plain_angle(1e-9, 1), 1e-9, 1e-24);
+}
+
 TEST(PlainMathTest, SineAndCosineAgreeWithTheLibrarys) {
   for (double degrees = -725; degrees <= 725; degrees += 0.37) {
     const auto [sine, cosine] = plain_sin_cos_degrees(degrees);

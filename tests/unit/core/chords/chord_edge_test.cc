@@ -21,7 +21,7 @@ void expect_the_walks_edges(const Lattice& lattice) {
     walked[{axis, place}] = {x, y};
   });
   ASSERT_FALSE(walked.empty());
-  const auto& dims = lattice.frame.dims;
+  const auto& dims = lattice.grid.dims;
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < dims[0]; ++i) {
     for (std::uint32_t j = 0; j < dims[1]; ++j) {

@@ -12,9 +12,9 @@ namespace affskel::core {
 namespace {
 
 // Smallest box along the given axes round the solid's bounding box, in steps.
-LatticeFrame frame_round(const Solid& solid, const std::array<Vec3, 3>& axes) {
+LatticeGrid frame_round(const Solid& solid, const std::array<Vec3, 3>& axes) {
   const double volume = dot(axes[0], cross(axes[1], axes[2]));
-  LatticeFrame frame;
+  LatticeGrid grid;
   Vec3 centre;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 dual = (solid.scale() / volume) * cross(axes[(k + 1) % 3], axes[(k + 2) % 3]);
@@ -23,12 +23,12 @@ LatticeFrame frame_round(const Solid& solid, const std::array<Vec3, 3>& axes) {
       low = std::min(low, dot(dual, p));
       high = std::max(high, dot(dual, p));
     }
-    frame.axes[k] = (1 / solid.scale()) * axes[k];
-    frame.dims[k] = static_cast<std::uint32_t>(std::ceil(high - low));
-    centre = centre + (0.5 * (low + high) - 0.5 * (frame.dims[k] - 1.0)) * frame.axes[k];
+    grid.axes[k] = (1 / solid.scale()) * axes[k];
+    grid.dims[k] = static_cast<std::uint32_t>(std::ceil(high - low));
+    centre = centre + (0.5 * (low + high) - 0.5 * (grid.dims[k] - 1.0)) * grid.axes[k];
   }
-  frame.origin = centre;
-  return frame;
+  grid.origin = centre;
+  return grid;
 }
 
 FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string& spec) {

@@ -156,7 +156,7 @@ TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
   plane.add(20, 10, 0, 10, 1, 1, 3.1);
   EXPECT_EQ(plane.prune().shocks.size(), 100U);
   ChordPruningOptions options = quarter();
-  options.least_erosion = 0;
+  options.min_erosion = 0;
   EXPECT_EQ(plane.prune(options).shocks.size(), 200U);
 }
 

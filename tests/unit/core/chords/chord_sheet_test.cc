@@ -171,11 +171,11 @@ TEST(ChordSheet, ThreeBranchesMeetInALine) {
 // In a stretched frame the area of the section is still that of the mesh's coordinates.
 TEST(ChordSheet, AreaIsInMeshUnitsWhateverTheFrame) {
   const Solid solid = make_solid(make_box(16, 8, 4));
-  LatticeFrame frame;
-  frame.axes = axes(1 / solid.scale(), 2, 1, 0.5);
-  frame.dims = {8, 8, 8};
-  frame.origin = -3.5 * (frame.axes[0] + frame.axes[1] + frame.axes[2]);
-  const Lattice lattice = make_lattice(solid, frame);
+  LatticeGrid grid;
+  grid.axes = axes(1 / solid.scale(), 2, 1, 0.5);
+  grid.dims = {8, 8, 8};
+  grid.origin = -3.5 * (grid.axes[0] + grid.axes[1] + grid.axes[2]);
+  const Lattice lattice = make_lattice(solid, grid);
   ASSERT_EQ(lattice.points, 512U);
   // Sections of area 3 across z: grad_u E = F^T (0, 0, +-3) = (0, 0, +-1.5).
   const FrameField field =
@@ -341,11 +341,11 @@ struct Fork {
 
   Fork() {
     const double inner = 1 / solid.scale();
-    LatticeFrame frame;
-    frame.axes = axes(inner, 2, 0.25, 0.5);
-    frame.dims = {2, 4, 8};
-    frame.origin = inner * (Vec3{0.5, 0.125, 0.25} - solid.centre);
-    lattice = make_lattice(solid, frame);
+    LatticeGrid grid;
+    grid.axes = axes(inner, 2, 0.25, 0.5);
+    grid.dims = {2, 4, 8};
+    grid.origin = inner * (Vec3{0.5, 0.125, 0.25} - solid.centre);
+    lattice = make_lattice(solid, grid);
   }
 
   // In steps.
@@ -370,7 +370,7 @@ TEST(ChordSheet, AVertexInAGapIsDrawnToAShock) {
   for (const Vec3& v : vertices) {
     EXPECT_TRUE(v.x == 0 || v.x == 1) << v.x;
     EXPECT_NEAR(v.z, 2.5, 1e-12);
-    EXPECT_TRUE(membership.contains(inner_place(fork.lattice, v)));
+    EXPECT_TRUE(membership.contains(scaled_place(fork.lattice, v)));
   }
 }
 

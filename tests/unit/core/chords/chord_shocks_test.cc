@@ -52,7 +52,7 @@ TEST(ChordShocks, ASlantingPlaneIsMetOnEveryEdgeAcrossIt) {
     }
   }
   ChordShockOptions options;
-  options.least_strength = 0;
+  options.min_strength = 0;
   const std::vector<ChordShock> shocks = chord_shocks(box.lattice, field, options);
   EXPECT_GT(across, 100U);
   ASSERT_EQ(shocks.size(), across);
@@ -127,17 +127,17 @@ TEST(ChordShocks, BoundsOnStrengthAndOpeningHold) {
   const FrameField slope =
       field_of_branches(box.lattice, {linear_branch(0, {0, 0, 2}), linear_branch(4.5, {0, 1, 1})});
   ChordShockOptions options;
-  options.least_opening = 0.249;
+  options.min_opening = 0.249;
   EXPECT_EQ(chord_shocks(box.lattice, wedge, options).size(), 16U);
-  options.least_opening = 0.251;
+  options.min_opening = 0.251;
   EXPECT_TRUE(chord_shocks(box.lattice, wedge, options).empty());
-  options.least_opening = 0.01;
+  options.min_opening = 0.01;
   for (const ChordShock& shock : chord_shocks(box.lattice, slope, options)) {
     if (shock.axis == 2) {
       EXPECT_NEAR(shock.strength, 1.0 / 3, 1e-12);
     }
   }
-  options.least_strength = 0.34;
+  options.min_strength = 0.34;
   for (const ChordShock& shock : chord_shocks(box.lattice, slope, options)) EXPECT_NE(shock.axis, 2);
 }
 
@@ -216,8 +216,8 @@ TEST(ChordShocks, AMappedLatticeGivesTheSameNumbers) {
 // The opening across the middle plane z = 0 at the lattice edge over (x, y), both steps of spacing h.
 double opening_across_the_middle(const ErodedSolid& solid, double x, double y) {
   ChordShockOptions options;
-  options.least_strength = 0;
-  options.least_opening = 0;
+  options.min_strength = 0;
+  options.min_opening = 0;
   double nearest = 1e300, opening = 0;
   for (const ChordShock& shock : chord_shocks(solid.lattice, solid.field, options)) {
     const Vec3 p = solid.place(shock.position);

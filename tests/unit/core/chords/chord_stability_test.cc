@@ -105,7 +105,7 @@ TEST(ChordSheet, IsOneAnnulusWhenSamplePointsLieOnIt) {
     for (const std::uint32_t triangles : {256U, 1024U}) {
       for (const double h : {0.14, 0.16, 0.23}) {
         const ErodedSolid torus(make_torus(3, 1, triangles), axes(h), directions);
-        ASSERT_EQ(torus.lattice.frame.dims[2] % 2, 1U);
+        ASSERT_EQ(torus.lattice.grid.dims[2] % 2, 1U);
         const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
         EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0})) << directions << ", " << triangles << ", " << h;
       }
@@ -123,7 +123,7 @@ TEST(ChordSheet, StaysInThePlaneOfATorusOfFewTriangles) {
     EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0}));
     // With an odd number of layers one lies in the plane, and which of two equal chords counts there is
     // chance.
-    const double bound = torus.lattice.frame.dims[2] % 2 == 0 ? 0.05 : 0.55;
+    const double bound = torus.lattice.grid.dims[2] % 2 == 0 ? 0.05 : 0.55;
     for (const ChordSheetVertex& v : sheet.vertices)
       EXPECT_LT(std::abs(torus.place(v.position).z), bound * h);
   }

@@ -18,12 +18,12 @@ Lattice lattice_of(const Solid& solid, double spacing) {
 namespace {
 
 Lattice lattice_through_the_middle(const Solid& solid, double spacing) {
-  LatticeFrame frame = lattice_of(solid, spacing).frame;
+  LatticeGrid grid = lattice_of(solid, spacing).grid;
   for (std::size_t k = 0; k < 3; ++k) {
-    frame.origin = frame.origin - 0.5 * frame.axes[k];
-    ++frame.dims[k];
+    grid.origin = grid.origin - 0.5 * grid.axes[k];
+    ++grid.dims[k];
   }
-  return make_lattice(solid, frame);
+  return make_lattice(solid, grid);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(Erosion, AreaIsTheGradientAlongTheNormal) {
     const double h = dot(d, (1 / unit) * (solid.place[i] - solid.solid.centre));
     // Some arc at this height has the field's value; its slope is the area.
     for (const Arc& arc : tree.arcs) {
-      if (h < tree.pieces[arc.first_piece].height || h >= arc.top) continue;
+      if (h < tree.cubics[arc.first_cubic].height || h >= arc.top) continue;
       const double step = 1e-5;
       const double v = tree.locate(arc, h).volume_at(h) * unit * unit * unit;
       if (std::abs(v - value.erosion) > 1e-12 * solid.solid.volume) continue;

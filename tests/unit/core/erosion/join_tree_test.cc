@@ -46,7 +46,7 @@ long double direct_volume(const Mesh& mesh, const Vec3& d, long double t) {
 double tree_volume(const JoinTree& tree, double t) {
   double sum = 0;
   for (const Arc& arc : tree.arcs) {
-    if (t < tree.pieces[arc.first_piece].height || t >= arc.top) continue;
+    if (t < tree.cubics[arc.first_cubic].height || t >= arc.top) continue;
     sum += tree.locate(arc, t).volume_at(t);
   }
   return sum;
@@ -167,10 +167,10 @@ TEST(JoinTree, AreaIsTheDerivativeOfVolume) {
   JoinTreeBuilder builder(input);
   for (const Vec3& d : make_directions(solid, "random:20:1")) {
     const JoinTree& tree = builder.build(d);
-    for (const Piece& piece : tree.pieces) {
-      const double h = piece.height + 1e-4, step = 1e-6;
-      const double slope = (piece.volume_at(h + step) - piece.volume_at(h - step)) / (2 * step);
-      EXPECT_NEAR(piece.area_at(h), slope, 1e-7 * (1 + std::abs(piece.sixth_bend)));
+    for (const Cubic& cubic : tree.cubics) {
+      const double h = cubic.height + 1e-4, step = 1e-6;
+      const double slope = (cubic.volume_at(h + step) - cubic.volume_at(h - step)) / (2 * step);
+      EXPECT_NEAR(cubic.area_at(h), slope, 1e-7 * (1 + std::abs(cubic.sixth_bend)));
     }
   }
 }
@@ -186,11 +186,11 @@ TEST(JoinTree, LooksUpALowerBoundOfTheVolume) {
     for (const Vec3& d : make_directions(solid, "random:20:2")) {
       const JoinTree& tree = builder.build(d);
       for (const Arc& arc : tree.arcs) {
-        const double bottom = tree.pieces[arc.first_piece].height, top = tree.pieces[arc.last_piece].height;
+        const double bottom = tree.cubics[arc.first_cubic].height, top = tree.cubics[arc.last_cubic].height;
         // In a cell V grows by at most its height times the largest section, here less than the bounding
         // box's.
         const double growth =
-            arc.last_piece > arc.first_piece ? (top - bottom) / (arc.last_piece - arc.first_piece) * 1.1 : 0;
+            arc.last_cubic > arc.first_cubic ? (top - bottom) / (arc.last_cubic - arc.first_cubic) * 1.1 : 0;
         for (int i = 0; i <= 200; ++i) {
           const double h = bottom + (top - bottom) * (i / 200.0);
           const double volume = tree.locate(arc, h).volume_at(h), bound = tree.volume_below(arc, h);
@@ -219,7 +219,7 @@ TEST(JoinTree, LooksUpALowerBoundOfAllVolumesAboveWhereTheyFall) {
     for (std::size_t a = tree.arcs.size(); a-- > 0;) {
       const Arc& arc = tree.arcs[a];
       const bool root = arc.parent == Arc::kNone;
-      const double top = root ? tree.pieces[arc.last_piece].height : arc.top;
+      const double top = root ? tree.cubics[arc.last_cubic].height : arc.top;
       least[a] = root ? 1e300 : least[arc.parent];
       for (int i = kSamples - 1; i >= 0; --i) {
         const double h = arc.bottom + (top - arc.bottom) * (i / double{kSamples});
@@ -266,7 +266,7 @@ TEST(JoinTree, KeepsComponentsApart) {
   const double h = (2 - solid.centre.z) / unit;
   int components = 0;
   for (const Arc& arc : tree.arcs) {
-    if (h < tree.pieces[arc.first_piece].height || h >= arc.top) continue;
+    if (h < tree.cubics[arc.first_cubic].height || h >= arc.top) continue;
     ++components;
     EXPECT_NEAR(tree.locate(arc, h).volume_at(h) * unit * unit * unit, 2, 1e-12);
     EXPECT_NEAR(tree.locate(arc, h).area_at(h) * unit * unit, 1, 1e-12);
@@ -300,7 +300,7 @@ TEST(JoinTree, EverySolidIsARootOfItsVolume) {
     std::vector<double> volumes;
     for (const Arc& arc : tree.arcs) {
       if (arc.parent == Arc::kNone)
-        volumes.push_back(tree.pieces[arc.last_piece].volume * std::pow(solid.scale(), 3));
+        volumes.push_back(tree.cubics[arc.last_cubic].volume * std::pow(solid.scale(), 3));
     }
     std::vector<double> expected = solid.solid_volume;
     std::sort(volumes.begin(), volumes.end());
@@ -335,22 +335,22 @@ TEST(JoinTree, MinimaInsideOtherPartsGiveNoComponents) {
   EXPECT_EQ(builder.build({0, 0, 1}).arcs.size(), 1U);
 }
 
-TEST(JoinTree, LocateFindsThePieceOfEveryHeight) {
+TEST(JoinTree, LocateFindsTheCubicOfEveryHeight) {
   const Solid solid = make_solid(make_box(3, 2, 1, 8));
   const TreeInput input(solid);
   JoinTreeBuilder builder(input);
   for (const Vec3& d : make_directions(solid, "triangles+random:50:4")) {
     const JoinTree& tree = builder.build(d);
     for (const Arc& arc : tree.arcs) {
-      const Piece* pieces = tree.pieces.data();
-      for (std::uint32_t i = arc.first_piece; i <= arc.last_piece; ++i) {
-        ASSERT_EQ(&tree.locate(arc, pieces[i].height), &pieces[i]);
-        if (i < arc.last_piece) {
-          ASSERT_EQ(&tree.locate(arc, std::nextafter(pieces[i + 1].height, -2)), &pieces[i]);
+      const Cubic* cubics = tree.cubics.data();
+      for (std::uint32_t i = arc.first_cubic; i <= arc.last_cubic; ++i) {
+        ASSERT_EQ(&tree.locate(arc, cubics[i].height), &cubics[i]);
+        if (i < arc.last_cubic) {
+          ASSERT_EQ(&tree.locate(arc, std::nextafter(cubics[i + 1].height, -2)), &cubics[i]);
         }
       }
-      ASSERT_EQ(&tree.locate(arc, -10), &pieces[arc.first_piece]);
-      ASSERT_EQ(&tree.locate(arc, 10), &pieces[arc.last_piece]);
+      ASSERT_EQ(&tree.locate(arc, -10), &cubics[arc.first_cubic]);
+      ASSERT_EQ(&tree.locate(arc, 10), &cubics[arc.last_cubic]);
     }
   }
 }

@@ -25,13 +25,13 @@ TEST(LatticePlaces, AreWhereTheWalkOverAllPointsFindsThem) {
   EXPECT_TRUE(lattice_places(lattice, {}).empty());
 }
 
-TEST(InnerPlace, IsThePlaceOfTheSamplePoint) {
+TEST(ScaledPlace, IsThePlaceOfTheSamplePoint) {
   const Solid solid = make_solid(hollow_ball());
   LatticeOptions options;
   options.spacing = 0.4;
   const Lattice lattice = make_lattice(solid, options);
   const Vec3 expected = SamplePlaces(solid, lattice).at(3, 4, 5);
-  const Vec3 found = solid.centre + solid.scale() * inner_place(lattice, {3, 4, 5});
+  const Vec3 found = solid.centre + solid.scale() * scaled_place(lattice, {3, 4, 5});
   EXPECT_NEAR(norm(found - expected), 0, 1e-14);
 }
 

@@ -23,7 +23,7 @@ Lattice lattice_of(const Solid& solid, double spacing) {
 // Visits every edge with both ends' ranks.
 void for_each_edge(const Lattice& lattice,
                    const std::function<void(const Place&, const Place&, unsigned, bool, bool)>& visit) {
-  const auto dims = lattice.frame.dims;
+  const auto dims = lattice.grid.dims;
   SlabIndex ranks(lattice);
   for (std::int64_t i = -1; i < dims[0]; ++i) {
     if (i + 1 < dims[0]) ranks.move_to(static_cast<std::uint32_t>(i + 1));
@@ -96,12 +96,12 @@ TEST(LatticeCutsTest, FindTheGapBetweenTwoBoxes) {
 
 // A lattice that is `length` places long along one axis, with the solid at its lower end.
 Lattice lattice_from_the_corner(const Solid& solid, std::size_t axis, std::uint32_t length) {
-  LatticeFrame frame;
-  frame.axes = {Vec3{0.125, 0, 0}, Vec3{0, 0.125, 0}, Vec3{0, 0, 0.125}};
-  frame.origin = {-0.53125, -0.53125, -0.53125};
-  frame.dims = {9, 9, 9};
-  frame.dims[axis] = length;
-  return make_lattice(solid, frame);
+  LatticeGrid grid;
+  grid.axes = {Vec3{0.125, 0, 0}, Vec3{0, 0.125, 0}, Vec3{0, 0, 0.125}};
+  grid.origin = {-0.53125, -0.53125, -0.53125};
+  grid.dims = {9, 9, 9};
+  grid.dims[axis] = length;
+  return make_lattice(solid, grid);
 }
 
 // A sheared frame of the long lattice has 2^36 lines: words for all of them fit in no memory.

@@ -52,9 +52,9 @@ TEST(MakeLattice, KeepsExactlyThePointsInside) {
   for (const Vec3& p : places_of(solid, lattice)) kept.insert({p.x, p.y, p.z});
   const SamplePlaces places(solid, lattice);
   std::size_t inside = 0;
-  for (std::uint32_t i = 0; i < lattice.frame.dims[0]; ++i) {
-    for (std::uint32_t j = 0; j < lattice.frame.dims[1]; ++j) {
-      for (std::uint32_t k = 0; k < lattice.frame.dims[2]; ++k) {
+  for (std::uint32_t i = 0; i < lattice.grid.dims[0]; ++i) {
+    for (std::uint32_t j = 0; j < lattice.grid.dims[1]; ++j) {
+      for (std::uint32_t k = 0; k < lattice.grid.dims[2]; ++k) {
         const Vec3 p = places.at(i, j, k);
         const bool wanted = winding_number(mesh, p) > 0.5;
         inside += wanted;
@@ -142,12 +142,12 @@ TEST(MakeLattice, RefusesWhatCannotBe) {
 TEST(ScanConversion, EveryLineLeavesAsOftenAsItEnters) {
   for (std::uint32_t divisions : {1U, 3U, 8U}) {
     const Solid solid = make_solid(make_box(1, 1, 1, divisions));
-    LatticeFrame frame;
-    frame.origin = {-0.5, -0.5, -0.5};
-    frame.axes = {Vec3{0.125, 0, 0}, Vec3{0, 0.125, 0}, Vec3{0, 0, 0.125}};
-    frame.dims = {9, 9, 9};
+    LatticeGrid grid;
+    grid.origin = {-0.5, -0.5, -0.5};
+    grid.axes = {Vec3{0.125, 0, 0}, Vec3{0, 0.125, 0}, Vec3{0, 0, 0.125}};
+    grid.dims = {9, 9, 9};
     for (int axis = 0; axis < 3; ++axis) {
-      const LineCrossings lines = scan_convert(solid.mesh, frame, axis);
+      const LineCrossings lines = scan_convert(solid.mesh, grid, axis);
       for (std::size_t line = 0; line + 1 < lines.begin.size(); ++line) {
         int winding = 0;
         for (std::uint64_t c = lines.begin[line]; c < lines.begin[line + 1]; ++c) {
@@ -158,21 +158,21 @@ TEST(ScanConversion, EveryLineLeavesAsOftenAsItEnters) {
       }
     }
     // Half-open on every axis: of 9 planes of points the 8 lower ones are inside.
-    EXPECT_EQ(make_lattice(solid, frame).points, 512U);
+    EXPECT_EQ(make_lattice(solid, grid).points, 512U);
   }
 }
 
 TEST(ScanConversion, OfTheLinesMetFindsTheSameCrossings) {
   // Lattice points on the faces of the box, so that many crossings of a line coincide.
   const Solid solid = make_solid(make_box(1, 1, 1, 3));
-  LatticeFrame frame;
-  frame.origin = {-1, -0.75, -0.5};
-  frame.axes = {Vec3{0.125, 0, 0}, Vec3{0.125, 0.125, 0}, Vec3{0, 0.125, 0.125}};
-  frame.dims = {15, 17, 9};
+  LatticeGrid grid;
+  grid.origin = {-1, -0.75, -0.5};
+  grid.axes = {Vec3{0.125, 0, 0}, Vec3{0.125, 0.125, 0}, Vec3{0, 0.125, 0.125}};
+  grid.dims = {15, 17, 9};
   for (int axis = 0; axis < 3; ++axis) {
-    const LineCrossings all = scan_convert(solid.mesh, frame, axis);
+    const LineCrossings all = scan_convert(solid.mesh, grid, axis);
     std::size_t next = 0;
-    const std::vector<CrossingOnLine> met = scan_convert_lines_met(solid.mesh, frame, axis);
+    const std::vector<CrossingOnLine> met = scan_convert_lines_met(solid.mesh, grid, axis);
     ASSERT_EQ(met.size(), all.crossings.size());
     EXPECT_GT(met.size(), 50u);
     for (std::size_t line = 0; line + 1 < all.begin.size(); ++line) {
@@ -188,13 +188,13 @@ TEST(ScanConversion, OfTheLinesMetFindsTheSameCrossings) {
 
 TEST(ScanConversion, TakesObliqueAndLeftHandedFrames) {
   const Solid solid = make_solid(make_sphere(1, 1280));
-  LatticeFrame frame;
-  frame.axes = {Vec3{0.05, 0.01, 0}, Vec3{0, 0, 0.04}, Vec3{0.02, 0.05, 0.01}};  // left-handed
-  frame.dims = {60, 60, 60};
-  frame.origin = -30.0 * (frame.axes[0] + frame.axes[1] + frame.axes[2]);
-  const double cell = std::abs(dot(frame.axes[0], cross(frame.axes[1], frame.axes[2])));
+  LatticeGrid grid;
+  grid.axes = {Vec3{0.05, 0.01, 0}, Vec3{0, 0, 0.04}, Vec3{0.02, 0.05, 0.01}};  // left-handed
+  grid.dims = {60, 60, 60};
+  grid.origin = -30.0 * (grid.axes[0] + grid.axes[1] + grid.axes[2]);
+  const double cell = std::abs(dot(grid.axes[0], cross(grid.axes[1], grid.axes[2])));
   const double inner_volume = solid.volume / std::pow(solid.scale(), 3);
-  EXPECT_NEAR(make_lattice(solid, frame).points * cell / inner_volume, 1, 0.02);
+  EXPECT_NEAR(make_lattice(solid, grid).points * cell / inner_volume, 1, 0.02);
 }
 
 TEST(MakeLattice, StopsWhereverItIsAsked) {

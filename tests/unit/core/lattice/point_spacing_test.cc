@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/affine_map.h"
 #include "core/base/cube_root.h"
 #include "core/base/error.h"
+#include "core/mesh/map_mesh.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/stopping_context.h"
@@ -78,7 +78,7 @@ TEST(SpacingForPoints, FoilsGetASingleLayerAtOnce) {
   EXPECT_TRUE(is_foil(foil, cube_root(foil.volume / 1e5)));
   const Lattice lattice = lattice_for(foil, 100000);
   EXPECT_TRUE(is_near(lattice.points, 100000)) << lattice.points;
-  EXPECT_EQ(lattice.frame.dims[2], 1U);
+  EXPECT_EQ(lattice.grid.dims[2], 1U);
   EXPECT_FALSE(is_foil(make_solid(make_body({500, 18000})), 200));
 }
 

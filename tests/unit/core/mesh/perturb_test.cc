@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/error.h"
-#include "core/mesh/same_place.h"
+#include "core/mesh/coincident_points.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 
@@ -58,8 +58,8 @@ TEST(PerturbTest, VerticesAtOnePlaceMoveTogether) {
   soup.points.back() = {soup.points.back().x == 0 ? -0.0 : soup.points.back().x, soup.points.back().y,
                         soup.points.back().z};
   const Mesh noisy = perturb(soup, {0.01, 1});
-  const std::vector<std::uint32_t> before = first_at_same_place(soup.points);
-  EXPECT_EQ(first_at_same_place(noisy.points), before);
+  const std::vector<std::uint32_t> before = first_coincident_point(soup.points);
+  EXPECT_EQ(first_coincident_point(noisy.points), before);
   EXPECT_EQ(make_solid(noisy).mesh.points.size(), 8u);  // welds, and is closed
 }
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mesh/mesh_io.h"
 #include "core/solid/solid.h"
+#include "core/text/off_file.h"
 
 namespace affskel::core {
 namespace {

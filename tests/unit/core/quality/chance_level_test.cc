@@ -50,12 +50,12 @@ TEST(ChanceLevel, IsOneWhenEveryPointIsKept) {
 // Frames only turn and stretch: what counts are distances in the frame's coordinates.
 TEST(ChanceLevel, MeasuresInTheFrame) {
   const Cube cube;
-  LatticeFrame frame = cube.lattice.frame;  // stretched by 2 along x, squeezed by 2 along z
-  frame.axes[0] = 2 * frame.axes[0];
-  frame.axes[2] = 0.5 * frame.axes[2];
-  frame.origin = frame.origin + 0.25 * frame.axes[0] + (-0.5) * frame.axes[2];
-  frame.dims = {5, 10, 20};
-  const Lattice stretched = make_lattice(cube.solid, frame);
+  LatticeGrid grid = cube.lattice.grid;  // stretched by 2 along x, squeezed by 2 along z
+  grid.axes[0] = 2 * grid.axes[0];
+  grid.axes[2] = 0.5 * grid.axes[2];
+  grid.origin = grid.origin + 0.25 * grid.axes[0] + (-0.5) * grid.axes[2];
+  grid.dims = {5, 10, 20};
+  const Lattice stretched = make_lattice(cube.solid, grid);
   ASSERT_EQ(stretched.points, 1000U);
   ChanceLevelOptions options;
   options.draws = 200000;

@@ -85,9 +85,9 @@ TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
 TEST(EmptySheetAdvice, SuggestsOtherAxesWhenTheseAreStretched) {
   NormalBlock block({10, 10, 10});
   Lattice lattice = block.lattice;
-  lattice.frame.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.1}};
+  lattice.grid.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.1}};
   EXPECT_FALSE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame"));
-  lattice.frame.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, 0.05}};
+  lattice.grid.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, 0.05}};
   EXPECT_TRUE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame axis or --frame pca"));
 }
 

@@ -87,12 +87,12 @@ TEST(SkeletonQuality, NoticesPointsOutsideTheSolid) {
 // Sample points on the faces of the box count as inside.
 TEST(SkeletonQuality, CountsTheSurfaceAsInside) {
   const Solid solid = make_solid(make_box(4, 4, 4));
-  LatticeFrame frame;
+  LatticeGrid grid;
   const double inner = 1 / solid.scale();
-  frame.origin = inner * Vec3{-2, -2, -2};
-  frame.axes = {Vec3{inner, 0, 0}, Vec3{0, inner, 0}, Vec3{0, 0, inner}};
-  frame.dims = {5, 5, 5};
-  const Lattice lattice = make_lattice(solid, frame);
+  grid.origin = inner * Vec3{-2, -2, -2};
+  grid.axes = {Vec3{inner, 0, 0}, Vec3{0, inner, 0}, Vec3{0, 0, inner}};
+  grid.dims = {5, 5, 5};
+  const Lattice lattice = make_lattice(solid, grid);
   ASSERT_GT(lattice.points, 27U);
   EXPECT_EQ(skeleton_quality(solid, lattice, OptimalDirections(lattice.points, 0),
                              std::vector<double>(lattice.points, 8))

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/mesh/self_intersection.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/body_shape.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::core {
 namespace {

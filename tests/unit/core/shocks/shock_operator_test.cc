@@ -13,8 +13,20 @@ namespace {
 
 using Place = NormalBlock::Place;
 
-constexpr std::array kAll = {ShockOperator::kIntermediate, ShockOperator::kCentral,
-                             ShockOperator::kZuckerHummel, ShockOperator::kSobel, ShockOperator::kFlux};
+std::vector<ShockOperator> all() {
+  std::vector<ShockOperator> list;
+  for (const ShockOperatorInfo& info : shock_operators()) list.push_back(info.shock_operator);
+  return list;
+}
+
+TEST(ShockOperators, HaveNamesThatFindThem) {
+  ASSERT_EQ(shock_operators().size(), 5U);
+  for (const ShockOperatorInfo& info : shock_operators()) {
+    EXPECT_EQ(shock_operator_named(info.name), info.shock_operator);
+  }
+  EXPECT_EQ(shock_operator_named("chords"), std::nullopt);
+  EXPECT_EQ(shock_operator_named(""), std::nullopt);
+}
 
 class EveryOperator : public testing::TestWithParam<ShockOperator> {
  protected:
@@ -23,7 +35,7 @@ class EveryOperator : public testing::TestWithParam<ShockOperator> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, EveryOperator, testing::ValuesIn(kAll), [](const auto& param) {
+INSTANTIATE_TEST_SUITE_P(All, EveryOperator, testing::ValuesIn(all()), [](const auto& param) {
   std::string name = name_of(param.param);
   std::erase(name, '-');
   return name;

@@ -13,13 +13,13 @@ namespace {
 
 TEST(ShrinkBox, FindsABoxFromNearby) {
   const Mesh mesh = make_box(3, 2, 1);
-  const OrientedBox box = shrink_box(mesh.points, {Vec3{1, 0.1, -0.05}, Vec3{-0.1, 1, 0.02}, Vec3{}});
+  const FittedBox box = shrink_box(mesh.points, {Vec3{1, 0.1, -0.05}, Vec3{-0.1, 1, 0.02}, Vec3{}});
   EXPECT_NEAR(box.volume, 6, 1e-12);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(norm(box.axes[k] - kIdentity3[k]), 1e-12);
 }
 
 TEST(ShrinkBox, LeavesWhatIsLeastAlone) {
-  const OrientedBox box = shrink_box(make_box(3, 2, 1, 4).points, kIdentity3);
+  const FittedBox box = shrink_box(make_box(3, 2, 1, 4).points, kIdentity3);
   EXPECT_EQ(box.axes, kIdentity3);
   EXPECT_EQ(box.volume, 6);
 }
@@ -27,7 +27,7 @@ TEST(ShrinkBox, LeavesWhatIsLeastAlone) {
 // The least box of a regular tetrahedron is the cube that it is inscribed in, of edge a / sqrt(2).
 TEST(LeastBox, OfATetrahedronIsItsCube) {
   const Matrix3 axes = least_box_axes(shaken(make_tetrahedron(2), 0, 1));
-  const OrientedBox box = shrink_box(shaken(make_tetrahedron(2), 0, 1).points, axes);
+  const FittedBox box = shrink_box(shaken(make_tetrahedron(2), 0, 1).points, axes);
   EXPECT_NEAR(box.volume, 2 * std::sqrt(2.0), 1e-9);
 }
 

@@ -233,7 +233,7 @@ TEST(MakeLattice, FollowsTheFrame) {
     const Solid solid = make_solid(mapped(box, turn(), {7, 8, 9}));
     const Lattice lattice = make_lattice(solid, options_for(solid, kind, 0.25));
     EXPECT_EQ(lattice.points, 12U * 8 * 4);
-    EXPECT_EQ(lattice.frame.dims, (std::array<std::uint32_t, 3>{12, 8, 4}));
+    EXPECT_EQ(lattice.grid.dims, (std::array<std::uint32_t, 3>{12, 8, 4}));
     EXPECT_EQ(lattice.spacing, 0.25);
     const SamplePlaces places(solid, lattice);
     for (const Vec3& axis : places.axes()) EXPECT_NEAR(norm(axis), 0.25, 1e-14);
@@ -247,7 +247,7 @@ TEST(MakeLattice, InTheAffineFrameGoesAlongWithTheMap) {
   const Solid before = make_solid(crooked()), after = make_solid(mapped(crooked(), map, {1, 2, 3}));
   const Lattice a = make_lattice(before, options_for(before, FrameKind::kAffine, 0.13)),
                 b = make_lattice(after, options_for(after, FrameKind::kAffine, 0.13));
-  ASSERT_EQ(a.frame.dims, b.frame.dims);
+  ASSERT_EQ(a.grid.dims, b.grid.dims);
   ASSERT_EQ(a.points, b.points);
   ASSERT_GT(a.points, 1000U);
   const std::vector<Vec3> x = places_of(before, a), y = places_of(after, b);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/mesh/point_index.h"
 #include "core/shapes/shapes.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 namespace {

@@ -26,17 +26,17 @@ unsigned gaps_from(const LatticeCuts& cuts, std::int64_t i, std::int64_t j, std:
 
 // One row against the definitions, place by place.
 void expect_row(const ErodedPlaces::Row& row, std::int64_t i, std::int64_t j, const SlabIndex& ranks,
-                const std::vector<double>& erosion, const LatticeCuts& cuts, const LatticeFrame& frame,
+                const std::vector<double>& erosion, const LatticeCuts& cuts, const LatticeGrid& grid,
                 Seen& seen) {
   ErodedPlaces::Extent extent;
-  for (std::int64_t k = -1; k <= frame.dims[2]; ++k) {
+  for (std::int64_t k = -1; k <= grid.dims[2]; ++k) {
     SCOPED_TRACE(testing::Message() << "place " << i << ' ' << j << ' ' << k);
     const std::uint32_t rank = ranks.at(i, j, k);
     const bool full = rank != SlabIndex::kOutside && erosion[rank] >= 1;
     EXPECT_EQ(row.full[k], full ? 1 : 0);
     if (full) extent.take(k, k);
     seen.full += full;
-    if (i < 0 || i == frame.dims[0]) continue;
+    if (i < 0 || i == grid.dims[0]) continue;
     const unsigned gaps = gaps_from(cuts, i, j, k);
     EXPECT_EQ(row.gaps[k], gaps);
     seen.gaps += gaps != 0;
@@ -60,14 +60,14 @@ TEST(ErodedPlacesTest, TellFullPlacesAndGapsOfEveryPairOfLayers) {
 
   ErodedPlaces places(lattice, field, cuts, 1);
   SlabIndex ranks(lattice);
-  const auto dims = lattice.frame.dims;
+  const auto dims = lattice.grid.dims;
   Seen seen;
   for (std::int64_t at = -1; at < dims[0]; ++at) {
     places.move_to(at);
     if (at + 1 < dims[0]) ranks.move_to(static_cast<std::uint32_t>(at + 1));
     for (std::int64_t i = at; i <= at + 1; ++i) {
       for (std::int64_t j = -1; j <= dims[1]; ++j) {
-        expect_row(places.row(i, j), i, j, ranks, field.erosion, cuts, lattice.frame, seen);
+        expect_row(places.row(i, j), i, j, ranks, field.erosion, cuts, lattice.grid, seen);
       }
     }
   }

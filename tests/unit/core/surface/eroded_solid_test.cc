@@ -95,7 +95,7 @@ Eroded uneroded(const Mesh& mesh, double spacing) {
       mesh, spacing, [](const Vec3&) { return 1.0; }, [](const Vec3&) { return Vec3{}; });
 }
 
-// The unit ball's closed form (design, section 7).
+// The unit ball's closed form: E = pi (1 - p)^2 (2 + p) / 3 at the distance p from the centre.
 double ball_level(double p) {
   return kPi * (1 - p) * (1 - p) * (2 + p) / 3;
 }
@@ -120,13 +120,13 @@ void expect_manifold(const Mesh& mesh) {
 // differs from the level by less than `slack` times what the gradient makes of a spacing may err.
 void expect_sides(const Eroded& e, const Mesh& mesh, double level, double slack) {
   const SamplePlaces places(e.solid, e.lattice);
-  LatticeFrame frame = e.lattice.frame;
-  frame.origin = places.origin();
-  frame.axes = places.axes();
-  const LineCrossings lines = scan_convert(mesh, frame, 2);
+  LatticeGrid grid = e.lattice.grid;
+  grid.origin = places.origin();
+  grid.axes = places.axes();
+  const LineCrossings lines = scan_convert(mesh, grid, 2);
   std::size_t wrong = 0;
   for (const LatticeRun& run : e.lattice.axis[2].runs) {
-    const std::size_t line = std::size_t{run.start[0]} * frame.dims[1] + run.start[1];
+    const std::size_t line = std::size_t{run.start[0]} * grid.dims[1] + run.start[1];
     for (std::uint32_t n = 0; n < run.length; ++n) {
       int winding = 0;
       for (std::uint64_t c = lines.begin[line]; c < lines.begin[line + 1]; ++c) {
@@ -177,11 +177,11 @@ TEST(ErodedSurfaceTest, ConvergesWithTheSquareOfTheSpacing) {
 TEST(ErodedSurfaceTest, OfAnEllipsoidIsHomotheticInAnyFrame) {
   // Axes neither orthogonal nor right-handed.
   const auto lattice = [](const Solid& solid) {
-    LatticeFrame frame;
-    frame.axes = {Vec3{0.02, 0.001, 0}, Vec3{0.003, 0.0, 0.02}, Vec3{-0.002, 0.02, 0}};
-    frame.dims = {70, 70, 70};
-    frame.origin = -34.5 * (frame.axes[0] + (frame.axes[1] + frame.axes[2]));
-    return make_lattice(solid, frame);
+    LatticeGrid grid;
+    grid.axes = {Vec3{0.02, 0.001, 0}, Vec3{0.003, 0.0, 0.02}, Vec3{-0.002, 0.02, 0}};
+    grid.dims = {70, 70, 70};
+    grid.origin = -34.5 * (grid.axes[0] + (grid.axes[1] + grid.axes[2]));
+    return make_lattice(solid, grid);
   };
   const Eroded e = computed(make_ellipsoid(3, 2, 1.5, 1280), lattice);
   constexpr double kRadius = 0.75;
@@ -357,12 +357,12 @@ TEST(ErodedSurfaceTest, DependsOnTheSolidNotOnTheLengthOfTheLattice) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto lattice = [&](std::uint32_t length) {
       return [axis, length](const Solid& solid) {
-        LatticeFrame frame;
-        frame.axes = {Vec3{0.0625, 0, 0}, Vec3{0, 0.0625, 0}, Vec3{0, 0, 0.0625}};
-        frame.origin = {-0.53125, -0.53125, -0.53125};
-        frame.dims = {18, 18, 18};
-        frame.dims[axis] = length;
-        return make_lattice(solid, frame);
+        LatticeGrid grid;
+        grid.axes = {Vec3{0.0625, 0, 0}, Vec3{0, 0.0625, 0}, Vec3{0, 0, 0.0625}};
+        grid.origin = {-0.53125, -0.53125, -0.53125};
+        grid.dims = {18, 18, 18};
+        grid.dims[axis] = length;
+        return make_lattice(solid, grid);
       };
     };
     const Eroded near = computed(two, lattice(18)), far = computed(two, lattice(1U << 18));

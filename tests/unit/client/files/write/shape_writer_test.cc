@@ -8,7 +8,7 @@
 #include "affskel/v1/types.pb.h"
 #include "client/artifacts/surface.h"
 #include "client/base/error.h"
-#include "core/mesh/mesh_io.h"
+#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "temp_dir.h"
 

@@ -1,0 +1,53 @@
+#include "core/shapes/edge_collapse.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/mesh_checks.h"
+#include "core/shapes/mirror.h"
+#include "core/shapes/shapes.h"
+
+namespace affskel::core {
+namespace {
+
+Mesh sphere_beyond_the_plane() {
+  Mesh mesh = make_sphere(1, 2000);
+  for (Vec3& p : mesh.points) p.x += 2;
+  return mesh;
+}
+
+TEST(EdgeCollapseTest, ReachesTheCountAndKeepsTopologyAndVolume) {
+  const Mesh fine = sphere_beyond_the_plane();
+  const Mesh coarse = collapse_edges(fine, 300);
+  EXPECT_EQ(coarse.triangles.size(), 300u);
+  expect_solid_boundary(coarse);
+  EXPECT_NEAR(mesh_facts(coarse).volume / mesh_facts(fine).volume, 1, 0.01);
+}
+
+TEST(EdgeCollapseTest, ReachesOddAndEvenCountsOfAHalf) {
+  const Mesh half = positive_x_part(make_sphere(1, 2000), 0.01);
+  for (const std::size_t triangles : {100u, 101u, 150u, 151u}) {
+    const Mesh coarse = collapse_edges(half, triangles);
+    EXPECT_EQ(coarse.triangles.size(), triangles);
+    for (const Vec3& p : coarse.points) EXPECT_GE(p.x, 0);
+    const Mesh whole = with_mirror_image(coarse);
+    EXPECT_EQ(whole.triangles.size(), 2 * triangles);
+    expect_solid_boundary(whole);
+  }
+}
+
+TEST(EdgeCollapseTest, StopsWhereTheTopologyWouldBreak) {
+  Mesh box = make_box(1, 1, 1);
+  for (Vec3& p : box.points) p.x += 1;
+  const Mesh coarse = collapse_edges(box, 2);
+  EXPECT_GE(coarse.triangles.size(), 4u);
+  expect_solid_boundary(coarse);
+}
+
+TEST(EdgeCollapseTest, RefusesAMeshThatIsNotManifold) {
+  const Mesh fan{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
+  EXPECT_THROW(collapse_edges(fan, 1), CoreError);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,52 @@
+#include "core/spatial/box_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace affskel::core {
+namespace {
+
+std::vector<std::uint32_t> found_above(const BoxTree& tree, const Box& query, std::uint32_t above) {
+  std::vector<std::uint32_t> found;
+  tree.visit_above(query, above, [&](std::uint32_t index) { found.push_back(index); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(BoxTreeTest, FindsWhatASearchThroughAllFinds) {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<int> place(0, 40), extent(0, 6);  // whole numbers: many boxes just touch
+  for (const std::size_t count : {0u, 1u, 4u, 5u, 700u}) {
+    std::vector<Box> boxes(count);
+    for (Box& box : boxes) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = place(random);
+        box.high[k] = box.low[k] + extent(random);
+      }
+    }
+    const BoxTree tree(boxes);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t j = i + 1; j < count; ++j) {
+        if (boxes[i].meets(boxes[j])) expected.push_back(j);
+      }
+      EXPECT_EQ(found_above(tree, boxes[i], i), expected);
+    }
+  }
+}
+
+TEST(BoxTreeTest, AnswersNothingFromAnEmptyTree) {
+  EXPECT_TRUE(found_above(BoxTree(std::vector<Box>{}), {{0, 0, 0}, {1, 1, 1}}, 0).empty());
+}
+
+TEST(BoxTreeTest, BoxOfATriangleIsTight) {
+  const Mesh mesh{{{1, 5, -1}, {0, 6, 2}, {3, 4, 0}}, {{0, 1, 2}}};
+  const Box box = box_of(mesh, mesh.triangles[0]);
+  EXPECT_EQ(box.low, (std::array<double, 3>{0, 4, -1}));
+  EXPECT_EQ(box.high, (std::array<double, 3>{3, 6, 2}));
+}
+
+}  // namespace
+}  // namespace affskel::core

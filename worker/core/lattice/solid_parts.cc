@@ -1,0 +1,53 @@
+#include "core/lattice/solid_parts.h"
+
+#include <algorithm>
+
+#include "core/base/disjoint_sets.h"
+
+namespace affskel::core {
+
+SolidParts::SolidParts(const Solid& solid, const Lattice& lattice) : solid_(solid), lattice_(lattice) {
+  const auto solid_of = [&](std::uint32_t triangle) {
+    return solid.shells[solid.triangle_shell[triangle]].solid;
+  };
+  DisjointSets sets(solid.solid_volume.size());
+  for (const auto& [a, b] : solid.crossings) sets.unite(solid_of(a), solid_of(b));
+  // A set's least member comes first, and so has its number when the others ask for it.
+  for (std::uint32_t s = 0; s < solid.solid_volume.size(); ++s) {
+    const std::uint32_t least = sets.find(s);
+    part_of_solid_.push_back(least == s ? count_++ : part_of_solid_[least]);
+  }
+  points_.assign(count_, 0);
+  for (const LatticeRun& run : lattice.axis[2].runs) points_[of_triangle(run.low)] += run.length;
+}
+
+std::uint32_t SolidParts::of_point(std::uint32_t point) const {
+  if (count_ == 1) return 0;
+  const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
+  const auto behind = std::upper_bound(runs.begin(), runs.end(), point,
+                                       [](std::uint32_t p, const LatticeRun& run) { return p < run.first; });
+  return of_triangle((behind - 1)->low);
+}
+
+std::vector<Mesh> SolidParts::meshes() const {
+  // Of a vertex: the part it was last copied to, and its place there.
+  std::vector<std::uint32_t> owner(solid_.mesh.points.size(), count_), place(solid_.mesh.points.size());
+  std::vector<Mesh> result(count_);
+  for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
+    const std::uint32_t part = of_triangle(t);
+    Mesh& mesh = result[part];
+    Triangle corners = solid_.mesh.triangles[t];
+    for (std::uint32_t& corner : corners) {
+      if (owner[corner] != part) {
+        owner[corner] = part;
+        place[corner] = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.push_back(solid_.mesh.points[corner]);
+      }
+      corner = place[corner];
+    }
+    mesh.triangles.push_back(corners);
+  }
+  return result;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+struct InteriorPointsOptions {
+  std::uint32_t count = 50000;  ///< > 0; this many
+};
+
+/// Points spread evenly over the inside of a solid, mesh units, however thin it is.  Lines along the solid's
+/// longest principal axis, spread over its box by the R2 sequence (Roberts 2018), are cut with the surface;
+/// the points lie on what is inside, as many per length on every line, each somewhere in its share of the
+/// length by the golden ratio's sequence.  Neither random nor periodic; only + - * / and sqrt.  At most
+/// 8 `count` lines are cut.
+/// The share_within(r) of their DistanceCurve (similarity.h) from a skeleton is the chance level at r (see
+/// chance_level.h).
+/// @throws CoreError kBadInput when the solid is so thin that none of the lines meets its inside.
+std::vector<Vec3> interior_points(const Solid& solid, const InteriorPointsOptions& options = {});
+
+}  // namespace affskel::core

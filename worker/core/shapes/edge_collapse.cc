@@ -1,0 +1,120 @@
+#include "core/shapes/edge_collapse.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <vector>
+
+#include "core/base/error.h"
+
+namespace affskel::core {
+namespace {
+
+namespace simplification = CGAL::Surface_mesh_simplification;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+SurfaceMesh to_cgal(const Mesh& mesh) {
+  SurfaceMesh out;
+  out.reserve(static_cast<SurfaceMesh::size_type>(mesh.points.size()),
+              static_cast<SurfaceMesh::size_type>(mesh.triangles.size() * 3 / 2),
+              static_cast<SurfaceMesh::size_type>(mesh.triangles.size()));
+  for (const Vec3& p : mesh.points) out.add_vertex({p.x, p.y, p.z});
+  using Vertex = SurfaceMesh::Vertex_index;
+  for (const Triangle& t : mesh.triangles) {
+    if (out.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == SurfaceMesh::null_face()) {
+      throw CoreError(CoreError::Code::kInternal, "edge collapse: the mesh is not manifold");
+    }
+  }
+  return out;
+}
+
+Mesh from_cgal(SurfaceMesh& mesh) {
+  mesh.collect_garbage();
+  Mesh out;
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    out.points.push_back({p.x(), p.y(), p.z()});
+  }
+  for (const auto f : mesh.faces()) {
+    Triangle t{};
+    std::size_t k = 0;
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) t[k++] = v;
+    out.triangles.push_back(t);
+  }
+  return out;
+}
+
+class FaceCountStop {
+ public:
+  explicit FaceCountStop(std::size_t faces) : faces_(faces) {}
+
+  template <typename Cost, typename Profile>
+  bool operator()(const Cost&, const Profile& profile, std::size_t, std::size_t) const {
+    return profile.surface_mesh().number_of_faces() <= faces_;
+  }
+
+ private:
+  std::size_t faces_;
+};
+
+/// Lindstrom and Turk's placement, held in the half space and on the plane of the border; no placement
+/// for collapses that must not be.
+class Placement {
+ public:
+  explicit Placement(std::size_t faces) : faces_(faces) {}
+
+  template <typename Profile>
+  boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
+    const SurfaceMesh& mesh = profile.surface_mesh();
+    const bool border_edge = mesh.is_border(profile.v0_v1()) || mesh.is_border(profile.v1_v0());
+    if (mesh.number_of_faces() < faces_ + (border_edge ? 1 : 2)) return boost::none;  // fewer than asked for
+    auto place = bounded_(profile);
+    if (!place) return place;
+    if (!mesh.is_border(profile.v0()) && !mesh.is_border(profile.v1())) {
+      return place->x() > 0 ? place : boost::none;
+    }
+    if (makes_chord(profile)) return boost::none;
+    return Kernel::Point_3(0, place->y(), place->z());
+  }
+
+ private:
+  /// Whether the merged vertex, on the border, would be joined to another vertex of the border by an edge
+  /// that is not on the border: with the mirror image that edge would have four triangles.
+  template <typename Profile>
+  static bool makes_chord(const Profile& profile) {
+    const SurfaceMesh& mesh = profile.surface_mesh();
+    for (const auto w : profile.link()) {
+      if (mesh.is_border(w) && !border_edge(mesh, profile.v0(), w) && !border_edge(mesh, profile.v1(), w)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static bool border_edge(const SurfaceMesh& mesh, SurfaceMesh::Vertex_index v, SurfaceMesh::Vertex_index w) {
+    const auto h = mesh.halfedge(v, w);
+    return h != SurfaceMesh::null_halfedge() && mesh.is_border(mesh.edge(h));
+  }
+
+  using Optimal = simplification::LindstromTurk_placement<SurfaceMesh>;
+
+  std::size_t faces_;
+  simplification::Bounded_normal_change_placement<Optimal> bounded_{Optimal()};
+};
+
+}  // namespace
+
+Mesh collapse_edges(const Mesh& mesh, std::size_t triangles) {
+  SurfaceMesh surface = to_cgal(mesh);
+  simplification::edge_collapse(surface, FaceCountStop(triangles),
+                                CGAL::parameters::get_cost(simplification::LindstromTurk_cost<SurfaceMesh>())
+                                    .get_placement(Placement(triangles)));
+  return from_cgal(surface);
+}
+
+}  // namespace affskel::core

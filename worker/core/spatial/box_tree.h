@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/box.h"
+#include "core/spatial/halved_nodes.h"
+
+namespace affskel::core {
+
+/// A balanced tree over boxes for overlap queries: self-intersection, rays, membership.  Immutable after
+/// construction; queries from several threads are safe.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  /// O(N log N), on up to `threads` threads.
+  explicit BoxTree(std::vector<Box> boxes, unsigned threads = 1);
+
+  /// The box that was given with this index.
+  const Box& box(std::uint32_t index) const { return boxes_[index]; }
+
+  /// Calls visit(index) for every box that meets `query`, in an order of the tree's own.
+  /// @param query a Box, or anything that tells by meets(Box) whether it may meet what is in a box.
+  template <class Query = Box, class Visit>
+  void visit(const Query& query, Visit visit) const {
+    walk(query, -1, visit);
+  }
+
+  /// The same for the indices > `above`.
+  template <class Query = Box, class Visit>
+  void visit_above(const Query& query, std::int64_t above, Visit visit) const {
+    walk(query, above, visit);
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t first, count, right;
+    std::uint32_t greatest;  // of the indices below
+  };
+
+  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
+
+  template <class Query = Box, class Visit>
+  void walk(const Query& query, std::int64_t above, Visit visit) const {
+    walk_halved_nodes(
+        nodes_, [&](const Node& node) { return node.greatest > above && query.meets(node.box); },
+        [&](std::uint32_t place) {
+          const std::uint32_t item = items_[place];
+          if (item > above && query.meets(boxes_[item])) visit(item);
+        });
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> items_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,100 @@
+#include "core/spatial/oriented_box.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/axis_choice.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// More than projections on axes, centres and axes may be wrong by together (about 2^-48).
+constexpr double kMargin = 0x1p-46;
+
+// Of a box with these half sides along these axes, along a direction.
+double reach(const Matrix3& axes, const Vec3& half, const Vec3& direction) {
+  return half.x * std::abs(dot(axes[0], direction)) + half.y * std::abs(dot(axes[1], direction)) +
+         half.z * std::abs(dot(axes[2], direction));
+}
+
+// v / |v|, or another unit vector where v is shorter than `least` and its direction may be rounding.
+Vec3 unit_or(const Vec3& v, const Vec3& other, double least) {
+  const double length = norm(v);
+  return length > least ? (1 / length) * v : other;
+}
+
+}  // namespace
+
+UnitTriangles::UnitTriangles(const Mesh& mesh) : mesh_(&mesh) {
+  double largest = 0;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      const Vec3& p = mesh.points[v];
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  unit_ = std::ldexp(1.0, -std::max(exponent, -1000));
+}
+
+OrientedExtent::OrientedExtent(const Matrix3& axes)
+    : axes_(axes), along_{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}} {}
+
+void OrientedExtent::include(const Corners& corners) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const Vec3& p : corners) {
+      const double along = dot(axes_[k], p);
+      along_.low[k] = std::min(along_.low[k], along);
+      along_.high[k] = std::max(along_.high[k], along);
+    }
+  }
+}
+
+OrientedBox OrientedExtent::box() const {
+  const auto middle = [&](std::size_t k) { return 0.5 * (along_.low[k] + along_.high[k]); };
+  const auto half = [&](std::size_t k) { return 0.5 * (along_.high[k] - along_.low[k]); };
+  return {axes_, axes_ * Vec3{middle(0), middle(1), middle(2)}, {half(0), half(1), half(2)}};
+}
+
+OrientedBox oriented_box(const Corners& corners) {
+  Corners sides = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+  std::sort(sides.begin(), sides.end(), [](const Vec3& s, const Vec3& t) { return dot(s, s) > dot(t, t); });
+  const Vec3 along = unit_or(sides[0], kIdentity3[0], 0), any = plane_axes(along)[0];
+  // Twice: what rounding leaves along the side is large beside the height of a needle.
+  Vec3 across = unit_or(sides[1] - dot(sides[1], along) * along, any, 0);
+  across = unit_or(across - dot(across, along) * along, any, 0.5);
+  OrientedExtent extent({along, across, unit(cross(along, across))});
+  extent.include(corners);
+  return extent.box();
+}
+
+OrientedBox oriented_box(const Box& box, double unit) {
+  const Vec3 low = unit * Vec3{box.low[0], box.low[1], box.low[2]};
+  const Vec3 high = unit * Vec3{box.high[0], box.high[1], box.high[2]};
+  return {kIdentity3, 0.5 * (low + high), 0.5 * (high - low)};
+}
+
+bool surely_apart(const OrientedBox& a, const OrientedBox& b) {
+  const Vec3 between = b.centre - a.centre;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& axis = a.axes[static_cast<std::size_t>(k)];
+    if (std::abs(dot(axis, between)) > a.half[k] + reach(b.axes, b.half, axis) + kMargin) return true;
+  }
+  return false;
+}
+
+bool surely_apart(const OrientedBox& box, const Corners& corners) {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& axis = box.axes[static_cast<std::size_t>(k)];
+    const double p = dot(axis, corners[0] - box.centre), q = dot(axis, corners[1] - box.centre),
+                 r = dot(axis, corners[2] - box.centre), most = box.half[k] + kMargin;
+    if (std::min({p, q, r}) > most || std::max({p, q, r}) < -most) return true;
+  }
+  return false;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/spatial/halved_nodes.h"
+#include "core/spatial/oriented_box.h"
+
+namespace affskel::core {
+
+/// A balanced tree of oriented boxes over triangles, for slivers: long and thin triangles that lie side by
+/// side keep boxes as thin as they are together, whatever direction they have (Gottschalk, Lin and Manocha
+/// 1996).  A tree of its own beside BoxTree, whose boxes of slivers nearly all meet: of 80,000 triangles of a
+/// tilted cylinder it has 13.1 million candidates where these boxes leave 3,600, for every 100th triangle.
+/// Immutable after construction; queries from several threads are safe.
+class OrientedBoxTree {
+ public:
+  OrientedBoxTree() = default;
+  /// O(N log N), on up to `threads` threads.  Keeps a reference to the mesh of `triangles`.
+  /// @param members some of its triangles.
+  OrientedBoxTree(const UnitTriangles& triangles, std::vector<std::uint32_t> members, unsigned threads = 1);
+
+  /// Calls visit(j) for every member j > i that may meet triangle i, in an order of the tree's own.
+  /// @param corners, box of triangle i, a member or not.
+  template <class Visit>
+  void visit_above(std::uint32_t i, const Corners& corners, const OrientedBox& box, Visit visit) const {
+    walk_halved_nodes(
+        nodes_,
+        [&](const Node& node) {
+          return node.greatest > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
+        },
+        [&](std::uint32_t place) {
+          const std::uint32_t j = members_[place];
+          if (j > i && !surely_apart(box, triangles_.corners(j))) visit(j);
+        });
+  }
+
+ private:
+  struct Node {
+    OrientedBox box;
+    std::uint32_t first, count, right;
+    std::uint32_t greatest;  // of the members below
+  };
+
+  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
+  OrientedBox box_round(std::uint32_t first, std::uint32_t count) const;
+  int longest_axis(std::uint32_t first, std::uint32_t count) const;
+
+  UnitTriangles triangles_;
+  std::vector<std::uint32_t> members_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace affskel::core

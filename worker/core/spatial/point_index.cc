@@ -1,0 +1,94 @@
+#include "core/spatial/point_index.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace affskel::core {
+namespace {
+
+double squared_distance(const Vec3& a, const Vec3& b) {
+  const Vec3 way = a - b;
+  return dot(way, way);
+}
+
+// A lower bound of squared_distance to all points of the box that rounding cannot push above it: each step
+// below rounds a difference that is at most the one of any point, and rounding keeps order.
+double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) {
+  const auto outside = [](double x, double a, double b) { return x < a ? a - x : x > b ? x - b : 0.0; };
+  const Vec3 way = {outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)};
+  return dot(way, way);
+}
+
+int longest_side(const Vec3& low, const Vec3& high) {
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+  }
+  return axis;
+}
+
+}  // namespace
+
+PointIndex::PointIndex(std::span<const Vec3> points) : points_(points.begin(), points.end()) {
+  if (points_.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw CoreError(CoreError::Code::kLimit, "too many points to index: " + std::to_string(points_.size()));
+  }
+  if (!points_.empty()) build(0, static_cast<std::uint32_t>(points_.size()));
+}
+
+std::uint32_t PointIndex::build(std::uint32_t first, std::uint32_t count) {
+  constexpr std::uint32_t kLeaf = 8;
+  Vec3 low = points_[first], high = low;
+  for (std::uint32_t i = first + 1; i < first + count; ++i) {
+    const Vec3& p = points_[i];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({low, high, first, count, 0});
+  if (count <= kLeaf) return index;
+
+  const int axis = longest_side(low, high);
+  const auto begin = points_.begin() + first;
+  std::nth_element(begin, begin + count / 2, begin + count,
+                   [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+  build(first, count / 2);
+  const std::uint32_t right = build(first + count / 2, count - count / 2);
+  nodes_[index].right = right;
+  return index;
+}
+
+double PointIndex::nearest(const Vec3& place) const {
+  double best = std::numeric_limits<double>::infinity();
+  if (nodes_.empty()) return best;
+  const auto bound = [&](std::uint32_t node) {
+    return squared_distance_to_box(place, nodes_[node].low, nodes_[node].high);
+  };
+  std::array<std::pair<double, std::uint32_t>, 64> stack;  // the tree is balanced: at most 32 levels
+  std::size_t depth = 0;
+  stack[depth++] = {bound(0), 0};
+  while (depth > 0) {
+    const auto [least, index] = stack[--depth];
+    if (least >= best) continue;
+    const Node& node = nodes_[index];
+    if (node.right == 0) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        best = std::min(best, squared_distance(place, points_[i]));
+      }
+      continue;
+    }
+    std::pair near = {bound(index + 1), index + 1}, far = {bound(node.right), node.right};
+    if (far.first < near.first) std::swap(near, far);
+    stack[depth++] = far;
+    stack[depth++] = near;
+  }
+  return std::sqrt(best);
+}
+
+}  // namespace affskel::core

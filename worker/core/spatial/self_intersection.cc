@@ -1,0 +1,219 @@
+#include "core/spatial/self_intersection.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
+#include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/spatial/box_tree.h"
+#include "core/spatial/close_triangles.h"
+
+namespace affskel::core {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+
+[[noreturn]] void refuse(std::size_t triangle, std::uint32_t vertex, const std::string& cause) {
+  throw CoreError(CoreError::Code::kBadInput, "triangle " + std::to_string(triangle) + ", vertex " +
+                                                  std::to_string(vertex) + ": " + cause);
+}
+
+void check(const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (v >= mesh.points.size()) {
+        refuse(i, v, "there are only " + std::to_string(mesh.points.size()) + " vertices");
+      }
+      const Vec3& p = mesh.points[v];
+      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) {
+        refuse(i, v, "a coordinate is not finite");
+      }
+    }
+  }
+}
+
+/// Triangle t with its corners turned so that the ones it shares with another come first.
+struct Turned {
+  std::array<std::uint32_t, 3> corner;
+  std::size_t shared = 0;
+};
+
+Turned shared_first(const Triangle& t, const Triangle& other) {
+  Turned turned{};
+  std::size_t from_back = 3;
+  for (const std::uint32_t v : t) {
+    const bool common = v == other[0] || v == other[1] || v == other[2];
+    turned.corner[common ? turned.shared++ : --from_back] = v;
+  }
+  return turned;
+}
+
+Point point_of(const Mesh& mesh, std::uint32_t v) {
+  const Vec3& p = mesh.points[v];
+  return {p.x, p.y, p.z};
+}
+
+class PairTest {
+ public:
+  /// `boxes` of the mesh's triangles; both must outlive this, and may be filled in later.
+  PairTest(const Mesh& mesh, const std::vector<Box>& boxes) : mesh_(mesh), boxes_(boxes) {}
+
+  bool degenerate(const Triangle& t) const {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] ||
+           CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
+  }
+
+  /// False only where the triangles surely meet in no more than their one shared vertex.  Cheap: in the
+  /// fan of triangles round a vertex all boxes meet, but hardly a side comes near another triangle.
+  bool may_meet(std::uint32_t i, std::uint32_t j) const {
+    const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
+    const Turned a = shared_first(s, t);
+    return a.shared != 1 || side_box(a).meets(boxes_[j]) || side_box(shared_first(t, s)).meets(boxes_[i]);
+  }
+
+  /// Whether two triangles, neither degenerate, meet beyond what they share.
+  bool operator()(std::uint32_t i, std::uint32_t j) const {
+    const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
+    const Turned a = shared_first(s, t), b = shared_first(t, s);
+    switch (a.shared) {
+      case 0:
+        return CGAL::do_intersect(triangle(s), triangle(t));
+      case 1:
+        // Whatever they share besides the vertex is convex and reaches the side opposite to the vertex
+        // in one of the two.
+        return CGAL::do_intersect(segment(a.corner[1], a.corner[2]), triangle(t)) ||
+               CGAL::do_intersect(segment(b.corner[1], b.corner[2]), triangle(s));
+      case 2:
+        return folded(a.corner, b.corner[2]);
+      default:
+        return true;
+    }
+  }
+
+ private:
+  /// Box of the side opposite to the one shared vertex.
+  Box side_box(const Turned& turned) const {
+    const Vec3 &p = mesh_.points[turned.corner[1]], &q = mesh_.points[turned.corner[2]];
+    return {{std::min(p.x, q.x), std::min(p.y, q.y), std::min(p.z, q.z)},
+            {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}};
+  }
+
+  Point point(std::uint32_t v) const { return point_of(mesh_, v); }
+  Kernel::Segment_3 segment(std::uint32_t v, std::uint32_t w) const { return {point(v), point(w)}; }
+  Kernel::Triangle_3 triangle(const Triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
+
+  /// Triangles over the same edge overlap only when they lie in one plane, on the same side of the edge.
+  bool folded(const std::array<std::uint32_t, 3>& a, std::uint32_t apex) const {
+    const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(apex);
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Box>& boxes_;
+};
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+// Goes through the triangles in blocks, several at a time.  Blocks are begun in ascending order and ended
+// once begun, so the pairs of all blocks begun start with the first pairs of the mesh.
+class Search {
+ public:
+  Search(const Mesh& mesh, const SelfIntersectionOptions& options)
+      : mesh_(mesh), options_(options), meet_(mesh, boxes_), degenerate_(mesh.triangles.size()) {}
+
+  Pairs run() {
+    const std::size_t count = mesh_.triangles.size();
+    parallel_ranges(options_.threads, count, [this](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) degenerate_[i] = meet_.degenerate(mesh_.triangles[i]);
+    });
+    throw_if_stopped(options_.context);
+    boxes_ = boxes_of(mesh_);
+    const CloseTriangles close(mesh_, boxes_, options_.threads);
+    std::vector<Pairs> found((count + kBlock - 1) / kBlock);
+    std::atomic<std::size_t> pairs{0};
+    parallel_for(options_.threads, found.size(), [&](std::size_t block) {
+      if (pairs >= options_.max_pairs) return;
+      throw_if_stopped(options_.context);
+      find(close, block * kBlock, std::min(count, (block + 1) * kBlock), found[block]);
+      pairs += found[block].size();
+    });
+    return first_of(found);
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 2048;
+  static constexpr std::uint64_t kStepsPerCandidate = 64;
+
+  void find(const CloseTriangles& close, std::size_t begin, std::size_t end, Pairs& pairs) const {
+    std::vector<std::uint32_t> candidates;
+    StopCheck stop(options_.context);
+    for (auto i = static_cast<std::uint32_t>(begin); i < end && pairs.size() < options_.max_pairs; ++i) {
+      if (degenerate_[i] != 0) {
+        if (options_.degenerate_triangles) pairs.emplace_back(i, i);
+        continue;
+      }
+      stop.did(candidates.size() * kStepsPerCandidate);
+      candidates.clear();
+      close.visit_above(i, [&](std::uint32_t j) {
+        if (meet_.may_meet(i, j)) candidates.push_back(j);
+      });
+      std::sort(candidates.begin(), candidates.end());
+      candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+      for (const std::uint32_t j : candidates) {
+        if (pairs.size() == options_.max_pairs) break;
+        if (degenerate_[j] == 0 && meet_(i, j)) pairs.emplace_back(i, j);
+      }
+    }
+  }
+
+  Pairs first_of(const std::vector<Pairs>& found) const {
+    Pairs first;
+    for (const Pairs& pairs : found) {
+      const std::size_t wanted = std::min(pairs.size(), options_.max_pairs - first.size());
+      first.insert(first.end(), pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(wanted));
+    }
+    return first;
+  }
+
+  const Mesh& mesh_;
+  const SelfIntersectionOptions& options_;
+  const PairTest meet_;
+  std::vector<std::uint8_t> degenerate_;  // bytes: neighbours may be written at the same time
+  std::vector<Box> boxes_;
+};
+
+bool pierces(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Triangle& t) {
+  const Point p = point_of(mesh, from), q = point_of(mesh, to);
+  const std::array<Point, 3> c = {point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2])};
+  const CGAL::Orientation side = CGAL::orientation(c[0], c[1], c[2], p);
+  if (side == CGAL::COPLANAR || CGAL::orientation(c[0], c[1], c[2], q) != -side) return false;
+  const CGAL::Orientation turn = CGAL::orientation(p, q, c[0], c[1]);
+  return turn != CGAL::COPLANAR && CGAL::orientation(p, q, c[1], c[2]) == turn &&
+         CGAL::orientation(p, q, c[2], c[0]) == turn;
+}
+
+}  // namespace
+
+bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
+  const Triangle &s = mesh.triangles[i], &t = mesh.triangles[j];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (pierces(mesh, s[k], s[(k + 1) % 3], t) || pierces(mesh, t[k], t[(k + 1) % 3], s)) return true;
+  }
+  return false;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
+    const Mesh& mesh, const SelfIntersectionOptions& options) {
+  check(mesh);
+  return Search(mesh, options).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,230 @@
+#include "core/surface/alpha_shape.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/mesh/unused_points.h"
+
+namespace affskel::core {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;  // index of the point
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<bool, Kernel,  // inside the alpha shape
+                                                           CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using Point = Kernel::Point_3;
+
+[[noreturn]] void refuse(const std::string& cause) {
+  throw CoreError(CoreError::Code::kBadInput, "alpha surface: " + cause);
+}
+
+/// The squared radius that the options ask for.
+double checked_alpha(const AlphaShapeOptions& options) {
+  if (!(std::isfinite(options.alpha) && options.alpha >= 0)) {
+    refuse("alpha must be a finite number >= 0, not " + to_text(options.alpha));
+  }
+  if (!(std::isfinite(options.spacing) && options.spacing >= 0)) {
+    refuse("the spacing must be a finite number >= 0, not " + to_text(options.spacing));
+  }
+  if (options.alpha > 0) return options.alpha;
+  if (options.spacing == 0) refuse("either alpha or the spacing must be given");
+  return 3 * options.spacing * options.spacing;
+}
+
+void check_finite(std::span<const Vec3> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) {
+      refuse("point " + std::to_string(i) + " has a coordinate that is not finite");
+    }
+  }
+}
+
+Vec3 lowest_corner(std::span<const Vec3> points) {
+  Vec3 low = points.front();
+  for (const Vec3& p : points) low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+  return low;
+}
+
+/// The points in units of the spacing, as whole numbers, when they lie on an axis-parallel lattice.
+std::optional<std::vector<Vec3>> lattice_coordinates(std::span<const Vec3> points, double spacing) {
+  if (!(spacing > 0)) return std::nullopt;
+  constexpr double kTolerance = 1e-6;
+  constexpr double kMost = 1 << 24;
+  const Vec3 low = lowest_corner(points);
+  bool whole = true;
+  const auto snap = [&](double difference) {
+    const double steps = difference / spacing, nearest = std::round(steps);
+    whole = whole && std::abs(steps - nearest) <= kTolerance && nearest <= kMost;
+    return nearest;
+  };
+  std::vector<Vec3> snapped;
+  snapped.reserve(points.size());
+  for (const Vec3& p : points) {
+    snapped.push_back({snap(p.x - low.x), snap(p.y - low.y), snap(p.z - low.z)});
+    if (!whole) return std::nullopt;
+  }
+  return snapped;
+}
+
+/// The distinct points, each with the index of its first copy.
+std::vector<std::pair<Point, std::uint32_t>> distinct(std::span<const Vec3> points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t i) { return std::tuple(points[i].x, points[i].y, points[i].z, i); };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+  std::vector<std::pair<Point, std::uint32_t>> sites;
+  sites.reserve(points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Vec3& p = points[order[k]];
+    if (k == 0 || !(p == points[order[k - 1]])) sites.emplace_back(Point(p.x, p.y, p.z), order[k]);
+  }
+  return sites;
+}
+
+double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const Vec3 n = cross(u, v);
+  return dot(u, u) * dot(v, v) * dot(u - v, u - v) / (4 * dot(n, n));
+}
+
+double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const Vec3 vw = cross(v, w);
+  const Vec3 sum = dot(u, u) * vw + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v);
+  const double volume = 2 * dot(u, vw);
+  return dot(sum, sum) / (volume * volume);
+}
+
+class AlphaShape {
+ public:
+  AlphaShape(std::span<const Vec3> points, double alpha)
+      : limit_(alpha * (1 + 1e-9)), delaunay_([&] {
+          const auto sites = distinct(points);
+          return Delaunay(sites.begin(), sites.end());
+        }()) {}
+
+  /// Triangles by index of point, in canonical order.
+  std::vector<Triangle> triangles() {
+    if (delaunay_.dimension() == 3) {
+      for (const auto cell : delaunay_.finite_cell_handles()) cell->info() = is_inside(cell);
+      for (const auto cell : infinite_cells()) cell->info() = false;
+    }
+    std::vector<Triangle> found;
+    if (delaunay_.dimension() >= 2) {
+      for (const auto& facet : delaunay_.finite_facets()) add(facet, found);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  using Cell = Delaunay::Cell_handle;
+
+  std::vector<Cell> infinite_cells() const {
+    std::vector<Cell> cells;
+    delaunay_.incident_cells(delaunay_.infinite_vertex(), std::back_inserter(cells));
+    return cells;
+  }
+
+  static Vec3 place(Delaunay::Vertex_handle v) { return {v->point().x(), v->point().y(), v->point().z()}; }
+
+  bool is_inside(Cell c) const {
+    return squared_circumradius(place(c->vertex(0)), place(c->vertex(1)), place(c->vertex(2)),
+                                place(c->vertex(3))) <= limit_;
+  }
+
+  void add(const Delaunay::Facet& facet, std::vector<Triangle>& found) const {
+    if (delaunay_.dimension() == 2) {
+      if (is_small(facet)) found.push_back(standing_alone(facet));
+      return;
+    }
+    const Delaunay::Facet mirror = delaunay_.mirror_facet(facet);
+    const bool here = facet.first->info(), there = mirror.first->info();
+    if (here != there) {
+      found.push_back(facing_out(here ? facet : mirror));
+    } else if (!here && is_small(facet) && delaunay_.is_Gabriel(facet)) {
+      found.push_back(standing_alone(facet));
+    }
+  }
+
+  static std::array<Delaunay::Vertex_handle, 3> corners(const Delaunay::Facet& facet) {
+    std::array<Delaunay::Vertex_handle, 3> out;
+    std::size_t k = 0;
+    for (int i = 0; i < 4; ++i) {
+      if (i != facet.second) out[k++] = facet.first->vertex(i);
+    }
+    return out;
+  }
+
+  bool is_small(const Delaunay::Facet& facet) const {
+    const auto v = corners(facet);
+    return squared_circumradius(place(v[0]), place(v[1]), place(v[2])) <= limit_;
+  }
+
+  /// The triangle with its smallest index first; the other two in the given order or swapped.
+  static Triangle canonical(const std::array<Delaunay::Vertex_handle, 3>& v, bool swap) {
+    Triangle t{v[0]->info(), v[swap ? 2 : 1]->info(), v[swap ? 1 : 2]->info()};
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+  }
+
+  /// The facet of a cell inside the shape whose neighbour is outside.
+  static Triangle facing_out(const Delaunay::Facet& facet) {
+    const auto v = corners(facet);
+    const Point& inner = facet.first->vertex(facet.second)->point();
+    return canonical(v,
+                     CGAL::orientation(v[0]->point(), v[1]->point(), v[2]->point(), inner) == CGAL::POSITIVE);
+  }
+
+  static Triangle standing_alone(const Delaunay::Facet& facet) {
+    const auto v = corners(facet);
+    const Vec3 n = cross(place(v[1]) - place(v[0]), place(v[2]) - place(v[0]));
+    int largest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (std::abs(n[k]) > std::abs(n[largest])) largest = k;
+    }
+    return canonical(v, n[largest] < 0);
+  }
+
+  double limit_;
+  Delaunay delaunay_;
+};
+
+Mesh with_used_points(std::span<const Vec3> points, std::vector<Triangle> triangles) {
+  Mesh mesh{{points.begin(), points.end()}, std::move(triangles)};
+  drop_unused_points(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh alpha_shape(std::span<const Vec3> points, const AlphaShapeOptions& options) {
+  const double alpha = checked_alpha(options);
+  check_finite(points);
+  if (points.size() < 3) return {};
+  if (const auto snapped = lattice_coordinates(points, options.spacing)) {
+    const double steps = std::sqrt(alpha) / options.spacing;
+    return with_used_points(points, AlphaShape(*snapped, steps * steps).triangles());
+  }
+  return with_used_points(points, AlphaShape(points, alpha).triangles());
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,221 @@
+#include "core/text/off_file.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/mesh/polygon_cut.h"
+#include "core/mesh/quad_diagonals.h"
+#include "core/text/text_rows.h"
+
+namespace affskel::core {
+namespace {
+
+class OffReader {
+ public:
+  OffReader(std::string_view bytes, const ReadOffOptions& options)
+      : rows_(bytes), options_(options), stop_(options.context) {}
+
+  OffMesh run() {
+    read_header();
+    read_counts();
+    read_vertices();
+    read_faces();
+    if (rows_.next()) {
+      fail_at_line(rows_.line(), "more rows than the " + std::to_string(vertex_count_) + " vertices and " +
+                                     std::to_string(face_count_) +
+                                     " faces announced: " + quoted_piece(rows_.words()[0]));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void read_header() {
+    if (!rows_.next()) fail_at_line(1, "the file is empty; expected an OFF header");
+    std::string_view word = rows_.words()[0];
+    if (word.substr(0, 2) == "ST") {
+      texture_ = true;
+      word.remove_prefix(2);
+    }
+    if (!word.empty() && word.front() == 'C') {
+      colour_ = true;
+      word.remove_prefix(1);
+    }
+    if (!word.empty() && word.front() == 'N') {
+      normal_ = true;
+      word.remove_prefix(1);
+    }
+    if (word == "4OFF" || word == "nOFF" || word == "4nOFF") {
+      fail_at_line(rows_.line(), "homogeneous or higher-dimensional coordinates (" + std::string(word) +
+                                     ") are not supported; expected [ST][C][N]OFF");
+    }
+    if (word != "OFF") {
+      fail_at_line(rows_.line(), "not an OFF file: starts with " + quoted_piece(rows_.words()[0]) +
+                                     ", expected the header [ST][C][N]OFF");
+    }
+    rows_.drop_first_word();
+    if (!rows_.words().empty() && rows_.words()[0] == "BINARY") {
+      fail_at_line(rows_.line(), "binary OFF is not supported; write the mesh as text");
+    }
+  }
+
+  void read_counts() {
+    if (rows_.words().empty() && !rows_.next()) fail_at_line(rows_.line(), "the file ends before the counts");
+    const auto& words = rows_.words();
+    if (words.size() != 2 && words.size() != 3) {
+      fail_at_line(rows_.line(), "expected the counts of vertices, faces and (optionally) edges, found " +
+                                     std::to_string(words.size()) + " words");
+    }
+    vertex_count_ = parse_count(words[0], rows_.line(), "the vertex count");
+    face_count_ = parse_count(words[1], rows_.line(), "the face count");
+    if (words.size() == 3) parse_count(words[2], rows_.line(), "the edge count");
+    check_count(vertex_count_, "vertices", 6);
+    check_count(face_count_, "faces", 8);
+  }
+
+  // Refuses what cannot be true before anything is allocated; a row has at least min_bytes bytes.
+  void check_count(std::uint64_t count, const char* what, std::uint64_t min_bytes) const {
+    if (count > options_.max_elements) {
+      throw CoreError(CoreError::Code::kLimit,
+                      "line " + std::to_string(rows_.line()) + ": " + std::to_string(count) + " " + what +
+                          " announced, at most " + std::to_string(options_.max_elements) + " are supported",
+                      rows_.line());
+    }
+    if (count > rows_.bytes_left() / min_bytes + 1) {
+      fail_at_line(rows_.line(), std::to_string(count) + " " + what + " announced, but only " +
+                                     std::to_string(rows_.bytes_left()) + " bytes follow");
+    }
+  }
+
+  void read_vertices() {
+    result_.mesh.points.reserve(vertex_count_);
+    result_.vertex_line.reserve(vertex_count_);
+    const std::size_t base = 3 + (normal_ ? 3U : 0U) + (texture_ ? 2U : 0U);
+    for (std::uint64_t v = 0; v < vertex_count_; ++v) {
+      stop_.did(kStepsPerRow);
+      if (!rows_.next()) ends_early("vertex", v, vertex_count_);
+      const auto& words = rows_.words();
+      const bool fits = colour_ ? words.size() == base + 3 || words.size() == base + 4 : words.size() == base;
+      if (!fits) {
+        fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " has " + std::to_string(words.size()) +
+                                       " numbers, the header promises " +
+                                       std::to_string(base + (colour_ ? 3 : 0)) +
+                                       (colour_ ? " or " + std::to_string(base + 4) : std::string()));
+      }
+      for (std::size_t i = 3; i < words.size(); ++i) parse_finite(words[i], rows_.line(), "vertex attribute");
+      result_.mesh.points.push_back({coordinate(0), coordinate(1), coordinate(2)});
+      result_.vertex_line.push_back(static_cast<std::uint32_t>(rows_.line()));
+    }
+  }
+
+  double coordinate(std::size_t i) const {
+    return parse_finite(rows_.words()[i], rows_.line(), "coordinate");
+  }
+
+  void read_faces() {
+    result_.mesh.triangles.reserve(face_count_);
+    result_.triangle_line.reserve(face_count_);
+    for (std::uint64_t f = 0; f < face_count_; ++f) {
+      stop_.did(kStepsPerRow);
+      if (!rows_.next()) ends_early("face", f, face_count_);
+      read_face(f);
+    }
+    result_.polygons = face_count_;
+    turn_doubled_diagonals(quads_, result_.mesh.triangles);
+  }
+
+  void read_face(std::uint64_t f) {
+    const auto& words = rows_.words();
+    const std::uint64_t sides = parse_count(words[0], rows_.line(), "the number of sides");
+    if (sides < 3) {
+      fail_at_line(rows_.line(),
+                   "face " + std::to_string(f) + " has " + std::to_string(sides) + " sides, needs 3");
+    }
+    if (words.size() - 1 < sides) {
+      fail_at_line(rows_.line(), "face " + std::to_string(f) + " announces " + std::to_string(sides) +
+                                     " vertices, the line has " + std::to_string(words.size() - 1));
+    }
+    const std::size_t extra = words.size() - 1 - sides;
+    if (extra == 2 || extra > 4) {
+      fail_at_line(rows_.line(), "face " + std::to_string(f) + ": " + std::to_string(extra) +
+                                     " numbers after the vertices; a colour has 1, 3 or 4");
+    }
+    for (std::size_t i = 1 + sides; i < words.size(); ++i) parse_finite(words[i], rows_.line(), "colour");
+    read_corners(f, sides);
+    const std::size_t before = result_.mesh.triangles.size();
+    if (sides == 4) quads_.push_back(static_cast<std::uint32_t>(before));
+    cut_polygon(result_.mesh.points, corners_, result_.mesh.triangles);
+    result_.triangle_line.insert(result_.triangle_line.end(), result_.mesh.triangles.size() - before,
+                                 static_cast<std::uint32_t>(rows_.line()));
+    if (sides > 3) ++result_.polygons_cut;
+  }
+
+  void read_corners(std::uint64_t f, std::uint64_t sides) {
+    corners_.clear();
+    for (std::uint64_t i = 0; i < sides; ++i) {
+      const std::uint64_t v = parse_count(rows_.words()[1 + i], rows_.line(), "a vertex index");
+      if (v >= vertex_count_) {
+        fail_at_line(rows_.line(), "face " + std::to_string(f) + " uses vertex " + std::to_string(v) +
+                                       "; indices run from 0 to " + std::to_string(vertex_count_ - 1));
+      }
+      corners_.push_back(static_cast<std::uint32_t>(v));
+    }
+    if (const auto twice = repeated_corner()) {
+      fail_at_line(rows_.line(),
+                   "face " + std::to_string(f) + " uses vertex " + std::to_string(*twice) + " twice");
+    }
+  }
+
+  std::optional<std::uint32_t> repeated_corner() {
+    if (corners_.size() == 3 && corners_[0] != corners_[1] && corners_[1] != corners_[2] &&
+        corners_[2] != corners_[0]) {
+      return std::nullopt;
+    }
+    sorted_ = corners_;
+    std::sort(sorted_.begin(), sorted_.end());
+    const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());
+    return twice == sorted_.end() ? std::nullopt : std::optional(*twice);
+  }
+
+  [[noreturn]] void ends_early(const char* what, std::uint64_t at, std::uint64_t count) const {
+    fail_at_line(rows_.line(), "the file ends after " + std::to_string(at) + " of " + std::to_string(count) +
+                                   " " + what + " rows");
+  }
+
+  static constexpr std::uint64_t kStepsPerRow = 64;
+
+  TextRows rows_;
+  ReadOffOptions options_;
+  StopCheck stop_;
+  bool texture_ = false, colour_ = false, normal_ = false;
+  std::uint64_t vertex_count_ = 0, face_count_ = 0;
+  std::vector<std::uint32_t> corners_, sorted_;
+  std::vector<std::uint32_t> quads_;  // first triangles of the faces with four sides
+  OffMesh result_;
+};
+
+}  // namespace
+
+OffMesh read_off(std::string_view bytes, const ReadOffOptions& options) {
+  return OffReader(bytes, options).run();
+}
+
+std::string write_off(const Mesh& mesh) {
+  std::string text =
+      "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n";
+  for (const Vec3& p : mesh.points) {
+    append_shortest(text, p.x);
+    text.push_back(' ');
+    append_shortest(text, p.y);
+    text.push_back(' ');
+    append_shortest(text, p.z);
+    text.push_back('\n');
+  }
+  for (const Triangle& t : mesh.triangles) {
+    text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
+  }
+  return text;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,238 @@
+// Notation: the star of a vertex are the triangles that use it; the quality of a triangle is twice its area
+// over the square of its longest side, 0.87 when it is regular.  Within a round, a change claims all vertices
+// of the triangles it touches, and later ones leave stars with claimed vertices alone: the stars looked up at
+// the start of the round stay true.
+#include "core/tidy/tidy_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/unused_points.h"
+
+namespace affskel::core {
+namespace {
+
+using Index = std::uint32_t;
+
+struct ShortEdge {
+  double square = 0;  // of its length
+  Index a = 0, b = 0;
+};
+
+// Triangles below are slivers: a change may not make one, and their direction says nothing.
+constexpr double kSliver = 0.1;
+// Flat triangles below this quality are flipped.
+constexpr double kFlat = 0.3;
+
+class Tidier {
+ public:
+  Tidier(const Mesh& mesh, double length) : mesh_(mesh), limit_(length * length) {}
+
+  Mesh run(int max_rounds) {
+    for (int round = 0; round < max_rounds && change(); ++round) {
+    }
+    drop_unused_points(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  bool change() {
+    find_stars();
+    claimed_.assign(mesh_.points.size(), 0);
+    bool any = false;
+    for (const ShortEdge& e : short_edges()) {
+      if (claimed(e.a) || claimed(e.b)) continue;
+      any = collapse(e.a, e.b) || collapse(e.b, e.a) || any;
+    }
+    for (Index t = 0; t < mesh_.triangles.size(); ++t) {
+      if (mesh_.triangles[t][0] != mesh_.triangles[t][1] && quality(mesh_.triangles[t]) < kFlat) {
+        any = flip(t) || any;
+      }
+    }
+    std::erase_if(mesh_.triangles, [](const Triangle& t) { return t[0] == t[1]; });
+    return any;
+  }
+
+  void find_stars() {
+    star_begin_.assign(mesh_.points.size() + 1, 0);
+    for (const Triangle& t : mesh_.triangles) {
+      for (Index v : t) ++star_begin_[v + 1];
+    }
+    for (std::size_t v = 1; v < star_begin_.size(); ++v) star_begin_[v] += star_begin_[v - 1];
+    std::vector<Index> cursor(star_begin_.begin(), star_begin_.end() - 1);
+    stars_.resize(3 * mesh_.triangles.size());
+    for (Index t = 0; t < mesh_.triangles.size(); ++t) {
+      for (Index v : mesh_.triangles[t]) stars_[cursor[v]++] = t;
+    }
+  }
+
+  std::span<const Index> star(Index v) const {
+    return {stars_.data() + star_begin_[v], stars_.data() + star_begin_[v + 1]};
+  }
+
+  std::vector<ShortEdge> short_edges() const {
+    std::vector<ShortEdge> edges;
+    for (const Triangle& t : mesh_.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = t[k], b = t[(k + 1) % 3];
+        const Vec3 along = mesh_.points[b] - mesh_.points[a];
+        const double square = dot(along, along);
+        if (a < b && square < limit_) edges.push_back({square, a, b});
+      }
+    }
+    std::sort(edges.begin(), edges.end(), [](const ShortEdge& e, const ShortEdge& f) {
+      return std::tie(e.square, e.a, e.b) < std::tie(f.square, f.a, f.b);
+    });
+    return edges;
+  }
+
+  // Whether a vertex next to v, or v itself, has been used in this round.
+  bool claimed(Index v) const {
+    for (Index t : star(v)) {
+      for (Index w : mesh_.triangles[t]) {
+        if (claimed_[w] != 0) return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<Index> neighbours(Index v) const {
+    std::vector<Index> result;
+    for (Index t : star(v)) {
+      for (Index w : mesh_.triangles[t]) {
+        if (w != v) result.push_back(w);
+      }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  /// Moves the corners at `from` to `to`, unless that would spoil the mesh.
+  bool collapse(Index from, Index to) {
+    if (!keeps_topology(from, to) || !keeps_shape(from, to)) return false;
+    for (Index v : {from, to}) {
+      for (Index t : star(v)) {
+        for (Index w : mesh_.triangles[t]) claimed_[w] = 1;
+      }
+    }
+    for (Index t : star(from)) {
+      Triangle& triangle = mesh_.triangles[t];
+      if (uses(triangle, to)) {
+        triangle = {};
+      } else {
+        *std::find(triangle.begin(), triangle.end(), from) = to;
+      }
+    }
+    return true;
+  }
+
+  static bool uses(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+  /// The link condition of a closed surface: the ends have only the two corners opposite to the edge as
+  /// common neighbours, and these lose a triangle each without falling below three.
+  bool keeps_topology(Index a, Index b) const {
+    const std::vector<Index> near_a = neighbours(a), near_b = neighbours(b);
+    std::vector<Index> common;
+    std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(),
+                          std::back_inserter(common));
+    return common.size() == 2 && star(common[0]).size() > 3 && star(common[1]).size() > 3;
+  }
+
+  /// Whether the triangles that change keep their direction and do not become slivers.
+  bool keeps_shape(Index from, Index to) const {
+    for (Index t : star(from)) {
+      const Triangle& old = mesh_.triangles[t];
+      // What is smaller than the edges to be collapsed goes by itself, and is too small to have a direction.
+      if (uses(old, to) || longest_square(old) < limit_ / 4) continue;
+      Triangle changed = old;
+      *std::find(changed.begin(), changed.end(), from) = to;
+      // A needle still has a side to be collapsed.
+      if (quality(changed) < std::min(kSliver, quality(old)) && shortest_square(changed) >= limit_)
+        return false;
+      constexpr double kMinCosine = 0.5;
+      if (quality(old) > kSliver && !agree(twice_area(old), twice_area(changed), kMinCosine)) return false;
+    }
+    return true;
+  }
+
+  static bool agree(const Vec3& v, const Vec3& w, double least_cosine) {
+    return dot(v, w) >= least_cosine * (norm(v) * norm(w));
+  }
+
+  /// Replaces the longest side of a triangle by the other diagonal of the two triangles there, when that
+  /// improves the worse one and keeps the direction.
+  bool flip(Index t) {
+    const std::size_t side = longest_side(mesh_.triangles[t]);
+    const Index a = mesh_.triangles[t][side], b = mesh_.triangles[t][(side + 1) % 3];
+    const Index c = mesh_.triangles[t][(side + 2) % 3];
+    if (claimed(a) || claimed(b) || claimed(c)) return false;
+    const auto over = std::find_if(star(a).begin(), star(a).end(),
+                                   [&](Index s) { return s != t && uses(mesh_.triangles[s], b); });
+    const Triangle other = mesh_.triangles[*over];
+    const Index d = *std::find_if(other.begin(), other.end(), [&](Index v) { return v != a && v != b; });
+    const std::vector<Index> near_c = neighbours(c);
+    if (star(a).size() <= 3 || star(b).size() <= 3 || std::binary_search(near_c.begin(), near_c.end(), d) ||
+        claimed(d)) {
+      return false;
+    }
+    const Triangle first{a, d, c}, second{d, b, c};
+    const Vec3 before = twice_area(mesh_.triangles[t]) + twice_area(other);
+    constexpr double kMinCosine = 0.8;
+    if (std::min(quality(first), quality(second)) <= quality(mesh_.triangles[t]) ||
+        !agree(before, twice_area(first), kMinCosine) || !agree(before, twice_area(second), kMinCosine)) {
+      return false;
+    }
+    mesh_.triangles[t] = first;
+    mesh_.triangles[*over] = second;
+    for (Index v : {a, b, c, d}) claimed_[v] = 1;
+    return true;
+  }
+
+  Vec3 twice_area(const Triangle& t) const {
+    return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
+  }
+
+  double side_square(const Triangle& t, std::size_t k) const {
+    const Vec3 side = mesh_.points[t[(k + 1) % 3]] - mesh_.points[t[k]];
+    return dot(side, side);
+  }
+
+  std::size_t longest_side(const Triangle& t) const {
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (side_square(t, k) > side_square(t, longest)) longest = k;
+    }
+    return longest;
+  }
+
+  double longest_square(const Triangle& t) const { return side_square(t, longest_side(t)); }
+
+  double shortest_square(const Triangle& t) const {
+    return std::min({side_square(t, 0), side_square(t, 1), side_square(t, 2)});
+  }
+
+  double quality(const Triangle& t) const {
+    const double square = longest_square(t);
+    return square > 0 ? norm(twice_area(t)) / square : 0;
+  }
+
+  Mesh mesh_;
+  double limit_;
+  std::vector<Index> star_begin_, stars_;
+  std::vector<std::uint8_t> claimed_;
+};
+
+}  // namespace
+
+Mesh tidy_mesh(const Mesh& mesh, const TidyOptions& options) {
+  return Tidier(mesh, options.shortest_edge).run(options.max_rounds);
+}
+
+}  // namespace affskel::core
