@@ -8,12 +8,14 @@
 #include <system_error>
 #include <thread>
 
+#include "affskel/v1/types.pb.h"
 #include "compute.h"
 #include "core/base/error.h"
 #include "lease_loop.h"
 #include "stop_signal.h"
 #include "wire/address.h"
 #include "wire/version.h"
+#include "wire/words.h"
 
 namespace {
 
@@ -134,7 +136,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
                    "triangles, sphere:N, random:N:SEED, joined by +")
       ->capture_default_str();
   compute->add_option("--frame", flags.compute.frame, "axes of the lattice: axis, pca, obb or affine")
-      ->check(CLI::IsMember({"axis", "pca", "obb", "affine"}))
+      ->check(CLI::IsMember(affskel::wire::words(*affskel::v1::Frame_descriptor())))
       ->capture_default_str();
   compute->add_option("--threads", flags.compute.threads, "computing threads")
       ->check(CLI::Range(1U, 1024U))

@@ -4,15 +4,15 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <set>
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
-#include "enum_word.h"
+#include "wire/field_record.h"
 #include "wire/limits.h"
+#include "wire/words.h"
 
 namespace affskel::worker {
 namespace {
@@ -38,7 +38,7 @@ core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, 
 
 core::FrameKind frame_kind(v1::Frame frame) {
   if (frame == v1::FRAME_UNSPECIFIED) return core::FrameKind::kAxis;
-  const std::string word = enum_word(v1::Frame_Name(frame), "FRAME_");
+  const std::string word = wire::word(frame);
   if (!word.empty()) return core::parse_frame(word);
   throw core::CoreError(core::CoreError::Code::kBadInput,
                         "frame " + std::to_string(frame) + " is not known to this worker");
@@ -86,6 +86,8 @@ std::size_t distinct(const core::DirectionSet& directions) {
   return seen.size();
 }
 
+static_assert(core::FieldValue::kNoDirection == wire::kNoDirection, "a point that no direction has reached");
+
 // The records of a field in the server's form, without a copy of them all: there may be a great many.
 template <class Visit>
 void visit_field(std::string_view bytes, std::uint64_t points, Visit visit) {
@@ -96,11 +98,8 @@ void visit_field(std::string_view bytes, std::uint64_t points, Visit visit) {
   }
   const char* at = bytes.data();
   for (std::uint32_t p = 0; p < points; ++p, at += wire::kFieldRecordBytes) {
-    core::FieldValue value;
-    std::memcpy(&value.erosion, at, 8);
-    std::memcpy(&value.area, at + 8, 8);
-    std::memcpy(&value.direction, at + 16, 4);
-    visit(p, value);
+    const wire::FieldRecord record = wire::decode_field_record(at);
+    visit(p, core::FieldValue{record.erosion, record.area, record.direction});
   }
 }
 

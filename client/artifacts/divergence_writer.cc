@@ -1,7 +1,8 @@
 #include "client/artifacts/divergence_writer.h"
 
-#include <cstring>
 #include <limits>
+
+#include "base/coding.h"
 
 namespace affskel::client {
 
@@ -9,8 +10,7 @@ DivergenceWriter::DivergenceWriter(FileFormat format, AtomicFile& file, const La
     : table_(format, file, points, {{"H", {"H"}, false, std::numeric_limits<double>::quiet_NaN()}}),
       values_(points, sizeof(double), "divergence", "values",
               [this](const SamplePoint& at, const char* bytes) {
-                double divergence = 0;
-                std::memcpy(&divergence, bytes, sizeof divergence);
+                const double divergence = base::decode<double>(bytes);
                 table_.put(at, {&divergence, 1});
               }) {}
 

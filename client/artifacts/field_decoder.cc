@@ -1,10 +1,9 @@
 #include "client/artifacts/field_decoder.h"
 
-#include <cstring>
 #include <string>
 
 #include "client/base/error.h"
-#include "wire/limits.h"
+#include "wire/field_record.h"
 
 namespace affskel::client {
 
@@ -16,10 +15,8 @@ FieldDecoder::FieldDecoder(const LatticePoints& points, const v1::Directions& di
                [this](const SamplePoint& at, const char* bytes) { record(at, bytes); }) {}
 
 void FieldDecoder::record(const SamplePoint& at, const char* bytes) {
-  // A record: double E, double area, uint32 direction.
-  FieldPoint point{at, 0, {}, 0};
-  std::memcpy(&point.erosion, bytes, sizeof point.erosion);
-  std::memcpy(&point.direction, bytes + 2 * sizeof(double), sizeof point.direction);
+  const wire::FieldRecord record = wire::decode_field_record(bytes);
+  FieldPoint point{at, record.erosion, {}, record.direction};
   const std::uint64_t first = 3 * std::uint64_t{point.direction};
   if (first + 3 > static_cast<std::uint64_t>(directions_.xyz_size())) {
     throw ClientError(ExitCode::kInternal, "the field names direction " + std::to_string(point.direction) +

@@ -2,11 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/coding.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/fetch_artifact.h"
@@ -87,9 +87,7 @@ std::vector<float> fetch_divergences(Context& context, const std::string& job,
   }
   std::vector<float> divergences(points);
   for (std::size_t p = 0; p < points; ++p) {
-    double value = 0;
-    std::memcpy(&value, bytes.data() + p * sizeof value, sizeof value);
-    divergences[p] = view_divergence(value);
+    divergences[p] = view_divergence(base::decode<double>(bytes.data() + p * sizeof(double)));
   }
   return divergences;
 }

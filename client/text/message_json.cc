@@ -1,8 +1,7 @@
 #include "client/text/message_json.h"
+#include "wire/words.h"
 
 #include <google/protobuf/descriptor.h>
-
-#include <cctype>
 
 namespace affskel::client {
 namespace {
@@ -13,7 +12,7 @@ using google::protobuf::Reflection;
 using nlohmann::ordered_json;
 
 ordered_json enum_json(const google::protobuf::EnumValueDescriptor& value) {
-  const std::string word = enum_word(value);
+  const std::string word = wire::word(value);
   return word.empty() ? ordered_json(nullptr) : ordered_json(word);
 }
 
@@ -70,18 +69,6 @@ ordered_json element(const Message& m, const Reflection& r, const FieldDescripto
 }
 
 }  // namespace
-
-std::string enum_word(const google::protobuf::EnumValueDescriptor& value) {
-  if (value.number() == 0) return {};
-  // JobState's values begin with JOB_STATE_: one underscore more per capital letter inside the type's name.
-  std::size_t prefix = 1;
-  const std::string& type = value.type()->name();
-  for (std::size_t i = 0; i < type.size(); ++i)
-    prefix += i > 0 && std::isupper(static_cast<unsigned char>(type[i])) ? 2 : 1;
-  std::string word = value.name().substr(prefix);
-  for (char& c : word) c = c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return word;
-}
 
 ordered_json to_json(const Message& message) {
   ordered_json object = ordered_json::object();

@@ -1,35 +1,22 @@
 #include "client/text/words.h"
 
-#include <google/protobuf/descriptor.h>
-
 #include "client/base/error.h"
-#include "client/text/message_json.h"
+#include "wire/words.h"
 
 namespace affskel::client {
 namespace {
 
-using google::protobuf::EnumDescriptor;
-
-std::string word_of(const EnumDescriptor& type, int number) {
-  const auto* value = type.FindValueByNumber(number);
-  const std::string word = value == nullptr ? "" : enum_word(*value);
+template <typename Enum>
+std::string word_or_unknown(Enum value) {
+  const std::string word = wire::word(value);
   return word.empty() ? "unknown" : word;
 }
 
-std::vector<std::string> words_of(const EnumDescriptor& type) {
-  std::vector<std::string> words;
-  for (int i = 0; i < type.value_count(); ++i) {
-    if (type.value(i)->number() != 0) words.push_back(enum_word(*type.value(i)));
-  }
-  return words;
-}
-
-int number_named(const EnumDescriptor& type, const std::string& what, const std::string& word) {
+template <typename Enum>
+Enum named(const std::string& what, const std::string& word) {
+  if (const std::optional<Enum> value = wire::value_of_word<Enum>(word)) return *value;
   std::string possible;
-  for (int i = 0; i < type.value_count(); ++i) {
-    const std::string known = enum_word(*type.value(i));
-    if (known.empty()) continue;
-    if (known == word) return type.value(i)->number();
+  for (const std::string& known : wire::words(*google::protobuf::GetEnumDescriptor<Enum>())) {
     possible += (possible.empty() ? "" : ", ") + known;
   }
   throw ClientError(ExitCode::kUsage, "no " + what + " '" + word + "'; possible are " + possible);
@@ -38,44 +25,43 @@ int number_named(const EnumDescriptor& type, const std::string& what, const std:
 }  // namespace
 
 std::string state_word(v1::JobState state) {
-  return word_of(*v1::JobState_descriptor(), state);
+  return word_or_unknown(state);
 }
 
 std::string stage_word(v1::JobStage stage) {
-  return word_of(*v1::JobStage_descriptor(), stage);
+  return word_or_unknown(stage);
 }
 
 std::string frame_word(v1::Frame frame) {
-  return word_of(*v1::Frame_descriptor(), frame == v1::FRAME_UNSPECIFIED ? v1::FRAME_AXIS : frame);
+  return word_or_unknown(frame == v1::FRAME_UNSPECIFIED ? v1::FRAME_AXIS : frame);
 }
 
 std::string operator_word(v1::Operator which) {
-  return word_of(*v1::Operator_descriptor(),
-                 which == v1::OPERATOR_UNSPECIFIED ? v1::OPERATOR_ZUCKER_HUMMEL : which);
+  return word_or_unknown(which == v1::OPERATOR_UNSPECIFIED ? v1::OPERATOR_ZUCKER_HUMMEL : which);
 }
 
 std::vector<std::string> state_words() {
-  return words_of(*v1::JobState_descriptor());
+  return wire::words(*v1::JobState_descriptor());
 }
 
 std::vector<std::string> frame_words() {
-  return words_of(*v1::Frame_descriptor());
+  return wire::words(*v1::Frame_descriptor());
 }
 
 std::vector<std::string> operator_words() {
-  return words_of(*v1::Operator_descriptor());
+  return wire::words(*v1::Operator_descriptor());
 }
 
 v1::JobState state_named(const std::string& word) {
-  return static_cast<v1::JobState>(number_named(*v1::JobState_descriptor(), "job state", word));
+  return named<v1::JobState>("job state", word);
 }
 
 v1::Frame frame_named(const std::string& word) {
-  return static_cast<v1::Frame>(number_named(*v1::Frame_descriptor(), "frame", word));
+  return named<v1::Frame>("frame", word);
 }
 
 v1::Operator operator_named(const std::string& word) {
-  return static_cast<v1::Operator>(number_named(*v1::Operator_descriptor(), "operator", word));
+  return named<v1::Operator>("operator", word);
 }
 
 }  // namespace affskel::client

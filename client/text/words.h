@@ -7,8 +7,8 @@
 
 namespace affskel::client {
 
-// The command line's words for the protocol's enumerations.  Each is the name in the protocol without its
-// type, in lower case, with `-` for `_`; so what the protocol gains, the command line knows.
+// The words for the protocol's enumerations (see wire::word), as the command line takes and shows them: what
+// the protocol gains, the command line knows.
 
 /// "queued", "running", "done", "failed", "cancelled"; "unknown" for anything else.
 std::string state_word(v1::JobState state);

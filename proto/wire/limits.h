@@ -11,9 +11,6 @@ inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 /// Largest number of field records in one message of a stream.
 inline constexpr int kRecordsPerMessage = 32768;
 
-/// Bytes of one record of a stored field: double E, double area, uint32 direction, little-endian.
-inline constexpr std::size_t kFieldRecordBytes = 20;
-
 /// Largest result of one task: what Protobuf can serialize.
 inline constexpr std::uint64_t kMaxResultBytes = (std::uint64_t{1} << 31) - 1;
 

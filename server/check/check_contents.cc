@@ -6,6 +6,7 @@
 #include "affskel/v1/types.pb.h"
 #include "check/field_faults.h"
 #include "check/piece_faults.h"
+#include "wire/artifact_kinds.h"
 
 namespace affskel::server {
 namespace {
@@ -48,6 +49,20 @@ void check_messages(Database& db, FaultLog& faults, const char* sql) {
   faults.end_kind();
 }
 
+void check_task_params(Database& db, FaultLog& faults) {
+  for (const wire::ArtifactKindInfo& kind : wire::artifact_kinds()) {
+    if (!kind.derived()) continue;
+    Statement row = db.query("SELECT id, params FROM tasks WHERE kind = ?", kind.name());
+    while (row.step()) {
+      v1::Lease lease;
+      if (!wire::set_task_params(kind.params, std::string(row.blob(1)), lease)) {
+        faults.add("task " + row.text(0) + ", parameters", "a stored message cannot be read");
+      }
+    }
+  }
+  faults.end_kind();
+}
+
 void check_all_messages(Database& db, FaultLog& faults) {
   check_messages<v1::ErosionParams>(db, faults,
                                     "SELECT 'erosion ' || id || ', parameters', params FROM erosions");
@@ -58,14 +73,7 @@ void check_all_messages(Database& db, FaultLog& faults) {
   check_messages<v1::SkeletonQuality>(
       db, faults,
       "SELECT 'artefact ' || id || ', quality', quality FROM artifacts WHERE quality IS NOT NULL");
-  check_messages<v1::SkeletonParams>(
-      db, faults,
-      "SELECT 'task ' || id || ', parameters', params FROM tasks WHERE kind IN ('skeleton', 'divergence')");
-  check_messages<v1::SurfaceParams>(
-      db, faults, "SELECT 'task ' || id || ', parameters', params FROM tasks WHERE kind = 'surface'");
-  check_messages<v1::ErodedParams>(db, faults,
-                                   "SELECT 'task ' || id || ', parameters', params FROM tasks"
-                                   " WHERE kind IN ('eroded-points', 'eroded-surface')");
+  check_task_params(db, faults);
 }
 
 /// The summary of the prepare stage against the columns that were taken from it.
@@ -74,20 +82,24 @@ void check_summaries(Database& db, FaultLog& faults) {
       "SELECT 'erosion ' || id, prepared, points, directions, stride FROM erosions WHERE core_version IS NOT"
       " NULL");
   while (row.step()) {
+    Columns columns(row);
+    const std::string erosion = columns.text();
+    const std::string_view prepared = columns.blob();
+    const std::int64_t points = columns.integer(), directions = columns.integer();
+    const std::int64_t stride = columns.integer();
     v1::PreparedSummary summary;
-    const std::int64_t points = row.integer(2), directions = row.integer(3);
-    if (!summary.ParseFromArray(row.blob(1).data(), static_cast<int>(row.blob(1).size()))) {
-      faults.add(row.text(0) + ", summary", "a stored message cannot be read");
+    if (!summary.ParseFromArray(prepared.data(), static_cast<int>(prepared.size()))) {
+      faults.add(erosion + ", summary", "a stored message cannot be read");
     } else if (summary.points() != static_cast<std::uint64_t>(points) ||
                summary.directions() != static_cast<std::uint64_t>(directions)) {
-      faults.add(row.text(0), "has " + std::to_string(points) + " points and " + std::to_string(directions) +
-                                  " directions, its summary says " + std::to_string(summary.points()) +
-                                  " and " + std::to_string(summary.directions()));
+      faults.add(erosion, "has " + std::to_string(points) + " points and " + std::to_string(directions) +
+                              " directions, its summary says " + std::to_string(summary.points()) + " and " +
+                              std::to_string(summary.directions()));
     }
     // Otherwise the order of work would come to some directions twice and to others never.
-    if (std::gcd(row.integer(4), directions) != 1) {
-      faults.add(row.text(0), "the stride " + row.text(4) + " has a divisor in common with the " +
-                                  std::to_string(directions) + " directions");
+    if (std::gcd(stride, directions) != 1) {
+      faults.add(erosion, "the stride " + std::to_string(stride) + " has a divisor in common with the " +
+                              std::to_string(directions) + " directions");
     }
   }
   faults.end_kind();

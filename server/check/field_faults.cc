@@ -2,13 +2,12 @@
 
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <string_view>
 #include <vector>
 
 #include "store/field.h"
 #include "store/field_rows.h"
-#include "wire/limits.h"
+#include "wire/field_record.h"
 
 namespace affskel::server {
 namespace {
@@ -20,23 +19,15 @@ bool natural(double value) {
 }
 
 /// A value that a report may have brought: see RecordBatch.
-bool reported(const FieldRecord& record, const FieldShape& field) {
+template <typename Record>
+bool reported(const Record& record, const FieldShape& field) {
   return record.direction < field.directions && natural(record.erosion) && natural(record.area);
 }
 
 /// A place that no report has reached.
-bool empty(const FieldRecord& record) {
-  return record.direction == kNoDirection && std::isinf(record.erosion) && record.erosion > 0 &&
+bool empty(const wire::FieldRecord& record) {
+  return record.direction == wire::kNoDirection && std::isinf(record.erosion) && record.erosion > 0 &&
          std::bit_cast<std::uint64_t>(record.area) == 0;
-}
-
-FieldRecord record_at(std::string_view chunk, std::size_t index) {
-  FieldRecord record{};
-  const char* from = chunk.data() + index * wire::kFieldRecordBytes;
-  std::memcpy(&record.erosion, from, sizeof record.erosion);
-  std::memcpy(&record.area, from + 8, sizeof record.area);
-  std::memcpy(&record.direction, from + 16, sizeof record.direction);
-  return record;
 }
 
 /// One fault for all bad points of a chunk; "" when there are none.
@@ -44,7 +35,7 @@ std::string bad_points(const FieldShape& field, std::int64_t index, std::string_
   std::size_t bad = 0, first = 0;
   const std::size_t points = chunk.size() / wire::kFieldRecordBytes;
   for (std::size_t i = 0; i < points; ++i) {
-    const FieldRecord record = record_at(chunk, i);
+    const wire::FieldRecord record = wire::decode_field_record(chunk.data() + i * wire::kFieldRecordBytes);
     if (reported(record, field) || (!field.finished && empty(record))) continue;
     if (bad++ == 0) first = i;
   }
@@ -93,9 +84,8 @@ void find_in_chunks(Database& db, const FieldShape& field, const Tell& tell) {
 std::string fault_of_log(const FieldShape& field, std::string_view bytes, std::int64_t sum) {
   if (!log_is_sound(field.erosion_id, bytes, sum)) return "does not match its checksum";
   std::size_t bad = 0;
-  for (std::size_t at = 0; at + sizeof(FieldRecord) <= bytes.size(); at += sizeof(FieldRecord)) {
-    FieldRecord record{};
-    std::memcpy(&record, bytes.data() + at, sizeof record);
+  for (std::size_t at = 0; at + wire::kPointRecordBytes <= bytes.size(); at += wire::kPointRecordBytes) {
+    const wire::PointRecord record = wire::decode_point_record(bytes.data() + at);
     if (record.point >= field.points || !reported(record, field)) ++bad;
   }
   return bad == 0 ? std::string() : std::to_string(bad) + " records that no report can have brought";
@@ -120,7 +110,13 @@ void for_each_field(Database& db, const std::function<void(const FieldShape&)>& 
         "SELECT id, points, directions, finished, directions_done FROM erosions"
         " WHERE dropped = 0 AND core_version IS NOT NULL ORDER BY id");
     while (row.step()) {
-      fields.push_back({row.integer(0), row.integer(1), row.integer(2), row.flag(3), row.integer(4)});
+      Columns columns(row);
+      FieldShape& field = fields.emplace_back();
+      field.erosion_id = columns.integer();
+      field.points = columns.integer();
+      field.directions = columns.integer();
+      field.finished = columns.flag();
+      field.done = columns.integer();
     }
   }
   for (const FieldShape& field : fields) tell(field);

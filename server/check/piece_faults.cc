@@ -43,14 +43,18 @@ void find_artifact_faults(Database& db, const TellPieceFault& tell) {
       " JOIN erosions e ON e.id = a.erosion_id WHERE e.dropped = 0");
   while (row.step()) {
     PieceFault fault;
-    fault.artifact = row.integer(0);
-    fault.erosion_id = row.integer(2);
-    fault.name = row.text(1);
-    fault.params_key = row.text(5);
-    fault.where = "artefact " + row.text(0) + " (" + fault.name + " of erosion " + row.text(2) + ")";
+    Columns columns(row);
+    fault.artifact = columns.integer();
+    fault.name = columns.text();
+    fault.erosion_id = columns.integer();
+    const std::int64_t bytes = columns.integer();
+    const std::string sha256 = columns.text();
+    fault.params_key = columns.text();
+    fault.where = "artefact " + std::to_string(fault.artifact) + " (" + fault.name + " of erosion " +
+                  std::to_string(fault.erosion_id) + ")";
     fault.what = fault_of(
         db.query("SELECT idx, data FROM artifact_chunks WHERE artifact_id = ? ORDER BY idx", fault.artifact),
-        row.integer(3), row.text(4));
+        bytes, sha256);
     if (!fault.what.empty()) tell(fault);
   }
 }

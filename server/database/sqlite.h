@@ -85,6 +85,41 @@ class Statement {
   bool* busy_;  // the cache's mark; null when the statement is this object's own
 };
 
+/// The columns of the current row, taken in the order in which the SELECT names them: an added column is one
+/// more line at its place, and no number changes.
+class Columns {
+ public:
+  /// @param row must outlive it, and stay at its row.
+  explicit Columns(const Statement& row) : row_(row) {}
+
+  std::int64_t integer() { return row_.integer(next_++); }
+  std::uint64_t natural() { return static_cast<std::uint64_t>(integer()); }
+  double real() { return row_.real(next_++); }
+  std::string text() { return row_.text(next_++); }
+  std::string_view blob() { return row_.blob(next_++); }
+  bool flag() { return integer() != 0; }
+  /// Empty for NULL.
+  std::optional<std::int64_t> integer_or_null() {
+    const bool null = row_.is_null(next_);
+    const std::int64_t value = integer();
+    return null ? std::nullopt : std::optional(value);
+  }
+  std::optional<std::string> text_or_null() {
+    const bool null = row_.is_null(next_);
+    std::string value = text();
+    return null ? std::nullopt : std::optional(std::move(value));
+  }
+  std::optional<std::string_view> blob_or_null() {
+    const bool null = row_.is_null(next_);
+    const std::string_view value = blob();
+    return null ? std::nullopt : std::optional(value);
+  }
+
+ private:
+  const Statement& row_;
+  int next_ = 0;
+};
+
 /// One connection.  Not thread-safe: its user holds a lock.
 class Database {
  public:

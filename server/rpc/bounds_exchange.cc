@@ -17,7 +17,7 @@ std::size_t memory_of(const v1::ErosionBounds& message) {
 }  // namespace
 
 void BoundsExchange::exchange(const std::string& job, const std::string& worker,
-                              const std::vector<FieldRecord>& records, v1::ReportResponse& response) {
+                              const std::vector<wire::PointRecord>& records, v1::ReportResponse& response) {
   std::vector<Message> theirs;
   {
     const std::lock_guard lock(mutex_);
@@ -33,7 +33,7 @@ void BoundsExchange::exchange(const std::string& job, const std::string& worker,
 }
 
 void BoundsExchange::pass_on(const std::string& job, const std::string& worker,
-                             const std::vector<FieldRecord>& records) {
+                             const std::vector<wire::PointRecord>& records) {
   {
     const std::lock_guard lock(mutex_);
     if (!enter(job, worker)) return;
@@ -43,8 +43,11 @@ void BoundsExchange::pass_on(const std::string& job, const std::string& worker,
   keep(job, worker, ours);
 }
 
-std::vector<BoundsExchange::Message> BoundsExchange::pack(const std::vector<FieldRecord>& records) const {
-  const auto in_order = [](const FieldRecord& a, const FieldRecord& b) { return a.point < b.point; };
+std::vector<BoundsExchange::Message> BoundsExchange::pack(
+    const std::vector<wire::PointRecord>& records) const {
+  const auto in_order = [](const wire::PointRecord& a, const wire::PointRecord& b) {
+    return a.point < b.point;
+  };
   if (!std::is_sorted(records.begin(), records.end(), in_order)) return {};
   std::vector<Message> messages;
   for (std::size_t begin = 0; begin < records.size(); begin += options_.message_points) {

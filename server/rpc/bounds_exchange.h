@@ -33,11 +33,12 @@ class BoundsExchange {
   /// Passes on a report that is committed, and adds to the answer what other workers on the job reported
   /// since this worker's last one; nothing for its first.
   /// @param records of the report; passed on when in ascending order of points, as our workers send them.
-  void exchange(const std::string& job, const std::string& worker, const std::vector<FieldRecord>& records,
-                v1::ReportResponse& response);
+  void exchange(const std::string& job, const std::string& worker,
+                const std::vector<wire::PointRecord>& records, v1::ReportResponse& response);
 
   /// Passes on a part of a report, committed before the rest of it has come.
-  void pass_on(const std::string& job, const std::string& worker, const std::vector<FieldRecord>& records);
+  void pass_on(const std::string& job, const std::string& worker,
+               const std::vector<wire::PointRecord>& records);
 
   /// The field is finished: nobody needs its bounds any more.
   void forget(const std::string& job);
@@ -54,7 +55,7 @@ class BoundsExchange {
     std::size_t wire_bytes;  // serialized
   };
 
-  std::vector<Message> pack(const std::vector<FieldRecord>& records) const;
+  std::vector<Message> pack(const std::vector<wire::PointRecord>& records) const;
   bool enter(const std::string& job, const std::string& worker);
   std::vector<Message> collect(const std::string& job, const std::string& worker);
   void keep(const std::string& job, const std::string& worker, const std::vector<Message>& messages);

@@ -58,7 +58,7 @@ void ReportCall::begin(const v1::ReportErosionHeader& header) {
 void ReportCall::take(const v1::FieldRecords& records) {
   const auto count = static_cast<std::uint64_t>(records.point_size());
   // Parts are as large as there is room for, over all reports.
-  if (batch_->full() || !held_.take(count * sizeof(FieldRecord))) merge();
+  if (batch_->full() || !held_.take(count * sizeof(wire::PointRecord))) merge();
   batch_->append(records);
   received_ += count;
 }

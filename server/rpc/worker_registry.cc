@@ -5,6 +5,7 @@
 
 #include "store/tasks.h"
 #include "wire/identity.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
@@ -57,7 +58,7 @@ void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& 
   if (found == workers_.end()) return;
   found->second.wait_ms = 0;
   hear(found->second);
-  found->second.tasks[lease.token()] = std::string(kind_name(lease.kind())) + " " + lease.job().id();
+  found->second.tasks[lease.token()] = wire::word(lease.kind()) + " " + lease.job().id();
   holders_[lease.token()] = worker.id();
 }
 

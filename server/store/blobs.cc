@@ -4,6 +4,7 @@
 
 #include "errors.h"
 #include "store/field.h"
+#include "wire/field_record.h"
 #include "wire/limits.h"
 #include "wire/sha256.h"
 

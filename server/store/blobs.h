@@ -23,7 +23,7 @@ void heal_mesh(Tx& tx, const std::string& sha256, std::string_view bytes);
 /// What an artefact is about.
 struct ArtifactKey {
   std::int64_t erosion_id = 0;
-  std::string kind;        ///< "lattice", "directions", or the name of the task that derives it
+  std::string kind;        ///< wire::ArtifactKindInfo::name
   std::string params_key;  ///< empty for lattice and directions
 };
 

@@ -1,23 +1,20 @@
 #include "store/field.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <numeric>
 #include <optional>
-#include <type_traits>
 
 #include "errors.h"
 #include "store/field_rows.h"
-#include "wire/limits.h"
+#include "wire/field_record.h"
 
 namespace affskel::server {
 namespace {
 
+using wire::PointRecord;
+
 constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
-static_assert(std::endian::native == std::endian::little, "fields are stored as they lie in memory");
 
 // A chunk is written back in stretches of this many points, and only those that changed: late in a job
 // few points of a chunk still improve, and each page written costs its place in the log.
@@ -27,9 +24,6 @@ constexpr std::size_t kStretchPoints = 256;
 // no more than this, for every reader keeps them in memory.
 constexpr std::int64_t kMaxLogBytes = std::int64_t{32} << 20;
 
-static_assert(sizeof(FieldRecord) == 24 && std::is_trivially_copyable_v<FieldRecord>,
-              "records are logged as they lie in memory");
-
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
 
@@ -38,10 +32,8 @@ constexpr std::int64_t kMaxRecordsPerPoint = 64;
 }
 
 std::string empty_chunk(std::size_t count) {
-  char record[kRecordBytes] = {};
-  const double infinity = std::numeric_limits<double>::infinity();
-  std::memcpy(record, &infinity, sizeof infinity);
-  std::memcpy(record + 16, &kNoDirection, sizeof kNoDirection);
+  char record[kRecordBytes];
+  wire::encode_field_record(record, {});
   std::string chunk;
   chunk.reserve(count * kRecordBytes);
   for (std::size_t i = 0; i < count; ++i) chunk.append(record, kRecordBytes);
@@ -49,20 +41,15 @@ std::string empty_chunk(std::size_t count) {
 }
 
 /// Replaces the record at `to` when (E, direction) of `record` is smaller.
-bool merge_one(char* to, const FieldRecord& record) {
-  double erosion = 0;
-  std::uint32_t direction = 0;
-  std::memcpy(&erosion, to, sizeof erosion);
-  std::memcpy(&direction, to + 16, sizeof direction);
-  if (!(record.erosion < erosion || (record.erosion == erosion && record.direction < direction)))
-    return false;
-  std::memcpy(to, &record.erosion, sizeof erosion);
-  std::memcpy(to + 8, &record.area, sizeof record.area);
-  std::memcpy(to + 16, &record.direction, sizeof direction);
+bool merge_one(char* to, const PointRecord& record) {
+  const wire::FieldRecord stored = wire::decode_field_record(to);
+  if (record.erosion > stored.erosion) return false;
+  if (record.erosion == stored.erosion && record.direction >= stored.direction) return false;
+  wire::encode_field_record(to, {record.erosion, record.area, record.direction});
   return true;
 }
 
-using Records = std::vector<FieldRecord>::const_iterator;
+using Records = std::vector<PointRecord>::const_iterator;
 
 /// Merges [begin, end), all of chunk `index`; marks the stretches that changed.
 std::vector<bool> merge_into(std::string& chunk, std::int64_t index, Records begin, Records end) {
@@ -93,25 +80,25 @@ bool write_changed(BlobHandle& blob, const std::string& chunk, const std::vector
 }
 
 struct ByChunk {
-  bool operator()(const FieldRecord& a, const FieldRecord& b) const {
+  bool operator()(const PointRecord& a, const PointRecord& b) const {
     return a.point / kChunkPoints < b.point / kChunkPoints;
   }
-  bool operator()(const FieldRecord& a, std::int64_t index) const { return a.point / kChunkPoints < index; }
-  bool operator()(std::int64_t index, const FieldRecord& a) const { return index < a.point / kChunkPoints; }
+  bool operator()(const PointRecord& a, std::int64_t index) const { return a.point / kChunkPoints < index; }
+  bool operator()(std::int64_t index, const PointRecord& a) const { return index < a.point / kChunkPoints; }
 };
 
 // By counting: reports come sorted, so that only several together need this, and those are long.
-void sort_by_chunk(std::vector<FieldRecord>& records) {
+void sort_by_chunk(std::vector<PointRecord>& records) {
   if (std::is_sorted(records.begin(), records.end(), ByChunk{})) return;
   std::vector<std::size_t> place;  // of the next record of a chunk, once summed up
-  for (const FieldRecord& record : records) {
+  for (const PointRecord& record : records) {
     const auto chunk = static_cast<std::size_t>(record.point / kChunkPoints);
     if (chunk + 2 > place.size()) place.resize(chunk + 2, 0);
     ++place[chunk + 1];
   }
   std::partial_sum(place.begin(), place.end(), place.begin());
-  std::vector<FieldRecord> sorted(records.size());
-  for (const FieldRecord& record : records) {
+  std::vector<PointRecord> sorted(records.size());
+  for (const PointRecord& record : records) {
     sorted[place[static_cast<std::size_t>(record.point / kChunkPoints)]++] = record;
   }
   records.swap(sorted);
@@ -141,7 +128,7 @@ void RecordBatch::append(const v1::FieldRecords& records) {
     refuse("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
   }
   for (int i = 0; i < count; ++i) {
-    FieldRecord record{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
+    PointRecord record{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
     if (record.point >= points_)
       refuse("point " + std::to_string(record.point) + " of " + std::to_string(points_));
     if (record.direction >= directions_) {
@@ -170,13 +157,13 @@ void RecordBatch::clear() {
 namespace {
 
 void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t points,
-                       const std::vector<FieldRecord>& records) {
+                       const std::vector<PointRecord>& records) {
   std::optional<BlobHandle> blob;
   std::string chunk;
   for (auto begin = records.begin(); begin != records.end();) {
     const std::int64_t index = begin->point / kChunkPoints;
     const auto end = std::find_if(begin, records.end(),
-                                  [&](const FieldRecord& r) { return r.point / kChunkPoints != index; });
+                                  [&](const PointRecord& r) { return r.point / kChunkPoints != index; });
     if (const std::optional<std::int64_t> row = chunk_row(db, erosion_id, index)) {
       if (blob) {
         blob->reopen(*row);
@@ -201,31 +188,39 @@ void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t point
 }
 
 // What is logged, with room for so many records more.
-std::vector<FieldRecord> read_log(Database& db, std::int64_t erosion_id, std::size_t room = 0) {
-  std::vector<FieldRecord> log;
-  log.reserve(static_cast<std::size_t>(logged_bytes(db, erosion_id)) / sizeof(FieldRecord) + room);
+std::vector<PointRecord> read_log(Database& db, std::int64_t erosion_id, std::size_t room = 0) {
+  std::vector<PointRecord> log;
+  log.reserve(static_cast<std::size_t>(logged_bytes(db, erosion_id)) / wire::kPointRecordBytes + room);
   load_log(db, erosion_id, [&](std::string_view bytes) {
-    const std::size_t before = log.size();
-    log.resize(before + bytes.size() / sizeof(FieldRecord));
-    std::memcpy(log.data() + before, bytes.data(), bytes.size());
+    for (; !bytes.empty(); bytes.remove_prefix(wire::kPointRecordBytes)) {
+      log.push_back(wire::decode_point_record(bytes.data()));
+    }
   });
   return log;
+}
+
+std::string log_bytes(const std::vector<PointRecord>& records) {
+  std::string bytes(records.size() * wire::kPointRecordBytes, '\0');
+  char* to = bytes.data();
+  for (const PointRecord& record : records) {
+    wire::encode_point_record(to, record);
+    to += wire::kPointRecordBytes;
+  }
+  return bytes;
 }
 
 }  // namespace
 
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
-                   const std::vector<FieldRecord>& records) {
+                   const std::vector<PointRecord>& records) {
   if (records.empty()) return;
-  const std::string_view bytes(reinterpret_cast<const char*>(records.data()),
-                               records.size() * sizeof(FieldRecord));
   const std::int64_t logged = logged_bytes(db, erosion_id);
-  if (logged + static_cast<std::int64_t>(bytes.size()) <= log_limit(points)) {
-    insert_log(db, erosion_id, bytes);
+  if (logged + static_cast<std::int64_t>(records.size() * wire::kPointRecordBytes) <= log_limit(points)) {
+    insert_log(db, erosion_id, log_bytes(records));
     return;
   }
   if (logged == 0) return merge_into_chunks(db, erosion_id, points, records);
-  std::vector<FieldRecord> all = read_log(db, erosion_id, records.size());
+  std::vector<PointRecord> all = read_log(db, erosion_id, records.size());
   all.insert(all.end(), records.begin(), records.end());
   sort_by_chunk(all);
   merge_into_chunks(db, erosion_id, points, all);
@@ -233,7 +228,7 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
 }
 
 void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points) {
-  std::vector<FieldRecord> log = read_log(db, erosion_id);
+  std::vector<PointRecord> log = read_log(db, erosion_id);
   if (log.empty()) return;
   sort_by_chunk(log);
   merge_into_chunks(db, erosion_id, points, log);

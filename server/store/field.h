@@ -7,21 +7,12 @@
 
 #include "affskel/v1/types.pb.h"
 #include "database/sqlite.h"
+#include "wire/field_record.h"
 
 namespace affskel::server {
 
 /// Points per stored chunk of a field.
 inline constexpr std::int64_t kChunkPoints = 4096;
-
-/// Direction of a point that no direction has reached yet; its E is +infinity, its area 0.
-inline constexpr std::uint32_t kNoDirection = 0xFFFFFFFF;
-
-struct FieldRecord {
-  double erosion;
-  double area;
-  std::uint32_t direction;
-  std::uint32_t point;
-};
 
 /// Records of a report that are held before they are merged: 3 MiB.  A report may bring any number of them.
 inline constexpr std::size_t kMostRecordsHeld = std::size_t{1} << 17;
@@ -46,20 +37,20 @@ class RecordBatch {
   /// Forgets the records; they still count towards what one report may bring.
   void clear();
 
-  const std::vector<FieldRecord>& records() const { return records_; }
+  const std::vector<wire::PointRecord>& records() const { return records_; }
 
  private:
   std::int64_t points_;
   std::int64_t directions_;
   std::int64_t cleared_ = 0;
-  std::vector<FieldRecord> records_;
+  std::vector<wire::PointRecord> records_;
 };
 
 /// Merges records, sorted by chunk, into the field of `points` points: per point the lexicographic minimum of
 /// (E, direction), the area travelling with it.  Few records are only logged; many, or a log grown long, are
 /// merged into the stored chunks, of which only what they touch is loaded and rewritten.
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
-                   const std::vector<FieldRecord>& records);
+                   const std::vector<wire::PointRecord>& records);
 
 /// Merges what is logged into the chunks: for fields that are finished.
 void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points);
@@ -84,7 +75,7 @@ class FieldView {
   Database& db_;
   std::int64_t erosion_id_;
   std::int64_t points_;
-  std::vector<FieldRecord> log_;  // by chunk
+  std::vector<wire::PointRecord> log_;  // by chunk
 };
 
 }  // namespace affskel::server

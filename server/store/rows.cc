@@ -1,54 +1,31 @@
 #include "store/rows.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
 #include "base/quoted.h"
 #include "errors.h"
 #include "wire/version.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
 
-constexpr std::array<std::pair<v1::JobState, const char*>, 5> kStates = {{
-    {v1::JOB_STATE_QUEUED, "queued"},
-    {v1::JOB_STATE_RUNNING, "running"},
-    {v1::JOB_STATE_DONE, "done"},
-    {v1::JOB_STATE_FAILED, "failed"},
-    {v1::JOB_STATE_CANCELLED, "cancelled"},
-}};
-
-constexpr std::array<std::pair<v1::JobStage, const char*>, 4> kStages = {{
-    {v1::JOB_STAGE_PREPARE, "prepare"},
-    {v1::JOB_STAGE_ERODE, "erode"},
-    {v1::JOB_STAGE_DERIVE, "derive"},
-    {v1::JOB_STAGE_COMPLETE, "complete"},
-}};
-
-template <typename Table, typename Value>
-const char* name_of(const Table& table, Value value) {
-  for (const auto& [entry, name] : table) {
-    if (entry == value) return name;
-  }
-  throw std::logic_error("a state without a name");
+template <typename Enum>
+Enum value_of(const std::string& word) {
+  if (const auto value = wire::value_of_word<Enum>(word)) return *value;
+  throw StoreError(StoreError::Code::kUnusable, "unknown state '" + word + "' in the database");
 }
 
-template <typename Table>
-auto value_of(const Table& table, const std::string& name) {
-  for (const auto& [entry, text] : table) {
-    if (name == text) return entry;
-  }
-  throw StoreError(StoreError::Code::kUnusable, "unknown state '" + name + "' in the database");
-}
-
+// In the order in which read_job takes them.
 constexpr const char* kJobColumns =
-    "SELECT j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton, e.mesh_sha256,"
-    " m.bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms, j.finished_ms,"
-    " j.error_code, j.error_message, j.error_line, j.directions_reported, j.directions_repeated, j.reports,"
-    " j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
-    " j.skeleton_points, e.stride, j.erosion_id, j.quality, j.seq"
+    "SELECT j.seq, j.erosion_id, j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton,"
+    " e.mesh_sha256, m.bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms,"
+    " j.finished_ms, j.error_code, j.error_message, j.error_line, j.directions_reported, "
+    "j.directions_repeated,"
+    " j.reports, j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
+    " j.skeleton_points, e.stride, j.quality"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -57,49 +34,62 @@ void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
   }
 }
 
-std::uint64_t natural(const Statement& row, int column) {
-  return static_cast<std::uint64_t>(row.integer(column));
+void read_error(Columns& columns, v1::Job& job) {
+  const std::optional<std::string> code = columns.text_or_null();
+  v1::JobError error;
+  error.set_message(columns.text());
+  error.set_line(columns.natural());
+  if (!code) return;
+  error.set_code(*code);
+  *job.mutable_error() = error;
 }
 
-void read_counters(const Statement& row, v1::JobCounters& counters) {
-  counters.set_directions_reported(natural(row, 19));
-  counters.set_directions_repeated(natural(row, 20));
-  counters.set_reports(natural(row, 21));
-  counters.set_leases_granted(natural(row, 22));
-  counters.set_leases_lost(natural(row, 23));
-  counters.set_longest_report_gap_ms(natural(row, 24));
-  counters.set_directions_lost_estimate(row.real(25));
+void read_counters(Columns& columns, v1::JobCounters& counters) {
+  counters.set_directions_reported(columns.natural());
+  counters.set_directions_repeated(columns.natural());
+  counters.set_reports(columns.natural());
+  counters.set_leases_granted(columns.natural());
+  counters.set_leases_lost(columns.natural());
+  counters.set_longest_report_gap_ms(columns.natural());
+  counters.set_directions_lost_estimate(columns.real());
 }
 
-v1::Job read_job(const Statement& row) {
+/// A job as it is sent, and what it is found by.
+struct ReadJob {
+  std::int64_t seq = 0;
+  std::int64_t erosion_id = 0;
   v1::Job job;
-  job.set_id(row.text(0));
-  job.set_name(row.text(1));
-  job.set_owner(row.text(2));
-  job.set_priority(static_cast<std::uint32_t>(row.integer(3)));
-  job.set_state(value_of(kStates, row.text(4)));
-  job.set_stage(value_of(kStages, row.text(5)));
-  parse(*job.mutable_params(), row.blob(6));
-  parse(*job.mutable_skeleton(), row.blob(7));
-  job.set_mesh_sha256(row.text(8));
-  job.set_mesh_bytes(natural(row, 9));
-  if (!row.is_null(10)) parse(*job.mutable_prepared(), row.blob(10));
-  job.set_directions_done(natural(row, 11));
-  job.set_directions_total(natural(row, 12));
-  job.set_created_ms(natural(row, 13));
-  job.set_started_ms(natural(row, 14));
-  job.set_finished_ms(natural(row, 15));
-  if (!row.is_null(16)) {
-    job.mutable_error()->set_code(row.text(16));
-    job.mutable_error()->set_message(row.text(17));
-    job.mutable_error()->set_line(natural(row, 18));
-  }
-  read_counters(row, *job.mutable_counters());
-  job.set_cancel_requested(row.flag(26));
-  job.set_skeleton_points(natural(row, 27));
-  job.set_order_stride(natural(row, 28));
-  if (!row.is_null(30)) parse(*job.mutable_quality(), row.blob(30));
-  return job;
+};
+
+ReadJob read_job(const Statement& row) {
+  Columns columns(row);
+  ReadJob read;
+  read.seq = columns.integer();
+  read.erosion_id = columns.integer();
+  v1::Job& job = read.job;
+  job.set_id(columns.text());
+  job.set_name(columns.text());
+  job.set_owner(columns.text());
+  job.set_priority(static_cast<std::uint32_t>(columns.integer()));
+  job.set_state(value_of<v1::JobState>(columns.text()));
+  job.set_stage(value_of<v1::JobStage>(columns.text()));
+  parse(*job.mutable_params(), columns.blob());
+  parse(*job.mutable_skeleton(), columns.blob());
+  job.set_mesh_sha256(columns.text());
+  job.set_mesh_bytes(columns.natural());
+  if (const auto prepared = columns.blob_or_null()) parse(*job.mutable_prepared(), *prepared);
+  job.set_directions_done(columns.natural());
+  job.set_directions_total(columns.natural());
+  job.set_created_ms(columns.natural());
+  job.set_started_ms(columns.natural());
+  job.set_finished_ms(columns.natural());
+  read_error(columns, job);
+  read_counters(columns, *job.mutable_counters());
+  job.set_cancel_requested(columns.flag());
+  job.set_skeleton_points(columns.natural());
+  job.set_order_stride(columns.natural());
+  if (const auto quality = columns.blob_or_null()) parse(*job.mutable_quality(), *quality);
+  return read;
 }
 
 /// An id or a prefix, in the form in which ids are kept.
@@ -126,21 +116,22 @@ std::optional<JobRow> find_job(Database& db, const std::string& id) {
       " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?",
       id);
   if (!row.step()) return std::nullopt;
+  Columns columns(row);
   JobRow job;
   job.id = id;
-  job.state = value_of(kStates, row.text(0));
-  job.stage = value_of(kStages, row.text(1));
-  job.cancel_requested = row.flag(2);
-  job.erosion_id = row.integer(3);
-  job.skeleton = std::string(row.blob(4));
-  job.skeleton_key = row.text(5);
-  job.mesh_sha256 = row.text(6);
-  job.params_key = row.text(7);
-  job.core_version = row.text(8);
-  job.points = row.integer(9);
-  job.directions = row.integer(10);
-  job.directions_done = row.integer(11);
-  job.finished = row.flag(12);
+  job.state = value_of<v1::JobState>(columns.text());
+  job.stage = value_of<v1::JobStage>(columns.text());
+  job.cancel_requested = columns.flag();
+  job.erosion_id = columns.integer();
+  job.skeleton = columns.blob();
+  job.skeleton_key = columns.text();
+  job.mesh_sha256 = columns.text();
+  job.params_key = columns.text();
+  job.core_version = columns.text();
+  job.points = columns.integer();
+  job.directions = columns.integer();
+  job.directions_done = columns.integer();
+  job.finished = columns.flag();
   return job;
 }
 
@@ -160,13 +151,6 @@ std::string missing_core(Database& db, const std::string& id) {
 }
 
 }  // namespace
-
-const char* state_name(v1::JobState state) {
-  return name_of(kStates, state);
-}
-const char* stage_name(v1::JobStage stage) {
-  return name_of(kStages, stage);
-}
 
 JobRow get_job(Database& db, const std::string& id) {
   std::optional<JobRow> job = find_job(db, id);
@@ -199,14 +183,15 @@ v1::Job job_message(Database& db, const std::string& id) {
   static const std::string sql = std::string(kJobColumns) + "WHERE j.id = ?";
   Statement row = db.query(sql.c_str(), id);
   if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + id);
-  v1::Job job = read_job(row);
-  for (const Range& range : done_ranges(db, row.integer(29))) {
+  ReadJob read = read_job(row);
+  v1::Job& job = read.job;
+  for (const Range& range : done_ranges(db, read.erosion_id)) {
     v1::PositionRange* done = job.add_done_positions();
     done->set_begin(static_cast<std::uint64_t>(range.begin));
     done->set_end(static_cast<std::uint64_t>(range.end));
   }
   job.set_waiting_reason(missing_core(db, id));
-  return job;
+  return std::move(job);
 }
 
 JobPage list_jobs(Database& db, const ListFilter& filter) {
@@ -226,8 +211,9 @@ JobPage list_jobs(Database& db, const ListFilter& filter) {
       page.next = last;
       break;
     }
-    page.jobs.push_back(read_job(row));
-    last = row.integer(31);
+    ReadJob read = read_job(row);
+    last = read.seq;
+    page.jobs.push_back(std::move(read.job));
   }
   return page;
 }

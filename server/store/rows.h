@@ -37,10 +37,6 @@ struct JobRow {
   bool active() const { return state == v1::JOB_STATE_QUEUED || state == v1::JOB_STATE_RUNNING; }
 };
 
-/// Names of states and stages in the database.
-const char* state_name(v1::JobState state);
-const char* stage_name(v1::JobStage stage);
-
 /// Reads a job that must exist.  @throws StoreError kNotFound.
 JobRow get_job(Database& db, const std::string& id);
 

@@ -8,7 +8,9 @@
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/artifact_kinds.h"
 #include "wire/identity.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
@@ -39,6 +41,17 @@ void recognise_file(Tx& tx, const std::string& identity) {
   put_state(tx, "database", wire::random_id());
 }
 
+/// What this program has beyond those that the database knows.
+void add_new_kinds(Database& db) {
+  for (const std::string& task : wire::words(*v1::TaskKind_descriptor())) {
+    db.run("INSERT OR IGNORE INTO task_kinds (name) VALUES (?)", task);
+  }
+  for (const wire::ArtifactKindInfo& kind : wire::artifact_kinds()) {
+    if (!kind.derived() && kind.task != v1::TASK_KIND_PREPARE) continue;  // not among the artefacts
+    db.run("INSERT OR IGNORE INTO artifact_kinds (name) VALUES (?)", kind.name());
+  }
+}
+
 /// Their workers could not report while no server was there.
 void renew_all(Tx& tx) {
   tx.db.run(
@@ -63,6 +76,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
   let_pages_go(db_, options_.free_bytes(directory_of(file_)));
   write([this](Tx& tx) {
     recognise_file(tx, file_identity(file_));
+    add_new_kinds(tx.db);
     settle_finished_blocks(tx);
     tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1");
     renew_all(tx);

@@ -7,82 +7,40 @@
 #include "errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
-#include "wire/params.h"
+#include "wire/artifact_kinds.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
 
-/// A derived artefact: what to look for, and the task that would make it.
-struct Derived {
-  ArtifactKey key;
-  v1::TaskKind kind;
-  std::string params;
-};
-
-template <typename Params>
-Derived derived(const JobRow& job, v1::TaskKind kind, const Params& params) {
-  return {{job.erosion_id, kind_name(kind), wire::cache_key(params)}, kind, params.SerializeAsString()};
-}
-
-/// Nothing for a kind that is not derived.
-std::optional<Derived> derived_artifact(const JobRow& job, const v1::FetchArtifactRequest& request) {
-  v1::SkeletonParams skeleton;
-  skeleton.ParseFromString(job.skeleton);
-  if (request.has_skeleton()) skeleton = wire::canonical(request.skeleton());
-  v1::SurfaceParams surface = request.surface();
-  if (!surface.has_skeleton()) surface.mutable_skeleton()->ParseFromString(job.skeleton);
-  switch (request.kind()) {
-    case v1::ARTIFACT_KIND_SKELETON:
-      return derived(job, v1::TASK_KIND_SKELETON, skeleton);
-    case v1::ARTIFACT_KIND_DIVERGENCE:
-      return derived(job, v1::TASK_KIND_DIVERGENCE, wire::divergence_params(skeleton));
-    case v1::ARTIFACT_KIND_SURFACE:
-      return derived(job, v1::TASK_KIND_SURFACE, wire::canonical(surface));
-    case v1::ARTIFACT_KIND_ERODED_POINTS:
-      return derived(job, v1::TASK_KIND_ERODED_POINTS, wire::canonical(request.eroded()));
-    case v1::ARTIFACT_KIND_ERODED_SURFACE:
-      return derived(job, v1::TASK_KIND_ERODED_SURFACE, wire::canonical(request.eroded()));
-    default:
-      return std::nullopt;
-  }
-}
-
-StoreError unknown_kind(const v1::FetchArtifactRequest& request) {
-  return {StoreError::Code::kInvalid,
-          "unknown kind of artefact: " + std::to_string(static_cast<int>(request.kind()))};
-}
-
-Derived checked_derived(const JobRow& job, const v1::FetchArtifactRequest& request) {
+/// What wire says of a wrong request is the caller's mistake.
+template <typename Body>
+auto as_request_error(Body&& body) {
   try {
-    if (std::optional<Derived> known = derived_artifact(job, request)) return *std::move(known);
+    return body();
   } catch (const std::invalid_argument& error) {
     throw StoreError(StoreError::Code::kInvalid, error.what());
   }
-  throw unknown_kind(request);
 }
 
-/// Parameters that would be ignored are a mistake of the caller.
-void check_parameters(const v1::FetchArtifactRequest& request) {
-  if (!v1::ArtifactKind_IsValid(request.kind()) || request.kind() == v1::ARTIFACT_KIND_UNSPECIFIED) {
-    throw unknown_kind(request);
-  }
-  const auto refuse_unless = [&](bool allowed, bool given, const std::string& what) {
-    if (given && !allowed) {
-      throw StoreError(StoreError::Code::kInvalid,
-                       what + ", not for " + v1::ArtifactKind_Name(request.kind()));
-    }
-  };
-  const auto is = [&](auto... kinds) { return ((request.kind() == kinds) || ...); };
-  refuse_unless(is(v1::ARTIFACT_KIND_SKELETON, v1::ARTIFACT_KIND_DIVERGENCE), request.has_skeleton(),
-                "the parameters 'skeleton' are for SKELETON and DIVERGENCE (SURFACE has surface.skeleton)");
-  refuse_unless(is(v1::ARTIFACT_KIND_SURFACE), request.has_surface(),
-                "the parameters 'surface' are for SURFACE");
-  refuse_unless(is(v1::ARTIFACT_KIND_ERODED_POINTS, v1::ARTIFACT_KIND_ERODED_SURFACE), request.has_eroded(),
-                "the parameters 'eroded' are for ERODED_POINTS and ERODED_SURFACE");
+/// A derived artefact: what to look for, and the task that would make it.
+struct Derived {
+  ArtifactKey key;
+  v1::TaskKind task;
+  std::string params;
+};
+
+Derived derived_artifact(const JobRow& job, const wire::ArtifactKindInfo& kind,
+                         const v1::FetchArtifactRequest& request) {
+  v1::SkeletonParams skeleton;
+  skeleton.ParseFromString(job.skeleton);
+  const wire::CanonicalParams params =
+      as_request_error([&] { return wire::artifact_params(kind, request, skeleton); });
+  return {{job.erosion_id, kind.name(), params.key}, kind.task, params.bytes};
 }
 
 std::string progress_of(const JobRow& job) {
-  return std::string(state_name(job.state)) + ", stage " + stage_name(job.stage) + ", " +
+  return wire::word(job.state) + ", stage " + wire::word(job.stage) + ", " +
          std::to_string(job.directions_done) + " of " + std::to_string(job.directions) + " directions";
 }
 
@@ -102,7 +60,7 @@ StoreError missing(Database& db, const JobRow& job, const std::string& what) {
   return {StoreError::Code::kPrecondition, why};
 }
 
-std::int64_t stored_artifact(Database& db, const JobRow& job, const char* kind) {
+std::int64_t stored_artifact(Database& db, const JobRow& job, const std::string& kind) {
   const std::optional<std::int64_t> id = find_artifact(db, {job.erosion_id, kind, ""});
   if (!id) throw missing(db, job, kind);
   return *id;
@@ -123,7 +81,7 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   tx.require_room();
   tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + wanted.key.kind + " " +
                            wanted.key.params_key);
-  return add_derive_task(tx, job.id, wanted.kind, wanted.params, wanted.key.params_key, true);
+  return add_derive_task(tx, job.id, wanted.task, wanted.params, wanted.key.params_key, true);
 }
 
 /// The same for lattice and directions, which are there unless check --repair had to delete them.
@@ -145,20 +103,19 @@ std::optional<v1::JobError> task_error(Database& db, std::int64_t task) {
       "SELECT t.state, t.error_code, t.error_message, t.on_request, j.state, j.error_code, j.error_message"
       " FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE t.id = ?",
       task);
-  v1::JobError error;
   if (!row.step()) throw StoreError(StoreError::Code::kPrecondition, "the request was cancelled");
-  if (row.text(0) == "failed") {
-    error.set_code(row.text(1));
-    error.set_message(row.text(2));
-    return error;
-  }
+  Columns columns(row);
+  const bool failed = columns.text() == "failed";
+  v1::JobError error;
+  error.set_code(columns.text());
+  error.set_message(columns.text());
+  if (failed) return error;
   // The job's own skeleton comes with the job, or fails with it.
-  if (!row.flag(3) && row.text(4) == "failed") {
-    error.set_code(row.text(5));
-    error.set_message(row.text(6));
-    return error;
-  }
-  return std::nullopt;
+  const bool on_request = columns.flag(), job_failed = columns.text() == "failed";
+  if (on_request || !job_failed) return std::nullopt;
+  error.set_code(columns.text());
+  error.set_message(columns.text());
+  return error;
 }
 
 }  // namespace
@@ -167,19 +124,18 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
   std::string mesh;
   std::int64_t field = 0;
   std::int64_t artifact = 0;
-  check_parameters(request);
+  as_request_error([&] { wire::check_request(request); });
+  const wire::ArtifactKindInfo& kind = *wire::find_artifact_kind(request.kind());
   ArtifactState state;
   state.task = write([&](Tx& tx) -> std::int64_t {
     const JobRow job = get_job(tx.db, resolve_job(tx.db, request.job()));
-    switch (request.kind()) {
-      case v1::ARTIFACT_KIND_MESH:
+    switch (kind.task) {
+      case v1::TASK_KIND_UNSPECIFIED:
         mesh = job.mesh_sha256;
         return 0;
-      case v1::ARTIFACT_KIND_LATTICE:
-      case v1::ARTIFACT_KIND_DIRECTIONS: {
-        const char* kind = request.kind() == v1::ARTIFACT_KIND_LATTICE ? "lattice" : "directions";
-        if (job.core_version.empty()) throw missing(tx.db, job, kind);
-        artifact = find_artifact(tx.db, {job.erosion_id, kind, ""}).value_or(0);
+      case v1::TASK_KIND_PREPARE: {
+        if (job.core_version.empty()) throw missing(tx.db, job, kind.name());
+        artifact = find_artifact(tx.db, {job.erosion_id, kind.name(), ""}).value_or(0);
         if (artifact != 0) return 0;
         if (asked != 0) state.error = task_error(tx.db, asked);
         if (state.error) return asked;
@@ -187,14 +143,14 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
         orphans_.erase(task);
         return task;
       }
-      case v1::ARTIFACT_KIND_FIELD:
+      case v1::TASK_KIND_ERODE:
         require_finished(tx.db, job);
         field = job.erosion_id;
         return 0;
       default:
         break;
     }
-    const Derived wanted = checked_derived(job, request);
+    const Derived wanted = derived_artifact(job, kind, request);
     require_finished(tx.db, job);
     artifact = find_artifact(tx.db, wanted.key).value_or(0);
     if (artifact != 0) return 0;
@@ -218,7 +174,7 @@ void Store::withdraw(std::int64_t task) {
     tx.db.run("DELETE FROM tasks WHERE id = ?", task);
     tx.changes.jobs.insert(row->job_id);
     tx.changes.log.push_back("event=request_withdrawn job=" + row->job_id + " task=" + std::to_string(task) +
-                             " kind=" + kind_name(row->kind));
+                             " kind=" + wire::word(row->kind));
     return true;
   });
 }
@@ -282,22 +238,14 @@ std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::Arti
   std::int64_t artifact = 0;
   read([&](Database& db) {
     const JobRow job = get_job(db, task_of_token(db, token).job_id);
-    switch (kind) {
-      case v1::ARTIFACT_KIND_MESH:
-        mesh = job.mesh_sha256;
-        return true;
-      case v1::ARTIFACT_KIND_LATTICE:
-        artifact = stored_artifact(db, job, "lattice");
-        return true;
-      case v1::ARTIFACT_KIND_DIRECTIONS:
-        artifact = stored_artifact(db, job, "directions");
-        return true;
-      case v1::ARTIFACT_KIND_FIELD:
-        field = job.erosion_id;
-        return true;
-      default:
-        throw StoreError(StoreError::Code::kInvalid, "not an input of a task");
+    const wire::ArtifactKindInfo* info = wire::find_artifact_kind(kind);
+    if (info == nullptr || info->derived()) {
+      throw StoreError(StoreError::Code::kInvalid, "not an input of a task");
     }
+    if (info->task == v1::TASK_KIND_UNSPECIFIED) mesh = job.mesh_sha256;
+    if (info->task == v1::TASK_KIND_PREPARE) artifact = stored_artifact(db, job, info->name());
+    if (info->task == v1::TASK_KIND_ERODE) field = job.erosion_id;
+    return true;
   });
   const auto open = [&]() -> std::unique_ptr<BlobReader> {
     if (!mesh.empty()) return read_mesh(file_, mesh);

@@ -7,6 +7,7 @@
 #include "store/blocks.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/artifact_kinds.h"
 #include "wire/sha256.h"
 
 namespace affskel::server {
@@ -65,7 +66,8 @@ void check_directions(std::string_view bytes, std::uint64_t count) {
 Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view data) {
   const v1::PreparedSummary& summary = header.prepared();
   if (!header.has_prepared()) refuse("no summary");
-  if (summary.directions() < 1 || summary.directions() >= kNoDirection) refuse("the number of directions");
+  if (summary.directions() < 1 || summary.directions() >= wire::kNoDirection)
+    refuse("the number of directions");
   if (summary.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 sample points");
   if (!positive(summary.volume()) || !positive(summary.spacing())) refuse("volume and spacing must be > 0");
   if (summary.bbox_min_size() != 3 || summary.bbox_max_size() != 3 || !all_finite(summary.bbox_min()) ||
@@ -123,7 +125,7 @@ void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& he
   if (header.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 points or triangles");
   const JobRow job = get_job(tx.db, task.job_id);
   if (header.quality().advice().size() > kMaxReasonBytes) refuse("the advice on the skeleton is too long");
-  put_artifact(tx, {job.erosion_id, kind_name(task.kind), task.params_key}, data,
+  put_artifact(tx, {job.erosion_id, wire::find_derived_kind(task.kind)->name(), task.params_key}, data,
                static_cast<std::int64_t>(header.points()),
                header.has_quality() ? header.quality().SerializeAsString() : std::string());
 }

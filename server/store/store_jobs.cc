@@ -3,6 +3,7 @@
 #include "errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 
@@ -50,7 +51,7 @@ v1::Job Store::cancel(const std::string& job_ref) {
     if (!job.active()) {
       if (requests > 0 || job.state == v1::JOB_STATE_CANCELLED) return;
       throw StoreError(StoreError::Code::kPrecondition,
-                       "job " + job.id + " is " + state_name(job.state) + ": nothing to cancel");
+                       "job " + job.id + " is " + wire::word(job.state) + ": nothing to cancel");
     }
     tx.db.run("UPDATE jobs SET cancel_requested = 1 WHERE id = ?", job.id);
     tx.changes.eased = true;
@@ -81,7 +82,7 @@ std::string Store::remove(const std::string& job_ref) {
     const JobRow job = get_job(tx.db, resolve_job(tx.db, job_ref));
     if (job.active()) {
       throw StoreError(StoreError::Code::kPrecondition,
-                       "job " + job.id + " is " + state_name(job.state) + ": cancel it first");
+                       "job " + job.id + " is " + wire::word(job.state) + ": cancel it first");
     }
     tx.db.run("DELETE FROM jobs WHERE id = ?", job.id);
     drop_unused_erosion(tx, job.erosion_id);

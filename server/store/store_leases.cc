@@ -5,8 +5,10 @@
 #include "errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/artifact_kinds.h"
 #include "wire/identity.h"
 #include "wire/version.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 
@@ -106,7 +108,7 @@ void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool s
       tx.wall_ms, task.job_id);
   tx.changes.jobs.insert(task.job_id);
   tx.changes.log.push_back("event=leased job=" + task.job_id + " task=" + std::to_string(task.id) + " kind=" +
-                           kind_name(task.kind) + " worker=" + worker.id() + " lease=" + token.substr(0, 8));
+                           wire::word(task.kind) + " worker=" + worker.id() + " lease=" + token.substr(0, 8));
 }
 
 v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
@@ -125,20 +127,8 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
       positions->set_end(static_cast<std::uint64_t>(range.end));
     }
   }
-  switch (task.kind) {
-    case v1::TASK_KIND_SKELETON:
-    case v1::TASK_KIND_DIVERGENCE:
-      lease.mutable_skeleton()->ParseFromString(task.params);
-      break;
-    case v1::TASK_KIND_SURFACE:
-      lease.mutable_surface()->ParseFromString(task.params);
-      break;
-    case v1::TASK_KIND_ERODED_POINTS:
-    case v1::TASK_KIND_ERODED_SURFACE:
-      lease.mutable_eroded()->ParseFromString(task.params);
-      break;
-    default:
-      break;
+  if (const wire::ArtifactKindInfo* kind = wire::find_derived_kind(task.kind)) {
+    wire::set_task_params(kind->params, task.params, lease);
   }
   return lease;
 }

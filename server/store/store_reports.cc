@@ -4,6 +4,7 @@
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 
 TaskRow erode_task(Database& db, const std::string& token) {
   TaskRow task = task_of_token(db, token);
-  if (task.kind != v1::TASK_KIND_ERODE)
-    refuse("the lease is for a " + std::string(kind_name(task.kind)) + " task");
+  if (task.kind != v1::TASK_KIND_ERODE) refuse("the lease is for a " + wire::word(task.kind) + " task");
   return task;
 }
 

@@ -7,24 +7,13 @@
 #include "errors.h"
 #include "store/blobs.h"
 #include "store/field.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
 
-constexpr std::array<std::pair<v1::TaskKind, const char*>, 7> kKinds = {{
-    {v1::TASK_KIND_PREPARE, "prepare"},
-    {v1::TASK_KIND_ERODE, "erode"},
-    {v1::TASK_KIND_SKELETON, "skeleton"},
-    {v1::TASK_KIND_SURFACE, "surface"},
-    {v1::TASK_KIND_DIVERGENCE, "divergence"},
-    {v1::TASK_KIND_ERODED_POINTS, "eroded-points"},
-    {v1::TASK_KIND_ERODED_SURFACE, "eroded-surface"},
-}};
-
 v1::TaskKind kind_of(const std::string& name) {
-  for (const auto& [kind, text] : kKinds) {
-    if (name == text) return kind;
-  }
+  if (const auto kind = wire::value_of_word<v1::TaskKind>(name)) return *kind;
   throw StoreError(StoreError::Code::kUnusable, "unknown kind of task '" + name + "' in the database");
 }
 
@@ -33,21 +22,23 @@ constexpr const char* kTaskColumns =
     " worker, core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
 
 TaskRow read_task(const Statement& row) {
+  Columns columns(row);
   TaskRow task;
-  task.id = row.integer(0);
-  task.job_id = row.text(1);
-  task.kind = kind_of(row.text(2));
-  task.state = row.text(3);
-  task.on_request = row.flag(4);
-  task.block = {row.integer(5), row.integer(6)};
-  task.params = std::string(row.blob(7));
-  task.params_key = row.text(8);
-  task.losses = row.integer(9);
-  task.worker = row.text(10);
-  task.core_version = row.text(11);
-  task.granted_ms = row.integer(12);
-  if (!row.is_null(13)) task.reported_ms = row.integer(13);
-  task.lease_directions = row.integer(14);
+  task.id = columns.integer();
+  task.job_id = columns.text();
+  task.kind = kind_of(columns.text());
+  task.state = columns.text();
+  task.on_request = columns.flag();
+  task.block.begin = columns.integer();
+  task.block.end = columns.integer();
+  task.params = columns.blob();
+  task.params_key = columns.text();
+  task.losses = columns.integer();
+  task.worker = columns.text();
+  task.core_version = columns.text();
+  task.granted_ms = columns.integer();
+  task.reported_ms = columns.integer_or_null();
+  task.lease_directions = columns.integer();
   return task;
 }
 
@@ -97,8 +88,8 @@ double lost_directions(const Tx& tx, const TaskRow& task) {
 
 void log_state(Tx& tx, const JobRow& job, v1::JobState state, v1::JobStage stage,
                const std::string& more = "") {
-  tx.changes.log.push_back("event=job job=" + job.id + " state=" + state_name(state) +
-                           " stage=" + stage_name(stage) + more);
+  tx.changes.log.push_back("event=job job=" + job.id + " state=" + wire::word(state) +
+                           " stage=" + wire::word(stage) + more);
 }
 
 /// Merges what is logged.  False when some of it is damaged: the job has failed, and what was merged so far
@@ -158,13 +149,6 @@ bool finish_derive(Tx& tx, const JobRow& job) {
 
 }  // namespace
 
-const char* kind_name(v1::TaskKind kind) {
-  for (const auto& [entry, text] : kKinds) {
-    if (entry == kind) return text;
-  }
-  throw std::logic_error("a kind of task without a name");
-}
-
 std::optional<TaskRow> find_task(Database& db, std::int64_t id) {
   static const std::string sql = std::string(kTaskColumns) + "WHERE id = ?";
   Statement row = db.query(sql.c_str(), id);
@@ -200,7 +184,7 @@ std::int64_t enqueue(Tx& tx) {
 }  // namespace
 
 std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind) {
-  tx.db.run("INSERT INTO tasks (job_id, kind, state) VALUES (?, ?, 'pending')", job_id, kind_name(kind));
+  tx.db.run("INSERT INTO tasks (job_id, kind, state) VALUES (?, ?, 'pending')", job_id, wire::word(kind));
   return enqueue(tx);
 }
 
@@ -223,7 +207,7 @@ std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kin
   tx.db.run(
       "INSERT INTO tasks (job_id, kind, state, on_request, params, params_key)"
       " VALUES (?, ?, 'pending', ?, ?, ?)",
-      job_id, kind_name(kind), on_request, Blob{params}, params_key);
+      job_id, wire::word(kind), on_request, Blob{params}, params_key);
   return enqueue(tx);
 }
 
@@ -278,11 +262,11 @@ void lose_lease(Tx& tx, const TaskRow& task, const std::string& why) {
       "UPDATE jobs SET leases_lost = leases_lost + 1, directions_lost = directions_lost + ? WHERE id = ?",
       lost_directions(tx, task), task.job_id);
   tx.changes.log.push_back("event=lease_lost job=" + task.job_id + " task=" + std::to_string(task.id) +
-                           " kind=" + kind_name(task.kind) + " worker=" + task.worker + " why=\"" + why +
+                           " kind=" + wire::word(task.kind) + " worker=" + task.worker + " why=\"" + why +
                            "\"");
   v1::JobError error;
   error.set_code("WORKER_LOST");
-  error.set_message("the " + std::string(kind_name(task.kind)) + " task lost its worker " +
+  error.set_message("the " + wire::word(task.kind) + " task lost its worker " +
                     std::to_string(task.losses + 1) + " times in a row without any progress (last: " + why +
                     "); see the workers' logs, a worker may run out of memory");
   count_loss(tx, task, error);

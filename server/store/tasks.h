@@ -29,8 +29,6 @@ struct TaskRow {
   std::int64_t lease_directions = 0;
 };
 
-const char* kind_name(v1::TaskKind kind);
-
 std::optional<TaskRow> find_task(Database& db, std::int64_t id);
 
 /// The task that holds this token, leased or done.  @throws StoreError kFenced when there is none.

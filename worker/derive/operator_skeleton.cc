@@ -1,8 +1,8 @@
 #include "derive/operator_skeleton.h"
 
-#include <bit>
 #include <optional>
 
+#include "base/coding.h"
 #include "core/base/error.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
@@ -10,9 +10,9 @@
 #include "core/shocks/zucker_hummel.h"
 #include "core/surface/alpha_shape.h"
 #include "derive/messages.h"
-#include "enum_word.h"
 #include "result_bytes.h"
 #include "wire/params.h"
+#include "wire/words.h"
 
 namespace affskel::worker {
 namespace {
@@ -22,8 +22,7 @@ static_assert(wire::kZuckerHummelThreshold == core::kZuckerHummelThreshold);
 
 core::ShockOperator core_operator(v1::Operator which) {
   if (which == v1::OPERATOR_UNSPECIFIED) return core::ShockOperator::kZuckerHummel;
-  const std::optional<core::ShockOperator> found =
-      core::shock_operator_named(enum_word(v1::Operator_Name(which), "OPERATOR_"));
+  const std::optional<core::ShockOperator> found = core::shock_operator_named(wire::word(which));
   if (found) return *found;
   throw core::CoreError(core::CoreError::Code::kBadInput,
                         "this worker does not know the skeleton operator; update the worker");
@@ -87,14 +86,15 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
 }
 
 std::string operator_divergence(const FinishedField& field, v1::Operator which) {
-  static_assert(std::endian::native == std::endian::little);
   if (field.lattice().points > wire::kMaxResultBytes / sizeof(double)) {
     throw core::CoreError(core::CoreError::Code::kLimit,
                           "the divergence of " + std::to_string(field.lattice().points) +
                               " points is larger than what can be sent; take a wider spacing");
   }
   const std::vector<double> values = divergence_of(field, core_operator(which));
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+  std::string bytes(values.size() * sizeof(double), '\0');
+  for (std::size_t p = 0; p < values.size(); ++p) base::encode(bytes.data() + p * sizeof(double), values[p]);
+  return bytes;
 }
 
 }  // namespace affskel::worker

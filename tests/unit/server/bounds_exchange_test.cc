@@ -11,14 +11,14 @@
 namespace affskel::server {
 namespace {
 
-FieldRecord record(std::uint32_t point, double erosion) {
+wire::PointRecord record(std::uint32_t point, double erosion) {
   return {erosion, 1.0, 7, point};
 }
 
 /// What a worker is told when it reports, by point.
 std::map<std::uint64_t, double> told(BoundsExchange& exchange, const std::string& job,
                                      const std::string& worker,
-                                     const std::vector<FieldRecord>& records = {}) {
+                                     const std::vector<wire::PointRecord>& records = {}) {
   v1::ReportResponse response;
   exchange.exchange(job, worker, records, response);
   std::map<std::uint64_t, double> bounds;
@@ -106,7 +106,7 @@ TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   BoundsExchange exchange(options);
   told(exchange, "job", "a");
   told(exchange, "job", "b");
-  std::vector<FieldRecord> records;
+  std::vector<wire::PointRecord> records;
   for (std::uint32_t p = 0; p < 40; ++p) records.push_back(record(p, 1 + p));
   told(exchange, "job", "a", records);
   const auto first = told(exchange, "job", "b"), second = told(exchange, "job", "b");
@@ -122,7 +122,7 @@ TEST(BoundsExchange, AnswersFitWhatClientsTakeUnlessToldOtherwise) {
   v1::ReportResponse first, ignored;
   exchange.exchange("job", "a", {}, ignored);
   exchange.exchange("job", "b", {}, ignored);
-  std::vector<FieldRecord> records;
+  std::vector<wire::PointRecord> records;
   for (std::uint32_t p = 0; p < 2'000'000; ++p) records.push_back(record(p * 2000, 1.0));
   exchange.exchange("job", "a", records, ignored);
   exchange.exchange("job", "b", {}, first);

@@ -262,7 +262,7 @@ std::function<void(Database&)> flipped(const char* table, int offset) {
   };
 }
 
-std::function<void(Database&)> logged(FieldRecord record) {
+std::function<void(Database&)> logged(wire::PointRecord record) {
   return [=](Database& db) {
     const std::string_view bytes(reinterpret_cast<const char*>(&record), sizeof record);
     db.run("UPDATE field_log SET data = ?", Blob{bytes});
@@ -349,11 +349,11 @@ const Planted kPlanted[] = {
     {"ChunkSize", sql("UPDATE field_chunks SET data = zeroblob(20)"),
      "has 20 bytes, not those of its points"},
     {"ChunkMissing", sql("DELETE FROM field_chunks WHERE idx = 0"), "only 1 of 2 chunks of its field"},
-    {"PointNotDone", record("done", kInfinity, 0, kNoDirection), "1 points without a value"},
+    {"PointNotDone", record("done", kInfinity, 0, wire::kNoDirection), "1 points without a value"},
     {"PointDirection", record("eroding", 0.5, 1, kDirections), "1 points without a value"},
     {"PointErosion", record("eroding", std::nan(""), 1, 0), "1 points without a value"},
     {"PointArea", record("eroding", 0.5, -1, 0), "1 points without a value"},
-    {"PointHalfEmpty", record("eroding", 0.5, 0, kNoDirection), "1 points without a value"},
+    {"PointHalfEmpty", record("eroding", 0.5, 0, wire::kNoDirection), "1 points without a value"},
     {"LoggedPoint", logged({0.5, 1, 0, kPoints}), "1 records that no report"},
     {"LoggedDirection", logged({0.5, 1, kDirections, 0}), "1 records that no report"},
     {"LoggedErosion", logged({-0.5, 1, 0, 0}), "1 records that no report"},

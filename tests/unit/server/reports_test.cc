@@ -169,8 +169,8 @@ TEST_F(ReportTest, PartialFieldHasEmptyRecords) {
     std::memcpy(&direction, bytes.data() + point * 20 + 16, 4);
     return std::tuple(erosion, area, direction);
   };
-  EXPECT_EQ(record(0), std::tuple(std::numeric_limits<double>::infinity(), 0.0, kNoDirection));
-  EXPECT_EQ(record(4998), std::tuple(std::numeric_limits<double>::infinity(), 0.0, kNoDirection));
+  EXPECT_EQ(record(0), std::tuple(std::numeric_limits<double>::infinity(), 0.0, wire::kNoDirection));
+  EXPECT_EQ(record(4998), std::tuple(std::numeric_limits<double>::infinity(), 0.0, wire::kNoDirection));
   EXPECT_EQ(record(4999), std::tuple(0.5, 2.0, 3U));
 }
 

@@ -178,6 +178,56 @@ TEST_F(DatabaseTest, MigratingKeepsWhatIsStored) {
   EXPECT_EQ(db.integer("SELECT count(*) FROM artifact_chunks"), 0);
 }
 
+TEST_F(DatabaseTest, MigratingFromTheSchemaBeforeKeepsTheQueue) {
+  Database db(file(), Database::Mode::kReadWrite);
+  const std::vector<Migration>& all = embedded_migrations();
+  migrate(db, {all.begin(), all.begin() + 5});
+  const std::string sha(64, 'a'), id(32, '0');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  db.run(
+      "INSERT INTO jobs (seq, id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key,"
+      " created_ms) VALUES (9, ?, 'n', 'o', 5, 'running', 'erode', 1, x'', '', 0)",
+      id);
+  db.run(
+      "INSERT INTO tasks (id, job_id, kind, state, first_position, end_position, losses, token, worker, "
+      "host, pid,"
+      " supervised, core_version, granted_ms, reported_ms, deadline_ms, lease_directions, seq, priority,"
+      " needs_core, parked, stalled_ms)"
+      " VALUES (7, ?, 'erode', 'leased', 10, 20, 2, 't', 'w', 'h', 11, 1, 'c', 12, 13, 14, 15, 9, 5, 'c', 0, "
+      "16)",
+      id);
+  const auto task = [&] {
+    Statement row = db.query(
+        "SELECT id || job_id || kind || state || first_position || end_position || losses || token || worker "
+        "|| host"
+        " || pid || supervised || core_version || granted_ms || reported_ms || deadline_ms || "
+        "lease_directions || seq"
+        " || priority || needs_core || parked || stalled_ms FROM tasks");
+    return row.step() ? row.text(0) : std::string();
+  };
+  const std::string before = task();
+  ASSERT_NE(before, "");
+  migrate(db);
+  EXPECT_EQ(task(), before);
+  db.run("UPDATE jobs SET cancel_requested = 1, priority = 8");
+  EXPECT_EQ(db.integer("SELECT parked FROM tasks"), 1) << "the trigger is there";
+  EXPECT_EQ(db.integer("SELECT priority FROM tasks"), 8);
+}
+
+TEST_F(DatabaseTest, KindsAreThoseOfTheirTables) {
+  Database db(file(), Database::Mode::kReadWrite);
+  migrate(db);
+  const std::string sha(64, 'a');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  const char* insert =
+      "INSERT INTO artifacts (erosion_id, kind, params_key, bytes, sha256, items) VALUES (1, ?, '', 1, ?, 0)";
+  EXPECT_THROW(db.run(insert, "medial-axis", sha), SqliteError);
+  db.run("INSERT INTO artifact_kinds (name) VALUES ('medial-axis')");
+  EXPECT_NO_THROW(db.run(insert, "medial-axis", sha));
+}
+
 TEST_F(DatabaseTest, RefusesNewerSchema) {
   Database db(file(), Database::Mode::kReadWrite);
   migrate(db);

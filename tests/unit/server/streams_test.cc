@@ -305,7 +305,7 @@ TEST_F(ReportStreams, AreCountedOverAllParts) {
 }
 
 TEST_F(ReportStreams, TogetherHoldNoMoreThanTheirBudget) {
-  options_.limits.records_bytes = 40000 * sizeof(FieldRecord);
+  options_.limits.records_bytes = 40000 * sizeof(wire::PointRecord);
   start();
   const v1::Lease lease = block(4000, 40);
   grpc::ClientContext contexts[2];
