@@ -11,7 +11,7 @@
 
 namespace affskel::core {
 
-/// Directions d of the planes, unit vectors; the chordal piece lies on the side d.y <= d.x.  An entry
+/// Directions d of the planes, unit vectors; the chord lies on the side d.y <= d.x.  An entry
 /// (0, 0, 0) stands for a triangle without area and is never an optimum.
 using DirectionSet = std::vector<Vec3>;
 

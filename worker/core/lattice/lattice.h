@@ -106,7 +106,7 @@ void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 /// it would refuse them as too many, or too many lines.
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
-/// The same for a given frame in scaled coordinates; axes need not be orthogonal or of equal length.
+/// The same for a given grid in scaled coordinates; axes need not be orthogonal or of equal length.
 Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads = 1,
                      ExecutionContext* context = nullptr);
 

@@ -73,7 +73,7 @@ class Sheet {
       result_.branch_edges += last - first > 2;
     });
     count_vertices();
-    result_.boundary_loops = count_rim_pieces();
+    result_.boundary_loops = count_rim_loops();
     result_.betti.cavities = count_closed_surfaces();
     const std::int64_t euler = vertices_ - edges + static_cast<std::int64_t>(sheet_.triangles.size());
     result_.betti.holes =
@@ -106,14 +106,14 @@ class Sheet {
     }
   }
 
-  std::uint64_t count_rim_pieces() {
+  std::uint64_t count_rim_loops() {
     std::vector<bool> on_rim(sheet_.points.size(), false);
     for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
       if (last - first == 1) on_rim[first->low] = on_rim[first->high] = true;
     });
-    std::uint64_t pieces = 0;
-    for (std::uint32_t v = 0; v < on_rim.size(); ++v) pieces += on_rim[v] && rim_.find(v) == v;
-    return pieces;
+    std::uint64_t loops = 0;
+    for (std::uint32_t v = 0; v < on_rim.size(); ++v) loops += on_rim[v] && rim_.find(v) == v;
+    return loops;
   }
 
   // A closed surface is a set of patches that every edge meets an even number of times: none with a rim, and

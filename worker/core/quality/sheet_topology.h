@@ -10,7 +10,7 @@ namespace affskel::core {
 /// The topology of a triangulated sheet that may have rims, branches and closed parts.
 struct SheetTopology {
   BettiNumbers betti;
-  std::uint64_t boundary_loops = 0;  ///< connected pieces of the rim: the edges with one triangle
+  std::uint64_t boundary_loops = 0;  ///< connected components of the rim: the edges with one triangle
   std::uint64_t branch_edges = 0;    ///< edges where more than two triangles meet
 };
 

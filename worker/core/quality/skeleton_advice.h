@@ -18,10 +18,11 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
                                   const std::vector<double>& divergence, ShockOperator shock_operator,
                                   double threshold);
 
-/// The same for the operator `chords`: no two chords alike at all; none of clearly different directions, with
-/// the widest angle there is, and other axes when those of the lattice are stretched (a flat solid becomes as
-/// thick as it is wide in the `affine` frame, and its chords no longer oppose each other); only where E is
-/// small; or only in pieces below the significance, with one that keeps the heaviest.
+/// The same for the operator `chords`.  There are no two equal chords at all; or none of clearly different
+/// directions (then with the widest angle there is, and other axes when the lattice's are stretched: a flat
+/// solid becomes as thick as it is wide in the frame `affine`, and its chords no longer oppose each other);
+/// or only where E is small; or only in pieces below the significance (then with one that keeps the
+/// heaviest).
 /// @param census of a sheet without shocks.
 /// @param pruning the options that it was made with.
 std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,

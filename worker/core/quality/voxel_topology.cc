@@ -149,7 +149,7 @@ class Background {
 
 // The complex is sorted by what its cells are in i and j: the cells over a vertex, an edge or a square of
 // the (i, j) plane are the voxels' closed stretches in k, united over the rows round it.  A union of closed
-// stretches has one vertex more than it has edges per piece.
+// stretches has one vertex more than it has edges per component.
 class EulerCharacteristic {
  public:
   explicit EulerCharacteristic(const Rows& rows) : rows_(rows) {}
@@ -158,17 +158,17 @@ class EulerCharacteristic {
     std::int64_t sum = 0;
     for (std::int64_t i = 0; i <= rows_.side(0); ++i) {
       for (std::int64_t j = 0; j <= rows_.side(1); ++j) {
-        sum += pieces({{i - 1, j - 1}, {i - 1, j}, {i, j - 1}, {i, j}});  // vertices
-        sum -= pieces({{i, j - 1}, {i, j}});                              // edges along i
-        sum -= pieces({{i - 1, j}, {i, j}});                              // edges along j
-        sum += pieces({{i, j}});                                          // squares
+        sum += components({{i - 1, j - 1}, {i - 1, j}, {i, j - 1}, {i, j}});  // vertices
+        sum -= components({{i, j - 1}, {i, j}});                              // edges along i
+        sum -= components({{i - 1, j}, {i, j}});                              // edges along j
+        sum += components({{i, j}});                                          // squares
       }
     }
     return sum;
   }
 
  private:
-  std::int64_t pieces(std::initializer_list<std::pair<std::int64_t, std::int64_t>> around) {
+  std::int64_t components(std::initializer_list<std::pair<std::int64_t, std::int64_t>> around) {
     stretches_.clear();
     for (const auto& [i, j] : around) {
       const auto [begin, end] = rows_.range(i, j);

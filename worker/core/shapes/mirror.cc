@@ -12,8 +12,10 @@ namespace {
 
 constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
 
-/// Drops the vertices that no triangle uses.
-Mesh compacted(const Mesh& mesh) {
+/// The mesh with its vertices numbered by their first use, the unused ones left out.  Not
+/// drop_unused_points(): which of two equal edges is collapsed first goes by these numbers, and with it the
+/// demo body's bytes.
+Mesh numbered_by_first_use(const Mesh& mesh) {
   std::vector<std::uint32_t> index(mesh.points.size(), kUnused);
   Mesh out;
   for (const Triangle& t : mesh.triangles) {
@@ -80,7 +82,7 @@ Mesh positive_x_part(Mesh mesh, double snap) {
     if (reaches) add_clipped(t, mesh.points, crossings, kept);
   }
   mesh.triangles = std::move(kept);
-  return compacted(mesh);
+  return numbered_by_first_use(mesh);
 }
 
 Mesh with_mirror_image(const Mesh& half) {

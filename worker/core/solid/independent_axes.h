@@ -17,12 +17,12 @@ struct IndependentAxes {
 /// near to independent, as it gets: they maximise the contrast sum (k - 3)^2 over all rotations (Comon 1994,
 /// "Independent component analysis, a new concept?").  The contrast turns with w, and so do the axes.
 ///
-/// The maximum is the largest of those that Newton steps reach from 343 rotations spread over all that
-/// differ by more than order and signs.  Maxima that differ by less than 1e-6 of sum k^2 count as equal: the
-/// rotation nearest to the coordinate axes is taken.  If the contrast stays the same (to 1e-6 likewise) when
-/// the axes turn about some line, then the one nearest to the plane across it is turned to project onto the
-/// projection of the coordinate axis nearest to that plane; if it does so about more than one line, the
-/// result is the coordinate axes.
+/// The maximum is the largest of those that Newton steps reach from 343 rotations spread over all that differ
+/// by more than order and signs.  Values that differ by less than 1e-6 of sum k^2 count as equal.  Of equal
+/// maxima the rotation nearest to the coordinate axes is taken.  Where the contrast stays the same when the
+/// axes turn about one line, they are turned so that the axis nearest to the plane across that line, and the
+/// coordinate axis nearest to that plane, project onto it in the same direction.  Where it stays the same
+/// about more lines than one, the result is the coordinate axes.
 ///
 /// Uses +, -, *, / and sqrt only, so that all machines agree on every bit; about 10 ms.
 IndependentAxes independent_axes(const FourthMoments& moments);

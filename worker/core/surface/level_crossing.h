@@ -14,15 +14,15 @@ struct LevelCrossing {
 /// Where E falls to `level` between two sample points with no surface between them, from `above`
 /// (E >= level) to `below` (E < level); slopes in the sense from `above` to `below`.
 ///
-/// E is piecewise smooth.  Within a piece: the root of the cubic through values and slopes, error of order 4
-/// in the spacing.  Across a shock, where E is the minimum of two smooth functions: the root on the two
-/// tangents, error of order 2.  It is taken for one when the caller says so (`kinked`: the normals at the two
-/// ends differ by more than 60 degrees) and the tangents cross on the edge with a concave kink that is more
-/// than half the sum of the slopes' sizes.  Both bounds are far above those of operator `chords`, which is to
-/// miss no shock: at a weak one the cubic errs little, and where E is smooth it is by far the better.  Across
-/// a jump, where a chordal piece begins to take in another part of the solid (E falls by more than 3/2 of
-/// what the steeper slope says): open between the roots of the tangents, in the middle.  A value that is not
-/// finite leaves all open.
+/// E is piecewise smooth.  Where it is smooth: the root of the cubic through values and slopes, error of
+/// order 4 in the spacing.  Across a shock, where E is the minimum of two smooth functions: the root on the
+/// two tangents, error of order 2.  It is taken for one when the caller says so (`kinked`: the normals at the
+/// two ends differ by more than 60 degrees) and the tangents cross on the edge with a concave kink that is
+/// more than half the sum of the slopes' sizes.  Both bounds are far above those of operator `chords`, which
+/// is to miss no shock: at a weak one the cubic errs little, and where E is smooth it is by far the better.
+/// Across a jump, where chords begin to take in a limb more (E falls by more than 3/2 of what the steeper
+/// slope says): open between the roots of the tangents, in the middle.  A value that is not finite leaves all
+/// open.
 LevelCrossing level_crossing_between(const EdgeValue& above, const EdgeValue& below, double level,
                                      bool kinked);
 
