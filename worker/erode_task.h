@@ -4,8 +4,8 @@
 #include <stop_token>
 
 #include "affskel/v1/worker_service.pb.h"
+#include "job/prepared_job.h"
 #include "last_report.h"
-#include "prepared_job.h"
 #include "server_link.h"
 
 namespace affskel::worker {

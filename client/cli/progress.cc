@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/text/time_text.h"
 #include "client/text/words.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -30,7 +30,7 @@ std::string label(const v1::Job& job) {
 }
 
 std::string rate_text(double per_second) {
-  return per_second < 100 ? core::rounded(per_second, 2) : std::to_string(std::llround(per_second));
+  return per_second < 100 ? base::rounded(per_second, 2) : std::to_string(std::llround(per_second));
 }
 
 std::string count_text(const v1::Job& job, const ProgressRate& rate) {

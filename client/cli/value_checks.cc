@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/cli/number_parsers.h"
-#include "core/base/number_text.h"
 #include "wire/params.h"
 
 namespace affskel::client {
@@ -32,7 +32,7 @@ CLI::Validator proper_share() {
         if (!share || !(*share > 0 && *share < 1)) {
           return "must be a share between 0 and 1 as in 0.1 or 10%, not '" + text + "'";
         }
-        text = core::to_text(*share);
+        text = base::to_text(*share);
         return "";
       },
       "");

@@ -2,11 +2,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/commands/commands.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/mesh_defects.h"
 #include "client/text/key_line.h"
-#include "core/base/number_text.h"
 #include "core/solid/solid.h"
 #include "wire/sha256.h"
 
@@ -22,7 +22,7 @@ ordered_json vec(const core::Vec3& v) {
 std::string text_of(const ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_float()) return core::to_text(value.get<double>());
+  if (value.is_number_float()) return base::to_text(value.get<double>());
   if (!value.is_array()) return value.dump();
   std::string text;
   for (const ordered_json& element : value) text += (text.empty() ? "" : " ") + text_of(element);

@@ -3,13 +3,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/files/format.h"
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
-#include "core/base/number_text.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 
@@ -48,7 +48,7 @@ void run(Console& console, const MakeOptions& options) {
   write_into(file, [&](const WriteBytes& write) { write_surface(format, shape, {}, write); });
   file.commit();
   console.note("wrote " + destination.name() + " (" +
-               core::counted(shape.mesh().triangles.size(), "triangle") + ")");
+               base::counted(shape.mesh().triangles.size(), "triangle") + ")");
   console.document({{"file", options.output},
                     {"vertices", shape.mesh().points.size()},
                     {"triangles", shape.mesh().triangles.size()}});

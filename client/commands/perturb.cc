@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/cli/number_parsers.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
@@ -15,7 +16,6 @@
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/coincident_points.h"
 #include "core/spatial/self_intersection.h"
 
@@ -74,13 +74,13 @@ void run(Console& console, const Options& options) {
   tell_what_is_lost(console, shape, FileFormat::kOff, destination.name());
   shape.columns.clear();
 
-  const std::string noise = "Gaussian noise of standard deviation " + core::to_text(sigma) +
+  const std::string noise = "Gaussian noise of standard deviation " + base::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);
   AtomicFile file(destination.file);
   write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {noise}, write); });
   file.commit();
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " +
-               core::rounded(sigma, 6) + ", seed " + std::to_string(options.seed) + ")");
+               base::rounded(sigma, 6) + ", seed " + std::to_string(options.seed) + ")");
   const bool crosses = crosses_itself(shape.mesh());
   if (crosses) {
     console.warning(destination.name() +

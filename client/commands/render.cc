@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
@@ -14,7 +15,6 @@
 #include "client/files/write/atomic_file.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -39,11 +39,11 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
 
 std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
   const std::string skeleton = params.operator_() == v1::OPERATOR_CHORDS
-                                   ? "sheet of " + core::counted(input.sheet.corners_size() / 3, "triangle")
-                                   : core::counted(input.skeleton.point_size(), "skeleton point");
+                                   ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle")
+                                   : base::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
-         core::counted(job.prepared().points(), "sample point") + " at spacing " +
-         core::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
+         base::counted(job.prepared().points(), "sample point") + " at spacing " +
+         base::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
          ")";
 }
 

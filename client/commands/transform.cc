@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/cli/affine_steps.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
@@ -14,7 +15,6 @@
 #include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/map_mesh.h"
 
 namespace affskel::client {
@@ -74,7 +74,7 @@ std::vector<double> numbers_of(const core::AffineMap& map) {
 
 std::string comment_for(const std::vector<double>& numbers) {
   std::string text = "mapped by the affine map";
-  for (const double number : numbers) text += " " + core::to_text(number);
+  for (const double number : numbers) text += " " + base::to_text(number);
   return text;
 }
 
@@ -104,7 +104,7 @@ void run(Console& console, const Options& options, const std::vector<AffineStep>
   file.commit();
   const double det = core::determinant(map);
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", volumes times " +
-               core::rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
+               base::rounded(std::abs(det), 6) + (det < 0 ? ", mirrored" : "") + ")");
   console.document({{"file", options.output},
                     {"points", shape.mesh().points.size()},
                     {"triangles", shape.mesh().triangles.size()},

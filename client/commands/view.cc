@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/coding.h"
+#include "base/number_text.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/fetch_artifact.h"
@@ -16,7 +17,6 @@
 #include "client/files/write/atomic_file.h"
 #include "client/text/words.h"
 #include "client/view/page.h"
-#include "core/base/number_text.h"
 #include "core/chords/chord_pruning.h"
 #include "core/shocks/shock_operator.h"
 
@@ -134,7 +134,7 @@ void run(Context& context, const Options& options) {
   file.write(page);
   file.commit();
   context.console().note("wrote " + destination.name() + " (page, " +
-                         core::counted(input.points.size(), "point") + ", " + std::to_string(page.size()) +
+                         base::counted(input.points.size(), "point") + ", " + std::to_string(page.size()) +
                          " bytes): open it in a browser");
   context.console().document({{"job", job.id()},
                               {"artefact", "page"},

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/cli/number_parsers.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/read_shape.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/quality/interior_points.h"
 #include "core/solid/surface_samples.h"
 
@@ -36,7 +36,7 @@ void check_surface_size(const core::Mesh& mesh, const std::string& path) {
   const double side = longest_side({&mesh.points});
   if (side == 0 || (side >= kMinSurface && side <= kMaxSurface)) return;
   throw ClientError(ExitCode::kBadInput,
-                    "a surface of size " + core::rounded(side, 3) +
+                    "a surface of size " + base::rounded(side, 3) +
                         "; those from 1e-60 to 1e60 can be compared" + kScaleFirst,
                     path);
 }
@@ -55,8 +55,8 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Conso
     }
     const double spacing =
         std::sqrt(core::surface_area(shape.mesh()) / static_cast<double>(result.points.size()));
-    console.note(path + ": a surface, compared by " + core::counted(result.points.size(), "point") +
-                 " spread over it, about " + core::rounded(spacing, 3) + " apart");
+    console.note(path + ": a surface, compared by " + base::counted(result.points.size(), "point") +
+                 " spread over it, about " + base::rounded(spacing, 3) + " apart");
   }
   if (result.points.empty()) {
     throw ClientError(ExitCode::kBadInput,
@@ -89,7 +89,7 @@ double plain_radius(double shown, bool squared, const char* option) {
   if (radius != 0 && !(radius >= kMinLength && radius <= kMaxLength)) {
     throw ClientError(ExitCode::kUsage, std::string(option) + ": a radius must lie within " +
                                             (squared ? "1e-300 to 1e300 (squared)" : "1e-150 to 1e150") +
-                                            ", not " + core::to_text(shown));
+                                            ", not " + base::to_text(shown));
   }
   return radius;
 }
@@ -100,7 +100,7 @@ double default_radius(double side) {
     throw ClientError(ExitCode::kUsage, "all points lie at one place; give a radius (--radius)");
   }
   if (radius < kMinLength) {
-    throw ClientError(ExitCode::kUsage, "all points lie within " + core::rounded(side, 3) +
+    throw ClientError(ExitCode::kUsage, "all points lie within " + base::rounded(side, 3) +
                                             ", too near for a radius of their own; give one (--radius)" +
                                             std::string(", or") + (kScaleFirst + 1));
   }
@@ -112,7 +112,7 @@ double common_side(const ComparedPoints& a, const ComparedPoints& b) {
   const double side = longest_side({&a.points, &b.points});
   if (side > kMaxLength) {
     throw ClientError(ExitCode::kBadInput,
-                      "the points of A and B are up to " + core::rounded(side, 3) +
+                      "the points of A and B are up to " + base::rounded(side, 3) +
                           " apart; lengths up to 1e150 can be compared" + kScaleFirst,
                       a.file);
   }

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/comparison/comparison.h"
 #include "client/files/numbers.h"
 #include "client/text/key_line.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -54,7 +54,7 @@ std::string table_text(const Comparison& c) {
   for (const Column& column : columns) text += std::string(kGap, ' ') + column.title;
   text += "\n";
   for (const double radius : c.radii) {
-    text += padded(core::rounded(shown_radius(c, radius), 7), kRadius);
+    text += padded(base::rounded(shown_radius(c, radius), 7), kRadius);
     for (const Column& column : columns) {
       text += padded(column_share(column.curve->share_within(radius)),
                      kGap + std::string_view(column.title).size());
@@ -65,7 +65,7 @@ std::string table_text(const Comparison& c) {
 }
 
 std::string side_text(const ComparedPoints& side) {
-  return side.file + " (" + core::counted(side.points.size(), "point") +
+  return side.file + " (" + base::counted(side.points.size(), "point") +
          (side.from_surface ? " spread over its surface)" : ")");
 }
 
@@ -99,10 +99,10 @@ PlotCurve plotted(const Comparison& c, const core::DistanceCurve& curve, PlotCur
 std::string comparison_text(const Comparison& c) {
   const core::Similarity& s = c.curves;
   const std::string to = " (up to " + std::string(c.squared ? "r^2 = " : "r = ") +
-                         core::rounded(shown_radius(c, c.radii.back()), 7) + ")";
+                         base::rounded(shown_radius(c, c.radii.back()), 7) + ")";
   std::string text =
       table_text(c) + "\n" + key_line("A", side_text(c.a)) + key_line("B", side_text(c.b)) +
-      key_line(c.squared ? "radius squared" : "radius", core::rounded(shown_radius(c, c.radius), 7)) +
+      key_line(c.squared ? "radius squared" : "radius", base::rounded(shown_radius(c, c.radius), 7)) +
       key_line("within radius", there_and_back(column_share(s.a_in_b.share_within(c.radius)),
                                                column_share(s.b_in_a.share_within(c.radius)), " %"));
   if (c.chance) {
@@ -112,9 +112,9 @@ std::string comparison_text(const Comparison& c) {
   }
   text += key_line(
       "area under curve",
-      there_and_back(core::rounded(area(c, s.a_in_b), 4), core::rounded(area(c, s.b_in_a), 4), "") + to);
-  return text + key_line("Hausdorff", core::rounded(s.a_in_b.hausdorff(), 7) + " from A to B, " +
-                                          core::rounded(s.b_in_a.hausdorff(), 7) + " from B to A");
+      there_and_back(base::rounded(area(c, s.a_in_b), 4), base::rounded(area(c, s.b_in_a), 4), "") + to);
+  return text + key_line("Hausdorff", base::rounded(s.a_in_b.hausdorff(), 7) + " from A to B, " +
+                                          base::rounded(s.b_in_a.hausdorff(), 7) + " from B to A");
 }
 
 std::string comparison_csv(const Comparison& c) {
@@ -162,7 +162,7 @@ SharePlot comparison_plot(const Comparison& c) {
   plot.x_label = c.squared ? "squared distance r^2, mesh units squared" : "distance r, mesh units";
   plot.x_max = shown_radius(c, c.radii.back());
   plot.marked = shown_radius(c, c.radius);
-  plot.marked_label = (c.squared ? "r^2 = " : "r = ") + core::rounded(plot.marked, 4);
+  plot.marked_label = (c.squared ? "r^2 = " : "r = ") + base::rounded(plot.marked, 4);
   // A lies below B and is broader, so that both show where they are one.
   plot.curves.push_back(plotted(c, c.curves.a_in_b, {"points of A within r of B", "#0b62a4", false, 4, {}}));
   plot.curves.push_back(

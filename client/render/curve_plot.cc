@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/text/printable.h"
 #include "client/text/xml_text.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kLeft = 70, kRight = 770, kTop = 150, kBottom = 490;
 
 // A place on the picture, to a hundredth of a pixel.
 std::string pixel(double value) {
-  return core::to_text(std::round(100 * value) / 100);
+  return base::to_text(std::round(100 * value) / 100);
 }
 
 // What fits beside the left margin; the end of a file's name tells more than its beginning.
@@ -69,7 +69,7 @@ class Drawing {
     for (const double x : round_ticks(plot_.x_max, 8)) {
       svg_ += line(across(x), kTop, across(x), kBottom, "stroke=\"#e3e3e3\"");
       svg_ += line(across(x), kBottom, across(x), kBottom + 5, "stroke=\"#222\"");
-      svg_ += text(across(x), kBottom + 21, "text-anchor=\"middle\"", core::rounded(x, 6));
+      svg_ += text(across(x), kBottom + 21, "text-anchor=\"middle\"", base::rounded(x, 6));
     }
     for (int share = 0; share <= 100; share += 20) {
       const double y = up(share / 100.0);

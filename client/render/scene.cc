@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/render/panel.h"
 #include "client/render/stroke_text.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -145,7 +145,7 @@ void draw_scale_bar(Image& image, const Layout& layout) {
   draw_stroke(image, {left, y}, {right, y}, stroke, kInk);
   draw_stroke(image, {left, y - tick}, {left, y + tick}, stroke, kInk);
   draw_stroke(image, {right, y - tick}, {right, y + tick}, stroke, kInk);
-  const std::string label = core::to_text(length) + (length == 1 ? " unit" : " units");
+  const std::string label = base::to_text(length) + (length == 1 ? " unit" : " units");
   draw_text(image, {(left + right - text_width(label, layout.text)) / 2, y - 1.2 * layout.text}, label,
             layout.text, kInk);
 }
@@ -165,7 +165,7 @@ void draw_colour_bar(Image& image, const Layout& layout, const RenderInput& inpu
   draw_text(image, {double(left), top - 0.8 * layout.text}, title, layout.text, kInk);
   for (int tick = 0; tick <= 4; ++tick) {
     const double t = tick / 4.0;
-    const std::string label = tick == 0 ? "0" : core::rounded(t * t * t * scale.highest / unit, 2);
+    const std::string label = tick == 0 ? "0" : base::rounded(t * t * t * scale.highest / unit, 2);
     const double text = text_width(label, 0.9 * layout.text);
     const double x = left + t * (width - 1);
     const double start = std::clamp(x - text / 2, double(left), left + width - text);

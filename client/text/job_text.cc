@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/number_text.h"
 #include "client/text/key_line.h"
 #include "client/text/printable.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/time_text.h"
 #include "client/text/words.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t kShortId = 12;
 
 std::string triple(const google::protobuf::RepeatedField<double>& values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + core::to_text(value);
+  for (const double value : values) text += (text.empty() ? "" : " ") + base::to_text(value);
   return text;
 }
 
@@ -31,15 +31,15 @@ bool is_identity(const google::protobuf::RepeatedField<double>& frame) {
 
 std::string frame_text(const google::protobuf::RepeatedField<double>& frame) {
   std::string text;
-  for (int i = 0; i < 9; ++i) text += (i == 0 ? "" : i % 3 == 0 ? ", " : " ") + core::to_text(frame[i]);
+  for (int i = 0; i < 9; ++i) text += (i == 0 ? "" : i % 3 == 0 ? ", " : " ") + base::to_text(frame[i]);
   return text;
 }
 
 std::string prepared_details(const v1::PreparedSummary& p) {
   std::string text;
   text += key_line("points", std::to_string(p.points()));
-  text += key_line("spacing", core::to_text(p.spacing()));
-  text += key_line("v0", core::to_text(p.volume()));
+  text += key_line("spacing", base::to_text(p.spacing()));
+  text += key_line("v0", base::to_text(p.volume()));
   text += key_line("triangles", std::to_string(p.triangles()));
   text += key_line("vertices", std::to_string(p.vertices()));
   text += key_line("solids", std::to_string(p.solids()));
@@ -58,8 +58,8 @@ std::string prepared_details(const v1::PreparedSummary& p) {
 }
 
 std::string asked_sampling(const v1::Sampling& s) {
-  return s.density_case() == v1::Sampling::kSpacing ? "spacing " + core::to_text(s.spacing())
-                                                    : "about " + core::counted(s.target_points(), "point");
+  return s.density_case() == v1::Sampling::kSpacing ? "spacing " + base::to_text(s.spacing())
+                                                    : "about " + base::counted(s.target_points(), "point");
 }
 
 std::string counters_details(const v1::JobCounters& c) {
@@ -71,7 +71,7 @@ std::string counters_details(const v1::JobCounters& c) {
   text += key_line("leases_lost", std::to_string(c.leases_lost()));
   text += key_line("longest_report_gap", duration_text(std::chrono::milliseconds(c.longest_report_gap_ms())));
   if (c.directions_lost_estimate() > 0) {
-    text += key_line("directions_lost", "about " + core::rounded(c.directions_lost_estimate(), 3));
+    text += key_line("directions_lost", "about " + base::rounded(c.directions_lost_estimate(), 3));
   }
   return text;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "client/text/key_line.h"
 #include "client/text/time_text.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -30,7 +30,7 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
   text += key_line("workers", std::to_string(info.workers_size() - silent) +
                                   (silent == 0 ? "" : " and " + std::to_string(silent) + " silent"));
   for (const v1::WorkerInfo& w : info.workers()) {
-    const std::string threads = core::counted(w.threads(), "thread");
+    const std::string threads = base::counted(w.threads(), "thread");
     text +=
         key_line("worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) +
                                ", " + threads + (w.supervised() ? ", supervised" : "") + ", core " +

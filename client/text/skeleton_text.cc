@@ -1,7 +1,7 @@
 #include "client/text/skeleton_text.h"
 
+#include "base/number_text.h"
 #include "client/text/words.h"
-#include "core/base/number_text.h"
 #include "wire/params.h"
 
 namespace affskel::client {
@@ -10,7 +10,7 @@ namespace {
 constexpr int kDigits = 4;
 
 std::string percent(double share) {
-  return core::rounded(100 * share, kDigits) + " %";
+  return base::rounded(100 * share, kDigits) + " %";
 }
 
 std::string betti(std::uint64_t components, std::uint64_t tunnels, std::uint64_t voids) {
@@ -21,24 +21,24 @@ std::string betti(std::uint64_t components, std::uint64_t tunnels, std::uint64_t
 
 std::string skeleton_params_text(const v1::SkeletonParams& params) {
   return operator_word(params.operator_()) + (params.threshold() > 0
-                                                  ? ", threshold " + core::to_text(params.threshold())
+                                                  ? ", threshold " + base::to_text(params.threshold())
                                                   : ", default threshold");
 }
 
 std::string eroded_params_text(const v1::ErodedParams& params) {
-  if (params.level_case() == v1::ErodedParams::kVolume) return "volume " + core::to_text(params.volume());
+  if (params.level_case() == v1::ErodedParams::kVolume) return "volume " + base::to_text(params.volume());
   const double fraction =
       params.level_case() == v1::ErodedParams::kFraction ? params.fraction() : wire::kErodedFraction;
-  return "fraction " + core::to_text(fraction) + " of v0";
+  return "fraction " + base::to_text(fraction) + " of v0";
 }
 
 std::vector<std::pair<std::string, std::string>> quality_lines(const v1::SkeletonQuality& q) {
   std::vector<std::pair<std::string, std::string>> lines;
   lines.emplace_back("points", std::to_string(q.points()));
   if (q.points() > 0) {
-    if (q.threshold() > 0) lines.emplace_back("threshold", core::to_text(q.threshold()));
+    if (q.threshold() > 0) lines.emplace_back("threshold", base::to_text(q.threshold()));
     lines.emplace_back("inside", percent(q.inside_share()));
-    lines.emplace_back("thickness", core::rounded(q.mean_thickness(), kDigits) + " voxels");
+    lines.emplace_back("thickness", base::rounded(q.mean_thickness(), kDigits) + " voxels");
     lines.emplace_back("betti",
                        betti(q.components(), q.holes(), q.cavities()) + " (components, tunnels, voids)");
   }
@@ -47,10 +47,10 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
   lines.emplace_back("betti_solid", betti(q.solid_components(), static_cast<std::uint64_t>(q.solid_genus()),
                                           q.solid_cavities()));
   if (q.has_hausdorff_there() && q.has_hausdorff_back()) {
-    lines.emplace_back("hausdorff", core::rounded(q.hausdorff_there(), kDigits) +
+    lines.emplace_back("hausdorff", base::rounded(q.hausdorff_there(), kDigits) +
                                         " to the skeleton of threshold " +
-                                        core::rounded(q.other_threshold(), kDigits) + ", " +
-                                        core::rounded(q.hausdorff_back(), kDigits) + " back");
+                                        base::rounded(q.other_threshold(), kDigits) + ", " +
+                                        base::rounded(q.hausdorff_back(), kDigits) + " back");
   }
   if (q.points() > 0) lines.emplace_back("chance_level", percent(q.chance_level()));
   if (!q.advice().empty()) lines.emplace_back("advice", q.advice());

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/quoted.h"
 
 namespace affskel::wire {
@@ -22,12 +23,6 @@ std::string bits(double value) {
   std::snprintf(text, sizeof text, "%016llx",
                 static_cast<unsigned long long>(std::bit_cast<std::uint64_t>(value)));
   return text;
-}
-
-/// For messages.
-std::string shortest(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -86,7 +81,7 @@ v1::ErosionParams canonical(const v1::ErosionParams& params) {
     case v1::Sampling::kSpacing:
       if (!std::isfinite(sampling.spacing()) || sampling.spacing() <= 0) {
         throw std::invalid_argument("the spacing must be a finite number > 0, not " +
-                                    shortest(sampling.spacing()));
+                                    base::to_text(sampling.spacing()));
       }
       break;
     case v1::Sampling::kTargetPoints:
@@ -115,13 +110,13 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
   if (!std::isfinite(params.threshold()) || params.threshold() < 0) {
     throw std::invalid_argument(
         "the skeleton threshold must be a finite number > 0, or 0 for the default, not " +
-        shortest(params.threshold()));
+        base::to_text(params.threshold()));
   }
   if (result.operator_() == v1::OPERATOR_CHORDS && params.threshold() > 1) {
     throw std::invalid_argument(
         "the threshold of chords is the least share of the skeleton that a piece of it has, between 0 and 1, "
         "not " +
-        shortest(params.threshold()));
+        base::to_text(params.threshold()));
   }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {
@@ -134,7 +129,7 @@ v1::SurfaceParams canonical(const v1::SurfaceParams& params) {
   v1::SurfaceParams result = params;
   if (!std::isfinite(params.alpha()) || params.alpha() < 0) {
     throw std::invalid_argument("alpha must be a finite number > 0, or 0 for the default, not " +
-                                shortest(params.alpha()));
+                                base::to_text(params.alpha()));
   }
   if (params.alpha() == 0) result.set_alpha(0.0);
   *result.mutable_skeleton() = canonical(params.skeleton());
@@ -150,13 +145,13 @@ v1::ErodedParams canonical(const v1::ErodedParams& params) {
     case v1::ErodedParams::kFraction:
       if (!(params.fraction() > 0 && params.fraction() < 1)) {
         throw std::invalid_argument("the fraction of the volume must be a number between 0 and 1, not " +
-                                    shortest(params.fraction()));
+                                    base::to_text(params.fraction()));
       }
       break;
     case v1::ErodedParams::kVolume:
       if (!std::isfinite(params.volume()) || params.volume() <= 0) {
         throw std::invalid_argument("the volume must be a finite number > 0, not " +
-                                    shortest(params.volume()));
+                                    base::to_text(params.volume()));
       }
       break;
     case v1::ErodedParams::LEVEL_NOT_SET:

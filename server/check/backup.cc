@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "database/database_file.h"
+#include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
-#include "errors.h"
 
 namespace affskel::server {
 namespace {

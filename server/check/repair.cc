@@ -5,11 +5,11 @@
 
 #include "check/field_faults.h"
 #include "check/piece_faults.h"
-#include "clock.h"
 #include "database/database_file.h"
+#include "database/errors.h"
 #include "database/migrate.h"
-#include "errors.h"
 #include "store/blocks.h"
+#include "store/clock.h"
 #include "store/rows.h"
 #include "store/tasks.h"
 #include "store/tx.h"

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <system_error>
 
+#include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
-#include "errors.h"
 
 namespace affskel::server {
 namespace {

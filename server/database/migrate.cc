@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "errors.h"
+#include "database/errors.h"
 
 namespace affskel::server {
 namespace {

@@ -13,9 +13,9 @@
 #include "check/check_database.h"
 #include "check/repair.h"
 #include "database/database_file.h"
+#include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
-#include "errors.h"
 #include "process/data_dir.h"
 #include "process/exit_code.h"
 

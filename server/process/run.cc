@@ -15,7 +15,7 @@
 #include <iostream>
 #include <thread>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "process/data_dir.h"
 #include "process/exit_code.h"
 #include "process/file_limit.h"
@@ -145,8 +145,8 @@ void serve(const Options& options, const DataDir& data_dir, const sigset_t& sign
   }
 }
 
-/// Many threads take turns with buffers of megabytes: with an arena for each of them, and freed ones kept, the
-/// process would stay as large as it ever was.
+/// Many threads take turns with buffers of megabytes: with an arena for each of them, and freed ones kept,
+/// the process would stay as large as it ever was.
 void keep_memory_small() {
   mallopt(M_ARENA_MAX, 4);
   mallopt(M_MMAP_THRESHOLD, 1 << 20);

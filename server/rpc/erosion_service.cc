@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/quoted.h"
-#include "errors.h"
+#include "database/errors.h"
 #include "rpc/fetch_call.h"
 #include "rpc/status.h"
 #include "rpc/submit_call.h"

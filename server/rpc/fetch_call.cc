@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "rpc/status.h"
 
 namespace affskel::server {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "errors.h"
+#include "database/errors.h"
 
 namespace affskel::server {
 

@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "clock.h"
 #include "rpc/call_room.h"
 #include "rpc/erosion_service.h"
 #include "rpc/event_hub.h"
@@ -22,6 +21,7 @@
 #include "rpc/listener.h"
 #include "rpc/worker_registry.h"
 #include "rpc/worker_service.h"
+#include "store/clock.h"
 #include "store/store.h"
 #include "wire/address.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/quoted.h"
+#include "database/errors.h"
 #include "database/sqlite.h"
-#include "errors.h"
 
 namespace affskel::server {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "rpc/status.h"
 #include "rpc/upload_budget.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "errors.h"
+#include "database/errors.h"
 
 namespace affskel::server {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "wire/limits.h"
 
 namespace affskel::server {

@@ -9,7 +9,7 @@
 
 #include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/worker_service.pb.h"
-#include "clock.h"
+#include "store/clock.h"
 
 namespace affskel::server {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/field.h"
 #include "wire/field_record.h"
 #include "wire/limits.h"

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/field_rows.h"
 #include "wire/field_record.h"
 

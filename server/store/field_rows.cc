@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "database/checksum.h"
-#include "errors.h"
+#include "database/errors.h"
 
 namespace affskel::server {
 namespace {

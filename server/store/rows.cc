@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/quoted.h"
-#include "errors.h"
+#include "database/errors.h"
 #include "wire/version.h"
 #include "wire/words.h"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "database/errors.h"
 #include "database/migrate.h"
-#include "errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

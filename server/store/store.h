@@ -13,10 +13,10 @@
 
 #include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/worker_service.pb.h"
-#include "clock.h"
 #include "database/database_file.h"
 #include "database/reader_pool.h"
 #include "store/blobs.h"
+#include "store/clock.h"
 #include "store/field.h"
 #include "store/rows.h"
 #include "store/submission.h"

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/artifact_kinds.h"

@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "base/quoted.h"
-#include "errors.h"
+#include "database/errors.h"
 #include "store/blocks.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

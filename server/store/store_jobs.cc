@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/words.h"

@@ -1,6 +1,6 @@
 #include <exception>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

@@ -8,7 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"

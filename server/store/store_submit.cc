@@ -1,5 +1,5 @@
 #include "base/quoted.h"
-#include "errors.h"
+#include "database/errors.h"
 #include "store/store_impl.h"
 #include "store/submission.h"
 #include "store/tasks.h"

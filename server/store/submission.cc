@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "base/quoted.h"
-#include "errors.h"
+#include "database/errors.h"
 #include "wire/params.h"
 #include "wire/sha256.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "store/blobs.h"
 #include "store/field.h"
 #include "wire/words.h"

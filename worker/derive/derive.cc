@@ -3,7 +3,7 @@
 #include "derive/chord_skeleton.h"
 #include "derive/eroded_solid.h"
 #include "derive/operator_skeleton.h"
-#include "result_bytes.h"
+#include "job/result_bytes.h"
 
 namespace affskel::worker {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "affskel/v1/worker_service.pb.h"
-#include "prepared_job.h"
+#include "job/prepared_job.h"
 
 namespace affskel::worker {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/number_text.h"
+#include "base/number_text.h"
 #include "core/surface/eroded_solid.h"
 #include "derive/messages.h"
 #include "wire/params.h"
@@ -23,8 +23,8 @@ std::string advice_for(const FinishedField& field, double level) {
   for (const core::FieldValue& value : field.values()) {
     if (value.direction != core::FieldValue::kNoDirection) largest = std::max(largest, value.erosion);
   }
-  return "no sample point reaches the level " + core::to_text(level) + "; the largest E is " +
-         core::to_text(largest) + ", " + core::to_text(largest / field.job().solid().volume) + " of v0";
+  return "no sample point reaches the level " + base::to_text(level) + "; the largest E is " +
+         base::to_text(largest) + ", " + base::to_text(largest / field.job().solid().volume) + " of v0";
 }
 
 }  // namespace

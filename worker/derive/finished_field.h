@@ -5,7 +5,7 @@
 
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "prepared_job.h"
+#include "job/prepared_job.h"
 
 namespace affskel::worker {
 

@@ -10,7 +10,7 @@
 #include "core/shocks/zucker_hummel.h"
 #include "core/surface/alpha_shape.h"
 #include "derive/messages.h"
-#include "result_bytes.h"
+#include "job/result_bytes.h"
 #include "wire/params.h"
 #include "wire/words.h"
 

@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "client/base/error.h"
 #include "client/commands/shared/context.h"
 #include "core/mesh/mesh.h"
+#include "wire/artifact_kinds.h"
 
 namespace affskel::client {
 
@@ -14,9 +16,12 @@ namespace affskel::client {
 v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind kind);
 
 /// An artefact that is there as soon as the job is prepared. @param what names it in an error.
-/// @throws ClientError kInternal when it is no such message.
+/// @throws ClientError kInternal when it is no such message; std::logic_error when the kind has another.
 template <typename Message>
 Message fetch_message(Context& context, const std::string& job, v1::ArtifactKind kind, const char* what) {
+  if (wire::find_artifact_kind(kind)->message != Message::descriptor()->full_name()) {
+    throw std::logic_error(std::string("the ") + what + " is another message");
+  }
   Message message;
   if (!message.ParseFromString(context.session().fetch_bytes(request_for(job, kind)))) {
     throw ClientError(ExitCode::kInternal, std::string("the server sent a damaged ") + what);

@@ -1,11 +1,11 @@
 #include "client/commands/shared/follow.h"
 
+#include "base/number_text.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/progress.h"
 #include "client/text/job_text.h"
 #include "client/text/message_json.h"
 #include "client/text/words.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 
@@ -51,9 +51,9 @@ void warn_about_skeleton(Console& console, std::uint64_t skeleton_points, const 
   const std::uint64_t points = job.prepared().points();
   const bool coarse = points < kCoarse;
   console.warning("the skeleton is empty: no |H| is above the threshold" +
-                  (coarse ? ", and the lattice has only " + core::counted(points, "point") +
+                  (coarse ? ", and the lattice has only " + base::counted(points, "point") +
                                 " in the solid; submit again with a smaller --spacing than " +
-                                core::to_text(job.prepared().spacing())
+                                base::to_text(job.prepared().spacing())
                           : "; try: affskel-client skeleton " + job.id() + " --threshold 3 -o FILE"));
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.h"
 #include "client/files/write/shape_writer.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -21,8 +21,8 @@ void tell_renamed(Console& console, const ShapeFile& shape, const std::string& o
 }  // namespace
 
 std::string counts_text(const ShapeFile& shape) {
-  std::string text = core::counted(shape.mesh().points.size(), "point");
-  if (shape.is_surface()) text += ", " + core::counted(shape.mesh().triangles.size(), "triangle");
+  std::string text = base::counted(shape.mesh().points.size(), "point");
+  if (shape.is_surface()) text += ", " + base::counted(shape.mesh().triangles.size(), "triangle");
   return text;
 }
 
@@ -35,7 +35,7 @@ void tell_what_is_lost(Console& console, const ShapeFile& shape, FileFormat form
   }
   if (holds_columns(format)) tell_renamed(console, shape, output);
   if (shape.off.polygons_cut > 0) {
-    console.note(shape.path + ": " + core::counted(shape.off.polygons_cut, "face") +
+    console.note(shape.path + ": " + base::counted(shape.off.polygons_cut, "face") +
                  " of more than three sides " + (shape.off.polygons_cut == 1 ? "was" : "were") +
                  " cut into triangles");
   }

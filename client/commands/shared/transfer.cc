@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
 #include "client/artifacts/divergence_writer.h"
 #include "client/artifacts/field_writer.h"
 #include "client/artifacts/skeleton_points.h"
@@ -12,7 +13,6 @@
 #include "client/files/write/shape_writer.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -72,9 +72,9 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
       what + " of " + job.name(),
       "job " + job.id(),
       "mesh sha256 " + job.mesh_sha256(),
-      "spacing " + core::to_text(job.prepared().spacing()) + ", " +
-          core::counted(job.prepared().points(), "sample point") + ", v0 " +
-          core::to_text(job.prepared().volume()),
+      "spacing " + base::to_text(job.prepared().spacing()) + ", " +
+          base::counted(job.prepared().points(), "sample point") + ", v0 " +
+          base::to_text(job.prepared().volume()),
       "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) + " (" +
           std::to_string(job.prepared().directions()) + "), frame " + frame_word(job.params().frame()),
       how};
@@ -184,7 +184,7 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
   const double volume = volume_of_points(header.job(), points.point_size());
   const auto comments =
       comments_for(header.job(), "eroded solid",
-                   "level " + eroded_params_text(params) + ", volume about " + core::rounded(volume, 6));
+                   "level " + eroded_params_text(params) + ", volume about " + base::rounded(volume, 6));
   write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
   out.commit();
   Written written{destination, "eroded", "point", static_cast<std::uint64_t>(points.point_size()),
@@ -204,7 +204,7 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "eroded solid"));
   const auto comments =
       comments_for(header.job(), "eroded solid",
-                   "level " + eroded_params_text(params) + ", volume " + core::to_text(fetched.volume));
+                   "level " + eroded_params_text(params) + ", volume " + base::to_text(fetched.volume));
   write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
   Written written{destination, "eroded", "triangle", fetched.shape.mesh().triangles.size(), header.job()};

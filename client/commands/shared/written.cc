@@ -2,16 +2,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "client/commands/shared/follow.h"
 #include "client/text/message_json.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
 
 std::string volume_text(const Written& written) {
   if (!written.volume) return "";
-  return (written.unit == "point" ? ", volume about " : ", volume ") + core::rounded(*written.volume, 6);
+  return (written.unit == "point" ? ", volume about " : ", volume ") + base::rounded(*written.volume, 6);
 }
 
 // A sheet of chords comes with its quality, an alpha shape does not.
@@ -53,7 +53,7 @@ nlohmann::ordered_json written_json(const Written& written) {
 
 void tell_written(Console& console, const Written& written) {
   console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
-               core::counted(written.items, written.unit) + volume_text(written) + ")");
+               base::counted(written.items, written.unit) + volume_text(written) + ")");
 }
 
 }  // namespace affskel::client

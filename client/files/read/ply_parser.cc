@@ -2,16 +2,16 @@
 // same order, as text (one row per entry) or as bytes of either order.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
 
+#include "base/coding.h"
+#include "base/number_text.h"
 #include "client/files/read/ply_header.h"
 #include "client/files/read/shape_parsers.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::client {
@@ -71,9 +71,7 @@ class Values {
 
   template <typename Number>
   static double as(const char* raw) {
-    Number value;
-    std::memcpy(&value, raw, sizeof value);
-    return static_cast<double>(value);
+    return static_cast<double>(base::decode<Number>(raw));
   }
 
   static double decoded(const char* raw, PlyType type) {
@@ -114,7 +112,7 @@ class Values {
     const auto [least, most] = kRange[static_cast<std::size_t>(type)];
     if (!(value >= least && value <= most)) {
       fail_at(line(), core::quoted_piece(word) + " is outside the range of its type (" +
-                          core::to_text(least) + " to " + core::to_text(most) + "), in " + place());
+                          base::to_text(least) + " to " + base::to_text(most) + "), in " + place());
     }
     return value;
   }
@@ -166,7 +164,7 @@ class PlyReader {
   const std::vector<double>& next_list(const PlyProperty& property) {
     const double length = values_.next(property.count_type);
     if (!(length >= 0) || length > static_cast<double>(values_.bytes_left())) {
-      fail_at(values_.line(), values_.place() + " announces a list of " + core::to_text(length) + " values");
+      fail_at(values_.line(), values_.place() + " announces a list of " + base::to_text(length) + " values");
     }
     list_.clear();
     for (double i = 0; i < length; ++i) {
@@ -181,7 +179,7 @@ class PlyReader {
     for (const double value : next_list(property)) {
       if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
         fail_at(values_.line(),
-                values_.place() + " uses vertex " + core::to_text(value) + ", which is not a whole number");
+                values_.place() + " uses vertex " + base::to_text(value) + ", which is not a whole number");
       }
       corners_.push_back(static_cast<std::int64_t>(value));
     }
@@ -279,8 +277,6 @@ class PlyReader {
   std::vector<std::int64_t> corners_;
   ShapeFile file_;
 };
-
-static_assert(std::endian::native == std::endian::little, "bytes are swapped for big-endian files only");
 
 }  // namespace
 

@@ -7,12 +7,12 @@
 #include <new>
 #include <utility>
 
+#include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/files/format.h"
 #include "client/files/read/read_file.h"
 #include "client/files/read/shape_parsers.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 
@@ -101,7 +101,7 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
                  std::uint64_t line) {
   core::Mesh& mesh = file.off.mesh;
   if (corners.size() < 3) {
-    fail_at(line, place + " has " + core::counted(corners.size(), "corner") + ", needs 3");
+    fail_at(line, place + " has " + base::counted(corners.size(), "corner") + ", needs 3");
   }
   std::vector<std::uint32_t> indices;
   for (const std::int64_t corner : corners) {

@@ -1,7 +1,7 @@
 #include <cmath>
-#include <cstring>
 #include <string>
 
+#include "base/coding.h"
 #include "client/files/read/shape_parsers.h"
 #include "core/mesh/coincident_points.h"
 #include "core/text/text_rows.h"
@@ -30,13 +30,6 @@ ShapeFile joined(const std::vector<core::Vec3>& corners) {
   return file;
 }
 
-template <typename Number>
-Number number_at(std::string_view bytes, std::size_t at) {
-  Number value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
-
 constexpr std::size_t kHeader = 84, kFacet = 50;
 
 ShapeFile parse_binary(std::string_view bytes) {
@@ -44,7 +37,7 @@ ShapeFile parse_binary(std::string_view bytes) {
   for (std::size_t at = kHeader; at < bytes.size(); at += kFacet) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto coordinate = [&](std::size_t k) {
-        return double{number_at<float>(bytes, at + 12 + 12 * c + 4 * k)};
+        return double{base::decode<float>(bytes.data() + at + 12 + 12 * c + 4 * k)};
       };
       corners.push_back({coordinate(0), coordinate(1), coordinate(2)});
       const core::Vec3& p = corners.back();
@@ -122,7 +115,7 @@ class TextReader {
 ShapeFile parse_stl(std::string_view bytes) {
   // Some binary files begin with "solid", too; the size tells.
   if (bytes.size() >= kHeader &&
-      bytes.size() == kHeader + kFacet * std::size_t{number_at<std::uint32_t>(bytes, 80)}) {
+      bytes.size() == kHeader + kFacet * std::size_t{base::decode<std::uint32_t>(bytes.data() + 80)}) {
     return parse_binary(bytes);
   }
   if (bytes.starts_with("solid")) return TextReader(bytes).run();

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
 #include <type_traits>
 #include <utility>
 
+#include "base/coding.h"
 #include "client/files/base64.h"
 #include "client/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
@@ -28,9 +28,7 @@ struct Type {
 
 template <typename Number>
 double decoded(const char* bytes) {
-  Number number;
-  std::memcpy(&number, bytes, sizeof number);
-  return static_cast<double>(number);
+  return static_cast<double>(base::decode<Number>(bytes));
 }
 
 template <typename Number>
@@ -43,8 +41,6 @@ constexpr std::array<Type, 10> kTypes = {type_of<std::int8_t>("Int8"),   type_of
                                          type_of<std::int32_t>("Int32"), type_of<std::uint32_t>("UInt32"),
                                          type_of<std::int64_t>("Int64"), type_of<std::uint64_t>("UInt64"),
                                          type_of<float>("Float32"),      type_of<double>("Float64")};
-
-static_assert(std::endian::native == std::endian::little, "bytes are swapped for big-endian files only");
 
 const Type* find_type(std::string_view name) {
   const auto found =
@@ -109,9 +105,7 @@ class Decoder {
     std::array<char, sizeof(Number)> raw{};
     std::copy_n(bytes, raw.size(), raw.begin());
     if (encoding_.big_endian) std::reverse(raw.begin(), raw.end());
-    Number number;
-    std::memcpy(&number, raw.data(), sizeof number);
-    return number;
+    return base::decode<Number>(raw.data());
   }
 
   std::uint64_t announced(std::string_view bytes) const {

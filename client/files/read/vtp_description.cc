@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/number_text.h"
 #include "client/files/read/shape_parsers.h"
 #include "client/files/read/xml_reader.h"
-#include "core/base/number_text.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::client {

@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/number_text.h"
 #include "client/files/read/shape_parsers.h"
 #include "client/files/read/vtk_data.h"
 #include "client/files/read/vtp_description.h"
 #include "client/files/vtk_arrays.h"
-#include "core/base/number_text.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::client {
@@ -207,7 +207,7 @@ class VtpReader {
   void add_strip(const std::vector<std::int64_t>& corners, std::size_t strip, std::uint64_t line) {
     const std::string place = "strip " + std::to_string(strip);
     if (corners.size() < 3) {
-      fail_at(line, place + " has " + core::counted(corners.size(), "corner") + ", needs 3");
+      fail_at(line, place + " has " + base::counted(corners.size(), "corner") + ", needs 3");
     }
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const std::int64_t a = corners[i - 2], b = corners[i - 1], c = corners[i];

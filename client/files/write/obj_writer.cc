@@ -1,7 +1,7 @@
+#include "base/number_text.h"
 #include "client/files/numbers.h"
 #include "client/files/write/shape_writers.h"
 #include "client/text/printable.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 
@@ -10,7 +10,7 @@ void write_obj(const core::Mesh& mesh, const std::vector<std::string>& comments,
   for (const std::string& comment : comments) text += "# " + one_line(comment) + "\n";
   write(text);
   for (const core::Vec3& p : mesh.points) {
-    write("v " + core::to_text(p.x) + " " + core::to_text(p.y) + " " + core::to_text(p.z) + "\n");
+    write("v " + base::to_text(p.x) + " " + base::to_text(p.y) + " " + base::to_text(p.z) + "\n");
   }
   for (const core::Triangle& t : mesh.triangles) {
     text = "f";

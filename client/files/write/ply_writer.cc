@@ -1,6 +1,7 @@
 // PLY (Turk 1994), binary: coordinates as double, columns by their types, faces as lists of vertex_indices.
 #include <cstdint>
 
+#include "base/coding.h"
 #include "client/files/numbers.h"
 #include "client/files/write/shape_writers.h"
 #include "client/files/write/stored_type.h"
@@ -36,7 +37,7 @@ void write_ply(const ShapeFile& shape, const std::vector<std::string>& names, bo
   std::string row;
   for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
     row.clear();
-    for (int c = 0; c < 3; ++c) append_bytes(row, shape.mesh().points[i][c]);
+    for (int c = 0; c < 3; ++c) base::append(row, shape.mesh().points[i][c]);
     for (std::size_t k = 0; k < stored.size(); ++k) {
       append_stored(row, shape.columns[k].values[i], stored[k]);
     }
@@ -44,8 +45,8 @@ void write_ply(const ShapeFile& shape, const std::vector<std::string>& names, bo
   }
   for (const core::Triangle& t : shape.mesh().triangles) {
     row.clear();
-    append_bytes(row, std::uint8_t{3});
-    for (const std::uint32_t corner : t) append_bytes(row, static_cast<std::int32_t>(corner));
+    base::append(row, std::uint8_t{3});
+    for (const std::uint32_t corner : t) base::append(row, static_cast<std::int32_t>(corner));
     write(row);
   }
 }

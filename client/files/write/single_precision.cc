@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
-#include "core/base/number_text.h"
 
 namespace affskel::client {
 namespace {
@@ -28,7 +28,7 @@ Box extent_of(const core::Mesh& mesh) {
 }
 
 std::string text_of(const Vec3& p) {
-  return "(" + core::rounded(p.x, 9) + ", " + core::rounded(p.y, 9) + ", " + core::rounded(p.z, 9) + ")";
+  return "(" + base::rounded(p.x, 9) + ", " + base::rounded(p.y, 9) + ", " + base::rounded(p.z, 9) + ")";
 }
 
 std::string text_of(const Box& extent) {

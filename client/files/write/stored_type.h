@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "base/coding.h"
 #include "client/base/shape_file.h"
 #include "client/files/numbers.h"
 
@@ -35,11 +36,11 @@ inline std::size_t bytes_of(Stored stored) {
 inline void append_stored(std::string& bytes, double value, Stored stored) {
   switch (stored) {
     case Stored::kInt32:
-      return append_bytes(bytes, static_cast<std::int32_t>(value));
+      return base::append(bytes, static_cast<std::int32_t>(value));
     case Stored::kUint32:
-      return append_bytes(bytes, static_cast<std::uint32_t>(value));
+      return base::append(bytes, static_cast<std::uint32_t>(value));
     case Stored::kDouble:
-      return append_bytes(bytes, value);
+      return base::append(bytes, value);
   }
 }
 

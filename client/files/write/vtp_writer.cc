@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/coding.h"
 #include "client/files/numbers.h"
 #include "client/files/vtk_arrays.h"
 #include "client/files/write/shape_writers.h"
@@ -47,7 +48,7 @@ class VtpWriter {
     write_(text_ + "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
     for (const Block& block : blocks_) {
       std::string length;
-      append_bytes(length, block.bytes);
+      base::append(length, block.bytes);
       write_(length);
       block.fill();
     }
@@ -128,7 +129,7 @@ class VtpWriter {
                std::string row;
                for (const core::Vec3& p : mesh_.points) {
                  row.clear();
-                 for (int c = 0; c < 3; ++c) append_bytes(row, p[c]);
+                 for (int c = 0; c < 3; ++c) base::append(row, p[c]);
                  write_(row);
                }
              });
@@ -143,7 +144,7 @@ class VtpWriter {
                  std::string row;
                  for (std::size_t i = 0; i < count; ++i) {
                    row.clear();
-                   append_bytes(row, static_cast<std::int64_t>(number(i)));
+                   base::append(row, static_cast<std::int64_t>(number(i)));
                    write_(row);
                  }
                });

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "errors.h"
+#include "database/errors.h"
 
 namespace affskel::server {
 

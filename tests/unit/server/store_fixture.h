@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "clock.h"
+#include "store/clock.h"
 #include "store/field.h"
 #include "store/store.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "fake_server.h"
+#include "job/prepared_job.h"
 #include "last_report.h"
-#include "prepared_job.h"
 #include "sample_job.h"
 #include "server_link.h"
 

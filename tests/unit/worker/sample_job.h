@@ -3,7 +3,7 @@
 #include <string>
 
 #include "affskel/v1/worker_service.pb.h"
-#include "prepared_job.h"
+#include "job/prepared_job.h"
 
 namespace affskel::worker {
 

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/base/split_mix64.h"
 #include "core/mesh/icosahedron.h"
 
@@ -142,7 +142,7 @@ void require_affordable(const Solid& solid, const std::vector<Part>& parts, std:
   }
   if (total > static_cast<double>(options.max_directions)) {
     throw CoreError(CoreError::Code::kLimit, "directions '" + std::string(spec.substr(0, 100)) +
-                                                 "': " + rounded(total, 10) + " directions; at most " +
+                                                 "': " + base::rounded(total, 10) + " directions; at most " +
                                                  std::to_string(options.max_directions) + " are supported");
   }
 }

@@ -12,8 +12,8 @@
 #include <limits>
 #include <string>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/erosion/height_order.h"
 #include "core/erosion/section_bends.h"
 #include "core/erosion/tree_input.h"
@@ -360,13 +360,13 @@ class JoinTreeBuilder::Work {
       const double expected = input_.solid_volume[topology_.arc_solid[a]];
       if (!(std::abs(volume - expected) <= tolerance_)) {
         throw_invariant("the tree of solid " + std::to_string(topology_.arc_solid[a]) + " holds 1 + " +
-                        to_text(volume / expected - 1) + " of its volume");
+                        base::to_text(volume / expected - 1) + " of its volume");
       }
     }
   }
 
   static std::string in_words(const Vec3& d) {
-    return "(" + to_text(d.x) + ", " + to_text(d.y) + ", " + to_text(d.z) + ")";
+    return "(" + base::to_text(d.x) + ", " + base::to_text(d.y) + ", " + base::to_text(d.z) + ")";
   }
 
   [[noreturn]] void throw_invariant(const std::string& what) const {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "base/number_text.h"
 #include "core/base/cube_root.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/base/parallel.h"
 #include "core/lattice/lattice_memory.h"
 #include "core/lattice/point_spacing.h"
@@ -200,7 +200,7 @@ double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
   }
   if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
     throw CoreError(CoreError::Code::kBadInput,
-                    "the spacing must be a finite number > 0, not " + to_text(options.spacing));
+                    "the spacing must be a finite number > 0, not " + base::to_text(options.spacing));
   }
   return options.spacing;
 }
@@ -276,7 +276,7 @@ double least_spacing(const Solid& solid, const FrameBox& box, const LatticeOptio
 
 // "about 1200", for what need not be a double any more.
 std::string about(double number) {
-  return std::isfinite(number) ? "about " + rounded(number, 3) : "more than 1e+308";
+  return std::isfinite(number) ? "about " + base::rounded(number, 3) : "more than 1e+308";
 }
 
 // The plan of a lattice within the limits.
@@ -284,12 +284,12 @@ Plan fitting_plan(const Solid& solid, const FrameBox& box, const LatticeOptions&
   const Plan plan = plan_lattice(solid, box, options, spacing);
   if (plan.fits) return plan;
   // Rounded up.
-  const std::string least = rounded(1.00051 * least_spacing(solid, box, options), 4);
+  const std::string least = base::rounded(1.00051 * least_spacing(solid, box, options), 4);
   throw CoreError(CoreError::Code::kLimit,
-                  "spacing " + rounded(spacing, 3) + " would give " + about(plan.estimate) +
+                  "spacing " + base::rounded(spacing, 3) + " would give " + about(plan.estimate) +
                       " sample points on " + about(plan.lines) + " lattice lines; at most " +
-                      rounded(static_cast<double>(options.max_points), 3) + " points on " +
-                      rounded(static_cast<double>(options.max_lines), 3) +
+                      base::rounded(static_cast<double>(options.max_points), 3) + " points on " +
+                      base::rounded(static_cast<double>(options.max_lines), 3) +
                       " lines are supported: take a spacing of " + least + " or more");
 }
 
@@ -320,9 +320,9 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
   Lattice lattice = LatticeBuilder(solid, plan.grid, options).run();
   lattice.spacing = spacing;
   if (lattice.points == 0) {
-    throw CoreError(CoreError::Code::kBadInput, "no lattice point falls inside the solid: spacing " +
-                                                    rounded(spacing, 3) + " is too coarse for a volume of " +
-                                                    rounded(solid.volume, 3));
+    throw CoreError(CoreError::Code::kBadInput,
+                    "no lattice point falls inside the solid: spacing " + base::rounded(spacing, 3) +
+                        " is too coarse for a volume of " + base::rounded(solid.volume, 3));
   }
   return lattice;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 
 namespace affskel::core {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kLineBytes = 16;
 constexpr double kShareProposed = 0.85;
 
 std::string bytes_text(double bytes) {
-  return bytes < 1e9 ? rounded(bytes / 1e6, 2) + " MB" : rounded(bytes / 1e9, 2) + " GB";
+  return bytes < 1e9 ? base::rounded(bytes / 1e6, 2) + " MB" : base::rounded(bytes / 1e9, 2) + " GB";
 }
 
 LatticeSize coarser(const LatticeSize& size, double factor) {
@@ -40,12 +40,14 @@ void require_lattice_memory(const LatticeSize& size, double point_bytes, std::ui
   while (lattice_memory(coarser(size, factor), point_bytes) > kShareProposed * available) factor *= 1.01;
   const LatticeSize fits = coarser(size, factor);
   const std::string points =
-      size.points > 0 ? rounded(size.points, 3) + " sample points at spacing " + rounded(size.spacing, 3)
-                      : rounded(size.lines, 3) + " lattice lines at spacing " + rounded(size.spacing, 3);
+      size.points > 0
+          ? base::rounded(size.points, 3) + " sample points at spacing " + base::rounded(size.spacing, 3)
+          : base::rounded(size.lines, 3) + " lattice lines at spacing " + base::rounded(size.spacing, 3);
   throw CoreError(CoreError::Code::kLimit,
                   points + " take about " + bytes_text(need) + " of memory, and this worker has " +
-                      bytes_text(available) + " available; spacing " + rounded(fits.spacing, 3) + " fits" +
-                      (fits.points >= 1 ? ", with about " + rounded(fits.points, 2) + " points" : ""));
+                      bytes_text(available) + " available; spacing " + base::rounded(fits.spacing, 3) +
+                      " fits" +
+                      (fits.points >= 1 ? ", with about " + base::rounded(fits.points, 2) + " points" : ""));
 }
 
 }  // namespace affskel::core

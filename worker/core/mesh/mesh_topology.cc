@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/base/parallel.h"
 
 namespace affskel::core {
@@ -112,8 +112,8 @@ class EdgeDefects {
   }
 
   static std::string tell(const Kind& kind, const char* what, const char* more) {
-    return counted(kind.count, what) + more + (kind.count == 1 ? ", between " : ", the first between ") +
-           kind.first;
+    return base::counted(kind.count, what) + more +
+           (kind.count == 1 ? ", between " : ", the first between ") + kind.first;
   }
 
   const Mesh& mesh_;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/base/plain_math.h"
 #include "core/base/split_mix64.h"
 #include "core/mesh/box.h"
@@ -58,7 +58,7 @@ double box_diagonal(const Mesh& mesh) {
 Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
   if (!(options.sigma >= 0) || !std::isfinite(options.sigma)) {
     throw CoreError(CoreError::Code::kBadInput,
-                    "the noise must be a finite number >= 0, not " + to_text(options.sigma));
+                    "the noise must be a finite number >= 0, not " + base::to_text(options.sigma));
   }
   const std::vector<std::uint32_t> first = first_coincident_point(mesh.points);
   Gaussian gaussian(options.seed);

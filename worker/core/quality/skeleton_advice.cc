@@ -8,8 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.h"
 #include "core/base/matrix3.h"
-#include "core/base/number_text.h"
 #include "core/base/plain_math.h"
 #include "core/erosion/field.h"
 #include "core/erosion/frame_field.h"
@@ -47,23 +47,24 @@ std::size_t distinct_normals(const OptimalDirections& optimal) {
 
 std::string on_threshold(std::vector<double> size, double threshold) {
   const double largest = *std::max_element(size.begin(), size.end());
-  const std::string found = "no sample point has |H| above the threshold " + rounded(threshold, 3);
+  const std::string found = "no sample point has |H| above the threshold " + base::rounded(threshold, 3);
   if (largest == 0) return found + ": the optimal normals do not change anywhere.";
   const auto wanted = size.begin() + static_cast<std::ptrdiff_t>(points_of_a_sheet(size.size()) - 1);
   std::nth_element(size.begin(), wanted, size.end(), std::greater<>());
   // Below the wanted point's |H| by more than writing it in three digits can raise it.
   const double least = *wanted > 0 ? *wanted : largest;
-  const std::string lower = rounded(0.99 * least, 3);
+  const std::string lower = base::rounded(0.99 * least, 3);
   const double bound = std::strtod(lower.c_str(), nullptr);
   const auto kept = std::count_if(size.begin(), size.end(), [&](double h) { return h > bound; });
-  return found + "; the largest is " + rounded(largest, 3) + ". --threshold " + lower + " would keep " +
+  return found + "; the largest is " + base::rounded(largest, 3) + ". --threshold " + lower + " would keep " +
          std::to_string(kept) + " of the " + std::to_string(size.size()) + " points.";
 }
 
 std::string on_few_points(const Lattice& lattice) {
   if (lattice.points >= kFewPoints) return "";
-  return " The lattice has only " + counted(lattice.points, "sample point") +
-         ": submit with a smaller spacing than " + rounded(lattice.spacing, 3) + ", or --points 100000.";
+  return " The lattice has only " + base::counted(lattice.points, "sample point") +
+         ": submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) +
+         ", or --points 100000.";
 }
 
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
@@ -101,10 +102,11 @@ std::string on_turn(const Lattice& lattice, const ShockCensus& census, const Cho
 }
 
 std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
-  const std::string lower = rounded(0.99 * census.heaviest_piece, 3);
+  const std::string lower = base::rounded(0.99 * census.heaviest_piece, 3);
   return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
-         rounded(pruning.significance, 3) + "; the heaviest weighs " + rounded(census.heaviest_piece, 3) +
-         " of its sheet. --threshold " + lower + " would keep it, --threshold 1e-9 all.";
+         base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
+         base::rounded(census.heaviest_piece, 3) + " of its sheet. --threshold " + lower +
+         " would keep it, --threshold 1e-9 all.";
 }
 
 }  // namespace
@@ -117,7 +119,7 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
       std::string(name_of(shock_operator)) + ": " + on_threshold(magnitudes(divergence), threshold);
   const std::size_t normals = distinct_normals(optimal);
   if (normals < kFewNormals) {
-    advice += " Only " + counted(normals, "direction is", "directions are") +
+    advice += " Only " + base::counted(normals, "direction is", "directions are") +
               " the optimum of some point, too few to show shocks well: submit with "
               "--directions triangles+sphere:1000.";
   }
@@ -130,7 +132,7 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
   std::string advice;
   if (census.wide > 0) {
     advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-             " where equal chords clearly differ is E " + rounded(pruning.min_erosion, 3) +
+             " where equal chords clearly differ is E " + base::rounded(pruning.min_erosion, 3) +
              " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
     advice = on_turn(lattice, census, pruning);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/shapes/body_shape.h"
 #include "core/shapes/edge_collapse.h"
 #include "core/shapes/implicit_mesh.h"
@@ -25,7 +25,7 @@ void check(const MakeBodyOptions& options) {
   }
   if (!(std::isfinite(options.height) && options.height > 0)) {
     throw CoreError(CoreError::Code::kBadInput,
-                    "body: the height must be a finite number > 0, not " + to_text(options.height));
+                    "body: the height must be a finite number > 0, not " + base::to_text(options.height));
   }
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/icosahedron.h"
 
 namespace affskel::core {
@@ -24,7 +24,7 @@ constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 26;
 
 void require_length(const char* shape, const char* name, double value) {
   if (!(std::isfinite(value) && value > 0)) {
-    refuse(std::string(shape) + ": " + name + " must be a finite number > 0, not " + to_text(value));
+    refuse(std::string(shape) + ": " + name + " must be a finite number > 0, not " + base::to_text(value));
   }
 }
 
@@ -222,8 +222,8 @@ Mesh make_torus(double major_radius, double minor_radius, std::uint32_t triangle
   require_length("torus", "the minor radius", minor_radius);
   require_length("torus", "the major radius", major_radius);
   if (major_radius <= minor_radius) {
-    refuse("torus: the major radius must exceed the minor radius, but " + to_text(major_radius) +
-           " <= " + to_text(minor_radius));
+    refuse("torus: the major radius must exceed the minor radius, but " + base::to_text(major_radius) +
+           " <= " + base::to_text(minor_radius));
   }
   require_at_least("torus", "the number of triangles", triangles, 18);
   require_affordable("torus", triangles);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 
 namespace affskel::core {
 
@@ -11,7 +11,7 @@ std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence
                                            const SkeletonOptions& options) {
   if (!(options.threshold > 0) || !std::isfinite(options.threshold)) {
     throw CoreError(CoreError::Code::kBadInput,
-                    "the threshold must be a finite number > 0, not " + to_text(options.threshold));
+                    "the threshold must be a finite number > 0, not " + base::to_text(options.threshold));
   }
   std::vector<SkeletonPoint> kept;
   for (std::size_t p = 0; p < divergence.size(); ++p) {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "core/base/double_sum.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/coincident_points.h"
 #include "core/mesh/mesh_topology.h"
 #include "core/mesh/unused_points.h"
@@ -104,7 +104,7 @@ class SolidBuilder {
   void drop_unused_vertices() {
     const std::vector<std::uint32_t> unused = drop_unused_points(solid_.mesh);
     if (unused.empty() || again_) return;
-    std::string message = "left out " + counted(unused.size(), "vertex", "vertices") +
+    std::string message = "left out " + base::counted(unused.size(), "vertex", "vertices") +
                           " without a face, the first: vertex " + std::to_string(unused.front());
     if (unused.front() < vertex_line_.size()) {
       message += " (line " + std::to_string(vertex_line_[unused.front()]) + ")";
@@ -119,7 +119,7 @@ class SolidBuilder {
     for (std::size_t v = 0; v < first.size(); ++v) merged += first[v] != v;
     if (merged == 0) return;
     repaired("welded",
-             "joined " + counted(merged, "vertex", "vertices") + " with another one at the same place");
+             "joined " + base::counted(merged, "vertex", "vertices") + " with another one at the same place");
     for (Triangle& t : mesh.triangles) {
       for (std::uint32_t& v : t) v = first[v];
     }
@@ -142,14 +142,14 @@ class SolidBuilder {
     if (kept == 0) refuse("the mesh bounds no volume: all its triangles collapse to points or lines");
     if (dropped != 0) {
       note(MeshNote::Severity::kRepaired, "degenerate-triangles",
-           "left out " + counted(dropped, "triangle") + " with two corners in one place");
+           "left out " + base::counted(dropped, "triangle") + " with two corners in one place");
     }
   }
 
   void make_orientation_agree(HalfEdges& mates, const TrianglePlace& where) {
     const std::vector<std::uint32_t> turned = orient_consistently(solid_.mesh, mates, where);
     if (turned.empty()) return;
-    repaired("reoriented", "turned over " + counted(turned.size(), "triangle") +
+    repaired("reoriented", "turned over " + base::counted(turned.size(), "triangle") +
                                " that faced another way than the neighbours, the first: " + place(turned[0]));
   }
 
@@ -193,7 +193,8 @@ class SolidBuilder {
     }
     if (count == 0) return;
     note(MeshNote::Severity::kWarning, "degenerate-triangles",
-         counted(count, "triangle") + " without area, which give no direction, the first: " + place(first));
+         base::counted(count, "triangle") +
+             " without area, which give no direction, the first: " + place(first));
   }
 
   void find_shells(const HalfEdges& mates) {
@@ -303,7 +304,7 @@ class SolidBuilder {
                                 std::to_string(triangles.size()) +
                                 " triangles) bound too little volume beside the mesh's size to tell from "
                                 "rounding; the first, of volume " +
-                                rounded(volume, 3) + ", begins with " + place(triangles.front());
+                                base::rounded(volume, 3) + ", begins with " + place(triangles.front());
     if (!options_.repair) refuse(message + " (repair is off)");
     note(MeshNote::Severity::kWarning, "specks", message + "; left out");
   }
@@ -321,7 +322,7 @@ class SolidBuilder {
     // E of a point goes down to 1e-20 v0 and less; keep such values away from the subnormals.
     if (!std::isfinite(solid_.volume) || solid_.volume < 1e30 * std::numeric_limits<double>::min()) {
       refuse("the mesh is too " + std::string(std::isfinite(solid_.volume) ? "small" : "large") +
-             ": its volume is " + to_text(solid_.volume) +
+             ": its volume is " + base::to_text(solid_.volume) +
              ", which leaves no room for that of its parts in double precision; change the unit of length");
     }
   }
@@ -332,10 +333,10 @@ class SolidBuilder {
     const SolidSize size = solid_sizes(solid_)[solid];
     if (size.longest_side() < kMinScaledSide) {
       refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
-             place(size.first_triangle) + ", is " + rounded(size.longest_side() * solid_.scale(), 3) +
-             " long, the whole mesh " + rounded(extent(), 3) + "; take them one by one");
+             place(size.first_triangle) + ", is " + base::rounded(size.longest_side() * solid_.scale(), 3) +
+             " long, the whole mesh " + base::rounded(extent(), 3) + "; take them one by one");
     }
-    refuse("the mesh bounds no volume: " + which + " has volume " + to_text(volume) +
+    refuse("the mesh bounds no volume: " + which + " has volume " + base::to_text(volume) +
            (volume > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
   }
 

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/unused_points.h"
 
 namespace affskel::core {
@@ -38,10 +38,10 @@ using Point = Kernel::Point_3;
 /// The squared radius that the options ask for.
 double checked_alpha(const AlphaShapeOptions& options) {
   if (!(std::isfinite(options.alpha) && options.alpha >= 0)) {
-    refuse("alpha must be a finite number >= 0, not " + to_text(options.alpha));
+    refuse("alpha must be a finite number >= 0, not " + base::to_text(options.alpha));
   }
   if (!(std::isfinite(options.spacing) && options.spacing >= 0)) {
-    refuse("the spacing must be a finite number >= 0, not " + to_text(options.spacing));
+    refuse("the spacing must be a finite number >= 0, not " + base::to_text(options.spacing));
   }
   if (options.alpha > 0) return options.alpha;
   if (options.spacing == 0) refuse("either alpha or the spacing must be given");

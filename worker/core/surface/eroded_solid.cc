@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/lattice/lattice_cuts.h"
 #include "core/lattice/slab_index.h"
 #include "core/surface/eroded_places.h"
@@ -286,13 +286,13 @@ class Marcher {
 
 void check(const Lattice& lattice, const FrameField& field, const ErodedSurfaceOptions& options) {
   if (!(std::isfinite(options.level) && options.level >= 0)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "eroded solid: the level must be a finite number >= 0, not " + to_text(options.level));
+    throw CoreError(CoreError::Code::kBadInput, "eroded solid: the level must be a finite number >= 0, not " +
+                                                    base::to_text(options.level));
   }
   if (!(options.shortest_edge >= 0 && options.shortest_edge < 1)) {
     throw CoreError(CoreError::Code::kBadInput,
                     "eroded solid: the shortest edge must be >= 0 and < 1 spacing, not " +
-                        to_text(options.shortest_edge));
+                        base::to_text(options.shortest_edge));
   }
   if (field.erosion.size() != lattice.points || field.gradient.size() != lattice.points) {
     throw CoreError(CoreError::Code::kBadInput, "eroded solid: the field has " +

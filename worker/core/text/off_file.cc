@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 #include "core/text/text_rows.h"
@@ -205,11 +205,11 @@ std::string write_off(const Mesh& mesh) {
   std::string text =
       "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.triangles.size()) + " 0\n";
   for (const Vec3& p : mesh.points) {
-    append_shortest(text, p.x);
+    base::append_shortest(text, p.x);
     text.push_back(' ');
-    append_shortest(text, p.y);
+    base::append_shortest(text, p.y);
     text.push_back(' ');
-    append_shortest(text, p.z);
+    base::append_shortest(text, p.z);
     text.push_back('\n');
   }
   for (const Triangle& t : mesh.triangles) {

@@ -1,3 +1,4 @@
+#include "base/coding.h"
 #include "client/files/read/read_shape.h"
 
 #include <gtest/gtest.h>
@@ -9,9 +10,9 @@
 #include "client/base/error.h"
 #include "client/files/numbers.h"
 #include "client/files/write/shape_writer.h"
-#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
+#include "core/text/off_file.h"
 #include "sample_data.h"
 #include "temp_dir.h"
 
@@ -111,7 +112,7 @@ TEST_F(ShapeFileTest, PlyComesInThreeEncodingsAndAnyTypes) {
     std::string bytes;
     const auto add = [&](auto value) {
       std::string raw;
-      append_bytes(raw, value);
+      base::append(raw, value);
       if (big) raw.assign(raw.rbegin(), raw.rend());
       bytes += raw;
     };

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/mesh/perturb.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/shapes.h"
@@ -328,11 +328,12 @@ TEST(MakeSolid, RefusesSolidsTooFarApartAndSaysSo) {
       const Mesh mesh = joined(cube, moved(make_box(side, side, side), {0, distance, 0}));
       const std::string cause = refusal(mesh);
       EXPECT_NE(cause.find("too far apart"), std::string::npos) << cause;
-      EXPECT_NE(cause.find(distance < 1e5 ? "solid 1 of 2, which begins with triangle 12, is " + to_text(side)
-                                          : "solid 0 of 2, which begins with triangle 0, is 1 long"),
-                std::string::npos)
+      EXPECT_NE(
+          cause.find(distance < 1e5 ? "solid 1 of 2, which begins with triangle 12, is " + base::to_text(side)
+                                    : "solid 0 of 2, which begins with triangle 0, is 1 long"),
+          std::string::npos)
           << cause;
-      EXPECT_NE(cause.find("the whole mesh " + to_text(distance)), std::string::npos) << cause;
+      EXPECT_NE(cause.find("the whole mesh " + base::to_text(distance)), std::string::npos) << cause;
     }
   }
   // Nor is a large skin a speck, although it has no volume.

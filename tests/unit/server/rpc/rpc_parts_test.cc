@@ -2,7 +2,7 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "errors.h"
+#include "database/errors.h"
 #include "rpc/event_hub.h"
 #include "rpc/status.h"
 #include "rpc/upload.h"

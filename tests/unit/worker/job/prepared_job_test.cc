@@ -1,4 +1,4 @@
-#include "prepared_job.h"
+#include "job/prepared_job.h"
 
 #include <gtest/gtest.h>
 

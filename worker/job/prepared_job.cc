@@ -1,4 +1,4 @@
-#include "prepared_job.h"
+#include "job/prepared_job.h"
 
 #include <array>
 #include <bit>
@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <set>
 
+#include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
 #include "wire/field_record.h"
@@ -133,7 +133,7 @@ v1::PreparedSummary PreparedJob::summary() const {
     v1::MeshNote* note = summary.add_notes();
     note->set_severity("repaired");
     note->set_code("polygons-cut");
-    note->set_message(core::counted(polygons_cut_, "face") + " with more than three sides " +
+    note->set_message(base::counted(polygons_cut_, "face") + " with more than three sides " +
                       (polygons_cut_ == 1 ? "was" : "were") + " cut into triangles");
   }
   for (const core::MeshNote& found : solid_.notes) {

@@ -1,4 +1,4 @@
-#include "result_bytes.h"
+#include "job/result_bytes.h"
 
 #include <gtest/gtest.h>
 

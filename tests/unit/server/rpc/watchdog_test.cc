@@ -5,6 +5,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <future>
 
@@ -41,7 +42,7 @@ TEST(WatchdogTest, TellsOfAServerThatNeverAnswers) {
   const DeafSocket socket;
   std::promise<void> deaf;
   const Watchdog watchdog(socket.target(), kQuick, [&] { deaf.set_value(); });
-  deaf.get_future().wait();
+  EXPECT_EQ(deaf.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
 }
 
 class WatchdogServiceTest : public ServiceTest {};

@@ -1,10 +1,10 @@
-#include "core/base/number_text.h"
+#include "base/number_text.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 
-namespace affskel::core {
+namespace affskel::base {
 namespace {
 
 TEST(Rounded, WritesNumbersOfEverydaySizeOut) {
@@ -27,4 +27,4 @@ TEST(Counted, HasTheRightPlural) {
 }
 
 }  // namespace
-}  // namespace affskel::core
+}  // namespace affskel::base

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace affskel::core {
+namespace affskel::base {
 
-/// Appends the shortest decimal text that reads back as `value`: the one way in which the core prints a
-/// double.
+/// Appends the shortest decimal text that reads back as `value`: the one way in which a double is
+/// printed.
 inline void append_shortest(std::string& text, double value) {
   char buffer[32];
   text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
@@ -43,4 +43,4 @@ std::string counted(Count count, std::string_view one, std::string_view many = {
   return text;
 }
 
-}  // namespace affskel::core
+}  // namespace affskel::base
