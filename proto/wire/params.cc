@@ -1,21 +1,17 @@
 #include "wire/params.h"
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <stdexcept>
-#include <vector>
 
+#include "base/direction_set.h"
 #include "base/number_text.h"
-#include "base/quoted.h"
 
 namespace affskel::wire {
 namespace {
 
-// Directions are numbered in 32 bits, 2^32 - 1 meaning "none".
-constexpr std::uint64_t kMaxDirections = std::uint64_t{1} << 24;
 constexpr std::uint64_t kMaxTargetPoints = std::uint64_t{1} << 31;
 
 std::string bits(double value) {
@@ -25,51 +21,16 @@ std::string bits(double value) {
   return text;
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find(separator, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string_view::npos) return parts;
-    begin = end + 1;
-  }
-}
-
-std::invalid_argument bad_directions(std::string_view part, const char* why) {
-  return std::invalid_argument("directions " + base::quoted(part) + ": " + why +
-                               "; expected triangles, sphere:N or random:N:SEED, joined by +");
-}
-
-std::uint64_t parse_number(std::string_view text, std::string_view part, const char* why) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size())
-    throw bad_directions(part, why);
-  return value;
-}
-
-std::string canonical_direction_part(std::string_view part) {
-  const std::vector<std::string_view> words = split(part, ':');
-  if (words[0] == "triangles" && words.size() == 1) return "triangles";
-  const bool sphere = words[0] == "sphere" && words.size() == 2;
-  const bool random = words[0] == "random" && words.size() == 3;
-  if (!sphere && !random) throw bad_directions(part, "not a direction set");
-  const std::uint64_t count = parse_number(words[1], part, "N is not a number");
-  if (count < 1 || count > kMaxDirections) throw bad_directions(part, "N must be 1 .. 2^24");
-  std::string text = std::string(words[0]) + ":" + std::to_string(count);
-  if (random)
-    text.append(":").append(std::to_string(parse_number(words[2], part, "SEED must be 0 .. 2^64 - 1")));
-  return text;
-}
-
 }  // namespace
 
 std::string canonical_directions(std::string_view text) {
   if (text.empty()) return "triangles";
   std::string joined;
-  for (std::string_view part : split(text, '+')) {
-    if (!joined.empty()) joined += '+';
-    joined += canonical_direction_part(part);
+  for (const base::DirectionSetPart& part : base::parse_direction_set(text)) {
+    if (part.count > base::kMaxDirections) {
+      throw std::invalid_argument(base::direction_set_error(part.text(), "N must be 1 .. 2^24"));
+    }
+    joined += (joined.empty() ? "" : "+") + part.text();
   }
   return joined;
 }

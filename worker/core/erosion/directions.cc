@@ -1,11 +1,11 @@
 #include "core/erosion/directions.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/number_text.h"
+#include "base/quoted.h"
 #include "core/base/error.h"
 #include "core/base/split_mix64.h"
 #include "core/mesh/icosahedron.h"
@@ -13,58 +13,13 @@
 namespace affskel::core {
 namespace {
 
-struct Part {
-  enum class Kind { kTriangles, kSphere, kRandom };
-  Kind kind = Kind::kTriangles;
-  std::uint64_t count = 0;
-  std::uint64_t seed = 0;
-};
-
-[[noreturn]] void fail(std::string_view spec, const std::string& why) {
-  throw CoreError(CoreError::Code::kBadInput,
-                  "directions '" + std::string(spec.substr(0, 100)) + "': " + why +
-                      "; expected triangles, sphere:N or random:N:SEED, joined by +");
-}
-
-std::uint64_t parse_whole(std::string_view digits, std::string_view spec, const char* what) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size()) {
-    fail(spec, std::string(what) + " must be a whole number");
-  }
-  return value;
-}
-
-Part parse_part(std::string_view part, std::string_view spec) {
-  if (part == "triangles") return {};
-  const std::size_t colon = part.find(':');
-  const std::string_view name = part.substr(0, colon);
-  if (colon == std::string_view::npos || (name != "sphere" && name != "random")) {
-    fail(spec, "'" + std::string(part.substr(0, 40)) + "' is not a direction set");
-  }
-  std::string_view rest = part.substr(colon + 1);
-  Part result;
-  if (name == "sphere") {
-    result.kind = Part::Kind::kSphere;
-  } else {
-    result.kind = Part::Kind::kRandom;
-    const std::size_t second = rest.find(':');
-    if (second == std::string_view::npos) fail(spec, "random needs a seed");
-    result.seed = parse_whole(rest.substr(second + 1), spec, "the seed");
-    rest = rest.substr(0, second);
-  }
-  result.count = parse_whole(rest, spec, "the number of directions");
-  if (result.count == 0) fail(spec, "the number of directions must be at least 1");
-  return result;
-}
+using Part = base::DirectionSetPart;
 
 std::vector<Part> parse(std::string_view spec) {
-  std::vector<Part> parts;
-  for (std::size_t at = 0;;) {
-    const std::size_t plus = spec.find('+', at);
-    parts.push_back(parse_part(spec.substr(at, plus - at), spec));
-    if (plus == std::string_view::npos) return parts;
-    at = plus + 1;
+  try {
+    return base::parse_direction_set(spec);
+  } catch (const std::invalid_argument& error) {
+    throw CoreError(CoreError::Code::kBadInput, error.what());
   }
 }
 
@@ -141,8 +96,8 @@ void require_affordable(const Solid& solid, const std::vector<Part>& parts, std:
                                                  : static_cast<double>(part.count);
   }
   if (total > static_cast<double>(options.max_directions)) {
-    throw CoreError(CoreError::Code::kLimit, "directions '" + std::string(spec.substr(0, 100)) +
-                                                 "': " + base::rounded(total, 10) + " directions; at most " +
+    throw CoreError(CoreError::Code::kLimit, "directions " + base::quoted(spec, 100) + ": " +
+                                                 base::rounded(total, 10) + " directions; at most " +
                                                  std::to_string(options.max_directions) + " are supported");
   }
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/direction_set.h"
 #include "core/base/matrix3.h"
 #include "core/base/vec3.h"
 #include "core/solid/solid.h"
@@ -19,8 +20,8 @@ using DirectionSet = std::vector<Vec3>;
 using OptimalDirections = std::vector<std::uint32_t>;
 
 struct DirectionOptions {
-  std::uint64_t max_directions = std::uint64_t{1} << 24;  ///< refuse larger sets; sphere:N counts as N
-  Matrix3 frame = kIdentity3;                             ///< F of sphere and random, see solid_frame
+  std::uint64_t max_directions = base::kMaxDirections;  ///< refuse larger sets; sphere:N counts as N
+  Matrix3 frame = kIdentity3;                           ///< F of sphere and random, see solid_frame
 };
 
 /// The set that `spec` names, parts joined by "+" in their order:
