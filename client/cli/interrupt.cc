@@ -1,4 +1,5 @@
 #include "client/cli/interrupt.h"
+#include "base/mutex.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -8,7 +9,6 @@
 #include <atomic>
 #include <cstring>
 #include <deque>
-#include <mutex>
 
 namespace affskel::client {
 namespace {
@@ -21,10 +21,10 @@ std::array<std::atomic<const char*>, 8> temporary_paths{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
 const char* publish(const std::string& text) {
-  static std::mutex mutex;
+  static base::Mutex mutex;
   static auto& kept = *new std::deque<std::string>;  // not destroyed at exit, where a signal may still come
   if (text.empty()) return nullptr;
-  const std::lock_guard lock(mutex);
+  const base::MutexLock lock(mutex);
   return kept.emplace_back(text).c_str();
 }
 
