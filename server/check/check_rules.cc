@@ -107,15 +107,35 @@ constexpr const char* kTasks[] = {
     " FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
     " WHERE t.kind NOT IN ('prepare', 'erode') AND e.finished = 0",
 
-    // Of the job, copied: see migration 5.
+    // Of the job, copied: see migrations 5 and 8.
     "SELECT 'task ' || t.id, 'its place in the queue is not that of its job ' || j.id FROM tasks t"
     " JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id WHERE t.state = 'pending'"
-    " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.parked <> (t.on_request = 0 AND"
+    " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.owner <> j.owner OR t.parked <> (t.on_request = 0 "
+    "AND"
     " (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1))"
     " OR t.needs_core <> iif(t.kind = 'erode', ifnull(e.core_version, ''), t.needs_core))",
 
     "SELECT 'task ' || id, 'has failed alone: it belongs to job ' || job_id || ', which fails with it'"
     " FROM tasks WHERE state = 'failed' AND on_request = 0",
+};
+
+// The ready tasks by owner, which triggers keep: see migration 8.  A row too few, and the tasks wait for
+// ever.
+constexpr const char* kQueues[] = {
+    "WITH counted AS (SELECT owner, on_request, needs_core, needs_memory, priority, count(*) AS ready FROM "
+    "tasks"
+    " WHERE state = 'pending' AND parked = 0 GROUP BY owner, on_request, needs_core, needs_memory, priority)"
+    " SELECT 'queue of owner ' || quote(c.owner), 'counts ' || ifnull(q.ready, 0) || ' ready tasks of "
+    "priority '"
+    " || c.priority || ', there are ' || c.ready FROM counted c LEFT JOIN queues q USING (owner, on_request,"
+    " needs_core, needs_memory, priority) WHERE q.ready IS NOT c.ready"
+    " UNION ALL SELECT 'queue of owner ' || quote(q.owner), 'counts ' || q.ready || ' ready tasks of "
+    "priority '"
+    " || q.priority || ', there are none' FROM queues q LEFT JOIN counted c USING (owner, on_request,"
+    " needs_core, needs_memory, priority) WHERE c.ready IS NULL",
+
+    "SELECT 'queue of owner ' || quote(q.owner), 'does not have its owner''s turn' FROM queues q"
+    " LEFT JOIN turns t USING (owner, on_request) WHERE q.turn IS NOT t.turn",
 };
 
 template <std::size_t count>
@@ -134,6 +154,7 @@ void check_rules(Database& db, FaultLog& faults) {
   check_all(db, faults, kProgress);
   check_all(db, faults, kJobs);
   check_all(db, faults, kTasks);
+  check_all(db, faults, kQueues);
 }
 
 }  // namespace affskel::server

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <thread>
 
 #include "process/exit_code.h"
@@ -13,6 +14,9 @@ namespace affskel::server {
 namespace {
 
 constexpr unsigned kMaxWorkers = 1024;
+
+const std::map<std::string, OwnerOrder> kOwnerOrders = {{"first-come", OwnerOrder::kFirstCome},
+                                                        {"round-robin", OwnerOrder::kRoundRobin}};
 
 constexpr const char* kFooter = R"(
 Examples:
@@ -130,6 +134,12 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
       ->check(quietly(CLI::Range(1, 1 << 20)))
       ->type_name("MB")
       ->capture_default_str();
+  app.add_option("--owner-order", options.owner_order,
+                 "How the jobs of one owner share the owner's turns: first-come = the oldest has them all, "
+                 "round-robin = one block each")
+      ->transform(CLI::CheckedTransformer(kOwnerOrders).description(""))
+      ->type_name("ORDER")
+      ->default_str("first-come");
   app.add_option("--log-level", options.log_level,
                  "What is logged to stderr: debug, info, warn, error or off")
       ->check(quietly(CLI::IsMember({"debug", "info", "warn", "error", "off"})))

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "store/tx.h"
+
 namespace affskel::server {
 
 /// What affskel-server is asked for.
@@ -23,6 +25,7 @@ struct Options {
   std::int64_t lease_ms = 5000;
   std::int64_t report_interval_ms = 1000;
   std::uint64_t max_mesh_mb = 1024;
+  OwnerOrder owner_order = OwnerOrder::kFirstCome;
   std::string log_level = "info";
   bool json = false;    ///< of the commands: one JSON document instead of lines
   bool repair = false;  ///< of check

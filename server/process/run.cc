@@ -171,6 +171,7 @@ void run_server(const Options& options) {
   server_options.store.lease_ms = options.lease_ms;
   server_options.store.report_interval_ms = options.report_interval_ms;
   server_options.store.max_mesh_bytes = options.max_mesh_mb << 20;
+  server_options.store.owner_order = options.owner_order;
   Server server(server_options);
   Supervisor supervisor(
       supervisor_options(options, server),

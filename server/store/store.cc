@@ -8,6 +8,7 @@
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "store/turn.h"
 #include "wire/artifact_kinds.h"
 #include "wire/identity.h"
 #include "wire/words.h"
@@ -78,6 +79,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
     recognise_file(tx, file_identity(file_));
     add_new_kinds(tx.db);
     settle_finished_blocks(tx);
+    settle_turns(tx);
     tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1");
     renew_all(tx);
     return true;

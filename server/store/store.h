@@ -24,6 +24,8 @@
 
 namespace affskel::server {
 
+struct Seeker;
+
 /// Longest id of a worker.
 inline constexpr std::size_t kMaxWorkerIdBytes = 64;
 
@@ -102,7 +104,8 @@ class Store {
 
   // For workers: store_leases.cc, store_reports.cc, store_complete.cc
 
-  /// Grants the next task, or nothing.  `preferred_job` decides among jobs of equal priority.
+  /// Grants the task whose turn it is (store/turn.h), or nothing.  `preferred_job` is the one that the worker
+  /// holds mesh and field of.
   std::optional<v1::Lease> lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
                                  bool supervised);
 
@@ -160,8 +163,8 @@ class Store {
   void expect_orphans() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool requests_turn(std::int64_t leased_requests, std::int64_t leased_blocks) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  std::optional<std::int64_t> choose_task(Database& db, const v1::WorkerIdentity& worker,
-                                          const std::string& preferred) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::optional<std::int64_t> choose_task(Database& db, const Seeker& seeker)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void make_room(const Changes& undone);
   bool has_room() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void live_on_reserve() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

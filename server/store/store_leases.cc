@@ -1,10 +1,9 @@
-#include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "database/errors.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
+#include "store/turn.h"
 #include "wire/artifact_kinds.h"
 #include "wire/identity.h"
 #include "wire/version.h"
@@ -32,43 +31,12 @@ void remember_core_version(Tx& tx, const std::string& version) {
       wire::kVersion, version);
 }
 
-/// A pending task's place in the queue.
-struct Place {
-  std::int64_t id = 0;
-  std::int64_t priority = 0;
-  std::int64_t seq = 0;
-  bool before(const Place& other) const {
-    return std::tie(other.priority, seq, id) < std::tie(priority, other.seq, other.id);
-  }
-};
-
-/// First by priority, then by age, of the tasks that need this core version (or none, ""): one step in the
-/// index tasks_ready.
-std::optional<Place> first_ready(Database& db, bool on_request, const std::string& needs_core) {
-  Statement row = db.query(
-      "SELECT id, priority, seq FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = ?"
-      " AND needs_core = ? ORDER BY priority DESC, seq, id LIMIT 1",
-      on_request, needs_core);
-  if (!row.step()) return std::nullopt;
-  return Place{row.integer(0), row.integer(1), row.integer(2)};
-}
-
-/// Fields of different core versions are never mixed.
-std::optional<Place> next_ready(Database& db, bool on_request, const std::string& core_version) {
-  const std::optional<Place> any = first_ready(db, on_request, "");
-  const std::optional<Place> own = first_ready(db, on_request, core_version);
-  if (!any || (own && own->before(*any))) return own;
-  return any;
-}
-
-/// Among jobs of equal priority the one whose mesh and field the worker holds already.
-std::optional<std::int64_t> of_preferred_job(Database& db, const Place& next, const std::string& core_version,
-                                             const std::string& preferred) {
-  if (preferred.empty()) return std::nullopt;
-  return db.integer(
-      "SELECT id FROM tasks WHERE job_id = ? AND state = 'pending' AND parked = 0 AND on_request = 0"
-      " AND priority = ? AND needs_core IN ('', ?) ORDER BY id LIMIT 1",
-      preferred, next.priority, core_version);
+Seeker seeker_of(const v1::WorkerIdentity& worker, const std::string& preferred_job) {
+  Seeker seeker;
+  seeker.worker = worker.id();
+  seeker.core_version = worker.core_version();
+  seeker.preferred_job = preferred_job;
+  return seeker;
 }
 
 struct Leased {
@@ -102,6 +70,7 @@ void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool s
       " lease_directions = 0 WHERE id = ?",
       token, worker.id(), worker.host(), worker.pid(), supervised, worker.core_version(), tx.lease_ms,
       tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
+  end_turn(tx, task);
   tx.db.run(
       "UPDATE jobs SET leases_granted = leases_granted + 1, started_ms = iif(started_ms = 0, ?, started_ms),"
       " state = iif(state = 'queued', 'running', state) WHERE id = ?",
@@ -174,17 +143,13 @@ bool Store::requests_turn(std::int64_t leased_requests, std::int64_t leased_bloc
   return !last_was_request_ && leased_requests <= leased_blocks;
 }
 
-std::optional<std::int64_t> Store::choose_task(Database& db, const v1::WorkerIdentity& worker,
-                                               const std::string& preferred) {
-  const std::optional<Place> request = next_ready(db, true, worker.core_version());
-  const std::optional<Place> next = next_ready(db, false, worker.core_version());
-  if (!next) return request ? std::optional(request->id) : std::nullopt;
-  if (request) {
-    const Leased leased = count_leased(db);
-    last_was_request_ = requests_turn(leased.requests, leased.others);
-    if (last_was_request_) return request->id;
-  }
-  return of_preferred_job(db, *next, worker.core_version(), preferred).value_or(next->id);
+std::optional<std::int64_t> Store::choose_task(Database& db, const Seeker& seeker) {
+  const std::optional<std::int64_t> request = task_in_turn(db, seeker, true, options_.owner_order);
+  const std::optional<std::int64_t> next = task_in_turn(db, seeker, false, options_.owner_order);
+  if (!next || !request) return next ? next : request;
+  const Leased leased = count_leased(db);
+  last_was_request_ = requests_turn(leased.requests, leased.others);
+  return last_was_request_ ? request : next;
 }
 
 std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
@@ -199,7 +164,8 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
         tx.db.integer("SELECT count(*) FROM tasks WHERE state = 'leased' AND worker = ?", worker.id())
             .value_or(0);
     if (held >= tx.options.max_leases_held) return std::nullopt;
-    while (const std::optional<std::int64_t> id = choose_task(tx.db, worker, preferred_job)) {
+    const Seeker seeker = seeker_of(worker, preferred_job);
+    while (const std::optional<std::int64_t> id = choose_task(tx.db, seeker)) {
       const TaskRow task = *find_task(tx.db, *id);
       if (adopt_instead(tx, task, worker.core_version())) continue;
       const std::string token = wire::random_id();

@@ -166,49 +166,59 @@ TaskRow task_of_token(Database& db, const std::string& token) {
 
 namespace {
 
-/// Gives a new task its place in the queue.
-std::int64_t enqueue(Tx& tx) {
-  const std::int64_t id = tx.db.last_insert_rowid();
+/// What a new task has beside its job.
+struct NewTask {
+  v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
+  bool on_request = false;
+  std::optional<Range> block;  // ERODE
+  std::optional<Blob> params;  // of the derived kinds
+  std::optional<std::string> params_key;
+};
+
+/// Adds a task in its place in the queue: what decides it is copied from the job, see migrations 5 and 8.
+std::int64_t enqueue(Tx& tx, const std::string& job_id, const NewTask& task) {
+  const auto position = [&](std::int64_t Range::*end) {
+    return task.block ? std::optional((*task.block).*end) : std::nullopt;
+  };
   tx.db.run(
-      "UPDATE tasks SET (seq, priority, parked, needs_core) ="
-      " (SELECT j.seq, j.priority,"
-      "  tasks.on_request = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1),"
-      "  iif(tasks.kind = 'erode' OR (tasks.kind = 'prepare' AND tasks.on_request = 1),"
-      "      ifnull(e.core_version, ''), '')"
-      "  FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = tasks.job_id) WHERE id = ?",
-      id);
+      "INSERT INTO tasks (job_id, kind, state, on_request, first_position, end_position, params, params_key,"
+      " seq, priority, owner, turn, parked, needs_core)"
+      " SELECT j.id, ?2, 'pending', ?3, ?4, ?5, ?6, ?7, j.seq, j.priority, j.owner,"
+      "  ifnull((SELECT max(turn) FROM tasks WHERE job_id = j.id), 0),"
+      "  ?3 = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1),"
+      "  iif(?2 = 'erode' OR (?2 = 'prepare' AND ?3 = 1), ifnull(e.core_version, ''), '')"
+      " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?1",
+      job_id, wire::word(task.kind), task.on_request, position(&Range::begin), position(&Range::end),
+      task.params, task.params_key);
   tx.changes.work = true;
-  return id;
+  return tx.db.last_insert_rowid();
 }
 
 }  // namespace
 
 std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind) {
-  tx.db.run("INSERT INTO tasks (job_id, kind, state) VALUES (?, ?, 'pending')", job_id, wire::word(kind));
-  return enqueue(tx);
+  NewTask task;
+  task.kind = kind;
+  return enqueue(tx, job_id, task);
 }
 
 std::int64_t add_prepare_request(Tx& tx, const std::string& job_id) {
-  tx.db.run("INSERT INTO tasks (job_id, kind, state, on_request) VALUES (?, 'prepare', 'pending', 1)",
-            job_id);
-  return enqueue(tx);
+  NewTask task;
+  task.kind = v1::TASK_KIND_PREPARE;
+  task.on_request = true;
+  return enqueue(tx, job_id, task);
 }
 
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
-  tx.db.run(
-      "INSERT INTO tasks (job_id, kind, state, first_position, end_position)"
-      " VALUES (?, 'erode', 'pending', ?, ?)",
-      job_id, block.begin, block.end);
-  return enqueue(tx);
+  NewTask task;
+  task.kind = v1::TASK_KIND_ERODE;
+  task.block = block;
+  return enqueue(tx, job_id, task);
 }
 
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request) {
-  tx.db.run(
-      "INSERT INTO tasks (job_id, kind, state, on_request, params, params_key)"
-      " VALUES (?, ?, 'pending', ?, ?, ?)",
-      job_id, wire::word(kind), on_request, Blob{params}, params_key);
-  return enqueue(tx);
+  return enqueue(tx, job_id, {kind, on_request, std::nullopt, Blob{params}, params_key});
 }
 
 std::int64_t patience_ms(Tx& tx, const TaskRow& task) {

@@ -10,7 +10,14 @@
 
 namespace affskel::server {
 
+/// How the jobs of one owner share what the owner is granted.
+enum class OwnerOrder {
+  kFirstCome,   ///< oldest first: they are done one after the other, each as early as it can be
+  kRoundRobin,  ///< their blocks in turn: all go on at once, and none is done early
+};
+
 struct StoreOptions {
+  OwnerOrder owner_order = OwnerOrder::kFirstCome;
   std::int64_t lease_ms = 5000;            ///< a lease ends when its worker is silent for this long
   std::int64_t report_interval_ms = 1000;  ///< what workers are told
   std::int64_t max_losses = 5;  ///< leases lost in a row, without progress, before a task is given up

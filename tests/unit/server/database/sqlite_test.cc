@@ -215,6 +215,44 @@ TEST_F(DatabaseTest, MigratingFromTheSchemaBeforeKeepsTheQueue) {
   EXPECT_EQ(db.integer("SELECT priority FROM tasks"), 8);
 }
 
+TEST_F(DatabaseTest, MigratingMakesTheQueueOneOfOwners) {
+  Database db(file(), Database::Mode::kReadWrite);
+  const std::vector<Migration>& all = embedded_migrations();
+  const auto first = std::find_if(all.begin(), all.end(), [](const Migration& m) { return m.number == 8; });
+  ASSERT_NE(first, all.end());
+  migrate(db, {all.begin(), first});
+  const std::string sha(64, 'a');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  const auto add = [&](int seq, const char* owner, int priority, const char* state) {
+    db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (?, ?, x'', '')", seq, sha);
+    db.run(
+        "INSERT INTO jobs (seq, id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key,"
+        " created_ms) VALUES (?1, printf('%032d', ?1), 'n', ?2, ?3, ?4, 'prepare', ?1, x'', '', 0)",
+        seq, owner, priority, state);
+    db.run(
+        "INSERT INTO tasks (job_id, kind, state, seq, priority, parked)"
+        " VALUES (printf('%032d', ?1), 'prepare', 'pending', ?1, ?2, ?3)",
+        seq, priority, std::string(state) == "cancelled");
+  };
+  add(3, "bob", 5, "queued");
+  add(4, "ada", 5, "queued");
+  add(5, "bob", 5, "queued");
+  add(6, "bob", 9, "cancelled");
+  migrate(db);
+  const auto lines = [&](const char* sql) {
+    std::string text;
+    Statement row = db.query(sql);
+    while (row.step()) text += row.text(0) + ";";
+    return text;
+  };
+  EXPECT_EQ(lines("SELECT owner || ' ' || priority || ' ' || ready FROM queues ORDER BY turn"),
+            "bob 5 2;ada 5 1;");
+  db.run("UPDATE jobs SET state = 'queued' WHERE seq = 6");
+  EXPECT_EQ(lines("SELECT owner || ' ' || priority || ' ' || ready FROM queues ORDER BY priority, turn"),
+            "bob 5 2;ada 5 1;bob 9 1;");
+  EXPECT_EQ(lines("SELECT owner FROM turns WHERE turn >= 0"), "") << "nobody has had a turn";
+}
+
 TEST_F(DatabaseTest, KindsAreThoseOfTheirTables) {
   Database db(file(), Database::Mode::kReadWrite);
   migrate(db);
