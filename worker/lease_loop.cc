@@ -36,6 +36,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kLeaseWaitMs = 2000;
 constexpr int kExitServerGone = 5;
+constexpr int kExitNotAllowed = 7;
 // After a task that failed but may be tried again; shorter than the silence that a server wonders about.
 constexpr auto kFirstRest = std::chrono::milliseconds(250);
 constexpr auto kLongestRest = std::chrono::milliseconds(4000);
@@ -129,7 +130,7 @@ class LeaseLoop {
       : options_(options),
         stop_(stop),
         id_(wire::random_id()),
-        link_({options.server, options.patience, id_}, stop),
+        link_({options.server, options.patience, options.access, id_}, stop),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
         }) {
@@ -386,6 +387,10 @@ class LeaseLoop {
 int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
   try {
     return LeaseLoop(options, stop).run();
+  } catch (const NotAllowed& refused) {
+    spdlog::error("server={} msg=\"the server does not let this worker in, leaving\" cause=\"{}\"",
+                  options.server, refused.what());
+    return kExitNotAllowed;
   } catch (const ServerGone& gone) {
     if (stop.stop_requested()) return 0;
     spdlog::error("server={} msg=\"the server does not answer, leaving\" cause=\"{}\"", options.server,

@@ -82,7 +82,7 @@ int run_client(const std::vector<std::string>& arguments, const ClientIo& io) {
   }
   Console console(io.out, io.err, style_for(line.global(), io));
   return guarded(console, [&] {
-    Context context(console, io.out, io.environment, line.global().server, io.retry);
+    Context context(console, io.out, io.environment, line.global(), io.retry);
     line.run(context);
   });
 }

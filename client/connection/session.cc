@@ -25,7 +25,7 @@ constexpr int kMaxMessageBytes = 64 << 20;  // long job lists; pieces of streams
 // Servers refuse pings more often than every five minutes.
 constexpr int kKeepaliveMs = 330 * 1000;
 
-std::shared_ptr<grpc::Channel> make_channel(const wire::Address& address) {
+std::shared_ptr<grpc::Channel> channel_to(const wire::Address& address, const wire::AccessFiles& access) {
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
   // A fresh channel must not inherit the connection back-off of the one it replaces.
@@ -35,7 +35,11 @@ std::shared_ptr<grpc::Channel> make_channel(const wire::Address& address) {
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20000);
   }
-  return grpc::CreateCustomChannel(address.target(), grpc::InsecureChannelCredentials(), arguments);
+  try {
+    return wire::make_channel(address, access, arguments);
+  } catch (const std::invalid_argument& error) {
+    throw ClientError(ExitCode::kUsage, error.what());
+  }
 }
 
 // Counts and hashes what passes through.
@@ -151,7 +155,7 @@ void Session::connect() {
     address = ensure_embedded_server(embedded_paths(environment_), {}, environment_, console_);
   }
   target_ = address.target();
-  channel_ = make_channel(address);
+  channel_ = channel_to(address, choice_.access);
   stub_ = v1::ErosionService::NewStub(channel_);
 }
 

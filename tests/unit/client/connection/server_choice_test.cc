@@ -63,6 +63,34 @@ TEST_F(ServerChoiceTest, ConfigErrorsHaveALine) {
   }
 }
 
+TEST_F(ServerChoiceTest, FilesOfTheConfigurationGoWithItsServerAlone) {
+  write_config("server = lab:7060\ntoken_file = my.token\ntls_ca = /etc/lab.pem\n");
+  const ServerChoice configured = choose_server("", environment());
+  EXPECT_EQ(configured.access.token_file, (dir_.path() / "affskel" / "my.token").string());
+  EXPECT_EQ(configured.access.tls_ca, "/etc/lab.pem");
+  EXPECT_EQ(choose_server("other:7060", environment()).access.token_file, "");
+  EXPECT_EQ(choose_server("", environment("other:7060")).access.token_file, "");
+}
+
+TEST_F(ServerChoiceTest, FilesByOptionThenEnvironmentThenConfiguration) {
+  write_config("server = lab:7060\ntoken_file = my.token\n");
+  const Environment environment = test_environment({{"XDG_CONFIG_HOME", dir_.path()},
+                                                    {"AFFSKEL_TOKEN_FILE", "/env.token"},
+                                                    {"AFFSKEL_TLS_CA", "/env.pem"}});
+  EXPECT_EQ(choose_server("", environment).access.token_file, "/env.token");
+  wire::AccessFiles given;
+  given.token_file = "given.token";
+  const ServerChoice choice = choose_server("", environment, given);
+  EXPECT_EQ(choice.access.token_file, "given.token");
+  EXPECT_EQ(choice.access.tls_ca, "/env.pem");
+}
+
+TEST_F(ServerChoiceTest, ThePrivateServerIsShownNothing) {
+  wire::AccessFiles given;
+  given.token_file = "given.token";
+  EXPECT_EQ(choose_server("", environment(), given).access.token_file, "");
+}
+
 TEST(ConfigFile, DefaultsToTheHomeDirectory) {
   EXPECT_EQ(config_file(test_environment({{"HOME", "/home/u"}})), "/home/u/.config/affskel/config");
   EXPECT_EQ(config_file(test_environment({{"HOME", "/home/u"}, {"XDG_CONFIG_HOME", "/c"}})),
