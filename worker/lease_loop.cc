@@ -38,7 +38,7 @@ constexpr std::uint32_t kLeaseWaitMs = 2000;
 constexpr int kExitServerGone = 5;
 // After a task that failed but may be tried again; shorter than the silence that a server wonders about.
 constexpr auto kFirstRest = std::chrono::milliseconds(250);
-constexpr auto kLongestRest = std::chrono::milliseconds(4000);
+constexpr auto kMaxRest = std::chrono::milliseconds(4000);
 
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   v1::WorkerIdentity identity;
@@ -376,7 +376,7 @@ class LeaseLoop {
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
   std::string database_;  // that the field was fetched from
-  Backoff failures_{kFirstRest, kLongestRest, std::random_device()()};
+  Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead
 };

@@ -48,8 +48,9 @@ void parallel_for(unsigned threads, std::size_t count, const Body& body) {
 template <class Body>
 void parallel_ranges(unsigned threads, std::size_t count, const Body& body) {
   // A few for each thread, since some may take longer than others; small work is left in one piece.
-  constexpr std::size_t kRangesPerThread = 8, kLeast = 1024;
-  const std::size_t ranges = threads <= 1 ? 1 : std::min(kRangesPerThread * threads, count / kLeast + 1);
+  constexpr std::size_t kRangesPerThread = 8, kMinPerRange = 1024;
+  const std::size_t ranges =
+      threads <= 1 ? 1 : std::min(kRangesPerThread * threads, count / kMinPerRange + 1);
   parallel_for(threads, ranges, [&](std::size_t r) { body(count * r / ranges, count * (r + 1) / ranges); });
 }
 

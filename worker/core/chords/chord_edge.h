@@ -16,7 +16,7 @@ namespace affskel::core {
 /// neighbouring points, and the surface between them lies within the solid, where this passes through itself.
 /// A line meets a triangle once, so that what it entered by and what it leaves by tell one passage from
 /// another.
-inline bool goes_on(const LatticeRun& run, const LatticeRun& next, std::size_t axis) {
+inline bool continues_in(const LatticeRun& run, const LatticeRun& next, std::size_t axis) {
   std::array<std::uint32_t, 3> behind = run.start;
   behind[axis] += run.length;
   return next.start == behind && next.low == run.low && next.high == run.high;
@@ -30,7 +30,7 @@ template <class Visit>
 void for_each_stretch(const AxisRuns& along, std::size_t axis, Visit visit) {
   for (auto run = along.runs.begin(); run != along.runs.end();) {
     LatticeRun stretch = *run;
-    while (++run != along.runs.end() && goes_on(stretch, *run, axis)) stretch.length += run->length;
+    while (++run != along.runs.end() && continues_in(stretch, *run, axis)) stretch.length += run->length;
     visit(stretch);
   }
 }
@@ -65,7 +65,7 @@ inline bool by_edge(const ChordShock& a, const ChordShock& b) {
 
 /// What the tangents of E at the ends of a lattice edge say about a shock on it, whatever that is worth: r, o
 /// and t are as they come, r negative and t anywhere (or not finite) where there is none.  `position` and
-/// `erosion` are left at 0; see settle_on_edge().
+/// `erosion` are left at 0; see clamp_to_edge().
 /// @param x, y ranks of the edge's lower and upper end, both with an optimal direction.
 /// @param place lattice indices of x.
 ChordShock tangents_on_edge(const FrameField& field, std::uint32_t x, std::uint32_t y, std::uint8_t axis,
@@ -73,7 +73,7 @@ ChordShock tangents_on_edge(const FrameField& field, std::uint32_t x, std::uint3
 
 /// Moves the shock to the nearest place on its edge, to the middle when the tangents do not cross, and sets
 /// `position` and `erosion`.
-void settle_on_edge(const FrameField& field, ChordShock& shock);
+void clamp_to_edge(const FrameField& field, ChordShock& shock);
 
 /// The opening o = (1 - a.b / (|a| |b|)) / 2 of two normals of any length, 0 .. 1; NaN when one is zero.
 double opening_of(const Vec3& a, const Vec3& b);

@@ -26,7 +26,7 @@ std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const Ch
   std::vector<LatticeElement> result;
   for (std::size_t first = 0, last; first < asked.size(); first = last) {
     for (last = first + 1; last < asked.size() && asked[last] == asked[first];) ++last;
-    if (last - first >= kMaxOfFour) result.push_back(asked[first]);
+    if (last - first >= kMinRimSquares) result.push_back(asked[first]);
   }
   return result;
 }
@@ -47,7 +47,7 @@ std::vector<ChordShock> pinhole_shocks(const Lattice& lattice, const SolidParts&
     if (field.direction[x] == field.direction[y]) continue;
     ChordShock shock = tangents_on_edge(field, x, y, axis, place);
     if (!(shock.strength > 0)) shock.strength = 0;
-    settle_on_edge(field, shock);
+    clamp_to_edge(field, shock);
     shock.turn = shock.opening;
     result.push_back(shock);
   }

@@ -29,10 +29,10 @@ struct ChordPruningOptions {
 /// What there was to choose from: why nothing may be left.
 struct ShockCensus {
   std::uint64_t candidates = 0;
-  std::uint64_t wide = 0;     ///< of these, with the turn of a strong shock
-  std::uint64_t strong = 0;   ///< of these, with the E of one
-  double widest_turn = 0;     ///< of the candidates
-  double heaviest_piece = 0;  ///< its share of the weight in its part of the solid, kept or not
+  std::uint64_t wide = 0;      ///< of these, with the turn of a strong shock
+  std::uint64_t strong = 0;    ///< of these, with the E of one
+  double max_turn = 0;         ///< of the candidates
+  double max_piece_share = 0;  ///< its share of the weight in its part of the solid, kept or not
 };
 
 /// What is left of the candidates.

@@ -39,7 +39,7 @@ class ShockFinder {
     if (!(shock.strength > 0)) return {};
     if (!(shock.strength >= options_.min_strength && shock.opening >= options_.min_opening)) return {};
     if (!(shock.t >= -options_.slack && shock.t <= 1 + options_.slack)) return {};
-    settle_on_edge(field_, shock);
+    clamp_to_edge(field_, shock);
     shock.turn = shock.opening;
     return shock;
   }

@@ -48,7 +48,7 @@ inline std::array<LatticeElement, 4> edges_of(const LatticeElement& square) {
 
 /// So many of the four squares round an edge must lie on the rim for a shock on it to close a hole: their rim
 /// then shrinks.
-inline constexpr std::size_t kMaxOfFour = 3;
+inline constexpr std::size_t kMinRimSquares = 3;
 
 /// A square on the rim and its only shock (its place in the list).
 using RimSquare = std::pair<LatticeElement, std::uint32_t>;

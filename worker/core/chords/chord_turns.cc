@@ -32,7 +32,7 @@ class TurnGauge {
         cells_(cells),
         shocks_(shocks),
         options_(options),
-        speaks_(shocks.size(), false) {}
+        is_peak_(shocks.size(), false) {}
 
   void measure() {
     reach_.reserve(shocks_.size());
@@ -56,7 +56,7 @@ class TurnGauge {
       if (whole > 0) mean[cell] = sum / whole;
     }
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-      if (!speaks_[s]) continue;
+      if (!is_peak_[s]) continue;
       const auto& [a, b, c, d] = cells_.ring[s];
       const double along = 0.25 * ((mean[a] + mean[b]) + (mean[c] + mean[d]));
       shocks_[s].turn = std::min(along, kMaxGain * shocks_[s].turn);
@@ -73,23 +73,23 @@ class TurnGauge {
     return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMaxReach);
   }
 
-  std::uint32_t whole_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
+  std::uint32_t rounded_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
 
-  // Per shock: the largest jump at most as many cells away as its band reaches.
+  // Per shock: the largest jump at max_reach as many cells away as its band reaches.
   void find_largest_jumps() {
     std::vector<double> by_cell(cells_.size(), 0);
-    std::uint32_t most = 0;
+    std::uint32_t max_reach = 0;
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       raise(by_cell, s, jump(s));
-      most = std::max(most, whole_reach(s));
+      max_reach = std::max(max_reach, rounded_reach(s));
     }
     largest_.resize(shocks_.size());
     for (std::uint32_t step = 0;; ++step) {
       throw_if_stopped(options_.context);
       for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-        if (whole_reach(s) >= step) largest_[s] = largest_round(by_cell, s);
+        if (rounded_reach(s) >= step) largest_[s] = largest_round(by_cell, s);
       }
-      if (step == most) return;
+      if (step == max_reach) return;
       std::vector<double> wider = by_cell;
       for (std::uint32_t s = 0; s < shocks_.size(); ++s) raise(wider, s, largest_round(by_cell, s));
       by_cell = std::move(wider);
@@ -129,10 +129,10 @@ class TurnGauge {
 
   void gauge(std::uint32_t n) {
     const std::uint32_t s = on_line_[n];
-    if (s == kNone || shocks_[s].strength < options_.min_strength || !is_greatest(n) || !is_concentrated(n) ||
-        !is_among_largest(s))
+    if (s == kNone || shocks_[s].strength < options_.min_strength || !has_largest_kink(n) ||
+        !is_concentrated(n) || !is_among_largest(s))
       return;
-    speaks_[s] = true;
+    is_peak_[s] = true;
     const auto whole = static_cast<std::uint32_t>(reach_[s]);
     const double rest = reach_[s] - whole;
     double turn = turn_over(n, whole);
@@ -155,13 +155,13 @@ class TurnGauge {
   bool is_concentrated(std::uint32_t n) const {
     const std::uint32_t s = on_line_[n];
     const int axis = shocks_[s].axis;
-    const auto& [low, high] = ends_of_band(n, whole_reach(s));
+    const auto& [low, high] = ends_of_band(n, rounded_reach(s));
     return kink(s) >= options_.min_concentration * (low[axis] - high[axis]);
   }
 
-  bool is_greatest(std::uint32_t n) const {
+  bool has_largest_kink(std::uint32_t n) const {
     const double mine = kink(on_line_[n]);
-    const std::uint32_t reach = whole_reach(on_line_[n]);
+    const std::uint32_t reach = rounded_reach(on_line_[n]);
     const auto end = std::min<std::size_t>(on_line_.size(), std::size_t{n} + reach + 1);
     for (std::size_t m = n - std::min(n, reach); m < end; ++m) {
       if (m == n || on_line_[m] == kNone) continue;
@@ -182,7 +182,7 @@ class TurnGauge {
   const ChordCells& cells_;
   std::vector<ChordShock>& shocks_;
   const ChordTurnOptions& options_;
-  std::vector<bool> speaks_;                   // per shock: for those round it
+  std::vector<bool> is_peak_;                  // per shock: for those round it
   std::vector<double> reach_;                  // per shock: q
   std::vector<double> largest_;                // per shock, see find_largest_jumps
   std::vector<std::uint32_t> line_, on_line_;  // of one stretch

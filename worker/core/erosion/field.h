@@ -48,10 +48,10 @@ class ErosionField {
 
   void offer(std::uint32_t point, const FieldValue& value);
 
-  /// Makes it known that E is at most `most` at the point, by a direction that another worker reports.  A
-  /// lesser value here stays; a greater one, which cannot attain E, goes without being visited as a change.
+  /// Makes it known that E is at most `max_erosion` at the point, by a direction that another worker reports.
+  /// A lesser value here stays; a greater one, which cannot attain E, goes without being visited as a change.
   /// The direction is then kNoDirection, so that an equal value still improves on the bound.
-  void bound(std::uint32_t point, double most);
+  void bound(std::uint32_t point, double max_erosion);
 
   /// A consistent copy of one value; without a direction after bound().
   FieldValue value(std::uint32_t point) const;

@@ -50,7 +50,7 @@ void HeightOrder::sort(const Vec3& d) {
   } else {
     radix_sort<11, 3>();
   }
-  settle_equal_keys();
+  resolve_ties();
   for (std::size_t r = 0; r < vertices; ++r) {
     order_[r] = entries_[r].vertex;
     height_[r] = rounded_[entries_[r].vertex];
@@ -105,7 +105,7 @@ void HeightOrder::radix_sort() {
 }
 
 // Keys hold the first bits of the heights; what they leave equal is compared in full.
-void HeightOrder::settle_equal_keys() {
+void HeightOrder::resolve_ties() {
   const auto full = [this](const Entry& a, const Entry& b) { return below(a.vertex, b.vertex); };
   for (std::size_t first = 0; first < entries_.size();) {
     std::size_t last = first + 1;

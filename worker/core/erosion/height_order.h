@@ -32,7 +32,7 @@ class HeightOrder {
   void comparison_sort();
   template <int bits, int passes>
   void radix_sort();
-  void settle_equal_keys();
+  void resolve_ties();
   bool below(std::uint32_t a, std::uint32_t b) const;
 
   std::vector<double> x_, y_, z_;

@@ -37,9 +37,9 @@ struct Arc {
   std::uint32_t parent = kNone;   ///< kNone for a root
   std::uint32_t first_cubic = 0;  ///< cubics [first_cubic, last_cubic], by height; at least one
   std::uint32_t last_cubic = 0;
-  std::uint32_t first_cell = 0;  ///< of the look-up table, see JoinTree::cell()
-  std::uint32_t last_cell = 0;
-  double cell_scale = 0;  ///< cells per unit of height
+  std::uint32_t first_bin = 0;  ///< of the look-up table, see JoinTree::bin()
+  std::uint32_t last_bin = 0;
+  double bin_scale = 0;  ///< bins per unit of height
 };
 
 /// The sublevel join tree of a solid for one direction d: the components of {y in V : d.y <= t} as t
@@ -47,14 +47,15 @@ struct Arc {
 struct JoinTree {
   std::vector<Arc> arcs;
   std::vector<Cubic> cubics;
-  /// Per cell, and one more per arc: the least cubic of the cell's heights.
-  std::vector<std::uint32_t> cells;
-  /// Parallel to cells: V at the least height of the cell, or the least V from there on up to the root, where
+  /// Per bin, and one more per arc: the least cubic of the bin's heights.
+  std::vector<std::uint32_t> bins;
+  /// Parallel to bins: V at the least height of the bin, or the least V from there on up to the root, where
   /// volumes may fall (JoinTreeOptions).
-  std::vector<double> cell_volume;
+  std::vector<double> bin_volume;
   std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
   std::uint32_t roots = 0;
-  double least_step = 0;  ///< the most negative change of volume between neighbouring cubics, scaled units
+  double min_volume_change =
+      0;  ///< the most negative change of volume between neighbouring cubics, scaled units
 
   /// The arc at height h of the component that holds the lowest vertex of `triangle`.
   std::uint32_t climb(std::uint32_t triangle, double h) const {
@@ -63,21 +64,21 @@ struct JoinTree {
     return arc;
   }
 
-  /// The look-up table's cell for height h of the arc.  Grows with h.
-  static std::uint32_t cell(const Arc& arc, double h) {
-    const double c = (h - arc.bottom) * arc.cell_scale;
-    const std::uint32_t last = arc.last_cell - arc.first_cell;
-    return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
+  /// The look-up table's bin for height h of the arc.  Grows with h.
+  static std::uint32_t bin(const Arc& arc, double h) {
+    const double c = (h - arc.bottom) * arc.bin_scale;
+    const std::uint32_t last = arc.last_bin - arc.first_bin;
+    return arc.first_bin + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
   }
 
   /// A lower bound of V at h and everywhere above on the way to the root, within twice
   /// TreeInput::volume_tolerance().  Close to V at h, unless V falls further up.  One look-up.
-  double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
+  double volume_below(const Arc& arc, double h) const { return bin_volume[bin(arc, h)]; }
 
   /// The cubic of `arc` that holds height h: the last one that starts at or below h, else the first.
   const Cubic& locate(const Arc& arc, double h) const {
-    // It lies between the entries of h's cell and of the next one.
-    const std::uint32_t* entry = &cells[cell(arc, h)];
+    // It lies between the entries of h's bin and of the next one.
+    const std::uint32_t* entry = &bins[bin(arc, h)];
     const Cubic* first = &cubics[entry[0]];
     const Cubic* last = &cubics[entry[1]];
     while (last - first > 8) {

@@ -99,7 +99,7 @@ class Sweeper::Pass {
     const Cubic& cubic = tree_.locate(arc, h);
     double volume = cubic.volume_at(h);
     // Rounding may leave a little less than nothing.
-    if (volume < 0) volume = volume < -owner_.options_.margin ? owner_.options_.whole : 0;
+    if (volume < 0) volume = volume < -owner_.options_.margin ? owner_.options_.solid_volume : 0;
     volume = rounded(volume);
     if (!owner_.field_.may_improve(p, volume)) return;
     const double area = cubic.area_at(h);

@@ -11,9 +11,9 @@
 namespace affskel::core {
 
 struct SweepOptions {
-  bool prune = true;  ///< false: evaluate every point (yardstick and test of the pruning; same result)
-  double margin = 0;  ///< scaled volume; computed chords may fall along a run by at most this
-  double whole = 0;   ///< scaled volume of V: stands for chords that come out negative, see sweep()
+  bool prune = true;        ///< false: evaluate every point (yardstick and test of the pruning; same result)
+  double margin = 0;        ///< scaled volume; computed chords may fall along a run by at most this
+  double solid_volume = 0;  ///< scaled volume of V: stands for chords that come out negative, see sweep()
 };
 
 /// Counts of what sweeps did.

@@ -89,7 +89,7 @@ bool is_stretched(const Lattice& lattice) {
 }
 
 std::string on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
-  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.widest_turn) +
+  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
                        " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".";
   if (is_stretched(lattice)) {
     advice +=
@@ -102,10 +102,10 @@ std::string on_turn(const Lattice& lattice, const ShockCensus& census, const Cho
 }
 
 std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
-  const std::string lower = base::rounded(0.99 * census.heaviest_piece, 3);
+  const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
   return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
          base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
-         base::rounded(census.heaviest_piece, 3) + " of its sheet. --threshold " + lower +
+         base::rounded(census.max_piece_share, 3) + " of its sheet. --threshold " + lower +
          " would keep it, --threshold 1e-9 all.";
 }
 

@@ -14,11 +14,11 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kGaussian = 3;       // the kurtosis of a Gaussian
-constexpr int kStartsPerEdge = 7;     // starts: 7^3
-constexpr int kSteps = 20;            // to tell the maxima apart
-constexpr int kLastSteps = 30;        // to reach the chosen one to rounding
-constexpr double kLongestStep = 0.3;  // radian
+constexpr double kGaussian = 3;    // the kurtosis of a Gaussian
+constexpr int kStartsPerEdge = 7;  // starts: 7^3
+constexpr int kSearchSteps = 20;   // to tell the maxima apart
+constexpr int kPolishSteps = 30;   // to reach the chosen one to rounding
+constexpr double kMaxStep = 0.3;   // radian
 
 // Unnormalised: the turn by 2 atan(|v| / s) about v.
 struct Quaternion {
@@ -113,7 +113,7 @@ class Ascent {
       turn = turn + (dot(c.gradient, e) / std::max(std::abs(eigen.values[i]), least)) * e;
     }
     const double length = norm(turn);
-    return length > kLongestStep ? (kLongestStep / length) * turn : turn;
+    return length > kMaxStep ? (kMaxStep / length) * turn : turn;
   }
 
   const FourthMoments& moments_;
@@ -150,7 +150,7 @@ Quaternion best_start(const Ascent& ascent) {
   std::vector<Candidate> candidates;
   std::size_t best = 0;
   for (const Quaternion& start : starts()) {
-    const Quaternion q = ascent.climbed(start, kSteps);
+    const Quaternion q = ascent.climbed(start, kSearchSteps);
     candidates.push_back({q, ascent.contrast(rotation(q))});
     if (candidates.back().contrast.value > candidates[best].contrast.value) best = candidates.size() - 1;
   }
@@ -187,7 +187,7 @@ Matrix3 turned_about(const Vec3& line, const Matrix3& axes) {
 
 IndependentAxes independent_axes(const FourthMoments& moments) {
   const Ascent ascent(moments);
-  Matrix3 axes = orthonormal(rotation(ascent.climbed(best_start(ascent), kLastSteps)));
+  Matrix3 axes = orthonormal(rotation(ascent.climbed(best_start(ascent), kPolishSteps)));
   const Contrast top = ascent.contrast(axes);
   const SymmetricEigen eigen = symmetric_eigen(top.hessian);
   int free = 0;

@@ -11,7 +11,7 @@ namespace affskel::core {
 namespace {
 
 // From here on fans and slivers get boxes of their own: below, comparing all the triangles costs less.
-constexpr std::uint32_t kMany = 64;
+constexpr std::uint32_t kMaxLoose = 64;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
@@ -72,7 +72,7 @@ bool is_oblique_sliver(const Box& box, const Corners& corners, double unit) {
 
 }  // namespace
 
-std::uint32_t CloseTriangles::Members::behind(std::uint32_t i) const {
+std::uint32_t CloseTriangles::Members::count_up_to(std::uint32_t i) const {
   return static_cast<std::uint32_t>(std::upper_bound(index.begin(), index.end(), i) - index.begin());
 }
 
@@ -112,7 +112,7 @@ void CloseTriangles::assign_groups(const Mesh& mesh) {
     const std::uint32_t home = *std::max_element(t.begin(), t.end(), [&](std::uint32_t v, std::uint32_t w) {
       return std::pair(valence[v], w) < std::pair(valence[w], v);
     });
-    if (valence[home] > kMany) {
+    if (valence[home] > kMaxLoose) {
       const auto [place, added] = fan_at.emplace(home, static_cast<std::uint32_t>(groups_.size()));
       if (added) groups_.emplace_back().vertex = home;
       group_of_[i] = place->second;
@@ -121,7 +121,7 @@ void CloseTriangles::assign_groups(const Mesh& mesh) {
       slivers.members.index.push_back(i);
     }
   }
-  if (slivers.members.index.size() > kMany) {
+  if (slivers.members.index.size() > kMaxLoose) {
     for (const std::uint32_t i : slivers.members.index)
       group_of_[i] = static_cast<std::uint32_t>(groups_.size());
     groups_.push_back(std::move(slivers));

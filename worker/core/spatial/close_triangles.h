@@ -34,7 +34,7 @@ class CloseTriangles {
     const std::uint32_t home = group_of_[i];
     const Corners corners = triangles_.corners(i);
     const Query query{boxes_[i], oriented_box(corners), triangles_.unit()};
-    const std::int64_t above = std::int64_t{loose_.members.behind(i)} - 1;
+    const std::int64_t above = std::int64_t{loose_.members.count_up_to(i)} - 1;
     const auto visit_loose = [&](std::uint32_t k) { visit(loose_.members.index[k]); };
     if (home == kNone) {
       loose_.tree.visit_above(boxes_[i], above, visit_loose);
@@ -44,7 +44,7 @@ class CloseTriangles {
     group_tree_.visit(query, [&](std::uint32_t g) {
       const Group& group = groups_[g];
       if (g != home || !group.is_fan()) return group.tree.visit_above(i, corners, query.oriented, visit);
-      const std::uint32_t local = group.members.behind(i) - 1;
+      const std::uint32_t local = group.members.count_up_to(i) - 1;
       group.arcs.visit_above(group.arcs.box(local), local,
                              [&](std::uint32_t k) { visit(group.members.index[k]); });
     });
@@ -57,7 +57,7 @@ class CloseTriangles {
   struct Members {
     std::vector<std::uint32_t> index;
     /// The number of members <= i.
-    std::uint32_t behind(std::uint32_t i) const;
+    std::uint32_t count_up_to(std::uint32_t i) const;
   };
 
   /// A large fan, or all slivers that are in none.

@@ -32,7 +32,7 @@ void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit)
       stack[depth++] = index + 1;
       continue;
     }
-    for (std::uint32_t place = node.first; place < node.first + node.count; ++place) visit(place);
+    for (std::uint32_t item = node.first; item < node.first + node.count; ++item) visit(item);
   }
 }
 

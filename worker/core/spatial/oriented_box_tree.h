@@ -27,7 +27,7 @@ class OrientedBoxTree {
     walk_halved_nodes(
         nodes_,
         [&](const Node& node) {
-          return node.greatest > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
+          return node.max_index > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
         },
         [&](std::uint32_t place) {
           const std::uint32_t j = members_[place];
@@ -39,7 +39,7 @@ class OrientedBoxTree {
   struct Node {
     OrientedBox box;
     std::uint32_t first, count, right;
-    std::uint32_t greatest;  // of the members below
+    std::uint32_t max_index;  // of the members below
   };
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);

@@ -24,7 +24,7 @@
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/lattice/lattice_cuts.h"
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 #include "core/surface/eroded_places.h"
 #include "core/surface/level_crossing.h"
 #include "core/tidy/loose_vertices.h"
@@ -65,7 +65,7 @@ class Marcher {
       for (at_[1] = -1; at_[1] < dims_[1]; ++at_[1]) march_row();
     }
     constexpr int kRounds = 40;  // enough for steps of a few voxels
-    settle_loose_vertices(loose_, kRounds, mesh_);
+    relax_loose_vertices(loose_, kRounds, mesh_);
     return std::move(mesh_);
   }
 
@@ -224,17 +224,18 @@ class Marcher {
 
   std::uint32_t add_stop(unsigned p, unsigned q, const LatticeCut* cut) {
     LevelCrossing found = crossing(p, q, cut);
-    double most = 1 - kMargin;
+    double max_share = 1 - kMargin;
     if (full(q)) {  // stay on this side of the gap
       const double gap = std::clamp((cut->leaves + cut->enters) / 2, 3 * kMargin, 1 - 3 * kMargin);
-      most = (p == (p & q) ? gap : 1 - gap) - kMargin;
+      max_share = (p == (p & q) ? gap : 1 - gap) - kMargin;
     }
-    for (double* t : {&found.share, &found.least, &found.most}) *t = std::clamp(*t, kMargin, most);
+    for (double* t : {&found.share, &found.min_share, &found.max_share})
+      *t = std::clamp(*t, kMargin, max_share);
     const Place from = place(p), to = place(q);
     const Vec3 start = position(from), along = position(to) - start;
     const std::uint32_t vertex = add_vertex(start + found.share * along);
-    if (found.least < found.most) {
-      loose_.push_back({vertex, start, along, found.least, found.most, found.share});
+    if (found.min_share < found.max_share) {
+      loose_.push_back({vertex, start, along, found.min_share, found.max_share, found.share});
     }
     return vertex;
   }
@@ -244,7 +245,7 @@ class Marcher {
     const Vec3 delta = field_.spacing * (position(place(q)) - position(place(p)));
     const Vec3& g = field_.gradient[x];
     const EdgeValue here{field_.erosion[x], dot(g, delta)};
-    if (y == SlabIndex::kOutside || has_gap(p, q)) {
+    if (y == LayerIndex::kOutside || has_gap(p, q)) {
       // Without a cut, p and q disagree about the surface by rounding, and it is near one of them.
       const double surface = cut == nullptr ? 1 : p == (p & q) ? cut->leaves : 1 - cut->enters;
       const double t = level_crossing_before_surface(here, surface, level_);
@@ -269,7 +270,7 @@ class Marcher {
   double level_;
   LatticeCuts cuts_;
   ErodedPlaces places_;
-  SlabIndex ranks_;  // of layer at_[0] + 1 and the two beside it
+  LayerIndex ranks_;  // of layer at_[0] + 1 and the two beside it
   Place dims_{};
   std::array<Layer, 2> layers_;
   // The cube in hand.

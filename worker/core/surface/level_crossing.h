@@ -8,7 +8,7 @@ namespace affskel::core {
 /// which the data leave it open: all three equal where E is continuous.
 struct LevelCrossing {
   double share = 0;
-  double least = 0, most = 0;
+  double min_share = 0, max_share = 0;
 };
 
 /// Where E falls to `level` between two sample points with no surface between them, from `above`
