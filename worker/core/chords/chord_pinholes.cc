@@ -1,3 +1,6 @@
+// Once round a lattice square, the sheet is crossed as often one way as the other.  So a square with one
+// shock on its edges lies on the sheet's rim.  Where three or four of the squares round an edge do, the sheet
+// passes between the edge's ends, and their tangents merely fail to say where.
 #include "core/chords/chord_pinholes.h"
 
 #include <algorithm>
@@ -11,7 +14,7 @@
 namespace affskel::core {
 namespace {
 
-// The edges without a shock that most of the squares round them ask for one; ascending.
+// The edges without a shock of whose squares most lie on the rim; ascending.
 std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const ChordShock> shocks) {
   std::vector<std::uint32_t> all(shocks.size());
   std::iota(all.begin(), all.end(), 0U);

@@ -1,3 +1,12 @@
+// Step 3 of chord_pruning.h joins pieces by shortest paths from all pieces at once, then a least spanning
+// tree of the pieces (Mehlhorn 1988).  A shock costs 1 / (r w): 1 for opposite normals, 4 at 60 degrees, 100
+// and more between two facets.
+//
+// Step 4 fills a hole only where the rim shrinks: without that rule, a sheet that goes from one layer of
+// cells to the next fills up with the facets in between.
+//
+// The significance of 0.005, at height / 190 on 11 bodies of 292 to 8560 triangles, leaves one component on
+// all in the frame `axis` and on nine in `affine`; 0.02 leaves one on all in both.
 #include "core/chords/chord_pruning.h"
 
 #include <algorithm>
@@ -25,13 +34,13 @@ double cost(const ChordShock& shock) {
   return 1 / (shock.strength * shock.turn);
 }
 
-// Every cell's cheapest path to a piece, and the paths between pieces that follow from them.  A piece is
-// named by a shock of it.
+// The cheapest path from every cell to a piece, and the paths between pieces that follow from them.  A piece
+// is named by one of its shocks.
 class Paths {
  public:
   struct Path {
     double cost;
-    std::uint32_t shock, a, b;  // leads from cell a through the shock to cell b
+    std::uint32_t shock, a, b;  // crosses from cell a through the shock to cell b
   };
 
   // piece: per cell, kNone where there is none.
@@ -164,7 +173,7 @@ class Pruning {
 
   bool kept(std::uint32_t s) const { return owner_[s] != kNone; }
 
-  // The pieces that the chosen shocks' cells belong to.
+  // Per cell the piece of its shocks; piece_of gives a shock's piece or kNone.
   template <class PieceOf>
   std::vector<std::uint32_t> pieces_by_cell(PieceOf piece_of) {
     std::vector<std::uint32_t> piece(cells_.size(), kNone);
@@ -222,7 +231,7 @@ class Pruning {
     }
   }
 
-  // All at once, so that the order does not matter.  Whether there was any.
+  // Adds all shocks at once, so that their order does not matter; returns whether there were any.
   bool fill_holes() {
     std::vector<std::uint8_t> used(cells_.size(), 0);
     std::vector<std::uint32_t> sheet;

@@ -1,3 +1,7 @@
+// Placing a vertex: least squares on the tangent planes of its cell's shocks, drawn towards their mean.  On
+// the rim the mean alone would lie on the outermost shocks, and a strip one shock wide would have no area:
+// there a vertex goes half way to the middle of its cell, in the sheet's plane.  What comes to lie outside
+// the solid goes back to the shocks' mean or the nearest shock.
 #include "core/chords/chord_sheet.h"
 
 #include <algorithm>
@@ -79,7 +83,7 @@ class Contouring {
   }
 
  private:
-  // One shock of a cell as the others see it: normal and sides turned to agree with the first one's.
+  // A shock of a cell, its normal and its two sides turned to agree with the first shock's.
   struct Side {
     Vec3 normal, gradient_a, gradient_b;
   };
@@ -105,7 +109,8 @@ class Contouring {
     for (std::uint32_t s : members) {
       const ChordShock& shock = shocks_[s];
       const Side seen = side(shock, reference);
-      // In the sheet both branches change alike, so their mean gradient leads from the shock to the vertex.
+      // Along the sheet both branches change equally, so their mean gradient leads from the shock to the
+      // vertex.
       const Vec3 slope = 0.5 * (shock.gradient_low + shock.gradient_high);
       v.erosion += share * (shock.erosion + dot(slope, v.position - shock.position));
       v.strength += share * shock.strength;

@@ -1,10 +1,14 @@
 // Notation (see README.md in worker/core).  d: the direction; h(y) = d.y; ranks order the vertices by height.
 // A(t) is the area of a component's section at height t, V(t) its integral, the component's volume below t.
-// A is quadratic between vertices; what changes at them is prepared by section_bends.
+// A is quadratic between vertices; section_bends prepares what changes at them.
+//
+// Why the surface alone is enough.  Components of the solid merge only at points of its boundary, where the
+// surfaces merge, too.  Below an inner minimum, the line segment to the point that its ray meets stays in V:
+// so both lie in one component.
 //
 // A surface that crosses itself bounds the region that it winds round at least once, with overlaps counted
-// twice in volumes.  Components of that region are those of the surface's parts, joined where parts cross
-// (at_crossing) and where one is born inside another (nested minima, treated as inner ones).
+// twice in volumes.  Its components are joined where triangles cross (at_crossing) and where one is born
+// inside another (nested minima, which are treated as inner minima).
 #include "core/erosion/join_tree.h"
 
 #include <algorithm>
@@ -26,18 +30,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kThinRim = 1e-9;  // radians: what angle-weighted normals sum up to
 // Small trees get about this many bins in all: filling them costs less than the chords they save.
 constexpr std::uint32_t kMinBins = 1024;
-// Vertices in the order of their heights lie all over the memory of a large mesh; asking for them this many
-// ahead hides the wait.
+// Vertices are prefetched this many ahead: in the order of their heights they are scattered over memory.
 constexpr std::uint32_t kAhead = 16;
 
-// The exact A' and A'' / 2 of one component at its last cubic, which has them rounded.  Nearly level
-// triangles make these two huge until they cancel; A and V stay moderate, and the cubic's own are good
-// enough.
+// The exact A' and A'' / 2 of one component at its last cubic, which holds them rounded.  Nearly level
+// triangles make these two huge until they cancel; A and V stay moderate, and need no second double.
 struct Running {
   DoubleSum slope, bend;
 };
 
-// Up to `height` from the last cubic; adds volume, area and the exact values there to `sum` and `exact`.
+// Moves a component from its last cubic up to `height`: adds volume and area to `sum`, the derivatives to
+// `exact`.
 inline void advance(const Running& running, const Cubic& last, double height, Cubic& sum, Running& exact) {
   sum.volume += last.volume_at(height);
   sum.area += last.area_at(height);
@@ -57,7 +60,7 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-// Adds up the coefficients vertex by vertex and writes the cubics; returns the most negative step of a
+// Adds up the coefficients vertex by vertex and writes the cubics; returns the most negative change of a
 // volume.
 double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends& bends,
                     const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
@@ -226,10 +229,10 @@ class JoinTreeBuilder::Work {
     return join_meeting(r);
   }
 
-  // Where the surface crosses itself the parts of the solid on both sides overlap and are one.  Joined at
-  // the lower ends of the two triangles, at most their height too early: that makes single chords too large,
-  // which other directions put right, and none too small, which nothing would.  The later of the two lower
-  // ends joins them: only triangles that begin here can cross one that nobody has joined with them yet.
+  // Where two triangles cross, the regions on both sides are one.  They are joined at the higher of the two
+  // triangles' lowest corners: only triangles that begin at v can cross one that nobody has joined with them
+  // yet.  That is early by at most a triangle's height.  Single chords become too large, which other
+  // directions put right; none becomes too small, which nothing would.
   std::uint32_t at_crossing(std::uint32_t r) {
     const std::uint32_t v = heights_.order()[r];
     meeting_.clear();
@@ -274,9 +277,9 @@ class JoinTreeBuilder::Work {
     }
   }
 
-  // Bins of equal height, as many as cubics or, in small trees, a multiple of that.  Entry c: the last cubic
-  // in a bin before c, else the first cubic, which therefore reaches up to where bin c begins; one entry
-  // more after the last bin: the last cubic.
+  // As many bins as cubics or, in small trees, a multiple of that.  Entry c: the last cubic that begins in a
+  // bin before c, or the first cubic; it therefore reaches up to where bin c begins.  One more entry after
+  // the last bin: the last cubic.
   void fill_bins() {
     const auto cubics = static_cast<std::uint32_t>(tree_.cubics.size());
     const std::uint32_t bins_per_cubic = cubics < kMinBins ? kMinBins / cubics : 1;
@@ -291,7 +294,7 @@ class JoinTreeBuilder::Work {
     }
   }
 
-  // Without a branch: how many cubics fall into a bin cannot be foreseen.
+  // Without a branch, for the processor could not predict how many cubics fall into a bin.
   void fill_bins(Arc& arc) {
     const std::uint32_t last = arc.last_cubic - arc.first_cubic, last_bin = arc.last_bin - arc.first_bin;
     const Cubic* cubics = &tree_.cubics[arc.first_cubic];
@@ -315,7 +318,7 @@ class JoinTreeBuilder::Work {
     volume[last_bin + 1] = cubics[last].volume;
   }
 
-  // Where volumes may fall, a bin's entry becomes the least volume from there on, up to the root.
+  // Where volumes may fall, the volume of a bin becomes the least one from there up to the root.
   void lower_bins() {
     for (std::size_t a = tree_.arcs.size(); a-- > 0;) {  // parents before their children
       const Arc& arc = tree_.arcs[a];
@@ -337,7 +340,7 @@ class JoinTreeBuilder::Work {
     }
   }
 
-  // At most so much V falls between a cubic's beginning and its end.
+  // The most by which V falls between a cubic's beginning and its end.
   static double fall(const Cubic& cubic, double end) {
     const double b = cubic.half_slope, c3 = 3 * cubic.sixth_bend, width = end - cubic.height;
     double least = std::min(cubic.area, cubic.area_at(end));

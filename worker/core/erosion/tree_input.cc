@@ -13,7 +13,7 @@
 namespace affskel::core {
 namespace {
 
-// Of the plain kind: which side of a vertex the solid lies on is decided by these.
+// Not by libm: which side of a vertex the solid lies on is decided by these angles.
 double angle_between(const Vec3& a, const Vec3& b) {
   return plain_angle(norm(cross(a, b)), dot(a, b));
 }

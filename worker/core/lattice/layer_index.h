@@ -8,9 +8,9 @@
 
 namespace affskel::core {
 
-/// Which sample point stands at lattice place (i, j, k), for three neighbouring i at a time: the whole box
-/// would be far larger than the solid in it.  For algorithms that walk over a lattice and look at the 26
-/// neighbours.  Keeps a reference to the lattice.
+/// Which sample point stands at lattice place (i, j, k), for three neighbouring layers of constant i at a
+/// time: an index of the whole box would be far larger than the solid.  For algorithms that walk over a
+/// lattice and look at the 26 neighbours.  Keeps a reference to the lattice.
 class LayerIndex {
  public:
   /// No sample point stands there.

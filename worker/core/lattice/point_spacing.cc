@@ -1,3 +1,12 @@
+// Most solids have the target at dT = (v0 / target)^(1/3), which make_lattice tries first.  Solids thinner
+// than that do not: a plate between two layers of points has none, one that a layer runs through has too
+// many, and the number of points jumps as dT changes and need not fall as dT grows.  So from `first` dT is
+// doubled or halved until the target is bracketed, and the bracket halved in the logarithm until a lattice is
+// near.
+//
+// Where none is, and first of all for foils, spacings round (A / 2 target)^(1/2) are tried, A the area of the
+// surface: one layer through the middle of all that is thin.  If that fails, too (two layers have twice the
+// points of one), the nearest lattice that was met is taken.
 #include "core/lattice/point_spacing.h"
 
 #include <cmath>
@@ -10,12 +19,12 @@ namespace {
 
 constexpr int kMaxDoublings = 60;
 constexpr int kMaxHalvings = 24;      // of the bracket in the logarithm: to a part in 10^7
-constexpr int kTrials = 24;           // to either side of the spacing for single layers ...
-constexpr double kTrialStep = 0.004;  // ... in the logarithm: 10 %
+constexpr int kTrials = 24;           // to either side of the spacing of single layers
+constexpr double kTrialStep = 0.004;  // between two of them, in the logarithm: 10 % in all
 
-constexpr double kFoilRatio = 4;  // thicknesses of a foil
+constexpr double kFoilRatio = 4;  // of the spacing to the mean thickness of a foil
 
-// Of the surface.
+// Area of the surface.
 double scaled_area(const Solid& solid) {
   const std::vector<Vec3>& p = solid.mesh.points;
   double sum = 0;

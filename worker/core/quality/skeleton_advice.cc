@@ -51,7 +51,7 @@ std::string on_threshold(std::vector<double> size, double threshold) {
   if (largest == 0) return found + ": the optimal normals do not change anywhere.";
   const auto wanted = size.begin() + static_cast<std::ptrdiff_t>(points_of_a_sheet(size.size()) - 1);
   std::nth_element(size.begin(), wanted, size.end(), std::greater<>());
-  // Below the wanted point's |H| by more than writing it in three digits can raise it.
+  // Lowered by 1 %, more than rounding to three digits can raise it.
   const double least = *wanted > 0 ? *wanted : largest;
   const std::string lower = base::rounded(0.99 * least, 3);
   const double bound = std::strtod(lower.c_str(), nullptr);

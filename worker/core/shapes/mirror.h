@@ -4,7 +4,7 @@
 
 namespace affskel::core {
 
-/// The part of a closed manifold mesh on the side x >= 0, its cut edges on the plane x = 0 exactly and
+/// The half of a closed manifold mesh at x >= 0, its cut edges on the plane x = 0 exactly and
 /// left open.  Vertices within `snap` of the plane are moved onto it first, which avoids slivers.
 Mesh positive_x_half(Mesh mesh, double snap);
 

@@ -15,7 +15,7 @@
 namespace affskel::core {
 
 /// The optimal normals round one sample point.  A neighbour outside the solid counts as the centre itself, so
-/// that the solid's surface is no shock (measured against other rules: README.md in worker/core); a point
+/// that the solid's surface is no shock (measured against other rules in shock_operator.cc); a point
 /// without a direction has the normal 0.
 ///
 /// Goes along the lattice's last axis: of the 27 normals 18 are the point's before, and looking one up costs

@@ -45,8 +45,8 @@ class BoxTree {
   void walk(const Query& query, std::int64_t above, Visit visit) const {
     walk_halved_nodes(
         nodes_, [&](const Node& node) { return node.max_index > above && query.meets(node.box); },
-        [&](std::uint32_t place) {
-          const std::uint32_t item = items_[place];
+        [&](std::uint32_t position) {
+          const std::uint32_t item = items_[position];
           if (item > above && query.meets(boxes_[item])) visit(item);
         });
   }

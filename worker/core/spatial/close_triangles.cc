@@ -10,7 +10,8 @@
 namespace affskel::core {
 namespace {
 
-// From here on fans and slivers get boxes of their own: below, comparing all the triangles costs less.
+// Fans of more triangles, and slivers when there are more, get boxes of their own.  For fewer, comparing all
+// of them costs less.
 constexpr std::uint32_t kMaxLoose = 64;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -96,9 +97,9 @@ CloseTriangles::CloseTriangles(const Mesh& mesh, const std::vector<Box>& boxes, 
   group_tree_ = BoxTree(std::move(whole), threads);
 }
 
-// Each triangle goes to the largest of the large fans at its corners.  What it then has to do with a smaller
-// fan at another corner is found triangle by triangle: of two neighbouring vertices, the lesser number of
-// triangles counts, and in a surface like a sphere's these sum to O(N) (Chiba and Nishizeki 1985).
+// Each triangle goes to the largest of the large fans at its corners.  Smaller fans at its other corners are
+// searched triangle by triangle.  Of two neighbouring vertices the one with fewer triangles counts; in a
+// surface like a sphere's these numbers sum to O(N) (Chiba and Nishizeki 1985).
 void CloseTriangles::assign_groups(const Mesh& mesh) {
   std::vector<std::uint32_t> valence(mesh.points.size(), 0);
   for (const Triangle& t : mesh.triangles) {

@@ -11,12 +11,10 @@ namespace affskel::core {
 
 /// Finds the triangles that come close to a triangle, by bounding boxes.
 ///
-/// Boxes parallel to the axes fail where there are many slivers, long and oblique: the boxes of the sides of
-/// a tilted cylinder nearly all meet.  Hence slivers have boxes along their own directions.
-///
-/// All boxes fail within large fans, the triangles round a vertex with very many: all of them hold the
-/// vertex. Two triangles of such a fan are compared as seen from the vertex, by boxes round the arcs that
-/// their opposite sides draw on the unit sphere.
+/// Most triangles have axis-parallel boxes.  Slivers (long, thin and oblique) have oriented ones: the
+/// axis-parallel boxes of the sides of a tilted cylinder nearly all meet.  In a large fan, the triangles
+/// round one vertex, all boxes meet at the vertex; so its triangles are compared by the boxes of the arcs
+/// that their opposite sides draw on a unit sphere round the vertex.
 ///
 /// Immutable after construction; queries from several threads are safe.
 class CloseTriangles {

@@ -11,6 +11,20 @@
 // sides, once in each sense: the joins close to loops, and discs in the loops to a closed manifold.  When the
 // two stops of one edge are joined (the end of a gap), they are so by way of a *rim* vertex of that side,
 // so that no two sides have a join in common.
+//
+// Where vertices lie.  A vertex is on an edge of the split between a full place and one that is not in the
+// eroded solid, or that the surface of V cuts off from it: where E falls to the level or, where E has a limit
+// above the level (at concave places), on the surface of V (level_crossing.h, lattice_cuts.h).  Two sample
+// points above the level with a gap of V between them, however narrow, are thus not joined along their edge.
+// Where E jumps, because chords begin to take in a limb more, the data leave a vertex open on its edge, and
+// it moves to an even place among its neighbours (loose_vertices.h).  Short edges are collapsed onto one of
+// their ends (tidy_mesh.h), so every vertex stays a crossing.  All that decides the shape happens in lattice
+// coordinates.
+//
+// Measured on a ball of radius 1, the level's ball having the radius r: vertices lie within 0.02 spacings of
+// it at the spacings 0.1 and 0.05 (0.05 within a spacing of the surface), and the volume falls short by at
+// most 0.4 (spacing / r)^2 of itself.  On a torus of radii 2 and 0.7, levels of 0.001 to 0.03 v0, halving the
+// spacing from 0.2 to 0.1 changes the volume by less than 2 %.
 #include "core/surface/eroded_solid.h"
 
 #include <algorithm>

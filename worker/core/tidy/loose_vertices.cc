@@ -27,7 +27,7 @@ std::vector<Triangle> loose_triangles(std::span<const LooseVertex> loose, const 
 
 void relax(const Surroundings& around, LooseVertex& loose) {
   const double rise = dot(loose.along, around.normal);
-  // A segment along the surface says little of where they meet.
+  // Where a line runs along the surface, their meeting point is ill-defined.
   constexpr double kMinSine = 0.2;
   if (around.count == 0 || !(rise * rise > kMinSine * kMinSine * dot(loose.along, loose.along) *
                                                dot(around.normal, around.normal))) {
