@@ -114,7 +114,7 @@ class Decoder {
                                   : number_at<std::uint32_t>(bytes.data());
   }
 
-  // The bytes behind their number.
+  // The bytes behind the header that gives their number.
   std::string_view body(std::string_view bytes) const {
     const std::uint64_t length = announced(bytes);
     if (length > bytes.size() - header_size()) {
@@ -124,7 +124,7 @@ class Decoder {
     return bytes.substr(header_size(), length);
   }
 
-  // Other arrays follow without a mark: how much is this one's is known from its length.
+  // Other arrays follow without a separator: the header gives the length of this one.
   std::vector<double> appended_base64(std::string_view text, const Type& type) const {
     constexpr std::size_t kHead = 12;  // digits that hold any header
     const std::uint64_t length = announced(from_base64(text.substr(0, kHead)));

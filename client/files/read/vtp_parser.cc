@@ -157,7 +157,7 @@ class VtpReader {
     return whole;
   }
 
-  // Vertices are counted only.
+  // Cells of the section `Verts` are only counted.
   void read_cells(VtpPiece& piece, const std::string& section) {
     if (section == "Verts" && !piece.announced.contains(section)) return;
     const std::vector<VtkArray>& arrays = piece.arrays[section];
