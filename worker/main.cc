@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
   }
   if (*compute) return run_compute(flags.compute);
   const auto logger = spdlog::stderr_logger_mt("affskel-worker");
-  // As the server's lines, which these stand among when the server supervises this worker.
+  // The format of the server's log, in which the lines of supervised workers appear.
   logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
   logger->set_level(spdlog::level::from_str(flags.log_level));
   spdlog::set_default_logger(logger);

@@ -24,7 +24,7 @@ class LeaseLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same, because what the task needs is damaged or cannot be read: the next task may meet that, too.
+/// The same, because an input of the task is damaged or cannot be read; the next task may fail for that, too.
 class InputDamaged : public LeaseLost {
  public:
   using LeaseLost::LeaseLost;
@@ -98,7 +98,7 @@ class ServerLink {
   ServerLinkOptions options_;
   std::stop_token stop_;
   std::atomic<std::uint64_t> seed_;  // of the pauses of the next call
-  std::atomic<bool> away_ = false;   // as far as the log knows
+  std::atomic<bool> away_ = false;   // whether the log says that the server is away
 };
 
 }  // namespace affskel::worker

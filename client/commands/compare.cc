@@ -37,14 +37,14 @@ void appear(std::optional<AtomicFile>& file, const std::string& path, Console& c
 }
 
 void run(Console& console, const Options& options) {
-  // Wrong extensions are known before the work is done.
+  // Refuse wrong extensions before the work is done.
   constexpr FileFormat kPlot[] = {FileFormat::kSvg}, kTable[] = {FileFormat::kCsv};
   if (!options.plot.empty()) choose_format(options.plot, kPlot, "plot");
   if (!options.output.empty()) choose_format(options.output, kTable, "table");
   std::optional<AtomicFile> plot = opened(options.plot), table = opened(options.output);
   const Comparison comparison = compare_files(options.comparison, console);
   nlohmann::ordered_json document = comparison_json(comparison);
-  // Both are complete on the disk before either appears.
+  // Write both to the disk before either appears.
   fill(plot, [&] { return svg_of(comparison_plot(comparison)); });
   fill(table, [&] { return comparison_csv(comparison); });
   appear(plot, options.plot, console);

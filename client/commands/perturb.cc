@@ -40,7 +40,7 @@ double fraction_of(const std::string& text) {
   return *share;
 }
 
-// The surface crosses itself when it does so as one whose corners at the same place are joined.
+// Whether the surface crosses itself once corners at the same place are joined.
 bool crosses_itself(core::Mesh mesh) {
   const std::vector<std::uint32_t> first = core::first_coincident_point(mesh.points);
   for (core::Triangle& t : mesh.triangles) {

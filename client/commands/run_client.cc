@@ -39,7 +39,7 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   if (arguments.empty()) io.err << app.help();
   const bool no_command =
       end.get_name() == "RequiredError" && std::string(end.what()).find("subcommand") != std::string::npos;
-  // A misspelt command is left over, and more helpful to name than what is missing.
+  // CLI11 leaves a misspelt command over: naming it helps more than naming what is missing.
   const std::vector<std::string> unknown = no_command ? app.remaining(true) : std::vector<std::string>();
   const std::string missing =
       unknown.empty() ? "no command was given" : "no command '" + unknown.front() + "'";

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kUnaryDeadline{30};
-// How long an embedded server that never answered may keep us.
+// How long to wait for the first answer of an embedded server.
 constexpr std::chrono::milliseconds kStartPatience{10000};
 constexpr int kMaxMessageBytes = 64 << 20;  // long job lists; pieces of streams are far smaller
 // Servers refuse pings more often than every five minutes.
@@ -161,7 +161,7 @@ void Session::connect() {
 
 void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet) {
   std::chrono::milliseconds pause = policy_.first_pause;
-  std::optional<Clock::time_point> failing;  // since when: calls may take long
+  std::optional<Clock::time_point> failing;  // since the first error: a call itself may take long
   while (true) {
     if (!stub_) connect();
     const grpc::Status status = attempt(*stub_);
@@ -256,9 +256,9 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   }
   grpc::Status status = reader->Finish();
   if (is_final(last.state())) return grpc::Status::OK;
-  // A job without a final state has no last message: the server is shutting down.
+  // Without a final state the stream ends only because the server shuts down.
   if (!status.ok() && !is_away(status)) return status;
-  // A message is a success: the patience counts from it.
+  // After a message, patience begins anew.
   if (any) return grpc::Status::OK;
   return {grpc::StatusCode::UNAVAILABLE, status.ok() ? "the server ended the watch" : status.error_message()};
 }

@@ -85,8 +85,8 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
   return comments;
 }
 
-// The points' share of v0.  The lattice's cells would give another sum, wrong where the solid is thin; this
-// is v0 when all points are left.
+// v0 times the share of the sample points, so that all points give v0.  Cells of the lattice would give
+// another sum, wrong where the solid is thin.
 double volume_of_points(const v1::Job& job, int points) {
   const double all = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
   return job.prepared().volume() * (points / all);

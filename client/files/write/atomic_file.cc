@@ -162,7 +162,7 @@ void AtomicFile::copy_to_stream() {
   buffer_.clear();
   errno = error;
   if (!written || got < 0) fail("cannot write");
-  // What was sent is not sent again.
+  // Emptied, so that nothing is sent twice.
   if (ftruncate(fd_, 0) != 0 || lseek(fd_, 0, SEEK_SET) != 0) fail("cannot write");
 }
 

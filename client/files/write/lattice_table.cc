@@ -93,7 +93,7 @@ class ImageOutput : public LatticeTable::Output {
   void finish() override { image_.finish(); }
 
  private:
-  // One of both, by the column's type.
+  // Only one of the two arrays is used, by the type of the column.
   struct Array {
     unsigned components;
     VtkHdfArray<double>* real;

@@ -8,10 +8,7 @@
 
 namespace affskel::core {
 
-/// Threshold for |H|, without unit and whatever the spacing.  With s a step to a neighbour, the sum of
-/// n(x + s) . s / |s| over the 26 of them is, regrouped by axes, Zucker and Hummel's sum of differences:
-/// their weights 1, sqrt(2)/2, sqrt(3)/3 are the 1 / |s|.  On a lattice the average outward flux therefore is
-/// their H / 26, and 7 / 26 keeps the same points, up to rounding.
+/// Threshold for |H|, without unit and whatever the spacing: on a lattice H is Zucker and Hummel's / 26.
 constexpr double kAverageOutwardFluxThreshold = kZuckerHummelThreshold / 26;
 
 /// H = div n of the optimal normals at every sample point as the average outward flux through the sphere of

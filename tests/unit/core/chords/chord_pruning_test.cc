@@ -259,8 +259,8 @@ TEST(SignificantShocks, TellsWhatThereWasToChooseFrom) {
   EXPECT_EQ(kept.census.candidates, 156U);
   EXPECT_EQ(kept.census.wide, 131U);
   EXPECT_EQ(kept.census.strong, 125U);
-  EXPECT_EQ(kept.census.widest_turn, 0.9);
-  EXPECT_NEAR(kept.census.heaviest_piece, 0.8, 1e-12);
+  EXPECT_EQ(kept.census.max_turn, 0.9);
+  EXPECT_NEAR(kept.census.max_piece_share, 0.8, 1e-12);
 }
 
 TEST(SignificantShocks, NothingComesOfNothing) {
