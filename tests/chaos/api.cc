@@ -1,7 +1,8 @@
 #include "api.h"
 
 #include <algorithm>
-#include <thread>
+
+#include "../let_pass.h"
 
 namespace affskel::chaos {
 namespace {
@@ -10,7 +11,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kChunk = std::size_t{1} << 18;
 // So long one attempt of a call that is repeated may take.
 constexpr Milliseconds kAttempt{5000};
-// Before a call is repeated; nobody waits for anything else meanwhile.
+// Before a call is repeated: a server that refuses (a full disk, no place) does not tell when it will no
+// longer.
 constexpr Milliseconds kPause{20};
 
 [[noreturn]] void break_off(const std::string& what, const grpc::Status& status) {
@@ -193,7 +195,7 @@ grpc::Status until_answered(const std::string& what, const std::function<grpc::S
     const grpc::Status status = call();
     if (!worth_repeating(status)) return status;
     if (Clock::now() > give_up) break_off(what, status);
-    std::this_thread::sleep_for(kPause);
+    tests::let_pass(kPause);
   }
 }
 

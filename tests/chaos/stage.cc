@@ -8,13 +8,14 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <thread>
 
 namespace affskel::chaos {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr Milliseconds kLook{20};
+// A call waits for the server, and an end is waited for between two of them: neither is missed for long.
+constexpr Milliseconds kAnswer{500};
+constexpr Milliseconds kEnd{20};
 
 }  // namespace
 
@@ -68,10 +69,9 @@ void Stage::start_workers() {
 void Stage::wait_for_server() {
   const Clock::time_point give_up = Clock::now() + kPatience;
   v1::ServerInfo info;
-  while (!api_.info(info, Milliseconds(500)).ok()) {
-    if (!server_.alive()) return;
+  while (!api_.info(info, kAnswer).ok()) {
+    if (Process::one_ends({&server_, 1}, kEnd)) return;
     if (Clock::now() > give_up) throw Hang("the server does not answer");
-    std::this_thread::sleep_for(kLook);
   }
 }
 
@@ -86,11 +86,8 @@ void Stage::wait_for_workers() {
       });
     });
     if (heard == kWorkers) return;
-    for (const Process& worker : workers_) {
-      if (!worker.alive()) return;  // whoever restarts the dead ones calls again
-    }
+    if (Process::one_ends(workers_, kEnd)) return;  // whoever restarts the dead ones calls again
     if (Clock::now() > give_up) throw Hang("a worker is not heard from: " + info.ShortDebugString());
-    std::this_thread::sleep_for(kLook);
   }
 }
 

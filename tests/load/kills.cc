@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <random>
 #include <string>
-#include <thread>
 
 #include "../integration/lab.h"
+#include "../let_pass.h"
 #include "loads.h"
 
 namespace affskel::load {
@@ -35,7 +35,7 @@ Kill kill_once(const integration::Lab& lab, const std::string& id, integration::
   const std::uint64_t before = lab.job(id).counters().reports();
   lab.follow(id, [&](const v1::Job& job) { return job.counters().reports() > before; });
   const Clock::time_point heard = Clock::now();
-  std::this_thread::sleep_for(after);
+  tests::let_pass(std::chrono::duration_cast<std::chrono::nanoseconds>(after));
   Kill kill;
   kill.unreported = seconds_since(heard);
   worker.kill_hard();
