@@ -57,8 +57,8 @@ class DamageTest : public testing::Test {
     return lab_.run(arguments);
   }
 
-  /// Where a record of the field, or one of the next, lies in the file.  Two in a row: reports that were merged
-  /// may still lie about.  The next, for pages end between records or within one.
+  /// Where a record of the field, or one of the next, lies in the file.  Two in a row: reports that were
+  /// merged may still lie about.  The next, for pages end between records or within one.
   std::size_t place_of(std::size_t record) const {
     const std::string file = lab_.read("data/affskel.db");
     std::size_t at = std::string::npos;

@@ -14,7 +14,7 @@ constexpr int kLimit = 8;
 class FullDiskTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!lab_.can_mount()) GTEST_SKIP() << "no mounts of its own for this user here";
+    if (!lab_.can_mount()) GTEST_SKIP() << kCannotMount;
     ASSERT_EQ(
         lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "512", "-o", lab_.path("m.off")})
             .exit_code,
