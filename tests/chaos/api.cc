@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "../let_pass.h"
+#include "tools/let_pass.h"
 
 namespace affskel::chaos {
 namespace {
@@ -22,6 +22,19 @@ constexpr Milliseconds kPause{20};
 void limit_to(grpc::ClientContext& context, Milliseconds limit) {
   context.set_wait_for_ready(true);
   context.set_deadline(std::chrono::system_clock::now() + limit);
+}
+
+// One of the calls whose request is a job's id.
+template <typename Request, typename Response>
+grpc::Status call_on_job(v1::ErosionService::Stub& stub,
+                         grpc::Status (v1::ErosionService::Stub::*call)(grpc::ClientContext*, const Request&,
+                                                                        Response*),
+                         const std::string& id, Response& response, Milliseconds limit) {
+  grpc::ClientContext context;
+  limit_to(context, limit);
+  Request request;
+  request.set_job(id);
+  return (stub.*call)(&context, request, &response);
 }
 
 v1::SubmitJobRequest header_of(const Submission& submission) {
@@ -89,36 +102,20 @@ grpc::Status Api::submit(const Submission& submission, v1::SubmitJobResponse& re
 }
 
 grpc::Status Api::job(const std::string& id, v1::Job& job, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::GetJobRequest request;
-  request.set_job(id);
-  return client_->GetJob(&context, request, &job);
+  return call_on_job(*client_, &v1::ErosionService::Stub::GetJob, id, job, limit);
 }
 
 grpc::Status Api::cancel(const std::string& id, v1::Job& job, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::CancelJobRequest request;
-  request.set_job(id);
-  return client_->CancelJob(&context, request, &job);
+  return call_on_job(*client_, &v1::ErosionService::Stub::CancelJob, id, job, limit);
 }
 
 grpc::Status Api::resume(const std::string& id, v1::Job& job, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::ResumeJobRequest request;
-  request.set_job(id);
-  return client_->ResumeJob(&context, request, &job);
+  return call_on_job(*client_, &v1::ErosionService::Stub::ResumeJob, id, job, limit);
 }
 
 grpc::Status Api::remove(const std::string& id, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::DeleteJobRequest request;
   v1::DeleteJobResponse response;
-  request.set_job(id);
-  return client_->DeleteJob(&context, request, &response);
+  return call_on_job(*client_, &v1::ErosionService::Stub::DeleteJob, id, response, limit);
 }
 
 grpc::Status Api::info(v1::ServerInfo& info, Milliseconds limit) const {

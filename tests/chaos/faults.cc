@@ -4,7 +4,7 @@
 #include <random>
 #include <thread>
 
-#include "../let_pass.h"
+#include "tools/let_pass.h"
 
 namespace affskel::chaos {
 

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tools/files.h"
+
 namespace affskel::chaos {
 namespace {
 
@@ -125,7 +127,7 @@ void Stage::start_over() {
 }
 
 int Stage::port() const {
-  const auto published = nlohmann::json::parse(read_file(data_dir_ + "/server.json"), nullptr, false);
+  const auto published = nlohmann::json::parse(tests::read_file(data_dir_ + "/server.json"), nullptr, false);
   if (!published.is_object()) return 0;
   for (const auto& address : published.value("addresses", std::vector<std::string>())) {
     if (address.rfind("127.0.0.1:", 0) == 0) return std::stoi(address.substr(10));
@@ -135,10 +137,11 @@ int Stage::port() const {
 
 std::string Stage::check(const std::string& data_dir) const {
   const std::string log = path("check.log");
-  write_file(log, "");
+  tests::write_file(log, "");
   const auto code = run({{programs_.server, "check", "--data-dir", data_dir}, "", log, {}}, kPatience);
   if (code == 0) return "";
-  return "check ended with " + (code ? std::to_string(*code) : "nothing, in time") + ": " + read_file(log);
+  return "check ended with " + (code ? std::to_string(*code) : "nothing, in time") + ": " +
+         tests::read_file(log);
 }
 
 }  // namespace affskel::chaos

@@ -15,10 +15,7 @@ class FullDiskTest : public testing::Test {
  protected:
   void SetUp() override {
     if (!lab_.can_mount()) GTEST_SKIP() << kCannotMount;
-    ASSERT_EQ(
-        lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "512", "-o", lab_.path("m.off")})
-            .exit_code,
-        0);
+    lab_.make_torus(512);
   }
 
   Output submit(const std::string& points) const {

@@ -3,10 +3,10 @@
 #include <thread>
 
 #include "../integration/lab.h"
-#include "../let_pass.h"
 #include "loads.h"
 #include "made_up_worker.h"
 #include "process_stats.h"
+#include "tools/let_pass.h"
 
 namespace affskel::load {
 namespace {

@@ -1,6 +1,6 @@
 #include "made_up_worker.h"
 
-#include "../let_pass.h"
+#include "tools/let_pass.h"
 #include "wire/direction_order.h"
 #include "wire/sha256.h"
 
