@@ -6,10 +6,10 @@
 #include <cmath>
 #include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "lease_keeper.h"
 #include "wire/direction_order.h"
 #include "wire/erosion_bound.h"
@@ -38,7 +38,7 @@ class Progress : public core::ExecutionContext {
   void stop() { stop_ = true; }
 
   void item_done(std::uint64_t item) override {
-    const std::lock_guard<std::mutex> guard(mutex_);
+    const base::MutexLock guard(mutex_);
     done_.push_back(positions_[item]);
     ++done_in_all_;
     if (!nearly_done_ && time_left() < kAhead) {
@@ -49,7 +49,7 @@ class Progress : public core::ExecutionContext {
 
   void finish() {
     {
-      const std::lock_guard<std::mutex> guard(mutex_);
+      const base::MutexLock guard(mutex_);
       finished_ = true;
     }
     changed_.notify_all();
@@ -59,8 +59,11 @@ class Progress : public core::ExecutionContext {
 
   // Waits for the computation to end, to come near its end (told once), or the time to pass.
   Event wait_for_event(std::chrono::steady_clock::time_point until, const std::stop_token& stop) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    const auto something = [this] { return finished_ || (nearly_done_ && !nearly_done_told_); };
+    base::MutexLock lock(mutex_);
+    const auto something = [this] {
+      mutex_.assert_held();
+      return finished_ || (nearly_done_ && !nearly_done_told_);
+    };
     changed_.wait_until(lock, stop, until, something);
     if (finished_) return Event::kEnd;
     if (!nearly_done_ || nearly_done_told_) return Event::kTime;
@@ -69,15 +72,18 @@ class Progress : public core::ExecutionContext {
   }
 
   void wait_for_end() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait(lock, [this] { return finished_; });
+    base::MutexLock lock(mutex_);
+    changed_.wait(lock, [this] {
+      mutex_.assert_held();
+      return finished_;
+    });
   }
 
   // Moves what was finished since the last call into the header, as ranges.
   void take_done(v1::ReportErosionHeader& header) {
     std::vector<std::uint64_t> done;
     {
-      const std::lock_guard<std::mutex> guard(mutex_);
+      const base::MutexLock guard(mutex_);
       done.swap(done_);
       header.set_block_done(finished_ && done_in_all_ == positions_.size());
     }
@@ -101,7 +107,7 @@ class Progress : public core::ExecutionContext {
   static constexpr auto kAhead = std::chrono::milliseconds(150);
 
   // For what is not done, at the speed so far.
-  Clock::duration time_left() const {
+  Clock::duration time_left() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     const auto left = static_cast<double>(positions_.size() - done_in_all_);
     return std::chrono::duration_cast<Clock::duration>((Clock::now() - start_) *
                                                        (left / static_cast<double>(done_in_all_)));
@@ -111,13 +117,13 @@ class Progress : public core::ExecutionContext {
   std::vector<std::uint64_t> positions_;
   std::vector<std::uint32_t> directions_;
   std::atomic<bool> stop_{false};
-  std::mutex mutex_;
+  base::Mutex mutex_;
   std::condition_variable_any changed_;
-  std::vector<std::uint64_t> done_;  // guarded by mutex_
-  std::uint64_t done_in_all_ = 0;    // guarded by mutex_
-  bool nearly_done_ = false;         // guarded by mutex_
-  bool nearly_done_told_ = false;    // guarded by mutex_
-  bool finished_ = false;            // guarded by mutex_
+  std::vector<std::uint64_t> done_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t done_in_all_ ABSL_GUARDED_BY(mutex_) = 0;
+  bool nearly_done_ ABSL_GUARDED_BY(mutex_) = false;
+  bool nearly_done_told_ ABSL_GUARDED_BY(mutex_) = false;
+  bool finished_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
 // What improved since the last call, in messages of the size that the wire takes.

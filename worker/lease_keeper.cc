@@ -1,10 +1,10 @@
 #include "lease_keeper.h"
+#include "base/mutex.h"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <stop_token>
 #include <string>
 
@@ -24,9 +24,9 @@ Why renew(ServerLink& link, const std::string& token) {
 
 void keep(ServerLink& link, const std::string& token, std::chrono::milliseconds interval,
           const std::stop_token& stop, TaskContext* context) {
-  std::mutex mutex;
+  base::Mutex mutex;
   std::condition_variable_any wake;
-  std::unique_lock<std::mutex> lock(mutex);
+  base::MutexLock lock(mutex);
   while (!wake.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
     try {
       const Why why = renew(link, token);

@@ -8,7 +8,6 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
-#include <mutex>
 #include <new>
 #include <optional>
 #include <random>
@@ -17,6 +16,7 @@
 
 #include "available_memory.h"
 #include "backoff.h"
+#include "base/mutex.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
 #include "derive/derive.h"
@@ -226,8 +226,8 @@ class LeaseLoop {
   }
 
   void pause(std::chrono::milliseconds time) {
-    std::mutex mutex;
-    std::unique_lock<std::mutex> lock(mutex);
+    base::Mutex mutex;
+    base::MutexLock lock(mutex);
     std::condition_variable_any().wait_for(lock, stop_, time, [] { return false; });
   }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <mutex>
 #include <random>
 
+#include "base/mutex.h"
 #include "retry_policy.h"
 #include "wire/address.h"
 #include "wire/limits.h"
@@ -32,8 +32,8 @@ std::shared_ptr<grpc::Channel> connect(const std::string& text) {
 }
 
 void wait(std::chrono::milliseconds pause, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::unique_lock<std::mutex> lock(mutex);
+  base::Mutex mutex;
+  base::MutexLock lock(mutex);
   std::condition_variable_any().wait_for(lock, stop, pause, [] { return false; });
 }
 

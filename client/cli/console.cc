@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "base/mutex.h"
 #include "client/text/printable.h"
 
 namespace affskel::client {
@@ -29,7 +30,7 @@ void Console::erase_transient() {
 }
 
 void Console::line(const char* colour, std::string_view label, std::string_view text) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   erase_transient();
   if (!label.empty()) err_ << (style_.colour ? colour : "") << label << (style_.colour ? kReset : "") << ' ';
   err_ << text << '\n' << std::flush;
@@ -37,26 +38,26 @@ void Console::line(const char* colour, std::string_view label, std::string_view 
 
 void Console::result(std::string_view text) {
   if (style_.json) return;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   erase_transient();
   out_ << text << std::flush;
 }
 
 void Console::document(const ordered_json& value) {
   if (!style_.json) return;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   out_ << dump(value) << '\n' << std::flush;
 }
 
 void Console::transient(std::string_view text) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   err_ << kClearLine << (style_.colour ? kCyan : "") << printable(text) << (style_.colour ? kReset : "")
        << std::flush;
   transient_shown_ = true;
 }
 
 void Console::clear_transient() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   erase_transient();
 }
 
@@ -77,6 +78,7 @@ void Console::error(const ClientError& error) {
 }
 
 void Console::finish() {
+  const base::MutexLock lock(mutex_);
   out_.flush();
   if (!out_)
     throw ClientError(ExitCode::kLimit,

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <iosfwd>
-#include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
+#include "base/mutex.h"
 #include "client/base/error.h"
 
 namespace affskel::client {
@@ -43,13 +43,13 @@ class Console {
 
  private:
   void line(const char* colour, std::string_view label, std::string_view text);
-  void erase_transient();
+  void erase_transient() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
-  std::mutex mutex_;  // of both streams
-  std::ostream& out_;
-  std::ostream& err_;
+  base::Mutex mutex_;  // of both streams
+  std::ostream& out_ ABSL_GUARDED_BY(mutex_);
+  std::ostream& err_ ABSL_GUARDED_BY(mutex_);
   ConsoleStyle style_;
-  bool transient_shown_ = false;
+  bool transient_shown_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace affskel::client

@@ -1,4 +1,5 @@
 #include "database/reader_pool.h"
+#include "base/mutex.h"
 
 namespace affskel::server {
 namespace {
@@ -10,7 +11,7 @@ constexpr std::size_t kMostIdle = 8;
 
 std::unique_ptr<Database> ReaderPool::take() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (!idle_.empty()) {
       std::unique_ptr<Database> db = std::move(idle_.back());
       idle_.pop_back();
@@ -21,7 +22,7 @@ std::unique_ptr<Database> ReaderPool::take() {
 }
 
 void ReaderPool::give_back(std::unique_ptr<Database> db) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (idle_.size() < kMostIdle) idle_.push_back(std::move(db));
 }
 

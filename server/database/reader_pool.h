@@ -1,11 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/mutex.h"
 #include "database/sqlite.h"
 
 namespace affskel::server {
@@ -44,8 +44,8 @@ class ReaderPool {
   void give_back(std::unique_ptr<Database> db);
 
   const std::string file_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Database>> idle_;
+  base::Mutex mutex_;
+  std::vector<std::unique_ptr<Database>> idle_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace affskel::server

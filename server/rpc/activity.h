@@ -2,7 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <mutex>
+#include "base/mutex.h"
 
 namespace affskel::server {
 
@@ -23,7 +23,7 @@ class Activity {
 
   /// Time since the last call ended; 0 while one is under way.
   std::chrono::steady_clock::duration idle_time() const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return calls_ > 0 ? std::chrono::steady_clock::duration::zero()
                       : std::chrono::steady_clock::now() - last_;
   }
@@ -33,14 +33,14 @@ class Activity {
 
  private:
   void change(std::int64_t by) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     calls_ += by;
     last_ = std::chrono::steady_clock::now();
   }
 
-  mutable std::mutex mutex_;
-  std::int64_t calls_ = 0;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  mutable base::Mutex mutex_;
+  std::int64_t calls_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::chrono::steady_clock::time_point last_ ABSL_GUARDED_BY(mutex_) = std::chrono::steady_clock::now();
 };
 
 }  // namespace affskel::server

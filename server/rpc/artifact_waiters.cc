@@ -1,27 +1,31 @@
 #include "rpc/artifact_waiters.h"
+#include "base/mutex.h"
 
 namespace affskel::server {
 
 void ArtifactWaiters::join(std::int64_t task) {
-  std::unique_lock lock(mutex_);
-  withdrawn_.wait(lock, [&] { return !going_.contains(task); });
+  base::MutexLock lock(mutex_);
+  withdrawn_.wait(lock, [&] {
+    mutex_.assert_held();
+    return !going_.contains(task);
+  });
   ++waiting_[task];
 }
 
 void ArtifactWaiters::leave(std::int64_t task) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   leave_locked(task);
 }
 
 void ArtifactWaiters::give_up(std::int64_t task) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (!leave_locked(task) || closed_) return;
     going_.insert(task);
   }
   withdraw_(task);
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     going_.erase(task);
   }
   withdrawn_.notify_all();
@@ -36,12 +40,12 @@ bool ArtifactWaiters::leave_locked(std::int64_t task) {
 }
 
 void ArtifactWaiters::close() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   closed_ = true;
 }
 
 std::size_t ArtifactWaiters::count(std::int64_t task) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = waiting_.find(task);
   return found == waiting_.end() ? 0 : found->second;
 }

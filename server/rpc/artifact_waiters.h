@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <set>
 #include <utility>
+#include "base/mutex.h"
 
 namespace affskel::server {
 
@@ -37,15 +37,14 @@ class ArtifactWaiters {
   std::size_t count(std::int64_t task) const;
 
  private:
-  bool leave_locked(std::int64_t task);
+  bool leave_locked(std::int64_t task) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const Withdraw withdraw_;
-  mutable std::mutex mutex_;
-  std::condition_variable withdrawn_;
-  // All guarded by mutex_.
-  std::map<std::int64_t, std::size_t> waiting_;  // by task
-  std::set<std::int64_t> going_;                 // tasks that are being taken back
-  bool closed_ = false;
+  mutable base::Mutex mutex_;
+  std::condition_variable_any withdrawn_;
+  std::map<std::int64_t, std::size_t> waiting_ ABSL_GUARDED_BY(mutex_);  // by task
+  std::set<std::int64_t> going_ ABSL_GUARDED_BY(mutex_);                 // tasks that are being taken back
+  bool closed_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace affskel::server

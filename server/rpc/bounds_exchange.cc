@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/mutex.h"
 #include "wire/erosion_bound.h"
 
 namespace affskel::server {
@@ -20,13 +21,13 @@ void BoundsExchange::exchange(const std::string& job, const std::string& worker,
                               const std::vector<wire::PointRecord>& records, v1::ReportResponse& response) {
   std::vector<Message> theirs;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (!enter(job, worker)) return;
     theirs = collect(job, worker);
   }
   const std::vector<Message> ours = pack(records);
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     keep(job, worker, ours);
   }
   for (const Message& message : theirs) *response.add_bounds() = *message;
@@ -35,11 +36,11 @@ void BoundsExchange::exchange(const std::string& job, const std::string& worker,
 void BoundsExchange::pass_on(const std::string& job, const std::string& worker,
                              const std::vector<wire::PointRecord>& records) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (!enter(job, worker)) return;
   }
   const std::vector<Message> ours = pack(records);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   keep(job, worker, ours);
 }
 
@@ -107,7 +108,7 @@ void BoundsExchange::drop_first() {
 }
 
 void BoundsExchange::forget(const std::string& job) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   seen_.erase(job);
   for (Entry& entry : entries_) {
     if (entry.message == nullptr || entry.job != job) continue;
@@ -135,7 +136,7 @@ void BoundsExchange::close_ranks() {
 }
 
 std::size_t BoundsExchange::kept() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return entries_.size() - dead_;
 }
 

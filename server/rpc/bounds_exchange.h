@@ -5,11 +5,11 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "affskel/v1/worker_service.pb.h"
+#include "base/mutex.h"
 #include "store/field.h"
 
 namespace affskel::server {
@@ -56,20 +56,22 @@ class BoundsExchange {
   };
 
   std::vector<Message> pack(const std::vector<wire::PointRecord>& records) const;
-  bool enter(const std::string& job, const std::string& worker);
-  std::vector<Message> collect(const std::string& job, const std::string& worker);
-  void keep(const std::string& job, const std::string& worker, const std::vector<Message>& messages);
-  void drop_first();
-  void close_ranks();
+  bool enter(const std::string& job, const std::string& worker) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::vector<Message> collect(const std::string& job, const std::string& worker)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void keep(const std::string& job, const std::string& worker, const std::vector<Message>& messages)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void drop_first() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void close_ranks() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const BoundsExchangeOptions options_;
-  mutable std::mutex mutex_;
-  // All guarded by mutex_.
-  std::deque<Entry> entries_;    // entry number n is at n - forgotten_
-  std::uint64_t forgotten_ = 0;  // entries so far
-  std::size_t bytes_ = 0;
-  std::size_t dead_ = 0;                                              // entries without a message
-  std::map<std::string, std::map<std::string, std::uint64_t>> seen_;  // job, worker: its first unseen entry
+  mutable base::Mutex mutex_;
+  std::deque<Entry> entries_ ABSL_GUARDED_BY(mutex_);    // entry number n is at n - forgotten_
+  std::uint64_t forgotten_ ABSL_GUARDED_BY(mutex_) = 0;  // entries so far
+  std::size_t bytes_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::size_t dead_ ABSL_GUARDED_BY(mutex_) = 0;  // entries without a message
+  std::map<std::string, std::map<std::string, std::uint64_t>> seen_
+      ABSL_GUARDED_BY(mutex_);  // job, worker: its first unseen entry
 };
 
 }  // namespace affskel::server

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/mutex.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -45,7 +46,7 @@ void CallLimit::Place::leave() {
   CallLimit& limit = *std::exchange(limit_, nullptr);
   Later later;
   {
-    const std::lock_guard lock(limit.mutex_);
+    const base::MutexLock lock(limit.mutex_);
     if (limit.holders_.erase(number_) == 0) return;  // it had gone to another
     limit.serve_waiters(later);
   }
@@ -54,14 +55,14 @@ void CallLimit::Place::leave() {
 
 void CallLimit::Place::turn() {
   if (limit_ == nullptr) return;
-  const std::lock_guard lock(limit_->mutex_);
+  const base::MutexLock lock(limit_->mutex_);
   const auto holder = limit_->holders_.find(number_);
   if (holder != limit_->holders_.end()) holder->second.pace.turn(limit_->options_.now());
 }
 
 void CallLimit::Place::moved(std::uint64_t bytes) {
   if (limit_ == nullptr) return;
-  const std::lock_guard lock(limit_->mutex_);
+  const base::MutexLock lock(limit_->mutex_);
   const auto holder = limit_->holders_.find(number_);
   if (holder != limit_->holders_.end()) holder->second.pace.moved(bytes, limit_->options_.now());
 }
@@ -71,7 +72,7 @@ CallLimit::Place CallLimit::enter(const Caller& caller, std::weak_ptr<Endable> c
   std::optional<Place> place;
   grpc::Status refused;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     place = try_enter(caller, call, later);
     if (!place) refused = refusal(caller);
   }
@@ -85,7 +86,7 @@ void CallLimit::enter_later(const Caller& caller, std::weak_ptr<Endable> call, G
   std::optional<Place> place;
   grpc::Status refused;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     place = try_enter(caller, call, later);
     if (!place && !closed_ && options_.patience.count() > 0 &&
         waiters_.size() < kWaitersPerPlace * options_.most) {
@@ -199,7 +200,7 @@ void CallLimit::serve_waiters(Later& later) {
 void CallLimit::tick() {
   Later later;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const Pace::Time now = options_.now();
     for (auto holder = holders_.begin(); options_.pace && holder != holders_.end();) {
       const auto next = std::next(holder);
@@ -226,7 +227,7 @@ void CallLimit::tick() {
 bool CallLimit::relieve() {
   Later later;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const Pace::Time now = options_.now();
     const auto seconds = [&](const Holder& holder) {
       const bool judged = holder.pace.judged(now) && !holder.call.expired();
@@ -245,7 +246,7 @@ bool CallLimit::relieve() {
 void CallLimit::close(const grpc::Status& why) {
   std::list<Waiter> waiters;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closed_ = why;
     waiters.swap(waiters_);
   }
@@ -255,7 +256,7 @@ void CallLimit::close(const grpc::Status& why) {
 void CallLimit::end_all(const grpc::Status& why) {
   std::vector<std::weak_ptr<Endable>> calls;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     for (const auto& [number, holder] : holders_) calls.push_back(holder.call);
   }
   for (const auto& call : calls) {
@@ -264,7 +265,7 @@ void CallLimit::end_all(const grpc::Status& why) {
 }
 
 std::size_t CallLimit::used() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return holders_.size();
 }
 

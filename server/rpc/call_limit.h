@@ -9,11 +9,11 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/mutex.h"
 #include "rpc/pace.h"
 
 namespace affskel::server {
@@ -118,27 +118,29 @@ class CallLimit {
   /// What is to be done when the lock is gone.
   using Later = std::vector<std::function<void()>>;
 
-  std::optional<Place> try_enter(const Caller& caller, const std::weak_ptr<Endable>& call, Later& later);
-  bool make_room(const Caller& caller, Pace::Time now, Later& later);
-  void evict(Holders::iterator holder, const std::string& why, Later& later);
-  void tell(const Holder& holder, const std::string& why);
+  std::optional<Place> try_enter(const Caller& caller, const std::weak_ptr<Endable>& call, Later& later)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool make_room(const Caller& caller, Pace::Time now, Later& later) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void evict(Holders::iterator holder, const std::string& why, Later& later)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void tell(const Holder& holder, const std::string& why) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   template <typename Belongs>
-  Holders::iterator slowest(Pace::Time now, Belongs belongs);
+  Holders::iterator slowest(Pace::Time now, Belongs belongs) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   template <typename Key>
-  bool take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later);
-  std::size_t of_peer(const std::string& peer) const;
-  void serve_waiters(Later& later);
-  grpc::Status refusal(const Caller& caller) const;
+  bool take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::size_t of_peer(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void serve_waiters(Later& later) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  grpc::Status refusal(const Caller& caller) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const CallLimitOptions options_;
-  mutable std::mutex mutex_;
-  // All guarded by mutex_.
-  Holders holders_;
-  std::list<Waiter> waiters_;
-  std::uint64_t next_number_ = 1;
-  std::optional<grpc::Status> closed_;
-  std::uint64_t ended_ = 0;         // calls, since the log was told
-  std::optional<Pace::Time> told_;  // when that was
+  mutable base::Mutex mutex_;
+  Holders holders_ ABSL_GUARDED_BY(mutex_);
+  std::list<Waiter> waiters_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;
+  std::optional<grpc::Status> closed_ ABSL_GUARDED_BY(mutex_);
+  std::uint64_t ended_ ABSL_GUARDED_BY(mutex_) = 0;         // calls, since the log was told
+  std::optional<Pace::Time> told_ ABSL_GUARDED_BY(mutex_);  // when that was
 };
 
 }  // namespace affskel::server

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/mutex.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -73,7 +74,7 @@ void Connections::Use::leave() {
 }
 
 bool Connections::admit(int fd, const PeerIdentity& identity) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (const auto before = entries_.find(fd); before != entries_.end()) {
     // gRPC has closed it, or the number would not have been given out again.
     if (before->second.for_client && !before->second.for_worker) --clients_;
@@ -122,7 +123,7 @@ bool Connections::close_idle(const std::string* of_peer) {
 }
 
 Connections::Use Connections::begin(const std::string& peer, Side side) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = entries_.find(descriptor_of(peer));
   if (found == entries_.end()) return {nullptr, {number_of_stranger(peer), peer}};
   Entry& entry = found->second;
@@ -144,7 +145,7 @@ Connections::Use Connections::begin(const std::string& peer, Side side) {
 }
 
 void Connections::end_use(std::uint64_t connection) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto number = by_number_.find(connection);
   if (number == by_number_.end()) return;
   Entry& entry = entries_.at(number->second);
@@ -152,7 +153,7 @@ void Connections::end_use(std::uint64_t connection) {
 }
 
 void Connections::sweep() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   sweep_locked();
 }
 
@@ -169,14 +170,14 @@ void Connections::sweep_locked() {
 }
 
 std::size_t Connections::calls() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::size_t sum = 0;
   for (const auto& [fd, entry] : entries_) sum += entry.calls;
   return sum;
 }
 
 std::size_t Connections::size() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return entries_.size();
 }
 

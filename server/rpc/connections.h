@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <string>
 
+#include "base/mutex.h"
 #include "rpc/call_limit.h"
 
 namespace affskel::server {
@@ -93,18 +93,18 @@ class Connections {
   };
   using Entries = std::map<int, Entry>;  // by descriptor
 
-  void sweep_locked();
-  bool close_idle(const std::string* of_peer);
-  bool has_room(int fd, const PeerIdentity& identity);
+  void sweep_locked() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool close_idle(const std::string* of_peer) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool has_room(int fd, const PeerIdentity& identity) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void end_use(std::uint64_t connection);
 
   const ConnectionOptions options_;
-  mutable std::mutex mutex_;
-  // All guarded by mutex_.
-  Entries entries_;
-  std::map<std::uint64_t, int> by_number_;
-  std::size_t clients_ = 0;  // connections that made clients' calls, and none of a worker
-  std::uint64_t next_number_ = 1;
+  mutable base::Mutex mutex_;
+  Entries entries_ ABSL_GUARDED_BY(mutex_);
+  std::map<std::uint64_t, int> by_number_ ABSL_GUARDED_BY(mutex_);
+  std::size_t clients_ ABSL_GUARDED_BY(mutex_) =
+      0;  // connections that made clients' calls, and none of a worker
+  std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;
 };
 
 }  // namespace affskel::server

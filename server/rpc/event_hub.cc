@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/mutex.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -51,7 +52,7 @@ void EventHub::start(Loader load, std::function<void()> on_work) {
 
 void EventHub::stop() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
@@ -61,7 +62,7 @@ void EventHub::stop() {
 EventHub::Subscription EventHub::subscribe(const std::string& job_id, JobCallback callback, bool at_once) {
   std::uint64_t number = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     number = next_number_++;
     subscribers_[job_id][number] = std::make_shared<JobCallback>(std::move(callback));
     if (at_once) fresh_[number] = job_id;
@@ -72,7 +73,7 @@ EventHub::Subscription EventHub::subscribe(const std::string& job_id, JobCallbac
 
 void EventHub::unsubscribe(const std::string& job_id, std::uint64_t number) {
   std::shared_ptr<JobCallback> last;  // destroyed after the lock is gone: it may own a subscription
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto of_job = subscribers_.find(job_id);
   if (of_job == subscribers_.end()) return;
   const auto found = of_job->second.find(number);
@@ -85,7 +86,7 @@ void EventHub::unsubscribe(const std::string& job_id, std::uint64_t number) {
 void EventHub::on_change(const Changes& changes) {
   if (changes.jobs.empty() && !changes.work) return;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     work_ = work_ || changes.work;
     try {
       jobs_.insert(changes.jobs.begin(), changes.jobs.end());
@@ -97,9 +98,12 @@ void EventHub::on_change(const Changes& changes) {
 }
 
 void EventHub::run() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || work_ || all_ || !jobs_.empty() || !fresh_.empty(); });
+    changed_.wait(lock, [this] {
+      mutex_.assert_held();
+      return stopping_ || work_ || all_ || !jobs_.empty() || !fresh_.empty();
+    });
     if (stopping_) return;
     const bool work = std::exchange(work_, false);
     const bool all = std::exchange(all_, false);
@@ -112,7 +116,10 @@ void EventHub::run() {
     if (told) continue;
     // For want of memory or of the disk.  Nobody may wait for ever for what was not told.
     all_ = true;
-    changed_.wait_for(lock, kTryAgain, [this] { return stopping_; });
+    changed_.wait_for(lock, kTryAgain, [this] {
+      mutex_.assert_held();
+      return stopping_;
+    });
   }
 }
 
@@ -132,7 +139,7 @@ bool EventHub::tell_all() {
   return guarded([&] {
            std::set<std::string> jobs;
            {
-             const std::lock_guard lock(mutex_);
+             const base::MutexLock lock(mutex_);
              for (const auto& [job, callbacks] : subscribers_) jobs.insert(job);
            }
            for (const std::string& job : jobs) told = tell(job) && told;
@@ -145,7 +152,7 @@ bool EventHub::tell(const std::string& job_id, std::uint64_t only) {
   return guarded([&] {
            std::vector<std::shared_ptr<JobCallback>> callbacks;
            {
-             const std::lock_guard lock(mutex_);
+             const base::MutexLock lock(mutex_);
              const auto found = subscribers_.find(job_id);
              if (found == subscribers_.end()) return;
              for (const auto& [number, callback] : found->second) {

@@ -5,12 +5,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <thread>
 
 #include "affskel/v1/types.pb.h"
+#include "base/mutex.h"
 #include "store/tx.h"
 
 namespace affskel::server {
@@ -65,15 +65,18 @@ class EventHub final : public ChangeListener {
   Loader load_;
   std::function<void()> on_work_;
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::map<std::string, std::map<std::uint64_t, std::shared_ptr<JobCallback>>> subscribers_;
-  std::set<std::string> jobs_;                  // changed and not told yet
-  std::map<std::uint64_t, std::string> fresh_;  // subscriptions that have heard nothing yet, with their jobs
-  bool work_ = false;
-  bool all_ = false;  // something was not told: tell the state of every job that somebody follows
-  bool stopping_ = false;
-  std::uint64_t next_number_ = 1;
+  base::Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::map<std::string, std::map<std::uint64_t, std::shared_ptr<JobCallback>>> subscribers_
+      ABSL_GUARDED_BY(mutex_);
+  std::set<std::string> jobs_ ABSL_GUARDED_BY(mutex_);  // changed and not told yet
+  std::map<std::uint64_t, std::string> fresh_
+      ABSL_GUARDED_BY(mutex_);  // subscriptions that have heard nothing yet, with their jobs
+  bool work_ ABSL_GUARDED_BY(mutex_) = false;
+  bool all_ ABSL_GUARDED_BY(mutex_) =
+      false;  // something was not told: tell the state of every job that somebody follows
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+  std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;
   std::thread thread_;
 };
 

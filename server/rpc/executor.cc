@@ -1,4 +1,5 @@
 #include "rpc/executor.h"
+#include "base/mutex.h"
 
 #include <utility>
 
@@ -14,7 +15,7 @@ Executor::~Executor() {
 
 void Executor::post(std::uint64_t caller, std::function<void()> body) {
   {
-    std::unique_lock lock(mutex_);
+    base::MutexLock lock(mutex_);
     if (stopping_) {
       lock.unlock();
       body();
@@ -36,7 +37,7 @@ void Executor::post(std::uint64_t caller, std::function<void()> body) {
 
 void Executor::stop() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
@@ -46,9 +47,12 @@ void Executor::stop() {
 }
 
 void Executor::run() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || !turns_.empty(); });
+    changed_.wait(lock, [this] {
+      mutex_.assert_held();
+      return stopping_ || !turns_.empty();
+    });
     if (turns_.empty()) return;
     {
       const std::function<void()> body = take();

@@ -6,9 +6,9 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <thread>
 #include <vector>
+#include "base/mutex.h"
 
 namespace affskel::server {
 
@@ -37,14 +37,13 @@ class Executor {
   using Queue = std::deque<std::function<void()>>;
 
   void run();
-  std::function<void()> take();
+  std::function<void()> take() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  // All guarded by mutex_.
-  std::map<std::uint64_t, Queue> queues_;  // by caller; none is empty
-  std::deque<std::uint64_t> turns_;        // each caller that has a queue, once
-  bool stopping_ = false;
+  base::Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::map<std::uint64_t, Queue> queues_ ABSL_GUARDED_BY(mutex_);  // by caller; none is empty
+  std::deque<std::uint64_t> turns_ ABSL_GUARDED_BY(mutex_);        // each caller that has a queue, once
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;
 };
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 
+#include "base/mutex.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -48,7 +49,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
 
   /// Ends the call unless it has ended; false when it had.
   bool answer(const grpc::Status& status, std::optional<v1::Lease> lease = std::nullopt) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (ended_) return false;
     ended_ = true;
     if (lease) {
@@ -83,7 +84,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
   const v1::LeaseTaskRequest request_;
   v1::LeaseTaskResponse* response_;
   const Time deadline_;
-  std::mutex mutex_;
+  base::Mutex mutex_;
   bool ended_ = false;
   std::string token_;
   std::optional<CallScope> scope_;
@@ -110,7 +111,7 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
   });
   if (status.ok()) {
     registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (stopping_) {
       status = shutting_down();
     } else {
@@ -124,7 +125,7 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
 
 void LeaseQueue::on_work() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     work_ = true;
   }
   changed_.notify_all();
@@ -133,7 +134,7 @@ void LeaseQueue::on_work() {
 void LeaseQueue::stop() {
   std::list<PollPtr> waiting;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     stopping_ = true;
     waiting.swap(waiting_);
   }
@@ -143,12 +144,12 @@ void LeaseQueue::stop() {
 }
 
 void LeaseQueue::remove(const PollPtr& poll) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   waiting_.remove(poll);
 }
 
 void LeaseQueue::run() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (!stopping_) {
     std::list<PollPtr> candidates;
     for (const PollPtr& poll : waiting_) {
@@ -161,6 +162,7 @@ void LeaseQueue::run() {
     end_expired();
     lock.lock();
     const auto something_to_do = [this] {
+      mutex_.assert_held();
       return stopping_ || work_ ||
              std::any_of(waiting_.begin(), waiting_.end(), [](const PollPtr& poll) { return poll->fresh; });
     };
@@ -179,7 +181,7 @@ void LeaseQueue::run() {
 void LeaseQueue::serve(const std::list<PollPtr>& polls) {
   for (const PollPtr& poll : polls) {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       if (stopping_) return;
       if (std::find(waiting_.begin(), waiting_.end(), poll) == waiting_.end()) continue;
     }
@@ -191,7 +193,7 @@ void LeaseQueue::serve(const std::list<PollPtr>& polls) {
     });
     if (status.ok() && !lease) continue;
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       waiting_.remove(poll);
     }
     if (!lease) {
@@ -210,7 +212,7 @@ void LeaseQueue::serve(const std::list<PollPtr>& polls) {
 void LeaseQueue::end_expired() {
   std::list<PollPtr> expired;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const Time now = std::chrono::steady_clock::now();
     for (auto poll = waiting_.begin(); poll != waiting_.end();) {
       const auto next = std::next(poll);

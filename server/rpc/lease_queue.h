@@ -5,10 +5,10 @@
 #include <condition_variable>
 #include <list>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "base/mutex.h"
 #include "rpc/call_room.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
@@ -45,11 +45,11 @@ class LeaseQueue {
   WorkerRegistry& registry_;
   CallRoom& room_;
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::list<PollPtr> waiting_;
-  bool work_ = false;
-  bool stopping_ = false;
+  base::Mutex mutex_;
+  std::condition_variable_any changed_;
+  std::list<PollPtr> waiting_ ABSL_GUARDED_BY(mutex_);
+  bool work_ ABSL_GUARDED_BY(mutex_) = false;
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "base/mutex.h"
 #include "database/database_file.h"
 #include "rpc/listen.h"
 #include "rpc/status.h"
@@ -127,8 +128,11 @@ void Server::serve(const ServerOptions& options) {
 
 /// Apart from the store's maintenance, which may have to wait for the disk.
 void Server::tick() {
-  std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, kTick, [this] { return closed_; })) {
+  base::MutexLock lock(mutex_);
+  while (!stopped_.wait_for(lock, kTick, [this] {
+    mutex_.assert_held();
+    return closed_;
+  })) {
     lock.unlock();
     room_.tick();
     lock.lock();
@@ -139,8 +143,11 @@ void Server::maintain() {
   // Often enough that an expired lease waits a fraction of its own length.
   const auto pause =
       std::chrono::milliseconds(std::clamp<std::int64_t>(store_->options().lease_ms / 10, 20, 500));
-  std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, pause, [this] { return stopping_; })) {
+  base::MutexLock lock(mutex_);
+  while (!stopped_.wait_for(lock, pause, [this] {
+    mutex_.assert_held();
+    return stopping_;
+  })) {
     lock.unlock();
     guarded([this] {
       release_dead_workers(*store_);
@@ -159,8 +166,12 @@ void Server::tidy() {
     const auto begin = now();
     guarded([&] { more = store_->tidy(); });
     tidying_ = more;
-    std::unique_lock lock(mutex_);
-    if (stopped_.wait_for(lock, now() - begin, [this] { return stopping_; })) return;
+    base::MutexLock lock(mutex_);
+    if (stopped_.wait_for(lock, now() - begin, [this] {
+          mutex_.assert_held();
+          return stopping_;
+        }))
+      return;
   }
 }
 
@@ -191,7 +202,7 @@ void Server::await_calls(std::chrono::milliseconds grace) const {
 
 void Server::stop(std::chrono::milliseconds grace) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     stopping_ = true;
   }
   stopped_.notify_all();
@@ -205,7 +216,7 @@ void Server::stop(std::chrono::milliseconds grace) {
   }
   room_.stop();
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closed_ = true;
   }
   stopped_.notify_all();

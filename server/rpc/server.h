@@ -7,11 +7,11 @@
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "rpc/call_room.h"
 #include "rpc/erosion_service.h"
 #include "rpc/event_hub.h"
@@ -88,10 +88,10 @@ class Server {
   std::unique_ptr<Listener> listener_;
 
   std::atomic<bool> tidying_ = false;
-  std::mutex mutex_;
-  std::condition_variable stopped_;
-  bool stopping_ = false;
-  bool closed_ = false;
+  base::Mutex mutex_;
+  std::condition_variable_any stopped_;
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+  bool closed_ ABSL_GUARDED_BY(mutex_) = false;
   std::thread maintenance_;
   std::thread ticker_;
 };

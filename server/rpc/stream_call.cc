@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/mutex.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -9,7 +10,7 @@ namespace affskel::server {
 /// On gRPC's thread: nothing here blocks.
 void StreamCall::enter() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     busy_ = true;
   }
   After what = After::kEnd;
@@ -22,7 +23,7 @@ void StreamCall::enter() {
 
 void StreamCall::run(Body body) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (finished_ || ending_ || moving_) return;
     if (busy_) {
       next_.swap(body);  // the old one goes when the lock is gone
@@ -45,7 +46,7 @@ void StreamCall::post(Body body) {
 void StreamCall::after(const grpc::Status& status, After what) {
   Body next;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     busy_ = false;
     if (!ending_ && (!status.ok() || what == After::kEnd)) ending_ = status;
     next = std::exchange(next_, nullptr);
@@ -65,7 +66,7 @@ void StreamCall::after(const grpc::Status& status, After what) {
 }
 
 bool StreamCall::moved(bool ok) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   moving_ = false;
   if (finished_) return false;
   if (!ok && writes() && !ending_) ending_ = grpc::Status::CANCELLED;
@@ -74,7 +75,7 @@ bool StreamCall::moved(bool ok) {
 }
 
 void StreamCall::end(const grpc::Status& status) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (finished_ || ending_) return;
   ending_ = status;
   finish_if_free();
@@ -93,7 +94,7 @@ void StreamCall::finish_if_free() {
 void StreamCall::done() {
   ended();
   std::shared_ptr<StreamCall> self;  // destroyed when the lock is gone
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   self = std::move(self_);
 }
 

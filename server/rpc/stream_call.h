@@ -4,9 +4,9 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "rpc/call_room.h"
 
 namespace affskel::server {
@@ -23,9 +23,12 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   template <typename Call, typename... Arguments>
   static Call* begin(Arguments&&... arguments) {
     const auto call = std::make_shared<Call>(std::forward<Arguments>(arguments)...);
-    StreamCall& base = *call;
-    base.self_ = call;
-    base.enter();
+    StreamCall& stream = *call;
+    {
+      const base::MutexLock lock(stream.mutex_);
+      stream.self_ = call;
+    }
+    stream.enter();
     return call.get();
   }
 
@@ -69,7 +72,7 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   void enter();
   void post(Body body);
   void after(const grpc::Status& status, After what);
-  void finish_if_free();
+  void finish_if_free() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   CallRoom& room_;
   Executor& executor_;
@@ -77,14 +80,13 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   const Side side_;
   std::optional<CallScope> scope_;
 
-  std::mutex mutex_;
-  // All guarded by mutex_.
-  bool busy_ = false;      // a body runs, or is about to
-  bool moving_ = false;    // gRPC moves a message
-  bool finished_ = false;  // gRPC was told of the end
-  Body next_;              // to be run when the one under way has come to wait
-  std::optional<grpc::Status> ending_;
-  std::shared_ptr<StreamCall> self_;
+  base::Mutex mutex_;
+  bool busy_ ABSL_GUARDED_BY(mutex_) = false;      // a body runs, or is about to
+  bool moving_ ABSL_GUARDED_BY(mutex_) = false;    // gRPC moves a message
+  bool finished_ ABSL_GUARDED_BY(mutex_) = false;  // gRPC was told of the end
+  Body next_ ABSL_GUARDED_BY(mutex_);              // to be run when the one under way has come to wait
+  std::optional<grpc::Status> ending_ ABSL_GUARDED_BY(mutex_);
+  std::shared_ptr<StreamCall> self_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace affskel::server

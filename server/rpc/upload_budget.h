@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
+#include "base/mutex.h"
 
 namespace affskel::server {
 
@@ -44,20 +44,20 @@ class UploadBudget {
 
  private:
   bool take(std::uint64_t bytes, std::uint64_t left_over) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const std::uint64_t taken = used_ + left_over;
     if (taken > limit_ || bytes > limit_ - taken) return false;
     used_ += bytes;
     return true;
   }
   void give_back(std::uint64_t bytes) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     used_ -= bytes;
   }
 
   const std::uint64_t limit_;
-  std::mutex mutex_;
-  std::uint64_t used_ = 0;  // guarded by mutex_
+  base::Mutex mutex_;
+  std::uint64_t used_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace affskel::server

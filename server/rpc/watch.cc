@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/mutex.h"
 #include "database/errors.h"
 
 namespace affskel::server {
@@ -38,7 +39,7 @@ StreamCall::After WatchCall::open() {
 /// On the hub's thread.
 void WatchCall::deliver(const EventHub::JobPtr& job) {
   {
-    const std::lock_guard lock(newest_mutex_);
+    const base::MutexLock lock(newest_mutex_);
     newest_ = job;
     deleted_ = job == nullptr;
   }
@@ -50,7 +51,7 @@ void WatchCall::OnWriteDone(bool ok) {
 }
 
 StreamCall::After WatchCall::next() {
-  const std::lock_guard lock(newest_mutex_);
+  const base::MutexLock lock(newest_mutex_);
   if (deleted_) throw StoreError(StoreError::Code::kNotFound, "the job was deleted");
   if (newest_ != nullptr) {
     sent_ = std::exchange(newest_, nullptr);

@@ -2,10 +2,10 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <mutex>
 #include <string>
 
 #include "affskel/v1/client_service.grpc.pb.h"
+#include "base/mutex.h"
 #include "rpc/event_hub.h"
 #include "rpc/stream_call.h"
 #include "store/store.h"
@@ -38,10 +38,9 @@ class WatchCall final : public StreamCall, public grpc::ServerWriteReactor<v1::J
   EventHub::Subscription subscription_;
   EventHub::JobPtr sent_;  // the one on its way, or the last that was
 
-  std::mutex newest_mutex_;
-  // Guarded by newest_mutex_.
-  EventHub::JobPtr newest_;  // not sent yet
-  bool deleted_ = false;
+  base::Mutex newest_mutex_;
+  EventHub::JobPtr newest_ ABSL_GUARDED_BY(newest_mutex_);  // not sent yet
+  bool deleted_ ABSL_GUARDED_BY(newest_mutex_) = false;
 };
 
 }  // namespace affskel::server

@@ -3,10 +3,10 @@
 #include <grpcpp/grpcpp.h>
 
 #include <condition_variable>
-#include <mutex>
 #include <utility>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "base/mutex.h"
 
 namespace affskel::server {
 namespace {
@@ -33,13 +33,13 @@ bool answers(v1::WorkerService::Stub& stub, std::chrono::milliseconds patience, 
 void watch(const std::string& target, const WatchdogOptions& options, const std::function<void()>& on_deaf,
            const std::stop_token& stop) {
   const auto stub = v1::WorkerService::NewStub(connect(target));
-  std::mutex mutex;
+  base::Mutex mutex;
   std::condition_variable_any stopped;
   int strikes = 0;
   while (!stop.stop_requested()) {
     strikes = answers(*stub, options.patience, stop) ? 0 : strikes + 1;
     if (strikes >= options.strikes) return on_deaf();
-    std::unique_lock lock(mutex);
+    base::MutexLock lock(mutex);
     stopped.wait_for(lock, stop, options.period, [] { return false; });
   }
 }

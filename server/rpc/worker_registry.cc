@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/mutex.h"
 #include "store/tasks.h"
 #include "wire/identity.h"
 #include "wire/words.h"
@@ -18,12 +19,12 @@ constexpr std::size_t kMostWorkers = 4096;
 }  // namespace
 
 void WorkerRegistry::add_supervised(std::uint32_t pid) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   supervised_.insert(pid);
 }
 
 void WorkerRegistry::remove_supervised(std::uint32_t pid) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   supervised_.erase(pid);
   std::erase_if(workers_, [pid](const auto& entry) {
     return entry.second.info.supervised() && entry.second.info.pid() == pid;
@@ -31,13 +32,13 @@ void WorkerRegistry::remove_supervised(std::uint32_t pid) {
 }
 
 bool WorkerRegistry::is_supervised(const v1::WorkerIdentity& worker) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return supervised_.contains(worker.pid()) && worker.host() == wire::host_name();
 }
 
 void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_ms) {
   const bool supervised = is_supervised(worker);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (workers_.size() >= kMostWorkers && !workers_.contains(worker.id())) forget_one();
   Entry& entry = workers_[worker.id()];
   entry.wait_ms = wait_ms;
@@ -53,7 +54,7 @@ void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_m
 }
 
 void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& lease) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = workers_.find(worker.id());
   if (found == workers_.end()) return;
   found->second.wait_ms = 0;
@@ -63,7 +64,7 @@ void WorkerRegistry::granted(const v1::WorkerIdentity& worker, const v1::Lease& 
 }
 
 void WorkerRegistry::used(const std::string& token) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto holder = holders_.find(token);
   if (holder == holders_.end()) return;
   const auto found = workers_.find(holder->second);
@@ -73,7 +74,7 @@ void WorkerRegistry::used(const std::string& token) {
 }
 
 void WorkerRegistry::ended(const std::string& token) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto holder = holders_.find(token);
   if (holder == holders_.end()) return;
   if (const auto found = workers_.find(holder->second); found != workers_.end())
@@ -88,7 +89,10 @@ void WorkerRegistry::hear(Entry& entry) const {
 
 void WorkerRegistry::forget_silent() {
   std::erase_if(workers_, [this](const auto& entry) { return entry.second.heard_ms < oldest_ms(); });
-  std::erase_if(holders_, [this](const auto& holder) { return !workers_.contains(holder.second); });
+  std::erase_if(holders_, [this](const auto& holder) {
+    mutex_.assert_held();
+    return !workers_.contains(holder.second);
+  });
 }
 
 /// The one not heard from for longest, of those that work on nothing if there are such.
@@ -109,7 +113,7 @@ std::int64_t WorkerRegistry::oldest_ms() const {
 }
 
 std::vector<v1::WorkerInfo> WorkerRegistry::list() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::vector<v1::WorkerInfo> infos;
   for (const auto& [id, entry] : workers_) {
     if (entry.heard_ms < oldest_ms()) continue;

@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/worker_service.pb.h"
+#include "base/mutex.h"
 #include "store/clock.h"
 
 namespace affskel::server {
@@ -45,16 +45,16 @@ class WorkerRegistry {
   };
   std::int64_t oldest_ms() const;
   void hear(Entry& entry) const;
-  void forget_silent();
-  void forget_one();
+  void forget_silent() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void forget_one() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool is_silent(const Entry& entry) const;
 
   const Clock& clock_;
   const std::int64_t silence_ms_;
-  mutable std::mutex mutex_;
-  std::map<std::string, Entry> workers_;        // by id
-  std::map<std::string, std::string> holders_;  // token -> id
-  std::set<std::uint32_t> supervised_;
+  mutable base::Mutex mutex_;
+  std::map<std::string, Entry> workers_ ABSL_GUARDED_BY(mutex_);        // by id
+  std::map<std::string, std::string> holders_ ABSL_GUARDED_BY(mutex_);  // token -> id
+  std::set<std::uint32_t> supervised_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace affskel::server

@@ -1,4 +1,5 @@
 #include "store/clock.h"
+#include "base/mutex.h"
 
 #include <algorithm>
 #include <chrono>
@@ -30,7 +31,7 @@ std::int64_t SystemClock::wall_ms() const {
 }
 
 std::int64_t SystemClock::lease_ms() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const std::int64_t now = monotonic_();
   lease_ms_ += std::clamp<std::int64_t>(now - seen_ms_, 0, kLongestStepMs);
   seen_ms_ = now;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <mutex>
+#include "base/mutex.h"
 
 namespace affskel::server {
 
@@ -38,9 +38,9 @@ class SystemClock final : public Clock {
 
  private:
   const std::function<std::int64_t()> monotonic_;
-  mutable std::mutex mutex_;
-  mutable std::int64_t seen_ms_;
-  mutable std::int64_t lease_ms_;
+  mutable base::Mutex mutex_;
+  mutable std::int64_t seen_ms_ ABSL_GUARDED_BY(mutex_);
+  mutable std::int64_t lease_ms_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace affskel::server

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/worker_service.pb.h"
+#include "base/mutex.h"
 #include "database/database_file.h"
 #include "database/reader_pool.h"
 #include "store/blobs.h"
@@ -157,13 +157,14 @@ class Store {
 
   void fail_damaged(const std::string& token, const std::string& why, bool retryable);
   void require_not_lost() const;
-  void expect_orphans();
-  bool requests_turn(std::int64_t leased_requests, std::int64_t leased_blocks) const;
+  void expect_orphans() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool requests_turn(std::int64_t leased_requests, std::int64_t leased_blocks) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   std::optional<std::int64_t> choose_task(Database& db, const v1::WorkerIdentity& worker,
-                                          const std::string& preferred);
+                                          const std::string& preferred) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void make_room(const Changes& undone);
-  bool has_room();
-  void live_on_reserve();
+  bool has_room() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void live_on_reserve() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void tell_room();
   bool tidy_step();
   bool shorten_log();
@@ -175,20 +176,21 @@ class Store {
   const Clock& clock_;
   ChangeListener* const listener_;
 
-  std::mutex mutex_;  // guards what follows, up to the atomic ones
-  DiskReserve reserve_;
-  Database db_;
+  base::Mutex mutex_;
+  DiskReserve reserve_ ABSL_GUARDED_BY(mutex_);
+  Database db_ ABSL_GUARDED_BY(mutex_);
   ReaderPool readers_;
   int schema_version_ = 0;
-  OpenFile identity_;               // of the database and its log
-  std::set<std::int64_t> orphans_;  // requests for artefacts that nobody has asked for since the start
-  std::int64_t orphans_until_ms_ = 0;
-  bool last_was_request_ = false;                    // the last grant, while jobs waited, too
-  std::int64_t full_disk_ms_ = 0;                    // when the reserve was last needed; guarded as well
-  std::atomic<bool> disk_full_ = false;              // the reserve is given away
-  std::atomic<bool> room_again_ = false;             // and nobody was told yet
-  std::atomic<bool> untidy_ = true;                  // there may be something for tidy()
-  std::atomic<std::int64_t> full_disk_told_ms_ = 0;  // when the log was last told of it; 0: never
+  OpenFile identity_;  // of the database and its log; set once
+  /// Requests for artefacts that nobody has asked for since the start.
+  std::set<std::int64_t> orphans_ ABSL_GUARDED_BY(mutex_);
+  std::int64_t orphans_until_ms_ ABSL_GUARDED_BY(mutex_) = 0;
+  bool last_was_request_ ABSL_GUARDED_BY(mutex_) = false;  // the last grant, while jobs waited, too
+  std::int64_t full_disk_ms_ ABSL_GUARDED_BY(mutex_) = 0;  // when the reserve was last needed
+  std::atomic<bool> disk_full_ = false;                    // the reserve is given away
+  std::atomic<bool> room_again_ = false;                   // and nobody was told yet
+  std::atomic<bool> untidy_ = true;                        // there may be something for tidy()
+  std::atomic<std::int64_t> full_disk_told_ms_ = 0;        // when the log was last told of it; 0: never
 };
 
 }  // namespace affskel::server

@@ -128,6 +128,7 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
   const wire::ArtifactKindInfo& kind = *wire::find_artifact_kind(request.kind());
   ArtifactState state;
   state.task = write([&](Tx& tx) -> std::int64_t {
+    mutex_.assert_held();
     const JobRow job = get_job(tx.db, resolve_job(tx.db, request.job()));
     switch (kind.task) {
       case v1::TASK_KIND_UNSPECIFIED:

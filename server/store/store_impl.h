@@ -4,13 +4,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include "base/mutex.h"
 #include "store/store.h"
 
 namespace affskel::server {
 
 template <typename Body>
 auto Store::commit(Body&& body, Changes& changes, bool& room) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   room = room && has_room();
   Transaction transaction(db_);
   Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes, room};

@@ -191,6 +191,7 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
                                       bool supervised) {
   check_worker(worker);
   return write([&](Tx& tx) -> std::optional<v1::Lease> {
+    mutex_.assert_held();
     expire(tx);
     if (!tx.room) return std::nullopt;  // what would come of it could not be stored
     remember_core_version(tx, worker.core_version());
@@ -238,6 +239,7 @@ v1::ReportResponse Store::give_back(const std::string& token) {
 
 int Store::expire_leases() {
   return write([this](Tx& tx) {
+    mutex_.assert_held();
     const bool grace_is_over = tx.lease_ms >= orphans_until_ms_;
     drop_old_requests(tx, grace_is_over ? std::exchange(orphans_, {}) : std::set<std::int64_t>());
     return expire(tx);

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "base/mutex.h"
 #include "database/errors.h"
 #include "store/space.h"
 #include "store/store_impl.h"
@@ -132,7 +133,7 @@ void Store::make_room(const Changes& undone) {
     spdlog::error("event=disk_full file={}", file_);
   }
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (disk_full_.exchange(true)) return;
     full_disk_ms_ = now;
     live_on_reserve();
@@ -170,7 +171,7 @@ bool Store::tidy() {
   // Taken back first: what is dropped meanwhile must not be forgotten.
   const bool more = untidy_.exchange(false) && tidy_step();
   if (disk_full_) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     has_room();
   }
   if (room_again_.exchange(false)) tell_room();
@@ -189,7 +190,7 @@ bool Store::tidy_step() {
 }
 
 bool Store::shorten_log() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return db_.checkpoint();
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <mutex>
 #include <thread>
 
+#include "base/mutex.h"
 #include "client/files/read/input_file.h"
 
 namespace affskel::client {
@@ -17,14 +17,17 @@ class WaitingNote {
  public:
   WaitingNote(Console& console, const std::string& what)
       : thread_([this, &console, what] {
-          std::unique_lock lock(mutex_);
-          if (!over_.wait_for(lock, kWaitBeforeNote, [this] { return done_; })) {
+          base::MutexLock lock(mutex_);
+          if (!over_.wait_for(lock, kWaitBeforeNote, [this] {
+                mutex_.assert_held();
+                return done_;
+              })) {
             console.note("waiting for a worker to compute the " + what);
           }
         }) {}
   ~WaitingNote() {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       done_ = true;
     }
     over_.notify_all();
@@ -34,9 +37,9 @@ class WaitingNote {
   WaitingNote& operator=(const WaitingNote&) = delete;
 
  private:
-  std::mutex mutex_;
-  std::condition_variable over_;
-  bool done_ = false;  // guarded by mutex_
+  base::Mutex mutex_;
+  std::condition_variable_any over_;
+  bool done_ ABSL_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -2,9 +2,9 @@
 
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <vector>
 
+#include "base/mutex.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 #include "core/erosion/join_tree.h"
@@ -43,7 +43,7 @@ class Erosion::Engine {
   ErosionField& field() { return field_; }
 
   ErosionCost cost() const {
-    const std::lock_guard<std::mutex> guard(mutex_);
+    const base::MutexLock guard(mutex_);
     return cost_;
   }
 
@@ -66,7 +66,7 @@ class Erosion::Engine {
       }
       context.item_done(item);
     }
-    const std::lock_guard<std::mutex> guard(mutex_);
+    const base::MutexLock guard(mutex_);
     cost_.trees_s += spent.trees_s;
     cost_.sweep_s += spent.sweep_s;
     cost_.counts += spent.counts;
@@ -77,8 +77,8 @@ class Erosion::Engine {
   ErosionField field_;
   Sweeper sweeper_;
   std::vector<std::unique_ptr<JoinTreeBuilder>> builders_;
-  mutable std::mutex mutex_;
-  ErosionCost cost_;
+  mutable base::Mutex mutex_;
+  ErosionCost cost_ ABSL_GUARDED_BY(mutex_);
 };
 
 Erosion::Erosion(const Solid& solid, const Lattice& lattice, const DirectionSet& directions,

@@ -1,0 +1,89 @@
+"""Checks with Clang's thread safety analysis that every member marked ABSL_GUARDED_BY is used with its mutex held.
+
+Marked members are private, so the files that can touch them are those that mark some themselves, that include a
+header which does, or that see one of their own folder.  These are looked at as compile_commands.json says they are
+compiled.
+
+Usage: thread_safety.py PROJECT BUILD CLANG++    Exit code 1, and Clang's words, for each that breaks a rule.
+"""
+import concurrent.futures
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from include_arrows import INCLUDE, INCLUDE_DIRS  # noqa: E402
+
+TOPS = ("proto/", "server/", "worker/", "client/")
+MARK = "ABSL_GUARDED_BY("
+
+
+def included_files(project, path):
+    with open(os.path.join(project, path), encoding="utf-8") as source:
+        for include in INCLUDE.findall(source.read()):
+            for place in (os.path.dirname(path),) + INCLUDE_DIRS:
+                other = os.path.normpath(os.path.join(place, include))
+                if os.path.isfile(os.path.join(project, other)):
+                    yield other
+                    break
+
+
+def seen_files(project, path, known):
+    """A file and all that it includes, however far down."""
+    if path not in known:
+        known[path] = {path}
+        for other in included_files(project, path):
+            known[path] |= seen_files(project, other, known)
+    return known[path]
+
+
+def is_marked(project, path):
+    with open(os.path.join(project, path), encoding="utf-8") as source:
+        return MARK in source.read()
+
+
+def touches_marked(project, path, known):
+    near = {path, *included_files(project, path)}
+    near |= {other for other in seen_files(project, path, known) if os.path.dirname(other) == os.path.dirname(path)}
+    return any(is_marked(project, other) for other in near)
+
+
+def analysis(entry, clang):
+    """The command that looks at a file as it is compiled, without writing anything."""
+    words = shlex.split(entry["command"])
+    kept = [word for before, word in zip([""] + words, words)
+            if re.match(r"-(I|D|std=|isystem)", word) or before == "-isystem"]
+    return [clang, "-fsyntax-only", "-Wno-everything", "-Wthread-safety", "-Werror", *kept, entry["file"]]
+
+
+def analyse(project, build, clang):
+    """What Clang says of each file that it looks at, by path; nothing of a file without faults."""
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as commands:
+        entries = {os.path.relpath(os.path.realpath(entry["file"]), os.path.realpath(project)): entry
+                   for entry in json.load(commands)}
+    known = {}
+    chosen = [path for path in sorted(entries) if path.startswith(TOPS) and touches_marked(project, path, known)]
+
+    def words_about(path):
+        ended = subprocess.run(analysis(entries[path], clang), cwd=entries[path]["directory"],
+                               capture_output=True, text=True, check=False)
+        return ended.stderr if ended.returncode != 0 else ""
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return dict(zip(chosen, pool.map(words_about, chosen)))
+
+
+def main():
+    said = analyse(*sys.argv[1:4])
+    faults = {path: words for path, words in said.items() if words}
+    for path, words in faults.items():
+        print(f"{path}:\n{words}")
+    print(f"{len(said)} files, {len(faults)} with faults")
+    return 1 if faults or not said else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
