@@ -68,4 +68,8 @@ ClientError error_from_errno(int error_number, const std::string& action, const 
   return {code, action + ": " + std::strerror(error_number), file};
 }
 
+ClientError error_from_file(const base::FileError& error) {
+  return error_from_errno(error.code().value(), error.action(), error.file());
+}
+
 }  // namespace affskel::client

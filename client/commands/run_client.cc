@@ -64,6 +64,8 @@ int guarded(Console& console, Task&& task) {
     return report(error);
   } catch (const core::CoreError& error) {
     return report(error_from_core(error, ""));
+  } catch (const base::FileError& error) {
+    return report(error_from_file(error));
   } catch (const std::bad_alloc&) {
     return report(ClientError(ExitCode::kLimit, "out of memory"));
   } catch (const std::exception& error) {

@@ -2,14 +2,14 @@
 
 #include <vector>
 
+#include "base/published_threshold.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
-#include "core/shocks/zucker_hummel.h"
 
 namespace affskel::core {
 
 /// Threshold for |H|, without unit and whatever the spacing: on a lattice H is Zucker and Hummel's / 26.
-constexpr double kAverageOutwardFluxThreshold = kZuckerHummelThreshold / 26;
+constexpr double kAverageOutwardFluxThreshold = base::kZuckerHummelThreshold / 26;
 
 /// H = div n of the optimal normals at every sample point as the average outward flux through the sphere of
 /// the 26 neighbours (divergence theorem; Siddiqi, Bouix, Tannenbaum and Zucker 2002, section 4): the mean

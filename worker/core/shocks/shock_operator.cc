@@ -16,6 +16,7 @@
 #include <array>
 #include <limits>
 
+#include "base/published_threshold.h"
 #include "core/base/error.h"
 #include "core/shocks/average_outward_flux.h"
 #include "core/shocks/central_differences.h"
@@ -37,7 +38,7 @@ constexpr std::array kOperators = {
                       intermediate_difference_divergence},
     ShockOperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
                       central_difference_divergence},
-    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel", constant<kZuckerHummelThreshold>,
+    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel", constant<base::kZuckerHummelThreshold>,
                       [](const Lattice& lattice, const DirectionSet& directions,
                          const OptimalDirections& optimal, ExecutionContext* context) {
                         return zucker_hummel_divergence(lattice, directions, optimal, {}, context);

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "client/base/error.h"
-#include "temp_dir.h"
 #include "test_environment.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -13,13 +14,13 @@ class ServerChoiceTest : public ::testing::Test {
  protected:
   void write_config(const std::string& text) {
     std::filesystem::create_directories(dir_.path() / "affskel");
-    spit(dir_.path() / "affskel" / "config", text);
+    tests::write_file(dir_.path() / "affskel" / "config", text);
   }
   Environment environment(const std::string& server = "") {
     return test_environment(
         {{"XDG_CONFIG_HOME", dir_.path()}, {"HOME", "/nowhere"}, {"AFFSKEL_SERVER", server}});
   }
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
 };
 
 TEST_F(ServerChoiceTest, OptionThenEnvironmentThenConfigThenEmbedded) {
