@@ -16,7 +16,7 @@ class Backoff {
 
   std::chrono::milliseconds next();
 
-  /// After a success: the next pause is a first one.
+  /// To be called after a success: begins again with the first pause.
   void reset() { next_ = first_; }
 
  private:

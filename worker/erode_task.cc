@@ -102,8 +102,8 @@ class Progress : public core::ExecutionContext {
 
  private:
   using Clock = std::chrono::steady_clock;
-  // Longer than it takes to lease a block from a server that stores a large report at the moment; short,
-  // for another worker may have nothing to do while a block waits here for its turn.
+  // Must be longer than leasing a block takes while the server stores a large report, but short: a block that
+  // waits here for its turn is one that another worker might lack.
   static constexpr auto kAhead = std::chrono::milliseconds(150);
 
   // For what is not done, at the speed so far.
@@ -143,14 +143,14 @@ std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core:
   return messages;
 }
 
-// What other workers found: greater chords need not be looked at.
+// Applies the bounds that other workers found: chords above them need not be computed.
 void take_bounds(const v1::ReportResponse& response, const PreparedJob& job, core::ErosionField& field) {
   for (const v1::ErosionBounds& bounds : response.bounds()) {
     std::uint64_t point = 0;
     for (int i = 0; i < std::min(bounds.step_size(), bounds.bound_size()); ++i) {
       point += bounds.step(i);
       const double bound = wire::bound_value(bounds.bound(i)) / job.volume_unit();
-      // What is subnormal may have been rounded down.
+      // A subnormal bound may have been rounded down.
       if (point < field.size() && std::isnormal(bound)) field.bound(static_cast<std::uint32_t>(point), bound);
     }
   }

@@ -13,10 +13,9 @@ namespace affskel::worker {
 void check_field_file(const std::string& path);
 
 /// Writes a field as .csv (header, then x,y,z,E,nx,ny,nz,direction) or .dat (x y z E nx ny nz), in mesh
-/// units, 17 significant digits, in lattice order.  The file appears under its name complete or not at all:
-/// written to a temporary one in the same directory, synced, renamed.  What is no regular file (a device, a
-/// pipe, a symbolic link to nowhere) is written to directly; of a link, the file it leads to is replaced.
-/// @throws std::system_error naming the path; nothing is left behind then.
+/// units, 17 significant digits, in lattice order.  The file appears complete or not at all, see
+/// base::AtomicFile.
+/// @throws base::FileError naming the path; nothing is left behind then.
 void write_field_file(const std::string& path, const core::Solid& solid, const core::Lattice& lattice,
                       const core::DirectionSet& directions, const core::ErosionField& field);
 

@@ -13,8 +13,8 @@ namespace affskel::worker {
 /// The last report of a block on its way to the server, while the next block is computed.  One thread.
 class LastReport {
  public:
-  /// @param failed told of a report that failed for a reason of its own, with its lease's token: neither was
-  ///   the lease lost nor the server gone.
+  /// @param failed called with the lease's token when a report failed although neither the lease was lost nor
+  ///   the server gone.
   explicit LastReport(std::function<void(const std::string&, std::exception_ptr)> failed)
       : failed_(std::move(failed)) {}
 

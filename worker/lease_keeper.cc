@@ -13,7 +13,7 @@ namespace {
 
 using Why = TaskContext::Why;
 
-// Why the task is to stop, if it is.
+// Renews the lease; tells why the task is to stop, or kGoesOn.
 Why renew(ServerLink& link, const std::string& token) {
   try {
     return link.renew(token).cancelled() ? Why::kCancelled : Why::kGoesOn;
@@ -33,13 +33,13 @@ void keep(ServerLink& link, const std::string& token, std::chrono::milliseconds 
       if (why == Why::kGoesOn) continue;
       if (context != nullptr) context->stop(why);
     } catch (const std::exception&) {
-      // The task's own calls will meet the same.
+      // The task's own calls will fail the same way, and report it.
     }
     return;
   }
 }
 
-// Three times before it runs out.
+// A quarter of the lease: it is renewed three times before it could end.
 std::chrono::milliseconds renewal_interval(const v1::Lease& lease) {
   return std::chrono::milliseconds(std::max(1U, lease.lease_ms() / 4));
 }

@@ -36,9 +36,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kLeaseWaitMs = 2000;
 constexpr int kExitServerGone = 5;
-// After a task that failed but may be tried again; shorter than the silence that a server wonders about.
+constexpr int kExitNotAllowed = 7;
+// Pauses after a task that failed but may be tried again.  They must be shorter than the silence after which
+// the server counts a worker as silent.
 constexpr auto kFirstRest = std::chrono::milliseconds(250);
-constexpr auto kLongestRest = std::chrono::milliseconds(4000);
+constexpr auto kMaxRest = std::chrono::milliseconds(4000);
 
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   v1::WorkerIdentity identity;
@@ -50,7 +52,7 @@ v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
   return identity;
 }
 
-// Jobs prepared before there were frames have none: they are in the mesh's own.
+// Jobs of versions without frames have none stored: their lattice is parallel to the axes of the mesh.
 bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& own) {
   constexpr std::array<double, 9> kMesh = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const auto frame_is = [&](const auto& frame) {
@@ -59,7 +61,7 @@ bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& ow
   return stored.frame_size() == 0 ? frame_is(kMesh) : frame_is(stored.frame());
 }
 
-// Points and directions are named by their numbers: both sides must mean the same ones.
+// Points and directions are sent by number: server and worker must number the same ones.
 void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
   const v1::PreparedSummary& stored = lease.job().prepared();
   const v1::PreparedSummary own = job.summary();
@@ -129,7 +131,7 @@ class LeaseLoop {
       : options_(options),
         stop_(stop),
         id_(wire::random_id()),
-        link_({options.server, options.patience, id_}, stop),
+        link_({options.server, options.patience, options.access, id_}, stop),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
         }) {
@@ -174,7 +176,7 @@ class LeaseLoop {
     next_ = link_.lease(request_);
   }
 
-  // With nothing else to do: learns how the last report ended.
+  // Waits until the last report has ended, and acts on how it did.
   void settle_last_report() {
     try {
       last_report_.wait();
@@ -211,7 +213,7 @@ class LeaseLoop {
       lose(lease, damaged.what());
       pause(failures_.next());
     } catch (const LeaseLost& lost) {
-      // The last call may have met the end that the lease keeper knows the reason of.
+      // The call may have ended because of what the lease keeper found; the context knows.
       context.why() == TaskContext::Why::kCancelled ? drop(lease, context.why()) : lose(lease, lost.what());
     } catch (...) {
       const std::exception_ptr problem = std::current_exception();
@@ -219,7 +221,7 @@ class LeaseLoop {
         drop(lease, context.why());
       } else {
         forget();
-        // Another attempt at once would most likely meet the same, and a job has few of them.
+        // At once, the task would most likely fail again, and a job has few attempts.
         if (tell_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
       }
     }
@@ -234,11 +236,12 @@ class LeaseLoop {
   void lose(const v1::Lease& lease, const char* cause) {
     spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(), cause);
     forget();
-    // It may have been the block before that lost its lease; this one would then lie idle.
+    // Perhaps only the block before lost its lease.  Not given back, this one would lie idle until its
+    // deadline.
     link_.give_back(lease.token());
   }
 
-  // What the context stopped.
+  // Ends a task that the context has stopped.
   void drop(const v1::Lease& lease, TaskContext::Why why) {
     switch (why) {
       case TaskContext::Why::kWorkerStops:
@@ -348,7 +351,8 @@ class LeaseLoop {
     if (job_ && job_id_ == lease.job().id() && database_ == lease.database()) return *job_;
     forget();
     const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
-    // What is prepared already fitted somewhere: one worker short of memory must not fail the job for all.
+    // A prepared job has fitted into the memory of some worker: one that is short of it must not fail the job
+    // for all.
     const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
     job_ = std::make_unique<PreparedJob>(
         mesh, prepared_params(lease.job()), options_.threads, &context,
@@ -376,7 +380,7 @@ class LeaseLoop {
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
   std::string database_;  // that the field was fetched from
-  Backoff failures_{kFirstRest, kLongestRest, std::random_device()()};
+  Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead
 };
@@ -386,6 +390,10 @@ class LeaseLoop {
 int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
   try {
     return LeaseLoop(options, stop).run();
+  } catch (const NotAllowed& refused) {
+    spdlog::error("server={} msg=\"the server does not let this worker in, leaving\" cause=\"{}\"",
+                  options.server, refused.what());
+    return kExitNotAllowed;
   } catch (const ServerGone& gone) {
     if (stop.stop_requested()) return 0;
     spdlog::error("server={} msg=\"the server does not answer, leaving\" cause=\"{}\"", options.server,

@@ -5,6 +5,8 @@
 #include <stop_token>
 #include <string>
 
+#include "wire/channel.h"
+
 namespace affskel::worker {
 
 struct LeaseLoopOptions {
@@ -14,11 +16,13 @@ struct LeaseLoopOptions {
   /// Leave when work on another job than the first max_jobs is offered; 0 = never.
   std::uint64_t max_jobs = 0;
   std::chrono::seconds patience{60};  ///< leave when the server does not answer for this long
+  wire::AccessFiles access = {};      ///< what it shows to the server
 };
 
 /// Leases tasks and works on them until told to stop, idle for too long, or left by the server.  On a
 /// stop the direction in hand is finished and reported and the lease given back.
-/// Returns the exit code: 0, or 5 when the server stayed away.
+/// Returns the exit code: 0; 5 when the server stayed away; 7 when it does not let this worker in.
+/// @throws std::invalid_argument when a file of options.access is not good.
 int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop);
 
 }  // namespace affskel::worker

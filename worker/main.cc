@@ -81,6 +81,9 @@ int run_worker(const affskel::worker::LeaseLoopOptions& options) {
   const affskel::worker::StopSignal stop;
   try {
     return run_lease_loop(options, stop.token());
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "affskel-worker: %s\n", error.what());
+    return kUsage;
   } catch (const std::exception& error) {
     spdlog::critical("msg=\"unexpected\" cause=\"{}\"", error.what());
     return kInternal;
@@ -100,6 +103,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.footer(
       "Examples:\n"
       "  affskel-worker --server unix:/run/affskel/server.sock --threads 4\n"
+      "  affskel-worker --server lab.example.org:7060 --tls-ca ca.pem --token-file worker.token\n"
       "  affskel-worker compute body.off --spacing 200 -o body.csv");
   app.add_option("--server", flags.loop.server, "server to work for: unix:PATH or HOST:PORT");
   app.add_option("--threads", flags.loop.threads, "computing threads")
@@ -118,6 +122,17 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.add_option("--log-level", flags.log_level, "debug, info, warn, error or off")
       ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+  app.add_option("--token-file", flags.loop.access.token_file,
+                 "file whose first line is the token to show; else $AFFSKEL_TOKEN_FILE")
+      ->envname("AFFSKEL_TOKEN_FILE");
+  app.add_option("--tls-ca", flags.loop.access.tls_ca,
+                 "who signed the server's certificate, PEM: speak TLS; else $AFFSKEL_TLS_CA")
+      ->envname("AFFSKEL_TLS_CA");
+  app.add_option("--client-cert", flags.loop.access.tls_cert,
+                 "own certificate, PEM, for servers that ask for one; else $AFFSKEL_CLIENT_CERT")
+      ->envname("AFFSKEL_CLIENT_CERT");
+  app.add_option("--client-key", flags.loop.access.tls_key, "its key, PEM; else $AFFSKEL_CLIENT_KEY")
+      ->envname("AFFSKEL_CLIENT_KEY");
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
   compute->add_option("FILE", flags.compute.file, "mesh (OFF)")->required();
   compute->add_option("--spacing", flags.compute.spacing, "lattice spacing in mesh units")
@@ -165,7 +180,7 @@ int main(int argc, char** argv) {
   }
   if (*compute) return run_compute(flags.compute);
   const auto logger = spdlog::stderr_logger_mt("affskel-worker");
-  // As the server's lines, which these stand among when the server supervises this worker.
+  // The format of the server's log, in which the lines of supervised workers appear.
   logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
   logger->set_level(spdlog::level::from_str(flags.log_level));
   spdlog::set_default_logger(logger);

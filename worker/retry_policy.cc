@@ -4,12 +4,12 @@ namespace affskel::worker {
 namespace {
 
 constexpr RetryPolicy::Duration kFirstPause{20};
-constexpr RetryPolicy::Duration kLongestPause{1000};
+constexpr RetryPolicy::Duration kMaxPause{1000};
 
 }  // namespace
 
 RetryPolicy::RetryPolicy(Duration patience, std::uint64_t seed)
-    : patience_(patience), backoff_(kFirstPause, kLongestPause, seed) {}
+    : patience_(patience), backoff_(kFirstPause, kMaxPause, seed) {}
 
 RetryPolicy::Decision RetryPolicy::after(grpc::StatusCode code, Duration elapsed, bool connected) {
   const Duration pause = backoff_.next();

@@ -19,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kCallTimeout = std::chrono::seconds(120);
 constexpr auto kLookAtStop = std::chrono::milliseconds(100);
 
-std::shared_ptr<grpc::Channel> connect(const std::string& text) {
-  const wire::Address address = wire::parse_address(text);
+std::shared_ptr<grpc::Channel> connect(const ServerLinkOptions& options) {
+  const wire::Address address = wire::parse_address(options.address);
   grpc::ChannelArguments arguments;
   // A proxy elsewhere cannot reach this machine's own addresses.
   if (address.is_local()) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
@@ -28,7 +28,7 @@ std::shared_ptr<grpc::Channel> connect(const std::string& text) {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
-  return grpc::CreateCustomChannel(address.target(), grpc::InsecureChannelCredentials(), arguments);
+  return wire::make_channel(address, options.access, arguments);
 }
 
 void wait(std::chrono::milliseconds pause, const std::stop_token& stop) {
@@ -40,7 +40,7 @@ void wait(std::chrono::milliseconds pause, const std::stop_token& stop) {
 }  // namespace
 
 ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
-    : channel_(connect(options.address)),
+    : channel_(connect(options)),
       stub_(v1::WorkerService::NewStub(channel_)),
       options_(options),
       stop_(std::move(stop)),
@@ -90,6 +90,10 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
         if (status.error_code() == grpc::StatusCode::DATA_LOSS) throw InputDamaged(message);
         throw LeaseLost(message);
       case RetryPolicy::Verdict::kFailed:
+        if (status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
+            status.error_code() == grpc::StatusCode::PERMISSION_DENIED) {
+          throw NotAllowed(message);
+        }
         throw std::runtime_error(message);
       case RetryPolicy::Verdict::kServerGone:
         throw ServerGone(message);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "wire/channel.h"
 
 namespace affskel::worker {
 
@@ -23,7 +24,7 @@ class LeaseLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same, because what the task needs is damaged or cannot be read: the next task may meet that, too.
+/// The same, because an input of the task is damaged or cannot be read; the next task may fail for that, too.
 class InputDamaged : public LeaseLost {
  public:
   using LeaseLost::LeaseLost;
@@ -35,6 +36,12 @@ class ServerGone : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The server does not let this worker in: its token, certificate or role is not good for it.
+class NotAllowed : public ServerGone {
+ public:
+  using ServerGone::ServerGone;
+};
+
 /// The call was ended early because its task is to stop.
 class Interrupted : public std::runtime_error {
  public:
@@ -44,6 +51,7 @@ class Interrupted : public std::runtime_error {
 struct ServerLinkOptions {
   std::string address;                ///< unix:PATH or HOST:PORT
   std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
+  wire::AccessFiles access = {};      ///< what it shows to the server
   std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
 };
 
@@ -51,6 +59,7 @@ struct ServerLinkOptions {
 /// trouble they are made again, with growing pauses (see RetryPolicy).  Any thread.
 class ServerLink {
  public:
+  /// @throws std::invalid_argument when a file of options.access is not good.
   ServerLink(const ServerLinkOptions& options, std::stop_token stop);
 
   /// Waits for work up to request.wait_ms; nothing when there was none or the worker is to stop.
@@ -89,7 +98,7 @@ class ServerLink {
   ServerLinkOptions options_;
   std::stop_token stop_;
   std::atomic<std::uint64_t> seed_;  // of the pauses of the next call
-  std::atomic<bool> away_ = false;   // as far as the log knows
+  std::atomic<bool> away_ = false;   // whether the log says that the server is away
 };
 
 }  // namespace affskel::worker

@@ -6,7 +6,7 @@
 
 namespace affskel::client {
 
-DivergenceWriter::DivergenceWriter(FileFormat format, AtomicFile& file, const LatticePoints& points)
+DivergenceWriter::DivergenceWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points)
     : table_(format, file, points, {{"H", {"H"}, false, std::numeric_limits<double>::quiet_NaN()}}),
       values_(points, sizeof(double), "divergence", "values",
               [this](const SamplePoint& at, const char* bytes) {

@@ -12,7 +12,7 @@ namespace affskel::client {
 class DivergenceWriter {
  public:
   /// `file` and `points` must outlive it.
-  DivergenceWriter(FileFormat format, AtomicFile& file, const LatticePoints& points);
+  DivergenceWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points);
 
   void data(std::string_view bytes) { values_.data(bytes); }
   /// Checks that every point got its value.  The file is left uncommitted.

@@ -5,7 +5,7 @@
 
 namespace affskel::client {
 
-FieldWriter::FieldWriter(FileFormat format, AtomicFile& file, const LatticePoints& points)
+FieldWriter::FieldWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points)
     : table_(format, file, points,
              {{"E", {"E"}, false, std::numeric_limits<double>::quiet_NaN()},
               {"normal", {"nx", "ny", "nz"}, false, 0},

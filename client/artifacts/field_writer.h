@@ -10,7 +10,7 @@ namespace affskel::client {
 class FieldWriter : public FieldReceiver {
  public:
   /// `file` and `points` must outlive it.
-  FieldWriter(FileFormat format, AtomicFile& file, const LatticePoints& points);
+  FieldWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points);
 
   void put(const FieldPoint& point) override;
   /// The file is left uncommitted.

@@ -53,7 +53,7 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
       break;
   }
   std::string message = error.what();
-  // The place is told apart from the message here, and once is enough.
+  // The error holds the line on its own: it need not be in the message, too.
   const std::string place = "line " + std::to_string(error.line()) + ": ";
   if (error.line() > 0 && message.starts_with(place)) message.erase(0, place.size());
   return {code, message, file, error.line()};
@@ -66,6 +66,10 @@ ClientError error_from_errno(int error_number, const std::string& action, const 
     code = ExitCode::kLimit;
   if (error_number == EACCES || error_number == EPERM || error_number == EROFS) code = ExitCode::kNotAllowed;
   return {code, action + ": " + std::strerror(error_number), file};
+}
+
+ClientError error_from_file(const base::FileError& error) {
+  return error_from_errno(error.code().value(), error.action(), error.file());
 }
 
 }  // namespace affskel::client

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "core/base/error.h"
 
 namespace affskel::client {
@@ -48,6 +49,9 @@ class ClientError : public std::runtime_error {
 
 /// Error for a core error about the file (or, when `file` is empty, about an option).
 ClientError error_from_core(const core::CoreError& error, const std::string& file);
+
+/// Error for a file that could not be written, as error_from_errno.
+ClientError error_from_file(const base::FileError& error);
 
 /// Error for a failed system call on `file`, by errno: disk full or a pipe that nobody reads 8, no permission
 /// 7, otherwise `otherwise`.

@@ -94,6 +94,22 @@ std::string value_pattern(const CompletedCommand& c, const CompletedOption& o) {
   return join(patterns, "|");
 }
 
+// The lines of a shell's `case` that complete the values of options.
+// @param reply the commands that complete those of one option, empty = none; @param open before a pattern.
+template <typename Reply>
+std::string value_cases(const std::vector<CompletedCommand>& commands, const char* open, Reply&& reply) {
+  std::string cases;
+  for (const CompletedCommand& c : commands) {
+    for (const CompletedOption& o : c.options) {
+      if (!o.takes_value) continue;
+      const std::string answer = reply(o);
+      cases += std::string("    ") + open + value_pattern(c, o) + ") " + answer +
+               (answer.empty() ? "" : "; ") + "return ;;\n";
+    }
+  }
+  return cases;
+}
+
 std::string bash_script(const std::vector<CompletedCommand>& commands) {
   std::string s =
       "# Completion of affskel-client for bash: source this file.\n_affskel_client() {\n"
@@ -103,16 +119,10 @@ std::string bash_script(const std::vector<CompletedCommand>& commands) {
       join(subcommand_paths(commands), "|") +
       ") at+=/${COMP_WORDS[i]} ;;\n    esac\n  done\n"
       "  case \"$at:$prev\" in\n";
-  for (const CompletedCommand& c : commands) {
-    for (const CompletedOption& o : c.options) {
-      if (!o.takes_value) continue;
-      const std::string reply =
-          !o.values.empty() ? "COMPREPLY=($(compgen -W '" + join(o.values, " ") + "' -- \"$cur\"))"
-          : o.takes_file    ? "COMPREPLY=($(compgen -f -- \"$cur\")); compopt -o filenames 2>/dev/null"
-                            : "";
-      s += "    " + value_pattern(c, o) + ") " + reply + (reply.empty() ? "" : "; ") + "return ;;\n";
-    }
-  }
+  s += value_cases(commands, "", [](const CompletedOption& o) -> std::string {
+    if (!o.values.empty()) return "COMPREPLY=($(compgen -W '" + join(o.values, " ") + "' -- \"$cur\"))";
+    return o.takes_file ? "COMPREPLY=($(compgen -f -- \"$cur\")); compopt -o filenames 2>/dev/null" : "";
+  });
   s += "  esac\n  local words= files=\n  case \"$at\" in\n";
   for (const CompletedCommand& c : commands) {
     std::vector<std::string> words = c.positional_values;
@@ -152,15 +162,10 @@ std::string zsh_script(const std::vector<CompletedCommand>& commands) {
       join(subcommand_paths(commands), "|") +
       ") at+=/${words[i]} ;;\n    esac\n  done\n"
       "  case \"$at:${words[CURRENT-1]}\" in\n";
-  for (const CompletedCommand& c : commands) {
-    for (const CompletedOption& o : c.options) {
-      if (!o.takes_value) continue;
-      const std::string reply = !o.values.empty() ? "compadd -- " + join(o.values, " ") + "; "
-                                : o.takes_file    ? "_files; "
-                                                  : "";
-      s += "    (" + value_pattern(c, o) + ") " + reply + "return ;;\n";
-    }
-  }
+  s += value_cases(commands, "(", [](const CompletedOption& o) -> std::string {
+    if (!o.values.empty()) return "compadd -- " + join(o.values, " ");
+    return o.takes_file ? "_files" : "";
+  });
   s += "  esac\n  case \"$at\" in\n";
   for (const CompletedCommand& c : commands) {
     s += "    ('" + c.path + "')\n      if [[ ${words[CURRENT]} == -* ]]; then\n        found=(";

@@ -12,6 +12,16 @@ void add_global_options(CLI::App& app, GlobalOptions& options) {
                  "else a private server that starts and leaves by itself")
       ->check(non_empty())
       ->type_name("ADDR");
+  const auto add_file = [&](const char* name, std::string& file, const char* what) {
+    app.add_option(name, file, what)->check(non_empty())->type_name("FILE");
+  };
+  add_file("--token-file", options.access.token_file,
+           "Its first line is the token to show; else $AFFSKEL_TOKEN_FILE");
+  add_file("--tls-ca", options.access.tls_ca,
+           "Who signed the server's certificate, PEM: speak TLS; else $AFFSKEL_TLS_CA");
+  add_file("--client-cert", options.access.tls_cert,
+           "Own certificate, PEM, for servers that ask for one; else $AFFSKEL_CLIENT_CERT");
+  add_file("--client-key", options.access.tls_key, "Its key, PEM; else $AFFSKEL_CLIENT_KEY");
   app.add_flag("--json", options.json, "One JSON document on stdout; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.quiet, "No notes and no progress");
 }

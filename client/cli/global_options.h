@@ -3,16 +3,19 @@
 #include <CLI/App.hpp>
 #include <string>
 
+#include "wire/channel.h"
+
 namespace affskel::client {
 
 /// Options that every command has.
 struct GlobalOptions {
-  std::string server;  ///< empty = environment, configuration, embedded
+  std::string server;        ///< empty = environment, configuration, embedded
+  wire::AccessFiles access;  ///< empty files = environment, configuration, none
   bool json = false;
   bool quiet = false;
 };
 
-/// Adds --server, --json and --quiet; parsing fills `options`, which must outlive it.
+/// Adds --server, what is shown to it, --json and --quiet; parsing fills `options`, which must outlive it.
 void add_global_options(CLI::App& app, GlobalOptions& options);
 
 }  // namespace affskel::client

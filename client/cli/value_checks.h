@@ -13,7 +13,7 @@ CLI::Validator positive_number();
 CLI::Validator proper_share();
 /// A whole number from `low` to `high`.
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
-/// Not empty: an empty variable of a script must not mean another server or file than the one that was meant.
+/// Not empty: a variable that is empty by mistake in a script must not select another server or file.
 CLI::Validator non_empty();
 /// Well-formed UTF-8: for what becomes a string of the protocol.
 CLI::Validator utf8_text();

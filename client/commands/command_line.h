@@ -24,7 +24,7 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// Adds a command.  Where the values of its options go, `action` must keep alive.
+  /// Adds a command.  `action` must own what its options are parsed into.
   /// @param examples lines for the end of its help.
   /// @param check of the options together, if they need one.
   CLI::App* add(const std::string& name, const std::string& description, const std::string& examples,

@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/atomic_file.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/comparison/comparison.h"
 #include "client/files/format.h"
-#include "client/files/write/atomic_file.h"
 
 namespace affskel::client {
 namespace {
@@ -20,31 +20,31 @@ struct Options {
 };
 
 // Opened at once, so that a place which cannot be written is known before the work is done.
-std::optional<AtomicFile> opened(const std::string& path) {
-  return path.empty() ? std::nullopt : std::optional<AtomicFile>(std::in_place, path);
+std::optional<base::AtomicFile> opened(const std::string& path) {
+  return path.empty() ? std::nullopt : std::optional<base::AtomicFile>(std::in_place, path);
 }
 
-void fill(std::optional<AtomicFile>& file, const std::function<std::string()>& text) {
+void fill(std::optional<base::AtomicFile>& file, const std::function<std::string()>& text) {
   if (!file) return;
   file->write(text());
   file->sync();
 }
 
-void appear(std::optional<AtomicFile>& file, const std::string& path, Console& console) {
+void appear(std::optional<base::AtomicFile>& file, const std::string& path, Console& console) {
   if (!file) return;
   file->commit();
   console.note("wrote " + path);
 }
 
 void run(Console& console, const Options& options) {
-  // Wrong extensions are known before the work is done.
+  // Refuse wrong extensions before the work is done.
   constexpr FileFormat kPlot[] = {FileFormat::kSvg}, kTable[] = {FileFormat::kCsv};
   if (!options.plot.empty()) choose_format(options.plot, kPlot, "plot");
   if (!options.output.empty()) choose_format(options.output, kTable, "table");
-  std::optional<AtomicFile> plot = opened(options.plot), table = opened(options.output);
+  std::optional<base::AtomicFile> plot = opened(options.plot), table = opened(options.output);
   const Comparison comparison = compare_files(options.comparison, console);
   nlohmann::ordered_json document = comparison_json(comparison);
-  // Both are complete on the disk before either appears.
+  // Write both to the disk before either appears.
   fill(plot, [&] { return svg_of(comparison_plot(comparison)); });
   fill(table, [&] { return comparison_csv(comparison); });
   appear(plot, options.plot, console);

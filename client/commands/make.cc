@@ -3,12 +3,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/files/format.h"
-#include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
@@ -44,7 +44,7 @@ void run(Console& console, const MakeOptions& options) {
   } catch (const core::CoreError& error) {
     throw error_from_core(error, "");
   }
-  AtomicFile file(destination.file);
+  base::AtomicFile file(destination.file);
   write_into(file, [&](const WriteBytes& write) { write_surface(format, shape, {}, write); });
   file.commit();
   console.note("wrote " + destination.name() + " (" +

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/cli/number_parsers.h"
 #include "client/cli/value_checks.h"
@@ -13,7 +14,6 @@
 #include "client/commands/shared/shape_notes.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/files/read/read_shape.h"
-#include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
 #include "core/mesh/coincident_points.h"
@@ -40,7 +40,7 @@ double fraction_of(const std::string& text) {
   return *share;
 }
 
-// The surface crosses itself when it does so as one whose corners at the same place are joined.
+// Whether the surface crosses itself once corners at the same place are joined.
 bool crosses_itself(core::Mesh mesh) {
   const std::vector<std::uint32_t> first = core::first_coincident_point(mesh.points);
   for (core::Triangle& t : mesh.triangles) {
@@ -76,7 +76,7 @@ void run(Console& console, const Options& options) {
 
   const std::string noise = "Gaussian noise of standard deviation " + base::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);
-  AtomicFile file(destination.file);
+  base::AtomicFile file(destination.file);
   write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {noise}, write); });
   file.commit();
   console.note("wrote " + destination.name() + " (" + counts_text(shape) + ", sigma " +

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
 #include "client/cli/value_checks.h"
@@ -12,7 +13,6 @@
 #include "client/commands/shared/follow.h"
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "client/files/write/atomic_file.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
 
@@ -75,7 +75,7 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, picture_formats(), "picture");
-  AtomicFile file(destination.file);
+  base::AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
   v1::SkeletonParams params = skeleton_params(options.skeleton, job);
   RenderInput input;

@@ -39,7 +39,7 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   if (arguments.empty()) io.err << app.help();
   const bool no_command =
       end.get_name() == "RequiredError" && std::string(end.what()).find("subcommand") != std::string::npos;
-  // A misspelt command is left over, and more helpful to name than what is missing.
+  // CLI11 leaves a misspelt command over: naming it helps more than naming what is missing.
   const std::vector<std::string> unknown = no_command ? app.remaining(true) : std::vector<std::string>();
   const std::string missing =
       unknown.empty() ? "no command was given" : "no command '" + unknown.front() + "'";
@@ -64,6 +64,8 @@ int guarded(Console& console, Task&& task) {
     return report(error);
   } catch (const core::CoreError& error) {
     return report(error_from_core(error, ""));
+  } catch (const base::FileError& error) {
+    return report(error_from_file(error));
   } catch (const std::bad_alloc&) {
     return report(ClientError(ExitCode::kLimit, "out of memory"));
   } catch (const std::exception& error) {
@@ -82,7 +84,7 @@ int run_client(const std::vector<std::string>& arguments, const ClientIo& io) {
   }
   Console console(io.out, io.err, style_for(line.global(), io));
   return guarded(console, [&] {
-    Context context(console, io.out, io.environment, line.global().server, io.retry);
+    Context context(console, io.out, io.environment, line.global(), io.retry);
     line.run(context);
   });
 }

@@ -50,14 +50,12 @@ void require_short(const std::string& text, std::size_t bytes, const std::string
   }
 }
 
-v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& input,
-                               const std::string& owner) {
+v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& input) {
   require_short(options.name, kMaxName, "--name");
   require_short(options.request_id, kMaxRequestId, "--request-id");
   v1::SubmitJobHeader header;
   header.set_name(options.name.empty() ? protocol_text(fs::path(input.path).stem().string(), kMaxName)
                                        : options.name);
-  header.set_owner(protocol_text(owner, kMaxOwner));
   header.set_priority(options.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (options.spacing > 0) {
@@ -95,8 +93,8 @@ std::vector<Written> fetch_results(Context& context, const v1::Job& job, const S
   return written;
 }
 
-void check_size(Context& context, const InputFile& input) {
-  const std::uint64_t most = context.session().server_info().max_mesh_bytes();
+void check_size(const v1::ServerInfo& server, const InputFile& input) {
+  const std::uint64_t most = server.max_mesh_bytes();
   if (most > 0 && input.bytes.size() > most) {
     throw ClientError(ExitCode::kLimit,
                       "has " + std::to_string(input.bytes.size()) + " bytes; the server takes at most " +
@@ -125,9 +123,13 @@ void run(Context& context, const SubmitOptions& options) {
   const InputFile input = read_input(options.file);
   tell_conversion(input, console);
   check_mesh(input, options, console);
-  const v1::SubmitJobHeader header = header_for(options, input, user_name(context.environment()));
+  v1::SubmitJobHeader header = header_for(options, input);
   prepare_output_dir(options.output_dir);
-  check_size(context, input);
+  const v1::ServerInfo server = context.session().server_info();
+  check_size(server, input);
+  // A server that does not know who calls is told.
+  if (server.caller().owner().empty())
+    header.set_owner(protocol_text(user_name(context.environment()), kMaxOwner));
   bool existed = false;
   v1::Job job = context.session().submit(header, input.bytes, existed);
   console.result(job.id() + "\n");

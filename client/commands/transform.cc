@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/cli/affine_steps.h"
 #include "client/commands/commands.h"
@@ -12,7 +13,6 @@
 #include "client/commands/shared/shape_notes.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/files/read/read_shape.h"
-#include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/base/error.h"
 #include "core/mesh/map_mesh.h"
@@ -98,7 +98,7 @@ void run(Console& console, const Options& options, const std::vector<AffineStep>
   tell_what_is_lost(console, shape, format, destination.name());
 
   const std::vector<double> numbers = numbers_of(map);
-  AtomicFile file(destination.file);
+  base::AtomicFile file(destination.file);
   write_into(file,
              [&](const WriteBytes& write) { write_shape(format, shape, {comment_for(numbers)}, write); });
   file.commit();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/coding.h"
 #include "base/number_text.h"
 #include "client/commands/commands.h"
@@ -14,7 +15,6 @@
 #include "client/commands/shared/follow.h"
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "client/files/write/atomic_file.h"
 #include "client/text/words.h"
 #include "client/view/page.h"
 #include "core/chords/chord_pruning.h"
@@ -127,7 +127,7 @@ ViewInput fetch_input(Context& context, const v1::Job& job, const v1::SkeletonPa
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, page_formats(), "page");
-  AtomicFile file(destination.file);
+  base::AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
   const ViewInput input = fetch_input(context, job, skeleton_params(options.skeleton, job));
   const std::string page = view_page(input);

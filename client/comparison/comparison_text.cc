@@ -163,7 +163,7 @@ SharePlot comparison_plot(const Comparison& c) {
   plot.x_max = shown_radius(c, c.radii.back());
   plot.marked = shown_radius(c, c.radius);
   plot.marked_label = (c.squared ? "r^2 = " : "r = ") + base::rounded(plot.marked, 4);
-  // A lies below B and is broader, so that both show where they are one.
+  // A is drawn first and broader, so that both are seen where they coincide.
   plot.curves.push_back(plotted(c, c.curves.a_in_b, {"points of A within r of B", "#0b62a4", false, 4, {}}));
   plot.curves.push_back(
       plotted(c, c.curves.b_in_a, {"points of B within r of A", "#e07b1a", false, 1.7, {}}));

@@ -126,7 +126,7 @@ std::optional<End> ended(pid_t pid) {
   if (waitpid(pid, &status, WNOHANG) != pid) return std::nullopt;
   if (WIFSIGNALED(status)) return End{"was killed by signal " + std::to_string(WTERMSIG(status))};
   const int code = WEXITSTATUS(status);
-  // Of a full disk both programs have the same code.
+  // Client and server have the same exit code for a full disk.
   const bool full = code == static_cast<int>(ExitCode::kLimit);
   return End{"exited with code " + std::to_string(code), full ? ExitCode::kLimit : ExitCode::kUnreachable};
 }

@@ -1,7 +1,9 @@
 #include "client/connection/server_choice.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "client/base/error.h"
@@ -18,11 +20,42 @@ std::string trim(const std::string& text) {
 ServerChoice choice_from(const std::string& text, const std::string& origin, const std::string& file = {},
                          std::uint64_t line = 0) {
   try {
-    ServerChoice choice{false, wire::parse_address(text), origin};
+    ServerChoice choice;
+    choice.address = wire::parse_address(text);
+    choice.origin = origin;
     return choice;
   } catch (const std::invalid_argument& error) {
     throw ClientError(ExitCode::kUsage, file.empty() ? origin + ": " + error.what() : error.what(), file,
                       line);
+  }
+}
+
+/// A file that is shown to servers, by its names.
+struct AccessFile {
+  const char* key;       // in the configuration
+  const char* variable;  // of the environment
+  std::string wire::AccessFiles::*member;
+};
+
+constexpr AccessFile kFiles[] = {
+    {"token_file", "AFFSKEL_TOKEN_FILE", &wire::AccessFiles::token_file},
+    {"tls_ca", "AFFSKEL_TLS_CA", &wire::AccessFiles::tls_ca},
+    {"client_cert", "AFFSKEL_CLIENT_CERT", &wire::AccessFiles::tls_cert},
+    {"client_key", "AFFSKEL_CLIENT_KEY", &wire::AccessFiles::tls_key},
+};
+
+std::string keys() {
+  std::string text = "server";
+  for (const AccessFile& file : kFiles) text += std::string(", ") + file.key;
+  return text;
+}
+
+/// Where nothing is said yet, what the environment says, then the configuration of the server.
+void fill_in(wire::AccessFiles& access, const Environment& environment, const wire::AccessFiles& configured) {
+  for (const AccessFile& file : kFiles) {
+    std::string& path = access.*(file.member);
+    if (path.empty()) path = environment.get(file.variable).value_or("");
+    if (path.empty()) path = configured.*(file.member);
   }
 }
 
@@ -41,15 +74,22 @@ Config read_config(const std::filesystem::path& file) {
     if (text.empty() || text.front() == '#') continue;
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      throw ClientError(ExitCode::kUsage, "expected 'server = ADDR', found '" + text + "'", file, number);
+      throw ClientError(ExitCode::kUsage, "expected 'KEY = VALUE', found '" + text + "'", file, number);
     }
     const std::string key = trim(text.substr(0, equals));
-    if (key != "server") {
-      throw ClientError(ExitCode::kUsage, "unknown key '" + key + "'; the one key is 'server'", file, number);
+    const std::string value = trim(text.substr(equals + 1));
+    if (key == "server") {
+      if (value.empty()) throw ClientError(ExitCode::kUsage, "no address after '='", file, number);
+      config.server = value;
+      config.server_line = number;
+      continue;
     }
-    config.server = trim(text.substr(equals + 1));
-    config.server_line = number;
-    if (config.server.empty()) throw ClientError(ExitCode::kUsage, "no address after '='", file, number);
+    const auto* known = std::find_if(std::begin(kFiles), std::end(kFiles),
+                                     [&](const AccessFile& one) { return key == one.key; });
+    if (known == std::end(kFiles))
+      throw ClientError(ExitCode::kUsage, "unknown key '" + key + "'; the keys are " + keys(), file, number);
+    if (value.empty()) throw ClientError(ExitCode::kUsage, "no file after '='", file, number);
+    config.access.*(known->member) = (file.parent_path() / value).string();
   }
   if (in.bad()) throw error_from_errno(errno, "cannot read the configuration", file);
   return config;
@@ -59,16 +99,28 @@ std::filesystem::path config_file(const Environment& environment) {
   return xdg_directory(environment, "XDG_CONFIG_HOME", ".config") / "affskel" / "config";
 }
 
-ServerChoice choose_server(const std::string& option, const Environment& environment) {
-  if (!option.empty()) return choice_from(option, "--server");
-  if (const auto value = environment.get("AFFSKEL_SERVER")) return choice_from(*value, "$AFFSKEL_SERVER");
-  const std::filesystem::path file = config_file(environment);
-  const Config config = read_config(file);
-  if (!config.server.empty()) return choice_from(config.server, file, file, config.server_line);
-  ServerChoice embedded;
-  embedded.embedded = true;
-  embedded.origin = "embedded";
-  return embedded;
+ServerChoice choose_server(const std::string& option, const Environment& environment,
+                           const wire::AccessFiles& access) {
+  ServerChoice choice;
+  wire::AccessFiles configured;
+  if (!option.empty()) {
+    choice = choice_from(option, "--server");
+  } else if (const auto value = environment.get("AFFSKEL_SERVER")) {
+    choice = choice_from(*value, "$AFFSKEL_SERVER");
+  } else {
+    const std::filesystem::path file = config_file(environment);
+    const Config config = read_config(file);
+    if (config.server.empty()) {
+      choice.embedded = true;
+      choice.origin = "embedded";
+      return choice;
+    }
+    choice = choice_from(config.server, file, file, config.server_line);
+    configured = config.access;
+  }
+  choice.access = access;
+  fill_in(choice.access, environment, configured);
+  return choice;
 }
 
 }  // namespace affskel::client

@@ -19,13 +19,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kUnaryDeadline{30};
-// How long an embedded server that never answered may keep us.
+// How long to wait for the first answer of an embedded server.
 constexpr std::chrono::milliseconds kStartPatience{10000};
 constexpr int kMaxMessageBytes = 64 << 20;  // long job lists; pieces of streams are far smaller
 // Servers refuse pings more often than every five minutes.
 constexpr int kKeepaliveMs = 330 * 1000;
 
-std::shared_ptr<grpc::Channel> make_channel(const wire::Address& address) {
+std::shared_ptr<grpc::Channel> channel_to(const wire::Address& address, const wire::AccessFiles& access) {
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
   // A fresh channel must not inherit the connection back-off of the one it replaces.
@@ -35,7 +35,11 @@ std::shared_ptr<grpc::Channel> make_channel(const wire::Address& address) {
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20000);
   }
-  return grpc::CreateCustomChannel(address.target(), grpc::InsecureChannelCredentials(), arguments);
+  try {
+    return wire::make_channel(address, access, arguments);
+  } catch (const std::invalid_argument& error) {
+    throw ClientError(ExitCode::kUsage, error.what());
+  }
 }
 
 // Counts and hashes what passes through.
@@ -151,13 +155,13 @@ void Session::connect() {
     address = ensure_embedded_server(embedded_paths(environment_), {}, environment_, console_);
   }
   target_ = address.target();
-  channel_ = make_channel(address);
+  channel_ = channel_to(address, choice_.access);
   stub_ = v1::ErosionService::NewStub(channel_);
 }
 
 void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet) {
   std::chrono::milliseconds pause = policy_.first_pause;
-  std::optional<Clock::time_point> failing;  // since when: calls may take long
+  std::optional<Clock::time_point> failing;  // since the first error: a call itself may take long
   while (true) {
     if (!stub_) connect();
     const grpc::Status status = attempt(*stub_);
@@ -252,9 +256,9 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   }
   grpc::Status status = reader->Finish();
   if (is_final(last.state())) return grpc::Status::OK;
-  // A job without a final state has no last message: the server is shutting down.
+  // Without a final state the stream ends only because the server shuts down.
   if (!status.ok() && !is_away(status)) return status;
-  // A message is a success: the patience counts from it.
+  // After a message, patience begins anew.
   if (any) return grpc::Status::OK;
   return {grpc::StatusCode::UNAVAILABLE, status.ok() ? "the server ended the watch" : status.error_message()};
 }

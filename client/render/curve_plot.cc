@@ -4,8 +4,8 @@
 
 #include "base/number_text.h"
 #include "base/utf8.h"
+#include "client/text/markup_text.h"
 #include "client/text/printable.h"
-#include "client/text/xml_text.h"
 
 namespace affskel::client {
 namespace {
@@ -34,8 +34,8 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
 }
 
 std::string text(double x, double y, const std::string& style, const std::string& words) {
-  return "<text x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" " + style + ">" + xml_text(printable(words)) +
-         "</text>\n";
+  return "<text x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" " + style + ">" +
+         markup_text(printable(words)) + "</text>\n";
 }
 
 class Drawing {
@@ -47,7 +47,7 @@ class Drawing {
            pixel(kHeight) + "\" viewBox=\"0 0 " + pixel(kWidth) + " " + pixel(kHeight) +
            "\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" font-size=\"14\" "
            "fill=\"#222\">\n<title>" +
-           xml_text(printable(plot_.title)) +
+           markup_text(printable(plot_.title)) +
            "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     svg_ += text(kLeft, 28, "font-size=\"17\" font-weight=\"bold\"", plot_.title);
     for (std::size_t i = 0; i < plot_.notes.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/files/base64.h"
+#include "client/text/markup_text.h"
 #include "client/text/words.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
@@ -188,17 +189,6 @@ std::string json_for_html(const ordered_json& value) {
   return text;
 }
 
-std::string html_text(const std::string& text) {
-  static const std::map<char, std::string> kEntities = {
-      {'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
-  std::string escaped;
-  for (const char c : text) {
-    const auto entity = kEntities.find(c);
-    escaped += entity == kEntities.end() ? std::string(1, c) : entity->second;
-  }
-  return escaped;
-}
-
 // The template with every {{mark}} replaced; what is put in is not looked at again.
 std::string fill(std::string_view text, const std::map<std::string_view, std::string_view>& values) {
   std::string filled;
@@ -229,7 +219,7 @@ std::string view_page(const ViewInput& input) {
   facts["pointGrid"] = add_points(arrays, input, scale);
   if (input.sheet_is_skeleton) add_sheet(arrays, input, scale);
   facts["arrays"] = arrays.directory();
-  const std::string name = html_text(input.job.name()), data = json_for_html(facts),
+  const std::string name = markup_text(input.job.name()), data = json_for_html(facts),
                     block = base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
                                 {"version", wire::kVersion},

@@ -8,6 +8,7 @@
 
 #include "base/direction_set.h"
 #include "base/number_text.h"
+#include "base/published_threshold.h"
 
 namespace affskel::wire {
 namespace {
@@ -81,7 +82,8 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
   }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {
-    result.set_threshold(result.operator_() == v1::OPERATOR_ZUCKER_HUMMEL ? kZuckerHummelThreshold : 0.0);
+    result.set_threshold(result.operator_() == v1::OPERATOR_ZUCKER_HUMMEL ? base::kZuckerHummelThreshold
+                                                                          : 0.0);
   }
   return result;
 }

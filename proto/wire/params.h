@@ -7,9 +7,6 @@
 
 namespace affskel::wire {
 
-/// |H| above which the Zucker-Hummel operator keeps a point: the published threshold.
-inline constexpr double kZuckerHummelThreshold = 7.0;
-
 /// Level of an eroded solid when none is asked for, as a share of v0.
 inline constexpr double kErodedFraction = 0.1;
 

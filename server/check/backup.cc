@@ -75,7 +75,7 @@ class TemporaryFile {
   std::string path_;
 };
 
-/// SQLite would take what an earlier database of that name has left for part of the new one.
+/// SQLite would read logs left by an earlier database of that name as part of the new one.
 void refuse_left_logs(const std::string& target) {
   for (const char* suffix : {"-wal", "-journal"}) {
     std::error_code absent;

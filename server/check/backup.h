@@ -23,8 +23,8 @@ struct Backup {
 /// is readable by this user alone.  As affskel.db in an empty directory it is a data directory again: a
 /// server makes everything else anew.
 /// @throws StoreError kUnusable when there is no database of affskel-server, kInvalid for a target in the
-/// data
-///   directory; std::system_error about the target, EEXIST when it is there without `force`; SqliteError.
+///   data directory; std::system_error about the target, EEXIST when it is there without `force`;
+///   SqliteError.
 Backup back_up(const std::string& data_dir, const std::string& target, const BackupOptions& options = {});
 
 }  // namespace affskel::server

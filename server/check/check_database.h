@@ -23,13 +23,12 @@ struct CheckResult {
 };
 
 /// Checks the database of a data directory as of one moment, whether a server runs there or not: SQLite's own
-/// checks of file and references, whether the tables are those of its schema (check_schema.h), then what the
-/// server relies on and SQLite cannot know: that rows agree with each other (check_rules.h), that stored
-/// bytes have their sizes and hashes (check_contents.h).  Changes nothing in it; SQLite may leave its two
-/// files beside it (an empty log and its index).
+/// checks of file and references; whether the tables are those of its schema (check_schema.h); then what
+/// SQLite cannot know: that rows agree with each other (check_rules.h), that stored bytes have their sizes
+/// and hashes (check_contents.h).  Changes nothing in it; SQLite may leave its two files beside it (an empty
+/// log and its index).
 /// @throws StoreError kUnusable when there is no database of affskel-server, or one of a newer one;
-/// SqliteError
-///   when it cannot be opened.  What cannot be read later on is a fault.
+///   SqliteError when it cannot be opened.  What cannot be read later on is a fault.
 CheckResult check_database(const std::string& data_dir, const FaultHandler& on_fault,
                            const CheckOptions& options = {});
 

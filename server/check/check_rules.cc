@@ -5,7 +5,7 @@ namespace {
 
 // Each names where and what for every fault of its kind.
 
-// Who needs what, and what goes when nobody does: store_space.cc.
+// Ownership: everything stored is needed by a job or marked for deletion.  See store_space.cc.
 constexpr const char* kOwnership[] = {
     "SELECT 'erosion ' || e.id, 'is marked for deletion, but job ' || j.id || ' needs it'"
     " FROM erosions e JOIN jobs j ON j.erosion_id = e.id WHERE e.dropped = 1",

@@ -31,7 +31,8 @@ class Repairer {
     for (const PieceFault& fault : artifacts) repair_artifact(fault);
     if (repaired_) {
       write([](Tx& tx) {
-        // Not the file that it was: leases end, and workers fetch their fields anew (Store's constructor).
+        // Like a file put back from a copy: leases end, and workers fetch their fields anew (Store's
+        // constructor).
         tx.db.run("UPDATE server_state SET value = 'repaired' WHERE key = 'file'");
       });
     }
@@ -96,9 +97,9 @@ class Repairer {
               fault.id);
   }
 
-  /// No direction is done.  The job that is most awake goes on with what is left of the field; jobs that
-  /// shared it begin anew, and take it over when it is finished.  Made by a core that no worker has any more,
-  /// all begin anew.
+  /// Starts an erosion again with no direction done.  One of its jobs, an active one if there is any, goes on
+  /// with what is left of the field.  The others begin anew, and take the field over when it is finished.
+  /// All begin anew when no worker has the core that made it any more.
   static void restart_erosion(Tx& tx, const FieldShape& field) {
     const std::int64_t id = field.erosion_id;
     tx.db.run("DELETE FROM done_ranges WHERE erosion_id = ?", id);

@@ -30,7 +30,7 @@ std::uint64_t free_bytes(const std::string& directory) {
 DiskReserve::DiskReserve(const std::string& directory, std::uint64_t bytes, FreeBytes free)
     : directory_(directory), file_(directory + "/reserve"), bytes_(bytes), free_(std::move(free)) {
   struct stat status {};
-  // Sparse, it would be none: a copied data directory may have it so.
+  // A sparse file, as in a copied data directory, would reserve nothing.
   whole_ = stat(file_.c_str(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) == bytes_ &&
            static_cast<std::uint64_t>(status.st_blocks) * kStatBlock >= bytes_;
   if (!whole_) {

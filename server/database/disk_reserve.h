@@ -29,8 +29,8 @@ class DiskReserve {
   /// Gives the room away.
   void release();
 
-  /// What was free at the last restore() may be enough now: something large was written since, or needs not
-  /// be written any more.
+  /// Lets restore() try again with as much free space as the last time.  For when something large was written
+  /// since, or need not be written any more.
   void allow_retry() { not_enough_ = 0; }
 
  private:
@@ -41,8 +41,8 @@ class DiskReserve {
   std::uint64_t bytes_;
   FreeBytes free_;
   bool whole_ = false;
-  // Free at the last restore(), until something large was written: if the reserve is needed again at once,
-  // that was too little, and trying it again would only write for nothing.
+  // Free space at the last restore(); 0 once something large was written.  If the reserve is needed again at
+  // once, this much was too little, and trying it again would only write for nothing.
   std::uint64_t not_enough_ = 0;
 };
 

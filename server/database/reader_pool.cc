@@ -4,7 +4,8 @@
 namespace affskel::server {
 namespace {
 
-// As many as ask at once on most machines; each keeps a few descriptors and a cache of 256 KiB.
+// Connections kept open: as many as are used at once on most machines.  Each keeps a few descriptors and a
+// cache of 256 KiB.
 constexpr std::size_t kMostIdle = 8;
 
 }  // namespace

@@ -23,16 +23,17 @@ constexpr int kPageBytes = 16384;
 // Reports rewrite field pages over and over: a long log copies each page to the database less often.
 constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
 
-// What a connection that only reads keeps of it; there may be many, and clients let them wait.
+// Cache of a connection that only reads.  Small, for there may be many, and slow clients keep them open.
 constexpr int kReaderCacheKib = 256;
 
-// Copied between two looks at whether to go on.
+// Pages copied between two questions whether to go on.
 constexpr int kPagesCopied = 1024;
 
 // The database file grows in steps of this size.
 constexpr int kGrowthBytes = 1 << 20;
 
-/// SQLite calls a quota used up, or no room for the log's index, an error of input and output.
+/// The error code.  SQLite reports a full quota, and a full disk while it writes the log's index, as I/O
+/// errors: they become SQLITE_FULL.
 int code_of(sqlite3* db) {
   const int code = sqlite3_extended_errcode(db);
   const int primary = code & 0xff;
@@ -45,7 +46,8 @@ bool failed_reading(int code) {
   return code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ || code == SQLITE_IOERR_CORRUPTFS;
 }
 
-/// Disks fail for people, who know files and causes; everything else is for whoever mends this program.
+/// The message of an error.  Failures of the disk name file and cause, for users; all others are for
+/// developers.
 std::string describe(sqlite3* db, int code, int cause, const std::string& context) {
   if (db == nullptr) return "database " + context + ": out of memory";
   const int primary = code & 0xff;
@@ -201,7 +203,7 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
 }
 
 void Database::set_up_reading() {
-  // The last to close a file would copy the log into it.
+  // Otherwise the last connection to close would copy the log into the file.
   sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   // Readers go through what they read once.
   execute("PRAGMA query_only = ON; PRAGMA cache_size = " + std::to_string(-kReaderCacheKib));
@@ -253,8 +255,8 @@ Statement Database::prepare(const char* sql) {
 
 namespace {
 
-/// Error of making a small file beside this one; 0 when that works.  Not of the file itself: to open and
-/// close it would take SQLite's locks on it away.
+/// The error of making a small file beside this one; 0 when that works.  The file itself must not be opened:
+/// closing it would release SQLite's locks.
 int probe_disk(const std::string& file) {
   const std::string probe = file + ".probe";
   const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
@@ -281,7 +283,7 @@ void Database::claim_pages() {
 }
 
 void Database::unclaim_pages() {
-  // A checkpoint cuts the file only when it finds something in the log: a first page that stays as it is.
+  // A checkpoint shortens the file only when the log holds something: so the first page is written unchanged.
   execute("PRAGMA user_version = " + std::to_string(integer("PRAGMA user_version").value_or(0)));
   checkpoint();
 }

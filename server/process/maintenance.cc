@@ -16,84 +16,13 @@
 #include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
+#include "process/console.h"
 #include "process/data_dir.h"
 #include "process/exit_code.h"
+#include "process/token_command.h"
 
 namespace affskel::server {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Errors by the names that the client gives them.
-const char* name_of(ExitCode code) {
-  switch (code) {
-    case ExitCode::kFaults:
-      return "FAULT";
-    case ExitCode::kUsage:
-      return "USAGE";
-    case ExitCode::kBadInput:
-      return "BAD_INPUT";
-    case ExitCode::kCancelled:
-      return "CANCELLED";
-    case ExitCode::kNotAllowed:
-      return "NOT_ALLOWED";
-    case ExitCode::kLimit:
-      return "LIMIT";
-    default:
-      return "INTERNAL";
-  }
-}
-
-// Paths and damaged rows may hold any bytes.
-std::string dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// Each message is one line, whatever it quotes.
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  }
-  return text;
-}
-
-class Console {
- public:
-  explicit Console(bool json) : json_(json) {}
-
-  /// @throws std::system_error when they cannot be written.
-  void result(const Json& document) const {
-    errno = 0;
-    if (json_) {
-      std::cout << dump(document) << '\n';
-    } else {
-      for (const auto& [key, value] : document.items()) std::cout << key << ": " << text_of(value) << '\n';
-    }
-    if (!std::cout.flush())
-      throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), "cannot write the results");
-  }
-
-  void error(ExitCode code, const std::string& message) const {
-    if (json_) {
-      std::cerr << dump({{"error", {{"code", name_of(code)}, {"message", message}}}}) << '\n';
-    } else {
-      std::cerr << "affskel-server: " << one_line(message) << '\n';
-    }
-  }
-
-  /// For people only.
-  void note(const std::string& message) const {
-    if (!json_) std::cerr << "affskel-server: " << message << '\n';
-  }
-
- private:
-  static std::string text_of(const Json& value) {
-    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    return value.is_string() ? one_line(value.get<std::string>()) : dump(value);
-  }
-
-  bool json_;
-};
 
 /// Returns the number of repairs.
 std::int64_t repair(const Options& options, const Console& console) {
@@ -120,17 +49,17 @@ ExitCode check_command(const Options& options, const Console& console) {
                  std::to_string(newest_schema()) +
                  ": its content was not checked; affskel-server migrate brings it up to date");
   }
-  Json result = {{"database", database_file(options.data_dir)},
-                 {"server", server},
-                 {"schema", found.schema},
-                 {"newest_schema", newest_schema()},
-                 {"complete", found.complete},
-                 {"jobs", found.jobs},
-                 {"meshes", found.meshes},
-                 {"fields", found.fields},
-                 {"artifacts", found.artifacts},
-                 {"faults", found.faults},
-                 {"sound", found.faults == 0}};
+  nlohmann::ordered_json result = {{"database", database_file(options.data_dir)},
+                                   {"server", server},
+                                   {"schema", found.schema},
+                                   {"newest_schema", newest_schema()},
+                                   {"complete", found.complete},
+                                   {"jobs", found.jobs},
+                                   {"meshes", found.meshes},
+                                   {"fields", found.fields},
+                                   {"artifacts", found.artifacts},
+                                   {"faults", found.faults},
+                                   {"sound", found.faults == 0}};
   if (options.repair) result["repairs"] = repairs;
   console.result(result);
   return found.faults == 0 ? ExitCode::kDone : ExitCode::kFaults;
@@ -210,10 +139,27 @@ ExitCode run_command(const Options& options, const Console& console) {
       return backup_command(options, console);
     case Command::kMigrate:
       return migrate_command(options, console);
+    case Command::kTokenAdd:
+      return add_token_command(options, console);
+    case Command::kTokenList:
+      return list_tokens_command(options, console);
+    case Command::kTokenRevoke:
+      return revoke_token_command(options, console);
     case Command::kServe:
       break;
   }
   throw std::logic_error("not a command on a data directory");
+}
+
+ExitCode code_of(const StoreError& error) {
+  switch (error.code()) {
+    case StoreError::Code::kInvalid:
+      return ExitCode::kUsage;
+    case StoreError::Code::kNotFound:
+      return ExitCode::kNotFound;
+    default:
+      return ExitCode::kBadInput;
+  }
 }
 
 ExitCode code_of(const SqliteError& error) {
@@ -254,7 +200,7 @@ int run_maintenance(const Options& options) {
   try {
     return static_cast<int>(run_command(options, console));
   } catch (const StoreError& error) {
-    return fail(error.code() == StoreError::Code::kInvalid ? ExitCode::kUsage : ExitCode::kBadInput, error);
+    return fail(code_of(error), error);
   } catch (const SqliteError& error) {
     return fail(code_of(error), error);
   } catch (const DataDirInUse& error) {

@@ -4,8 +4,8 @@
 
 namespace affskel::server {
 
-/// Runs check, backup or migrate, as options.command says.  What came of it goes to stdout as "key: value"
-/// lines or as one JSON document, faults and errors to stderr.  Returns the exit code.
+/// Runs check, backup, migrate or a command on tokens, as options.command says.  What came of it goes to
+/// stdout as "key: value" lines or as one JSON document, faults and errors to stderr.  Returns the exit code.
 int run_maintenance(const Options& options);
 
 }  // namespace affskel::server

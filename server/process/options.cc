@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <thread>
+#include <utility>
 
 #include "process/exit_code.h"
 #include "wire/version.h"
+#include "wire/words.h"
 
 namespace affskel::server {
 namespace {
@@ -26,6 +29,8 @@ Examples:
   affskel-server check --data-dir data
   affskel-server backup --data-dir data -o affskel-backup.db
   affskel-server migrate --data-dir data
+  affskel-server token add --data-dir data --owner ada --expires 90d
+  affskel-server --data-dir data --listen 0.0.0.0:7060 --tls-cert server.pem --tls-key server.key
 
 SIGTERM and SIGINT drain: nothing more is leased, workers report and give their leases back, exit 0.
 DATA_DIR/server.json names process, version and the addresses actually bound while the server runs.
@@ -72,6 +77,19 @@ Examples:
 Exit codes: 0 up to date; 2 usage; 3 no database of affskel-server, or of a newer one; 7 a server runs; 8 disk
 full; 70 internal error.)";
 
+constexpr const char* kTokenFooter = R"(
+All work beside a running server and without one; the first token may be made before the server's first start. A
+server that was ever given a token asks TCP callers for one. Of a token only its hash is kept.
+
+Examples:
+  affskel-server token add --data-dir /var/lib/affskel --owner ada --expires 90d > ada.token
+  affskel-server token add --data-dir /var/lib/affskel --owner cluster --role worker > worker.token
+  affskel-server token list --data-dir /var/lib/affskel
+  affskel-server token revoke --data-dir /var/lib/affskel 3
+
+Exit codes: 0 done; 2 usage; 3 no database of affskel-server, or of a newer one; 4 no such token; 8 disk full; 70
+internal error.)";
+
 unsigned worker_count(const std::string& text) {
   if (text == "auto") return std::max(1U, std::thread::hardware_concurrency());
   unsigned count = 0;
@@ -101,12 +119,32 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
   app.add_option("--data-dir", options.data_dir, "Directory of the database, made if absent")
       ->required()
       ->type_name("DIR");
-  app.add_option("--listen", options.listen,
-                 "unix:PATH or HOST:PORT of this machine, repeatable; port 0 = any free one; default "
-                 "unix:DATA_DIR/server.sock")
+  app.add_option(
+         "--listen", options.listen,
+         "unix:PATH or HOST:PORT, repeatable; port 0 = any free one; default unix:DATA_DIR/server.sock. "
+         "What other machines reach needs TLS and tokens")
       ->type_name("ADDR")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option_function<std::string>(
+         "--socket-mode",
+         [&options](const std::string& text) {
+           options.socket_mode = static_cast<unsigned>(std::stoul(text, nullptr, 8));
+         },
+         "Permissions of Unix sockets: 600 lets this user connect, 660 the group, too, 666 all; default 600")
+      ->check(quietly(CLI::IsMember({"600", "660", "666"})))
+      ->type_name("MODE");
+  CLI::Option* certificate = app.add_option("--tls-cert", options.tls_cert,
+                                            "Certificate of the server, PEM: TCP addresses speak TLS")
+                                 ->type_name("FILE");
+  CLI::Option* key = app.add_option("--tls-key", options.tls_key, "Its private key, PEM")->type_name("FILE");
+  certificate->needs(key);
+  key->needs(certificate);
+  app.add_option("--tls-client-ca", options.tls_client_ca,
+                 "TCP callers must show a certificate that one of these has signed, PEM")
+      ->needs(certificate)
+      ->type_name("FILE");
+  app.add_flag("--insecure", options.insecure, "Listen for other machines without TLS or tokens, too");
   app.add_option("--workers", workers, "Local workers to start and keep running; auto = one per core")
       ->type_name("N|auto")
       ->capture_default_str();
@@ -150,8 +188,10 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
 }
 
 /// Adds a command that works on the data directory by itself.
-CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* what, Command command) {
-  CLI::App* sub = app.add_subcommand(name, what);
+/// @param parent the program, or the command that it belongs to.
+CLI::App* add_command(CLI::App& app, CLI::App& parent, Options& options, const char* name, const char* what,
+                      Command command) {
+  CLI::App* sub = parent.add_subcommand(name, what);
   sub->add_option("--data-dir", options.data_dir, "Data directory of a server, running or not")
       ->required()
       ->type_name("DIR");
@@ -162,18 +202,68 @@ CLI::App* add_command(CLI::App& app, Options& options, const char* name, const c
   return sub;
 }
 
+/// @param text "90d": a whole number of s, m, h, d or w.
+std::chrono::seconds duration_of(const std::string& text) {
+  constexpr std::pair<char, std::int64_t> kUnits[] = {
+      {'s', 1}, {'m', 60}, {'h', 3600}, {'d', 86400}, {'w', 604800}};
+  constexpr std::int64_t kMost = std::int64_t{100} * 366 * 86400;
+  const auto* unit = text.empty() ? std::end(kUnits)
+                                  : std::find_if(std::begin(kUnits), std::end(kUnits),
+                                                 [&](const auto& one) { return one.first == text.back(); });
+  std::int64_t number = 0;
+  if (unit == std::end(kUnits) || !CLI::detail::lexical_cast(text.substr(0, text.size() - 1), number) ||
+      number < 1 || number > kMost / unit->second) {
+    throw CLI::ValidationError(
+        "--expires",
+        "expected a number of s, m, h, d or w, at most 100 years, as in 90d; not '" + text + "'");
+  }
+  return std::chrono::seconds(number * unit->second);
+}
+
+void add_token_commands(CLI::App& app, Options& options) {
+  CLI::App* token = app.add_subcommand("token", "Who may call: tokens of users, workers and admins");
+  token->require_subcommand(1)->footer(kTokenFooter);
+  CLI::App* add =
+      add_command(app, *token, options, "add", "Make a token, and print it once", Command::kTokenAdd);
+  add->footer(kTokenFooter);
+  add->add_option("--owner", options.owner, "Whose jobs its holder's jobs are")
+      ->required()
+      ->type_name("NAME");
+  add->add_option_function<std::string>(
+         "--role",
+         [&options](const std::string& word) {
+           options.role = wire::value_of_word<v1::Role>(word).value_or(v1::ROLE_UNSPECIFIED);
+         },
+         "user: own jobs; worker: compute; admin: all (default user)")
+      ->check(quietly(CLI::IsMember(wire::words(*v1::Role_descriptor()))))
+      ->type_name("ROLE");
+  add->add_option_function<std::string>(
+         "--expires", [&options](const std::string& text) { options.expires = duration_of(text); },
+         "It is good for so long: a number of s, m, h, d or w; default: until it is revoked")
+      ->type_name("TIME");
+  add_command(app, *token, options, "list", "List the tokens, without what they are", Command::kTokenList)
+      ->footer(kTokenFooter);
+  CLI::App* revoke =
+      add_command(app, *token, options, "revoke", "Make a token worthless, at once", Command::kTokenRevoke);
+  revoke->footer(kTokenFooter);
+  revoke->add_option("ID", options.token, "As token list has it")->required();
+}
+
 void add_commands(CLI::App& app, Options& options) {
   app.require_subcommand(0, 1);
   CLI::App* check =
-      add_command(app, options, "check", "Check whether the database is sound", Command::kCheck);
+      add_command(app, app, options, "check", "Check whether the database is sound", Command::kCheck);
   check->footer(kCheckFooter);
   check->add_flag("--repair", options.repair, "First repair what a damaged disk has left; no server may run");
-  CLI::App* backup = add_command(app, options, "backup", "Copy the database to a file", Command::kBackup);
+  CLI::App* backup =
+      add_command(app, app, options, "backup", "Copy the database to a file", Command::kBackup);
   backup->footer(kBackupFooter);
   backup->add_option("-o,--output", options.output, "Where to write the copy")->required()->type_name("FILE");
   backup->add_flag("--force", options.force, "Replace FILE when it exists");
-  add_command(app, options, "migrate", "Bring the database up to date with this version", Command::kMigrate)
+  add_command(app, app, options, "migrate", "Bring the database up to date with this version",
+              Command::kMigrate)
       ->footer(kMigrateFooter);
+  add_token_commands(app, options);
 }
 
 /// What would be ignored is a mistake.

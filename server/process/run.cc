@@ -76,7 +76,12 @@ bool told_again(const sigset_t& set) {
 std::vector<wire::Address> listen_addresses(const Options& options, const std::string& data_dir) {
   std::vector<wire::Address> addresses;
   for (const std::string& text : options.listen) addresses.push_back(wire::parse_address(text));
-  if (addresses.empty()) addresses.push_back(wire::parse_address("unix:" + data_dir + "/server.sock"));
+  // Its own workers and its watchdog come by a socket of the file system, which needs neither TLS nor tokens.
+  const bool has_socket =
+      std::any_of(addresses.begin(), addresses.end(), [](const auto& a) { return a.is_unix; });
+  if (addresses.empty() || (!has_socket && (options.workers > 0 || !options.tls_cert.empty()))) {
+    addresses.push_back(wire::parse_address("unix:" + data_dir + "/server.sock"));
+  }
   // The working directory may be another one for the workers and for whoever reads server.json.
   for (wire::Address& address : addresses) {
     if (address.is_unix && address.path[0] != '/') {
@@ -86,18 +91,22 @@ std::vector<wire::Address> listen_addresses(const Options& options, const std::s
   return addresses;
 }
 
+/// Where this process and its workers call the server.
+const wire::Address& nearest(const Server& server) {
+  const auto& addresses = server.addresses();
+  const auto best = std::find_if(addresses.begin(), addresses.end(), [](const auto& a) { return a.is_unix; });
+  return best != addresses.end() ? *best : addresses.front();
+}
+
 SupervisorOptions supervisor_options(const Options& options, const Server& server) {
   SupervisorOptions result;
   result.workers = options.workers;
   if (options.workers == 0) return result;
-  const auto& addresses = server.addresses();
-  const auto best = std::find_if(addresses.begin(), addresses.end(), [](const auto& a) { return a.is_unix; });
-  const std::string target = (best != addresses.end() ? *best : addresses.front()).target();
   unsigned threads = options.worker_threads;
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency() / options.workers);
   result.command = {find_worker_binary(options.worker_binary),
                     "--server",
-                    target,
+                    nearest(server).target(),
                     "--threads",
                     std::to_string(threads),
                     "--log-level",
@@ -168,6 +177,9 @@ void run_server(const Options& options) {
   ServerOptions server_options;
   server_options.data_dir = data_dir.path();
   server_options.listen = listen_addresses(options, data_dir.path());
+  server_options.socket_mode = options.socket_mode;
+  server_options.tls = {options.tls_cert, options.tls_key, options.tls_client_ca};
+  server_options.insecure = options.insecure;
   server_options.store.lease_ms = options.lease_ms;
   server_options.store.report_interval_ms = options.report_interval_ms;
   server_options.store.max_mesh_bytes = options.max_mesh_mb << 20;
@@ -192,7 +204,7 @@ void run_server(const Options& options) {
                  data_dir.path());
   }
   data_dir.publish(targets, SystemClock().wall_ms());
-  const Watchdog watchdog(targets.front(), WatchdogOptions(), leave_if_deaf);
+  const Watchdog watchdog(nearest(server).target(), WatchdogOptions(), leave_if_deaf);
   serve(options, data_dir, signals, server, supervisor);
   leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();

@@ -254,10 +254,23 @@ void CallLimit::close(const grpc::Status& why) {
 }
 
 void CallLimit::end_all(const grpc::Status& why) {
+  end_calls(why, [](const Caller&) { return true; });
+}
+
+void CallLimit::end_of_token(std::int64_t token, const grpc::Status& why) {
+  end_calls(why, [token](const Caller& caller) { return caller.identity.token == token; });
+}
+
+void CallLimit::end_calls(const grpc::Status& why, const std::function<bool(const Caller&)>& which) {
   std::vector<std::weak_ptr<Endable>> calls;
   {
     const base::MutexLock lock(mutex_);
-    for (const auto& [number, holder] : holders_) calls.push_back(holder.call);
+    for (const auto& [number, holder] : holders_) {
+      if (which(holder.caller)) calls.push_back(holder.call);
+    }
+    for (const Waiter& waiter : waiters_) {
+      if (which(waiter.caller)) calls.push_back(waiter.call);
+    }
   }
   for (const auto& call : calls) {
     if (const auto alive = call.lock()) alive->end(why);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <grpcpp/support/status.h>
+#include <sys/types.h>
 
 #include <chrono>
 #include <cstddef>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "access/identity.h"
 #include "base/mutex.h"
 #include "rpc/pace.h"
 
@@ -22,6 +24,8 @@ namespace affskel::server {
 struct Caller {
   std::uint64_t connection = 0;  ///< its number
   std::string peer;              ///< whose connection it is: shares are counted by this
+  std::optional<uid_t> uid;      ///< of its process, on a Unix socket
+  Identity identity;             ///< as the gate has found
 };
 
 /// A call that can be ended from outside.
@@ -98,6 +102,9 @@ class CallLimit {
   /// Ends all calls under way.
   void end_all(const grpc::Status& why);
 
+  /// Ends those of this token's holder.
+  void end_of_token(std::int64_t token, const grpc::Status& why);
+
   /// Calls under way.
   std::size_t used() const;
 
@@ -129,6 +136,7 @@ class CallLimit {
   template <typename Key>
   bool take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void end_calls(const grpc::Status& why, const std::function<bool(const Caller&)>& which);
   std::size_t of_peer(const std::string& peer) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void serve_waiters(Later& later) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   grpc::Status refusal(const Caller& caller) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

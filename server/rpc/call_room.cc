@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+
+#include "rpc/status.h"
 
 namespace affskel::server {
 namespace {
@@ -70,6 +73,16 @@ void CallRoom::tick() {
   if (++ticks_ % kTicksPerSweep == 0) connections.sweep();
 }
 
+void CallRoom::tick_gate() {
+  for (const std::int64_t token : gate->newly_invalid()) {
+    const grpc::Status why{grpc::StatusCode::UNAUTHENTICATED, "the token has been revoked, or has expired"};
+    for (CallLimit* limit : {&uploads, &downloads, &waiting, &watches, &reports, &results, &inputs, &polls}) {
+      limit->end_of_token(token, why);
+    }
+  }
+  gate->note_use();
+}
+
 void CallRoom::relieve_uploads() {
   if (!uploads.relieve()) results.relieve();
 }
@@ -82,6 +95,31 @@ void CallRoom::close() {
 
 void CallRoom::stop() {
   for (Executor* executor : {&client_calls, &client_streams, &worker_calls, &worker_inputs}) executor->stop();
+}
+
+namespace {
+
+/// What gRPC knows of who has made a call.
+Credentials credentials_of(const grpc::CallbackServerContext& context, const Caller& caller) {
+  Credentials credentials;
+  credentials.uid = caller.uid;
+  const auto& metadata = context.client_metadata();
+  if (const auto found = metadata.find("authorization"); found != metadata.end()) {
+    credentials.authorization = std::string(found->second.data(), found->second.size());
+  }
+  const std::shared_ptr<const grpc::AuthContext> peer = context.auth_context();
+  credentials.has_certificate = peer != nullptr && peer->IsPeerAuthenticated();
+  return credentials;
+}
+
+}  // namespace
+
+CallScope::CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Method method)
+    : use_(room.connections.begin(context.peer(), rule_of(method).side)) {
+  const Admission admission = room.gate->admit(method, credentials_of(context, use_.caller()));
+  if (!admission.status.ok()) throw CallEnded(admission.status);
+  use_.identify(admission.identity);
+  if (rule_of(method).side == Side::kClient) activity_ = std::make_unique<Activity::Call>(room.activity);
 }
 
 }  // namespace affskel::server

@@ -3,7 +3,10 @@
 #include <grpcpp/server_context.h>
 
 #include <memory>
+#include <optional>
 
+#include "access/gate.h"
+#include "access/rules.h"
 #include "rpc/activity.h"
 #include "rpc/call_limit.h"
 #include "rpc/connections.h"
@@ -21,6 +24,10 @@ struct CallRoom {
   /// Ends what is too slow, forgets what is gone.  Call now and then.
   void tick();
 
+  /// Ends the calls of tokens that are good no longer, and writes down when tokens were used.  Call now and
+  /// then.
+  void tick_gate();
+
   /// Uploads have no memory left: ends the one that holds most for its pace.
   void relieve_uploads();
 
@@ -31,7 +38,8 @@ struct CallRoom {
   void stop();
 
   const CallLimits limits;
-  Activity activity;  ///< of clients
+  std::optional<Gate> gate;  ///< set before any call comes
+  Activity activity;         ///< of clients
 
   // Threads: the calls of one kind never wait for those of another.
   Executor client_calls;    ///< short ones
@@ -58,11 +66,8 @@ struct CallRoom {
 /// What every call has: its connection, and for a client's call its share in the server's activity.
 class CallScope {
  public:
-  /// @throws CallEnded when the connection has no right to it.
-  CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Side side)
-      : use_(room.connections.begin(context.peer(), side)) {
-    if (side == Side::kClient) activity_ = std::make_unique<Activity::Call>(room.activity);
-  }
+  /// @throws CallEnded when the connection has no room for it, or the caller no right to it.
+  CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Method method);
 
   const Caller& caller() const { return use_.caller(); }
 

@@ -41,20 +41,30 @@ std::uint64_t number_of_stranger(const std::string& peer) {
 PeerIdentity peer_of(int fd) {
   sockaddr_storage name{};
   socklen_t size = sizeof name;
-  if (getpeername(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) return {"gone", 0};
+  if (getpeername(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) return {"gone", {}, {}};
   if (name.ss_family == AF_UNIX) {
     ucred credentials{};
     socklen_t length = sizeof credentials;
-    if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &length) != 0) return {"uid:unknown", 0};
-    return {"uid:" + std::to_string(credentials.uid), credentials.pid};
+    if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &length) != 0) return {"uid:unknown", {}, {}};
+    return {"uid:" + std::to_string(credentials.uid), credentials.uid, {}};
   }
   char text[INET6_ADDRSTRLEN] = "unknown";
   if (name.ss_family == AF_INET) {
-    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(name).sin_addr, text, sizeof text);
-  } else if (name.ss_family == AF_INET6) {
-    inet_ntop(AF_INET6, &reinterpret_cast<const sockaddr_in6&>(name).sin6_addr, text, sizeof text);
+    const auto& v4 = reinterpret_cast<const sockaddr_in&>(name);
+    inet_ntop(AF_INET, &v4.sin_addr, text, sizeof text);
+    return {std::string("ip:") + text,
+            {},
+            std::string("ipv4:") + text + ":" + std::to_string(ntohs(v4.sin_port))};
   }
-  return {std::string("ip:") + text, 0};
+  if (name.ss_family == AF_INET6) {
+    const auto& v6 = reinterpret_cast<const sockaddr_in6&>(name);
+    inet_ntop(AF_INET6, &v6.sin6_addr, text, sizeof text);
+    // gRPC writes names as URIs, in which brackets are percent-encoded.
+    return {std::string("ip:") + text,
+            {},
+            std::string("ipv6:%5B") + text + "%5D:" + std::to_string(ntohs(v6.sin6_port))};
+  }
+  return {std::string("ip:") + text, {}, {}};
 }
 
 Connections::Use::Use(Use&& other) noexcept
@@ -69,6 +79,11 @@ Connections::Use& Connections::Use::operator=(Use&& other) noexcept {
   return *this;
 }
 
+void Connections::Use::identify(const Identity& identity) {
+  caller_.identity = identity;
+  if (identity.token != 0) caller_.peer = "owner:" + identity.owner;
+}
+
 void Connections::Use::leave() {
   if (table_ != nullptr) std::exchange(table_, nullptr)->end_use(caller_.connection);
 }
@@ -76,10 +91,7 @@ void Connections::Use::leave() {
 bool Connections::admit(int fd, const PeerIdentity& identity) {
   const base::MutexLock lock(mutex_);
   if (const auto before = entries_.find(fd); before != entries_.end()) {
-    // gRPC has closed it, or the number would not have been given out again.
-    if (before->second.for_client && !before->second.for_worker) --clients_;
-    by_number_.erase(before->second.number);
-    entries_.erase(before);
+    forget(before);  // gRPC has closed it, or the number would not have been given out again
   }
   if (!has_room(fd, identity)) return false;
   const std::uint64_t number = next_number_++;
@@ -90,7 +102,24 @@ bool Connections::admit(int fd, const PeerIdentity& identity) {
   entry.idle_since = options_.now();
   entries_.emplace(fd, std::move(entry));
   by_number_.emplace(number, fd);
+  if (!identity.socket_name.empty()) by_socket_name_[identity.socket_name] = fd;
   return true;
+}
+
+Connections::Entries::iterator Connections::find(const std::string& peer) {
+  if (const int fd = descriptor_of(peer); fd >= 0) return entries_.find(fd);
+  const auto named = by_socket_name_.find(peer);
+  return named == by_socket_name_.end() ? entries_.end() : entries_.find(named->second);
+}
+
+/// Returns the entry after it.
+Connections::Entries::iterator Connections::forget(Entries::iterator entry) {
+  const Entry& gone = entry->second;
+  if (gone.for_client && !gone.for_worker) --clients_;
+  by_number_.erase(gone.number);
+  const auto named = by_socket_name_.find(gone.identity.socket_name);
+  if (named != by_socket_name_.end() && named->second == entry->first) by_socket_name_.erase(named);
+  return entries_.erase(entry);
 }
 
 bool Connections::has_room(int fd, const PeerIdentity& identity) {
@@ -124,8 +153,8 @@ bool Connections::close_idle(const std::string* of_peer) {
 
 Connections::Use Connections::begin(const std::string& peer, Side side) {
   const base::MutexLock lock(mutex_);
-  const auto found = entries_.find(descriptor_of(peer));
-  if (found == entries_.end()) return {nullptr, {number_of_stranger(peer), peer}};
+  const auto found = find(peer);
+  if (found == entries_.end()) return {nullptr, {number_of_stranger(peer), peer, {}, {}}};
   Entry& entry = found->second;
   const bool was_client = entry.for_client && !entry.for_worker;
   if (side == Side::kClient && !entry.for_client && !entry.for_worker) {
@@ -141,7 +170,7 @@ Connections::Use Connections::begin(const std::string& peer, Side side) {
   clients_ -= static_cast<std::size_t>(was_client);
   entry.used = true;
   ++entry.calls;
-  return {this, {entry.number, entry.identity.name}};
+  return {this, {entry.number, entry.identity.name, entry.identity.uid, {}}};
 }
 
 void Connections::end_use(std::uint64_t connection) {
@@ -159,13 +188,7 @@ void Connections::sweep() {
 
 void Connections::sweep_locked() {
   for (auto entry = entries_.begin(); entry != entries_.end();) {
-    const auto next = std::next(entry);
-    if (inode_of(entry->first) != entry->second.inode) {
-      if (entry->second.for_client && !entry->second.for_worker) --clients_;
-      by_number_.erase(entry->second.number);
-      entries_.erase(entry);
-    }
-    entry = next;
+    entry = inode_of(entry->first) != entry->second.inode ? forget(entry) : std::next(entry);
   }
 }
 

@@ -5,21 +5,20 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "access/rules.h"
 #include "base/mutex.h"
 #include "rpc/call_limit.h"
 
 namespace affskel::server {
 
-/// Which of the two services a call is for.
-enum class Side { kClient, kWorker };
-
-/// Who is at the other end of a connection.  What a connection proves later (a token, a certificate) has its
-/// place here.
+/// Who is at the other end of a connection, as the system knows it.
 struct PeerIdentity {
-  std::string name;      ///< "uid:1000" on a Unix socket, "ip:127.0.0.1" on TCP; shares are counted by it
-  std::int64_t pid = 0;  ///< its process on a Unix socket; 0 = not known
+  std::string name;          ///< "uid:1000" on a Unix socket, "ip:127.0.0.1" on TCP; shares are counted by it
+  std::optional<uid_t> uid;  ///< of its process, on a Unix socket
+  std::string socket_name;   ///< "ipv4:127.0.0.1:4711", as gRPC names TCP connections that it handshakes with
 };
 
 /// @param fd a connected socket.
@@ -53,6 +52,8 @@ class Connections {
     Use& operator=(Use&& other) noexcept;
     ~Use() { leave(); }
     const Caller& caller() const { return caller_; }
+    /// The gate has found who it is: from now on shares are counted by owner, if a token said so.
+    void identify(const Identity& identity);
 
    private:
     void leave();
@@ -66,7 +67,9 @@ class Connections {
   bool admit(int fd, const PeerIdentity& identity);
 
   /// A call begins.
-  /// @param peer as gRPC names it: "fd:N".  One that is not known is its own connection and peer.
+  /// @param peer as gRPC names it: "fd:N", or by its socket_name.  One that is not known is its own
+  /// connection
+  ///   and peer.
   /// @throws CallEnded UNAVAILABLE for a client's call when the clients have all connections but those for
   ///   workers.
   Use begin(const std::string& peer, Side side);
@@ -96,12 +99,15 @@ class Connections {
   void sweep_locked() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool close_idle(const std::string* of_peer) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool has_room(int fd, const PeerIdentity& identity) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Entries::iterator find(const std::string& peer) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Entries::iterator forget(Entries::iterator entry) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void end_use(std::uint64_t connection);
 
   const ConnectionOptions options_;
   mutable base::Mutex mutex_;
   Entries entries_ ABSL_GUARDED_BY(mutex_);
   std::map<std::uint64_t, int> by_number_ ABSL_GUARDED_BY(mutex_);
+  std::map<std::string, int> by_socket_name_ ABSL_GUARDED_BY(mutex_);
   std::size_t clients_ ABSL_GUARDED_BY(mutex_) =
       0;  // connections that made clients' calls, and none of a worker
   std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;

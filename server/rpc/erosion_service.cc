@@ -10,6 +10,7 @@
 #include "base/quoted.h"
 #include "database/errors.h"
 #include "rpc/fetch_call.h"
+#include "rpc/job_access.h"
 #include "rpc/status.h"
 #include "rpc/submit_call.h"
 #include "rpc/unary_call.h"
@@ -50,7 +51,6 @@ ListFilter filter_of(const v1::ListJobsRequest& request) {
     }
     filter.states.push_back(static_cast<v1::JobState>(state));
   }
-  filter.owner = request.owner();
   filter.limit = request.limit() == 0 ? kDefaultListLimit : request.limit();
   if (filter.limit > wire::kMaxListedJobs)
     throw StoreError(StoreError::Code::kInvalid,
@@ -72,9 +72,9 @@ ErosionServiceImpl::ErosionServiceImpl(CallRoom& room, Store& store, WorkerRegis
       waiters_([&store](std::int64_t task) { guarded([&] { store.withdraw(task); }); }) {}
 
 /// A short call.
-grpc::ServerUnaryReactor* ErosionServiceImpl::answer(grpc::CallbackServerContext& context,
-                                                     std::function<void()> body) {
-  return UnaryCall::start(room_, room_.client_calls, Side::kClient, context, std::move(body));
+grpc::ServerUnaryReactor* ErosionServiceImpl::answer(Method method, grpc::CallbackServerContext& context,
+                                                     std::function<void(const Identity&)> body) {
+  return UnaryCall::start(room_, room_.client_calls, method, context, std::move(body));
 }
 
 grpc::ServerReadReactor<v1::SubmitJobRequest>* ErosionServiceImpl::SubmitJob(
@@ -84,18 +84,25 @@ grpc::ServerReadReactor<v1::SubmitJobRequest>* ErosionServiceImpl::SubmitJob(
 
 grpc::ServerUnaryReactor* ErosionServiceImpl::GetJob(grpc::CallbackServerContext* context,
                                                      const v1::GetJobRequest* request, v1::Job* response) {
-  return answer(*context,
-                [this, request, response] { *response = jobs_.with_reason(store_.job(request->job())); });
+  return answer(Method::kGetJob, *context, [this, request, response](const Identity& caller) {
+    *response = jobs_.with_reason(store_.job(job_ref(request->job(), caller)));
+  });
 }
 
 grpc::ServerUnaryReactor* ErosionServiceImpl::ListJobs(grpc::CallbackServerContext* context,
                                                        const v1::ListJobsRequest* request,
                                                        v1::ListJobsResponse* response) {
-  return answer(*context, [this, request, response] { list(*request, *response); });
+  return answer(Method::kListJobs, *context,
+                [this, request, response](const Identity& caller) { list(caller, *request, *response); });
 }
 
-void ErosionServiceImpl::list(const v1::ListJobsRequest& request, v1::ListJobsResponse& response) {
-  JobPage page = store_.list(filter_of(request));
+void ErosionServiceImpl::list(const Identity& caller, const v1::ListJobsRequest& request,
+                              v1::ListJobsResponse& response) {
+  ListFilter filter = filter_of(request);
+  const std::optional<std::string> owner = listed_owner(request.owner(), caller);
+  if (!owner) return;
+  filter.owner = *owner;
+  JobPage page = store_.list(filter);
   for (v1::Job& job : page.jobs) *response.add_jobs() = jobs_.with_reason(std::move(job));
   if (page.next != 0) response.set_next_page_token(token_of_number(page.next));
 }
@@ -108,21 +115,25 @@ grpc::ServerWriteReactor<v1::Job>* ErosionServiceImpl::WatchJob(grpc::CallbackSe
 grpc::ServerUnaryReactor* ErosionServiceImpl::CancelJob(grpc::CallbackServerContext* context,
                                                         const v1::CancelJobRequest* request,
                                                         v1::Job* response) {
-  return answer(*context,
-                [this, request, response] { *response = jobs_.with_reason(store_.cancel(request->job())); });
+  return answer(Method::kCancelJob, *context, [this, request, response](const Identity& caller) {
+    *response = jobs_.with_reason(store_.cancel(job_ref(request->job(), caller)));
+  });
 }
 
 grpc::ServerUnaryReactor* ErosionServiceImpl::ResumeJob(grpc::CallbackServerContext* context,
                                                         const v1::ResumeJobRequest* request,
                                                         v1::Job* response) {
-  return answer(*context,
-                [this, request, response] { *response = jobs_.with_reason(store_.resume(request->job())); });
+  return answer(Method::kResumeJob, *context, [this, request, response](const Identity& caller) {
+    *response = jobs_.with_reason(store_.resume(job_ref(request->job(), caller)));
+  });
 }
 
 grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerContext* context,
                                                         const v1::DeleteJobRequest* request,
                                                         v1::DeleteJobResponse* response) {
-  return answer(*context, [this, request, response] { response->set_id(store_.remove(request->job())); });
+  return answer(Method::kDeleteJob, *context, [this, request, response](const Identity& caller) {
+    response->set_id(store_.remove(job_ref(request->job(), caller)));
+  });
 }
 
 grpc::ServerWriteReactor<v1::FetchArtifactResponse>* ErosionServiceImpl::FetchArtifact(
@@ -133,16 +144,24 @@ grpc::ServerWriteReactor<v1::FetchArtifactResponse>* ErosionServiceImpl::FetchAr
 grpc::ServerUnaryReactor* ErosionServiceImpl::GetServerInfo(grpc::CallbackServerContext* context,
                                                             const v1::GetServerInfoRequest*,
                                                             v1::ServerInfo* response) {
-  return answer(*context, [this, response] { tell_about_itself(*response); });
+  return answer(Method::kGetServerInfo, *context,
+                [this, response](const Identity& caller) { tell_about_itself(caller, *response); });
 }
 
-void ErosionServiceImpl::tell_about_itself(v1::ServerInfo& response) {
+/// Where its files are, and whose job a worker has, is for admins.
+void ErosionServiceImpl::tell_about_itself(const Identity& caller, v1::ServerInfo& response) {
+  const bool sees_all = jobs_of(caller.role) == Jobs::kAll;
   const Store::Counts counts = store_.counts();
   response.set_version(wire::kVersion);
   response.set_started_ms(facts_.started_ms);
   response.set_pid(static_cast<std::uint32_t>(getpid()));
-  response.set_data_dir(facts_.data_dir);
-  for (v1::WorkerInfo& worker : registry_.list()) *response.add_workers() = std::move(worker);
+  if (sees_all) response.set_data_dir(facts_.data_dir);
+  for (v1::WorkerInfo& worker : registry_.list()) {
+    if (!sees_all) worker.clear_task();
+    *response.add_workers() = std::move(worker);
+  }
+  response.mutable_caller()->set_owner(caller.owner);
+  response.mutable_caller()->set_role(caller.role);
   response.set_jobs_queued(static_cast<std::uint64_t>(counts.queued));
   response.set_jobs_running(static_cast<std::uint64_t>(counts.running));
   response.set_jobs_total(static_cast<std::uint64_t>(counts.total));

@@ -52,9 +52,10 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
   void close() { waiters_.close(); }
 
  private:
-  grpc::ServerUnaryReactor* answer(grpc::CallbackServerContext& context, std::function<void()> body);
-  void list(const v1::ListJobsRequest& request, v1::ListJobsResponse& response);
-  void tell_about_itself(v1::ServerInfo& response);
+  grpc::ServerUnaryReactor* answer(Method method, grpc::CallbackServerContext& context,
+                                   std::function<void(const Identity&)> body);
+  void list(const Identity& caller, const v1::ListJobsRequest& request, v1::ListJobsResponse& response);
+  void tell_about_itself(const Identity& caller, v1::ServerInfo& response);
 
   CallRoom& room_;
   Store& store_;

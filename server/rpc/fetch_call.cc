@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "database/errors.h"
+#include "rpc/job_access.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -22,7 +23,7 @@ grpc::Status status_of_failure(const v1::JobError& error) {
 
 FetchCall::FetchCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store, const JobView& jobs,
                      EventHub& hub, ArtifactWaiters& waiters, const v1::FetchArtifactRequest& request)
-    : Sending(room, room.client_streams, context, Side::kClient),
+    : Sending(room, room.client_streams, context, Method::kFetchArtifact),
       store_(store),
       jobs_(jobs),
       hub_(hub),
@@ -32,7 +33,7 @@ FetchCall::FetchCall(CallRoom& room, grpc::CallbackServerContext& context, Store
 StreamCall::After FetchCall::open() {
   run([this] {
     // The full id from here on: "@last" may soon mean another job.
-    request_.set_job(store_.resolve(request_.job()));
+    request_.set_job(store_.resolve(job_ref(request_.job(), caller().identity)));
     // Before the first look: no change after it may be missed.
     subscription_ = hub_.subscribe(request_.job(), [weak = weak_from_this()](const EventHub::JobPtr&) {
       const auto self = std::static_pointer_cast<FetchCall>(weak.lock());

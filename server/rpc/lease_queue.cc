@@ -37,7 +37,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
 
   /// Takes a place among the calls that wait.  @throws CallEnded.
   void enter() {
-    scope_.emplace(queue_.room_, *context_, Side::kWorker);
+    scope_.emplace(queue_.room_, *context_, Method::kLeaseTask);
     place_ = queue_.room_.polls.enter(scope_->caller(), weak_from_this());
   }
 
@@ -106,8 +106,8 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
   poll->hold(poll);
   // Before the registry: whoever does not say who it is must not fill the list of workers.
   grpc::Status status = guarded([&] {
-    check_worker(request->worker());
     poll->enter();
+    check_worker(request->worker());
   });
   if (status.ok()) {
     registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));

@@ -30,10 +30,22 @@ void prepare_socket(const wire::Address& address) {
 
 void prepare_addresses(const std::vector<wire::Address>& addresses) {
   for (const wire::Address& address : addresses) {
-    if (!address.is_local()) {
-      refuse(address, "this version serves only this machine: unix:PATH, localhost, 127.x.y.z or [::1]");
-    }
     if (address.is_unix) prepare_socket(address);
+  }
+}
+
+void require_protection(const std::vector<wire::Address>& addresses, const Protection& protection) {
+  if (protection.insecure) return;
+  for (const wire::Address& address : addresses) {
+    if (address.is_local()) continue;
+    if (!protection.tls) {
+      refuse(address,
+             "other machines reach it, and there is no TLS: --tls-cert and --tls-key, or --insecure");
+    }
+    if (!protection.tokens) {
+      refuse(address,
+             "other machines reach it, and there is no token: affskel-server token add, or --insecure");
+    }
   }
 }
 

@@ -7,10 +7,21 @@
 
 namespace affskel::server {
 
-/// Checks the addresses before anything is bound: only local ones (others need TLS, which this version
-/// does not have), sockets whose directory exists and that no live server answers on; stale sockets are
-/// removed.
+/// How TCP callers are known.
+struct Protection {
+  bool tls = false;
+  bool tokens = false;    ///< there is one that a caller could show
+  bool insecure = false;  ///< whoever runs the server wants none of it
+};
+
+/// Checks the addresses before anything is bound: sockets whose directory exists and that no live server
+/// answers on; stale sockets are removed.
 /// @throws std::runtime_error naming the address and the cause.
 void prepare_addresses(const std::vector<wire::Address>& addresses);
+
+/// Refuses addresses that other machines reach, unless TLS and tokens protect them or the protection is not
+/// wanted.
+/// @throws std::runtime_error naming the address and what is missing.
+void require_protection(const std::vector<wire::Address>& addresses, const Protection& protection);
 
 }  // namespace affskel::server

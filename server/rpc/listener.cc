@@ -1,6 +1,6 @@
 #include "rpc/listener.h"
 
-#include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -44,28 +44,40 @@ class PrivateFiles {
   throw std::runtime_error("cannot listen on " + address.target() + ": " + std::strerror(error));
 }
 
-sockaddr_storage v4(std::uint32_t network_order) {
-  sockaddr_storage storage{};
-  auto& name = reinterpret_cast<sockaddr_in&>(storage);
-  name.sin_family = AF_INET;
-  name.sin_addr.s_addr = network_order;
-  return storage;
+/// What a host's name or address stands for on this machine.
+std::vector<sockaddr_storage> names_of(const wire::Address& address) {
+  addrinfo hints{};
+  hints.ai_flags = AI_PASSIVE;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (const int error = getaddrinfo(address.host.c_str(), nullptr, &hints, &found); error != 0) {
+    throw std::runtime_error("cannot listen on " + address.target() + ": " + gai_strerror(error));
+  }
+  std::vector<sockaddr_storage> names;
+  for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
+    if (one->ai_family != AF_INET && one->ai_family != AF_INET6) continue;
+    sockaddr_storage name{};
+    std::memcpy(&name, one->ai_addr, one->ai_addrlen);
+    names.push_back(name);
+  }
+  freeaddrinfo(found);
+  // IPv4 first: its port is the one that is announced.
+  std::stable_sort(names.begin(), names.end(), [](const auto& a, const auto& b) {
+    return a.ss_family == AF_INET && b.ss_family != AF_INET;
+  });
+  return names;
 }
 
-sockaddr_storage v6_loopback() {
-  sockaddr_storage storage{};
-  auto& name = reinterpret_cast<sockaddr_in6&>(storage);
-  name.sin6_family = AF_INET6;
-  name.sin6_addr = in6addr_loopback;
-  return storage;
-}
-
-/// Of a local host, by the rules of wire::Address::is_local.
-std::vector<sockaddr_storage> names_of(const std::string& host) {
-  in_addr numeric{};
-  if (inet_pton(AF_INET, host.c_str(), &numeric) == 1) return {v4(numeric.s_addr)};
-  if (host == "::1") return {v6_loopback()};
-  return {v4(htonl(INADDR_LOOPBACK)), v6_loopback()};
+/// By its address, whatever /etc/hosts says of it.
+std::vector<sockaddr_storage> bound_names(const wire::Address& address) {
+  if (address.host != "localhost") return names_of(address);
+  wire::Address v4 = address, v6 = address;
+  v4.host = "127.0.0.1";
+  v6.host = "::1";
+  std::vector<sockaddr_storage> names = names_of(v4);
+  const std::vector<sockaddr_storage> more = names_of(v6);
+  names.insert(names.end(), more.begin(), more.end());
+  return names;
 }
 
 in_port_t& port_of(sockaddr_storage& name) {
@@ -106,8 +118,8 @@ std::int64_t steady_ms() {
 
 }  // namespace
 
-Listener::Listener(const std::vector<wire::Address>& addresses, Connections& connections)
-    : connections_(connections) {
+Listener::Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode, Connections& connections)
+    : connections_(connections), socket_mode_(socket_mode) {
   try {
     wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake_ < 0) throw std::runtime_error(std::string("eventfd: ") + std::strerror(errno));
@@ -137,12 +149,13 @@ void Listener::bind_unix(const wire::Address& address) {
   const int fd = listen_on(reinterpret_cast<const sockaddr*>(&name), sizeof name);
   if (fd < 0) refuse(address, errno);
   sockets_.push_back(fd);
+  if (chmod(address.path.c_str(), socket_mode_) != 0) refuse(address, errno);
 }
 
 void Listener::bind_tcp(wire::Address& address) {
   const bool any_port = address.port == 0;
   const std::size_t before = sockets_.size();
-  for (sockaddr_storage name : names_of(address.host)) {
+  for (sockaddr_storage name : bound_names(address)) {
     port_of(name) = htons(static_cast<std::uint16_t>(address.port));
     const int fd = listen_on(reinterpret_cast<const sockaddr*>(&name), size_of(name));
     if (fd < 0) {
@@ -200,8 +213,9 @@ void Listener::run() {
 bool Listener::take(int listening) {
   const int fd = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (fd >= 0) {
-    if (connections_.admit(fd, peer_of(fd))) {
-      handler_(fd);
+    const PeerIdentity peer = peer_of(fd);
+    if (connections_.admit(fd, peer)) {
+      handler_(fd, !peer.uid);
     } else {
       close(fd);
       tell("too many connections and files are open");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <functional>
 #include <string>
 #include <thread>
@@ -15,13 +17,15 @@ namespace affskel::server {
 /// none.
 class Listener {
  public:
-  using Handler = std::function<void(int connection)>;
+  /// @param is_tcp whether it came from another socket than one of the file system.
+  using Handler = std::function<void(int connection, bool is_tcp)>;
 
   /// Binds; nothing is accepted yet.
-  /// @param addresses local ones: see prepare_addresses.
+  /// @param addresses see prepare_addresses.
+  /// @param socket_mode permissions of Unix sockets.
   /// @param connections gets all of them, and decides; must outlive the listener.
   /// @throws std::runtime_error naming the address and the cause.
-  Listener(const std::vector<wire::Address>& addresses, Connections& connections);
+  Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode, Connections& connections);
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -44,6 +48,7 @@ class Listener {
 
   std::vector<wire::Address> addresses_;
   Connections& connections_;
+  const mode_t socket_mode_;
   std::vector<int> sockets_;
   int wake_ = -1;
   Handler handler_;

@@ -23,9 +23,9 @@ class Receiving : public StreamCall, public grpc::ServerReadReactor<Request> {
 
  protected:
   /// @param limit of the calls of this kind.
-  Receiving(CallRoom& room, Executor& executor, grpc::CallbackServerContext& context, Side side,
+  Receiving(CallRoom& room, Executor& executor, grpc::CallbackServerContext& context, Method method,
             CallLimit& limit)
-      : StreamCall(room, executor, context, side), limit_(limit) {}
+      : StreamCall(room, executor, context, method), limit_(limit) {}
   ~Receiving() override = default;
 
  private:

@@ -16,6 +16,7 @@
 #include "database/database_file.h"
 #include "rpc/listen.h"
 #include "rpc/status.h"
+#include "wire/channel.h"
 #include "wire/identity.h"
 
 namespace affskel::server {
@@ -56,6 +57,7 @@ void set_limits(grpc::ServerBuilder& builder, const CallLimits& limits) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, static_cast<int>(limits.idle.count()));
   grpc::ResourceQuota quota("affskel-server");
   quota.Resize(static_cast<std::size_t>(limits.grpc_bytes));
   quota.SetMaxThreads(kReflectionThreads);
@@ -93,6 +95,12 @@ Server::Server(const ServerOptions& options)
   prepare_addresses(options.listen);
   store_ = std::make_unique<Store>(database_file(options.data_dir), options.store, clock_, &hub_);
   release_dead_workers(*store_);
+  if (!options.tls.certificate.empty()) wire::forbid_core_dumps();
+  keep_secrets();
+  require_protection(options.listen,
+                     {!options.tls.certificate.empty(), store_->has_valid_token(), options.insecure});
+  room_.gate.emplace(*store_,
+                     GateOptions{!options.tls.client_ca.empty(), [this] { return clock_.wall_ms(); }});
   jobs_ = std::make_unique<JobView>(*store_, registry_);
   queue_ = std::make_unique<LeaseQueue>(*store_, registry_, room_);
   worker_service_ = std::make_unique<WorkerServiceImpl>(room_, *store_, registry_, *queue_);
@@ -110,20 +118,38 @@ Server::~Server() {
 }
 
 void Server::serve(const ServerOptions& options) {
-  listener_ = std::make_unique<Listener>(options.listen, room_.connections);
+  listener_ = std::make_unique<Listener>(options.listen, options.socket_mode, room_.connections);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   set_limits(builder, options.limits);
   builder.RegisterService(worker_service_.get());
   builder.RegisterService(erosion_service_.get());
+  if (!options.tls.certificate.empty()) {
+    using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+    tls_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, tls_credentials(options.tls));
+  }
   grpc_ = builder.BuildAndStart();
   if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
   for (const char* service :
        {v1::ErosionService::service_full_name(), v1::WorkerService::service_full_name()}) {
     grpc_->GetHealthCheckService()->SetServingStatus(service, true);
   }
-  listener_->start([this](int connection) { grpc::AddInsecureChannelFromFd(grpc_.get(), connection); });
+  listener_->start([this](int connection, bool is_tcp) { take(connection, is_tcp); });
+}
+
+void Server::take(int connection, bool is_tcp) {
+  if (!is_tcp || tls_ == nullptr) return grpc::AddInsecureChannelFromFd(grpc_.get(), connection);
+  grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters taken;
+  taken.fd = connection;
+  tls_->HandleNewConnection(&taken);
+}
+
+/// From the first token on, nothing of this process goes into a core dump.
+void Server::keep_secrets() {
+  if (secretive_ || !store_->has_tokens()) return;
+  wire::forbid_core_dumps();
+  secretive_ = true;
 }
 
 /// Apart from the store's maintenance, which may have to wait for the disk.
@@ -153,6 +179,8 @@ void Server::maintain() {
       release_dead_workers(*store_);
       store_->expire_leases();
     });
+    guarded([this] { room_.tick_gate(); });
+    guarded([this] { keep_secrets(); });
     tidy();
     lock.lock();
   }

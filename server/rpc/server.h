@@ -1,6 +1,7 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
+#include <sys/types.h>
 
 #include <atomic>
 #include <chrono>
@@ -19,6 +20,7 @@
 #include "rpc/lease_queue.h"
 #include "rpc/limits.h"
 #include "rpc/listener.h"
+#include "rpc/tls.h"
 #include "rpc/worker_registry.h"
 #include "rpc/worker_service.h"
 #include "store/clock.h"
@@ -30,6 +32,9 @@ namespace affskel::server {
 struct ServerOptions {
   std::string data_dir;  ///< must exist; holds affskel.db
   std::vector<wire::Address> listen;
+  mode_t socket_mode = 0600;  ///< of Unix sockets: who may connect
+  TlsOptions tls;             ///< of all TCP addresses
+  bool insecure = false;      ///< addresses that other machines reach need neither TLS nor tokens
   StoreOptions store;
   /// Uploads in memory at once; at least one mesh of the greatest size always finds room.
   std::uint64_t upload_bytes = std::uint64_t{2} << 30;
@@ -70,9 +75,11 @@ class Server {
 
  private:
   void serve(const ServerOptions& options);
+  void keep_secrets();
   void maintain();
   void tick();
   void tidy();
+  void take(int connection, bool is_tcp);
   void await_calls(std::chrono::milliseconds grace) const;
 
   SystemClock clock_;
@@ -84,9 +91,11 @@ class Server {
   std::unique_ptr<LeaseQueue> queue_;
   std::unique_ptr<WorkerServiceImpl> worker_service_;
   std::unique_ptr<ErosionServiceImpl> erosion_service_;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> tls_;  // of connections with TLS
   std::unique_ptr<grpc::Server> grpc_;
   std::unique_ptr<Listener> listener_;
 
+  bool secretive_ = false;  // of the thread that maintains
   std::atomic<bool> tidying_ = false;
   base::Mutex mutex_;
   std::condition_variable_any stopped_;

@@ -15,7 +15,7 @@ void StreamCall::enter() {
   }
   After what = After::kEnd;
   const grpc::Status status = guarded([&] {
-    scope_.emplace(room_, context_, side_);
+    scope_.emplace(room_, context_, method_);
     what = open();
   });
   after(status, what);

@@ -40,8 +40,8 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   };
   using Body = std::function<After()>;
 
-  StreamCall(CallRoom& room, Executor& executor, grpc::CallbackServerContext& context, Side side)
-      : room_(room), executor_(executor), context_(context), side_(side) {}
+  StreamCall(CallRoom& room, Executor& executor, grpc::CallbackServerContext& context, Method method)
+      : room_(room), executor_(executor), context_(context), method_(method) {}
   ~StreamCall() override = default;
 
   CallRoom& room() { return room_; }
@@ -77,7 +77,7 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   CallRoom& room_;
   Executor& executor_;
   grpc::CallbackServerContext& context_;
-  const Side side_;
+  const Method method_;
   std::optional<CallScope> scope_;
 
   base::Mutex mutex_;

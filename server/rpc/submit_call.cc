@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "database/errors.h"
+#include "rpc/job_access.h"
 
 namespace affskel::server {
 namespace {
@@ -25,7 +26,9 @@ void SubmitCall::on_message(v1::SubmitJobRequest& message) {
   }
   if (!message.has_header()) refuse_without_header();
   // Before the data, which may take minutes to arrive.
-  submission_ = store_.check(message.header());
+  v1::SubmitJobHeader& header = *message.mutable_header();
+  header.set_owner(owner_of_submission(header.owner(), caller().identity));
+  submission_ = store_.check(header);
   mesh_.emplace(room().upload_bytes, message.header().mesh_bytes(), room().upload_bytes.limit() / 4);
 }
 

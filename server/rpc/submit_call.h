@@ -15,7 +15,7 @@ class SubmitCall final : public Receiving<v1::SubmitJobRequest> {
  public:
   SubmitCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store, const JobView& jobs,
              v1::SubmitJobResponse& response)
-      : Receiving(room, room.client_streams, context, Side::kClient, room.uploads),
+      : Receiving(room, room.client_streams, context, Method::kSubmitJob, room.uploads),
         store_(store),
         jobs_(jobs),
         response_(response) {}

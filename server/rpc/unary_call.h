@@ -15,17 +15,18 @@ namespace affskel::server {
 class UnaryCall final : public grpc::ServerUnaryReactor {
  public:
   /// @param body fills the answer; what it throws ends the call.  Does not run when the caller has gone.
-  static grpc::ServerUnaryReactor* start(CallRoom& room, Executor& executor, Side side,
+  static grpc::ServerUnaryReactor* start(CallRoom& room, Executor& executor, Method method,
                                          const grpc::CallbackServerContext& context,
-                                         std::function<void()> body) {
+                                         std::function<void(const Identity&)> body) {
     auto* const call = new UnaryCall;
-    const grpc::Status status = guarded([&] { call->scope_.emplace(room, context, side); });
+    const grpc::Status status = guarded([&] { call->scope_.emplace(room, context, method); });
     if (!status.ok()) {
       call->Finish(status);
       return call;
     }
     executor.post(call->scope_->caller().connection, [call, &context, body = std::move(body)] {
-      call->Finish(context.IsCancelled() ? grpc::Status::CANCELLED : guarded(body));
+      const Identity& identity = call->scope_->caller().identity;
+      call->Finish(context.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] { body(identity); }));
     });
     return call;
   }

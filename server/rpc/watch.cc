@@ -4,6 +4,7 @@
 
 #include "base/mutex.h"
 #include "database/errors.h"
+#include "rpc/job_access.h"
 
 namespace affskel::server {
 namespace {
@@ -17,15 +18,15 @@ bool is_final(const v1::Job& job) {
 
 WatchCall::WatchCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store, EventHub& hub,
                      const v1::WatchJobRequest& request)
-    : StreamCall(room, room.client_calls, context, Side::kClient),
+    : StreamCall(room, room.client_calls, context, Method::kWatchJob),
       store_(store),
       hub_(hub),
-      job_ref_(request.job()) {}
+      job_(request.job()) {}
 
 StreamCall::After WatchCall::open() {
   place_ = room().watches.enter(caller(), weak_from_this());
   run([this] {
-    const std::string id = store_.resolve(job_ref_);
+    const std::string id = store_.resolve(job_ref(job_, caller().identity));
     const auto tell = [weak = weak_from_this()](const EventHub::JobPtr& job) {
       const auto self = std::static_pointer_cast<WatchCall>(weak.lock());
       if (self != nullptr) self->deliver(job);

@@ -33,7 +33,7 @@ class WatchCall final : public StreamCall, public grpc::ServerWriteReactor<v1::J
 
   Store& store_;
   EventHub& hub_;
-  const std::string job_ref_;
+  const std::string job_;
   CallLimit::Place place_;
   EventHub::Subscription subscription_;
   EventHub::JobPtr sent_;  // the one on its way, or the last that was

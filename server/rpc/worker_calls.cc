@@ -21,7 +21,7 @@ namespace {
 
 ReportCall::ReportCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store,
                        WorkerRegistry& registry, BoundsExchange& bounds, v1::ReportResponse& response)
-    : Receiving(room, room.worker_calls, context, Side::kWorker, room.reports),
+    : Receiving(room, room.worker_calls, context, Method::kReportErosion, room.reports),
       store_(store),
       registry_(registry),
       bounds_(bounds),
@@ -96,7 +96,7 @@ bool ReportCall::finish() {
 
 ResultCall::ResultCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store,
                        WorkerRegistry& registry, v1::ReportResponse& response)
-    : Receiving(room, room.worker_calls, context, Side::kWorker, room.results),
+    : Receiving(room, room.worker_calls, context, Method::kCompleteTask, room.results),
       store_(store),
       registry_(registry),
       response_(response) {}
@@ -130,7 +130,7 @@ void ResultCall::on_end() {
 
 InputCall::InputCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store,
                      WorkerRegistry& registry, const v1::FetchInputRequest& request)
-    : Sending(room, room.worker_inputs, context, Side::kWorker),
+    : Sending(room, room.worker_inputs, context, Method::kFetchInput),
       store_(store),
       registry_(registry),
       request_(request) {}

@@ -7,11 +7,12 @@ namespace affskel::server {
 
 /// A short call that uses a lease; `body` returns whether the lease has ended by it.
 template <typename Body>
-grpc::ServerUnaryReactor* WorkerServiceImpl::with_lease_of(grpc::CallbackServerContext& context,
+grpc::ServerUnaryReactor* WorkerServiceImpl::with_lease_of(Method method,
+                                                           grpc::CallbackServerContext& context,
                                                            const std::string& token, Body body) {
   // The request, and so the token, lives as long as the call.
-  return UnaryCall::start(room_, room_.worker_calls, Side::kWorker, context,
-                          [this, &token, body] { with_lease(registry_, token, body); });
+  return UnaryCall::start(room_, room_.worker_calls, method, context,
+                          [this, &token, body](const Identity&) { with_lease(registry_, token, body); });
 }
 
 grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerContext* context,
@@ -23,7 +24,7 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerConte
 grpc::ServerUnaryReactor* WorkerServiceImpl::RenewLease(grpc::CallbackServerContext* context,
                                                         const v1::RenewLeaseRequest* request,
                                                         v1::ReportResponse* response) {
-  return with_lease_of(*context, request->token(), [this, request, response] {
+  return with_lease_of(Method::kRenewLease, *context, request->token(), [this, request, response] {
     *response = store_.renew(request->token());
     return response->cancelled();
   });
@@ -42,7 +43,7 @@ grpc::ServerReadReactor<v1::CompleteTaskRequest>* WorkerServiceImpl::CompleteTas
 grpc::ServerUnaryReactor* WorkerServiceImpl::FailTask(grpc::CallbackServerContext* context,
                                                       const v1::FailTaskRequest* request,
                                                       v1::ReportResponse* response) {
-  return with_lease_of(*context, request->token(), [this, request, response] {
+  return with_lease_of(Method::kFailTask, *context, request->token(), [this, request, response] {
     *response = store_.fail(request->token(), request->error(), request->retryable());
     return true;
   });
@@ -51,7 +52,7 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::FailTask(grpc::CallbackServerContex
 grpc::ServerUnaryReactor* WorkerServiceImpl::ReturnLease(grpc::CallbackServerContext* context,
                                                          const v1::ReturnLeaseRequest* request,
                                                          v1::ReportResponse* response) {
-  return with_lease_of(*context, request->token(), [this, request, response] {
+  return with_lease_of(Method::kReturnLease, *context, request->token(), [this, request, response] {
     *response = store_.give_back(request->token());
     return true;
   });

@@ -135,6 +135,20 @@ std::optional<JobRow> find_job(Database& db, const std::string& id) {
   return job;
 }
 
+/// The job that was last told to a submitter of this owner ("" = of any): the newest, unless one was
+/// submitted again since.
+std::optional<std::string> last_job(Database& db, const std::string& owner) {
+  Statement repeated = db.query(
+      "SELECT j.id FROM server_state s JOIN jobs j ON j.id = s.value WHERE s.key = 'repeated_job/' || ?",
+      owner);
+  if (repeated.step()) return repeated.text(0);
+  Statement row = owner.empty()
+                      ? db.query("SELECT id FROM jobs ORDER BY seq DESC LIMIT 1")
+                      : db.query("SELECT id FROM jobs WHERE owner = ? ORDER BY seq DESC LIMIT 1", owner);
+  if (!row.step()) return std::nullopt;
+  return row.text(0);
+}
+
 // Fields of different core versions are never mixed, so a job begun by one version waits for it.
 std::string missing_core(Database& db, const std::string& id) {
   Statement row = db.query(
@@ -158,19 +172,16 @@ JobRow get_job(Database& db, const std::string& id) {
   return *std::move(job);
 }
 
-std::string resolve_job(Database& db, const std::string& reference) {
-  if (reference == "@last") {
-    Statement repeated = db.query(
-        "SELECT j.id FROM server_state s JOIN jobs j ON j.id = s.value WHERE s.key = 'repeated_job'");
-    if (repeated.step()) return repeated.text(0);
-    Statement row = db.query("SELECT id FROM jobs ORDER BY seq DESC LIMIT 1");
-    if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job @last: there are no jobs");
-    return row.text(0);
+std::string resolve_job(Database& db, const JobRef& reference) {
+  if (reference.text == "@last") {
+    if (std::optional<std::string> id = last_job(db, reference.owner)) return *std::move(id);
+    throw StoreError(StoreError::Code::kNotFound, "no job @last: there are no jobs");
   }
-  const std::string prefix = checked_prefix(reference);
+  const std::string prefix = checked_prefix(reference.text);
   // 'g' follows the last hexadecimal digit, so this range is exactly the ids that begin so.
-  Statement row =
-      db.query("SELECT id FROM jobs WHERE id >= ? AND id < ? || 'g' ORDER BY id LIMIT 2", prefix, prefix);
+  Statement row = db.query(
+      "SELECT id FROM jobs WHERE id >= ?1 AND id < ?1 || 'g' AND (owner = ?2 OR NOT ?3) ORDER BY id LIMIT 2",
+      prefix, reference.owner, reference.own_only);
   if (!row.step()) throw StoreError(StoreError::Code::kNotFound, "no job " + prefix);
   std::string id = row.text(0);
   if (row.step()) {
@@ -198,10 +209,13 @@ JobPage list_jobs(Database& db, const ListFilter& filter) {
   // States as a bit set, so that one statement serves every filter.
   std::int64_t mask = filter.states.empty() ? -1 : 0;
   for (v1::JobState state : filter.states) mask |= std::int64_t{1} << static_cast<int>(state);
-  static const std::string sql =
-      std::string(kJobColumns) +
-      "WHERE (?1 = '' OR j.owner = ?1) AND (?2 >> CASE j.state WHEN 'queued' THEN 1 WHEN 'running' THEN 2"
+  // With an owner a step in the index of his jobs, without one in that of all.
+  static const std::string rest =
+      " AND (?2 >> CASE j.state WHEN 'queued' THEN 1 WHEN 'running' THEN 2"
       " WHEN 'done' THEN 3 WHEN 'failed' THEN 4 ELSE 5 END) & 1 AND j.seq < ?4 ORDER BY j.seq DESC LIMIT ?3";
+  static const std::string of_all = std::string(kJobColumns) + "WHERE ?1 = ''" + rest;
+  static const std::string of_one = std::string(kJobColumns) + "WHERE j.owner = ?1" + rest;
+  const std::string& sql = filter.owner.empty() ? of_all : of_one;
   const std::int64_t before = filter.before > 0 ? filter.before : std::numeric_limits<std::int64_t>::max();
   Statement row = db.query(sql.c_str(), filter.owner, mask, filter.limit + 1, before);
   JobPage page;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
@@ -40,9 +41,21 @@ struct JobRow {
 /// Reads a job that must exist.  @throws StoreError kNotFound.
 JobRow get_job(Database& db, const std::string& id);
 
-/// Full id of an id, a unique prefix of at least 6 characters, or "@last".
+/// A job as somebody names it: by its id, a unique prefix of at least 6 characters, or "@last".
+struct JobRef {
+  JobRef(std::string what) : text(std::move(what)) {}
+  JobRef(const char* what) : text(what) {}
+  JobRef(std::string what, std::string whose, bool only)
+      : text(std::move(what)), owner(std::move(whose)), own_only(only) {}
+
+  std::string text;
+  std::string owner;      ///< whose last job "@last" is; empty = anybody's
+  bool own_only = false;  ///< the jobs of others do not exist
+};
+
+/// Full id of a job.
 /// @throws StoreError kNotFound; kInvalid when the prefix is too short or not unique.
-std::string resolve_job(Database& db, const std::string& reference);
+std::string resolve_job(Database& db, const JobRef& reference);
 
 /// The wire form of one job, with its finished positions and what it waits for in vain.
 v1::Job job_message(Database& db, const std::string& id);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -10,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "access/gate.h"
 #include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/worker_service.pb.h"
 #include "base/mutex.h"
@@ -37,7 +39,7 @@ void check_worker(const v1::WorkerIdentity& worker);
 /// Every public function is one transaction: when it throws, nothing was changed; when it returns, the
 /// change is on the disk.  Thread-safe.  All throw StoreError for what the caller did wrong and SqliteError
 /// for what the database did.  JOB in a parameter's name means an id, a prefix or "@last".
-class Store {
+class Store final : public TokenSource {
  public:
   /// Opens or creates `file`, migrates it, and gives every lease that a predecessor left a new deadline:
   /// its worker could not report while no server was there.
@@ -65,15 +67,15 @@ class Store {
   Submitted submit(const Submission& submission, std::string_view mesh);
   Submitted submit(const v1::SubmitJobHeader& header, std::string_view mesh);
 
-  v1::Job job(const std::string& job_ref);
-  std::string resolve(const std::string& job_ref);
+  v1::Job job(const JobRef& job_ref);
+  std::string resolve(const JobRef& job_ref);
   JobPage list(const ListFilter& filter);
   /// A queued job is cancelled at once, a running one is marked.
-  v1::Job cancel(const std::string& job_ref);
+  v1::Job cancel(const JobRef& job_ref);
   /// A failed or cancelled job goes on from where it was; an active one stays as it is.
-  v1::Job resume(const std::string& job_ref);
+  v1::Job resume(const JobRef& job_ref);
   /// Deletes a job that is not active, and marks what no other job needs for tidy().  Returns its id.
-  std::string remove(const std::string& job_ref);
+  std::string remove(const JobRef& job_ref);
 
   struct Counts {
     std::int64_t queued = 0;
@@ -141,6 +143,16 @@ class Store {
   /// is room again.  True when the next step can be taken at once: store_space.cc.
   bool tidy();
 
+  // For the gate: store_tokens.cc
+
+  std::optional<TokenRow> find_token(std::string_view token) override;
+  bool has_tokens() override;
+  std::vector<std::int64_t> invalid_tokens(const std::vector<std::int64_t>& ids,
+                                           std::int64_t now_ms) override;
+  void note_tokens_used(const std::map<std::int64_t, std::int64_t>& last_used_ms) override;
+  /// Whether there is one that a caller could show now.
+  bool has_valid_token();
+
   struct Holder {
     std::string host;
     std::int64_t pid = 0;
@@ -172,7 +184,7 @@ class Store {
   bool tidy_step();
   bool shorten_log();
   v1::ReportResponse reply(bool cancelled) const;
-  v1::Job write_job(const std::string& job_ref, const std::function<void(Tx&, const JobRow&)>& change);
+  v1::Job write_job(const JobRef& job_ref, const std::function<void(Tx&, const JobRow&)>& change);
 
   const std::string file_;
   const StoreOptions options_;

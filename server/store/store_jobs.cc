@@ -7,11 +7,11 @@
 
 namespace affskel::server {
 
-v1::Job Store::job(const std::string& job_ref) {
+v1::Job Store::job(const JobRef& job_ref) {
   return read([&](Database& db) { return job_message(db, resolve_job(db, job_ref)); });
 }
 
-std::string Store::resolve(const std::string& job_ref) {
+std::string Store::resolve(const JobRef& job_ref) {
   return read([&](Database& db) { return resolve_job(db, job_ref); });
 }
 
@@ -31,7 +31,7 @@ Store::Counts Store::counts() {
   });
 }
 
-v1::Job Store::write_job(const std::string& job_ref, const std::function<void(Tx&, const JobRow&)>& change) {
+v1::Job Store::write_job(const JobRef& job_ref, const std::function<void(Tx&, const JobRow&)>& change) {
   return write([&](Tx& tx) {
     const std::string id = resolve_job(tx.db, job_ref);
     change(tx, get_job(tx.db, id));
@@ -39,7 +39,7 @@ v1::Job Store::write_job(const std::string& job_ref, const std::function<void(Tx
   });
 }
 
-v1::Job Store::cancel(const std::string& job_ref) {
+v1::Job Store::cancel(const JobRef& job_ref) {
   return write_job(job_ref, [](Tx& tx, const JobRow& job) {
     const std::int64_t requests = tx.db.run(
         "DELETE FROM tasks WHERE job_id = ? AND on_request = 1 AND state IN ('pending', 'leased')", job.id);
@@ -60,7 +60,7 @@ v1::Job Store::cancel(const std::string& job_ref) {
   });
 }
 
-v1::Job Store::resume(const std::string& job_ref) {
+v1::Job Store::resume(const JobRef& job_ref) {
   return write_job(job_ref, [](Tx& tx, const JobRow& job) {
     if (job.state == v1::JOB_STATE_DONE) {
       throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " is done: nothing to resume");
@@ -77,7 +77,7 @@ v1::Job Store::resume(const std::string& job_ref) {
   });
 }
 
-std::string Store::remove(const std::string& job_ref) {
+std::string Store::remove(const JobRef& job_ref) {
   return write([&](Tx& tx) {
     const JobRow job = get_job(tx.db, resolve_job(tx.db, job_ref));
     if (job.active()) {

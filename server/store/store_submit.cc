@@ -14,9 +14,8 @@ std::string find_request(Database& db, const Submission& submission) {
   if (request_id.empty()) return {};
   Statement row = db.query(
       "SELECT r.job_id, e.mesh_sha256 = ?2 AND e.params_key = ?3 AND j.skeleton_key = ?4 AND j.name = ?5"
-      " AND j.owner = ?6 FROM requests r JOIN jobs j ON j.id = r.job_id JOIN erosions e ON e.id = "
-      "j.erosion_id"
-      " WHERE r.request_id = ?1",
+      " FROM requests r JOIN jobs j ON j.id = r.job_id JOIN erosions e ON e.id = j.erosion_id"
+      " WHERE r.owner = ?6 AND r.request_id = ?1",
       request_id, submission.header.mesh_sha256(), submission.params_key, submission.skeleton_key,
       submission.header.name(), submission.header.owner());
   if (!row.step()) return {};
@@ -42,18 +41,18 @@ std::string find_equal_job(Database& db, const Submission& submission) {
 
 void remember_request(Tx& tx, const Submission& submission, const std::string& job_id) {
   if (submission.header.request_id().empty()) return;
-  // The key was once compared instead of the job, but had the priority in it.
-  tx.db.run("INSERT INTO requests (request_id, content_key, job_id) VALUES (?, '', ?) ON CONFLICT DO NOTHING",
-            submission.header.request_id(), job_id);
+  tx.db.run("INSERT INTO requests (owner, request_id, job_id) VALUES (?, ?, ?) ON CONFLICT DO NOTHING",
+            submission.header.owner(), submission.header.request_id(), job_id);
 }
 
-// "@last" is the job that was last told to a submitter: the newest, unless one was submitted again since.
-void remember_repeated(Tx& tx, const std::string& job_id) {
-  if (resolve_job(tx.db, "@last") == job_id) return;
-  tx.db.run(
-      "INSERT INTO server_state (key, value) VALUES ('repeated_job', ?)"
-      " ON CONFLICT (key) DO UPDATE SET value = excluded.value",
-      job_id);
+/// "@last" of the owner, and of all, is this job until another is submitted.
+void remember_repeated(Tx& tx, const std::string& owner, const std::string& job_id) {
+  for (const std::string& whose : {owner, std::string()}) {
+    tx.db.run(
+        "INSERT INTO server_state (key, value) VALUES ('repeated_job/' || ?, ?)"
+        " ON CONFLICT (key) DO UPDATE SET value = excluded.value",
+        whose, job_id);
+  }
 }
 
 std::string insert_job(Tx& tx, const Submission& submission, std::string_view mesh) {
@@ -70,7 +69,7 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
       " VALUES (?, ?, ?, ?, 'queued', 'prepare', ?, ?, ?, ?)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
       submission.skeleton_key, tx.wall_ms);
-  tx.db.run("DELETE FROM server_state WHERE key = 'repeated_job'");
+  tx.db.run("DELETE FROM server_state WHERE key IN ('repeated_job/', 'repeated_job/' || ?)", header.owner());
   tx.changes.jobs.insert(id);
   tx.changes.log.push_back("event=submitted job=" + id + " mesh=" + header.mesh_sha256() +
                            " bytes=" + std::to_string(mesh.size()) + " " + submission.params_key);
@@ -108,7 +107,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
         tx.changes.jobs.insert(earlier);
       }
       remember_request(tx, submission, earlier);
-      remember_repeated(tx, earlier);
+      remember_repeated(tx, header.owner(), earlier);
       return {job_message(tx.db, earlier), true};
     }
     tx.require_room();

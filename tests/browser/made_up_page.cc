@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "client/files/write/atomic_file.h"
+#include "base/atomic_file.h"
 #include "client/view/page.h"
 #include "core/shapes/shapes.h"
 
@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
                             : kind == "stretched"
                                 ? stretched_page()
                                 : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
-    affskel::client::AtomicFile file(arguments.back());
+    affskel::base::AtomicFile file(arguments.back());
     file.write(affskel::client::view_page(input));
     file.commit();
   } catch (const std::exception& error) {

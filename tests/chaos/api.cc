@@ -1,7 +1,8 @@
 #include "api.h"
 
 #include <algorithm>
-#include <thread>
+
+#include "tools/let_pass.h"
 
 namespace affskel::chaos {
 namespace {
@@ -10,7 +11,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kChunk = std::size_t{1} << 18;
 // So long one attempt of a call that is repeated may take.
 constexpr Milliseconds kAttempt{5000};
-// Before a call is repeated; nobody waits for anything else meanwhile.
+// Before a call is repeated: a server that refuses (a full disk, no place) does not tell when it will no
+// longer.
 constexpr Milliseconds kPause{20};
 
 [[noreturn]] void break_off(const std::string& what, const grpc::Status& status) {
@@ -20,6 +22,19 @@ constexpr Milliseconds kPause{20};
 void limit_to(grpc::ClientContext& context, Milliseconds limit) {
   context.set_wait_for_ready(true);
   context.set_deadline(std::chrono::system_clock::now() + limit);
+}
+
+// One of the calls whose request is a job's id.
+template <typename Request, typename Response>
+grpc::Status call_on_job(v1::ErosionService::Stub& stub,
+                         grpc::Status (v1::ErosionService::Stub::*call)(grpc::ClientContext*, const Request&,
+                                                                        Response*),
+                         const std::string& id, Response& response, Milliseconds limit) {
+  grpc::ClientContext context;
+  limit_to(context, limit);
+  Request request;
+  request.set_job(id);
+  return (stub.*call)(&context, request, &response);
 }
 
 v1::SubmitJobRequest header_of(const Submission& submission) {
@@ -87,36 +102,20 @@ grpc::Status Api::submit(const Submission& submission, v1::SubmitJobResponse& re
 }
 
 grpc::Status Api::job(const std::string& id, v1::Job& job, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::GetJobRequest request;
-  request.set_job(id);
-  return client_->GetJob(&context, request, &job);
+  return call_on_job(*client_, &v1::ErosionService::Stub::GetJob, id, job, limit);
 }
 
 grpc::Status Api::cancel(const std::string& id, v1::Job& job, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::CancelJobRequest request;
-  request.set_job(id);
-  return client_->CancelJob(&context, request, &job);
+  return call_on_job(*client_, &v1::ErosionService::Stub::CancelJob, id, job, limit);
 }
 
 grpc::Status Api::resume(const std::string& id, v1::Job& job, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::ResumeJobRequest request;
-  request.set_job(id);
-  return client_->ResumeJob(&context, request, &job);
+  return call_on_job(*client_, &v1::ErosionService::Stub::ResumeJob, id, job, limit);
 }
 
 grpc::Status Api::remove(const std::string& id, Milliseconds limit) const {
-  grpc::ClientContext context;
-  limit_to(context, limit);
-  v1::DeleteJobRequest request;
   v1::DeleteJobResponse response;
-  request.set_job(id);
-  return client_->DeleteJob(&context, request, &response);
+  return call_on_job(*client_, &v1::ErosionService::Stub::DeleteJob, id, response, limit);
 }
 
 grpc::Status Api::info(v1::ServerInfo& info, Milliseconds limit) const {
@@ -193,7 +192,7 @@ grpc::Status until_answered(const std::string& what, const std::function<grpc::S
     const grpc::Status status = call();
     if (!worth_repeating(status)) return status;
     if (Clock::now() > give_up) break_off(what, status);
-    std::this_thread::sleep_for(kPause);
+    tests::let_pass(kPause);
   }
 }
 

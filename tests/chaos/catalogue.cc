@@ -1,10 +1,9 @@
 #include "catalogue.h"
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "process.h"
+#include "tools/files.h"
 #include "wire/sha256.h"
 
 namespace affskel::chaos {
@@ -19,25 +18,15 @@ const std::vector<Recipe>& recipes() {
   return all;
 }
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return std::move(bytes).str();
-}
-
-void write_file(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-}
-
 Catalogue::Catalogue(const Programs& programs, const std::string& dir) : dir_(dir) {
   for (const Recipe& recipe : recipes()) {
     const std::string path = dir + "/" + recipe.name + ".off";
     Command make{{programs.client, "make"}, "", dir + "/make.log", {}};
     make.arguments.insert(make.arguments.end(), recipe.shape.begin(), recipe.shape.end());
     make.arguments.insert(make.arguments.end(), {"-o", path});
-    if (run(make, kPatience) != 0) throw std::runtime_error("no mesh: " + read_file(dir + "/make.log"));
-    meshes_.push_back(read_file(path));
+    if (run(make, kPatience) != 0)
+      throw std::runtime_error("no mesh: " + tests::read_file(dir + "/make.log"));
+    meshes_.push_back(tests::read_file(path));
   }
 }
 
@@ -64,9 +53,9 @@ std::string Catalogue::computed_text(const Programs& programs, std::size_t recip
                         dir_ + "/compute.log",
                         {}};
   if (run(compute, kPatience) != 0) {
-    throw std::runtime_error("no field: " + read_file(dir_ + "/compute.log"));
+    throw std::runtime_error("no field: " + tests::read_file(dir_ + "/compute.log"));
   }
-  return read_file(stem + ".csv");
+  return tests::read_file(stem + ".csv");
 }
 
 }  // namespace affskel::chaos

@@ -56,7 +56,4 @@ class Catalogue {
   std::map<std::size_t, Reference> references_;
 };
 
-std::string read_file(const std::string& path);
-void write_file(const std::string& path, const std::string& bytes);
-
 }  // namespace affskel::chaos

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "faults.h"
+#include "tools/files.h"
 
 namespace affskel::chaos {
 namespace {
@@ -85,7 +86,7 @@ bool has_own_disk(const std::string& dir) {
 
 /// Bytes of address space that a process has.
 rlim_t address_space(pid_t pid) {
-  std::istringstream pages(read_file("/proc/" + std::to_string(pid) + "/statm"));
+  std::istringstream pages(tests::read_file("/proc/" + std::to_string(pid) + "/statm"));
   rlim_t count = 0;
   pages >> count;
   return count * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));

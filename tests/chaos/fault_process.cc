@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "faults.h"
+#include "tools/files.h"
 
 namespace affskel::chaos {
 namespace {
@@ -91,7 +92,7 @@ bool kill_server_amid_submissions(Scene& scene) {
 bool kill_submitting_client(Scene& scene) {
   const Submission submission = scene.catalogue.next(kMedium, scene.new_name());
   const std::string stem = scene.stage.path(submission.name);
-  write_file(stem + ".off", submission.mesh);
+  tests::write_file(stem + ".off", submission.mesh);
   const std::vector<std::string> command = submit_command(scene, submission, stem + ".off");
   Process process({command, stem + ".1", "", {}});
   const bool ended = process.wait(Milliseconds(scene.pick(60))).has_value();
@@ -100,7 +101,7 @@ bool kill_submitting_client(Scene& scene) {
     scene.complain(submission.name + ": a killed client's submission cannot be repeated");
     return true;
   }
-  const std::string before = read_file(stem + ".1"), after = read_file(stem + ".2");
+  const std::string before = tests::read_file(stem + ".1"), after = tests::read_file(stem + ".2");
   if (!before.empty() && before != after) scene.complain(submission.name + ": two jobs, " + before + after);
   note_job(scene, submission, after.substr(0, 32));
   return !ended;
@@ -121,7 +122,7 @@ bool kill_fetching_client(Scene& scene) {
   if (run({client(scene, {"fetch", done, "field", "-o", whole}), "", "", {}}, kPatience) != 0) {
     throw std::runtime_error("a field cannot be fetched by the command line");
   }
-  const auto where = difference(read_file(file), read_file(whole));
+  const auto where = difference(tests::read_file(file), tests::read_file(whole));
   if (where) scene.complain("a killed client left half a file: " + *where);
   return !ended;
 }

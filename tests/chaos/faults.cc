@@ -4,6 +4,8 @@
 #include <random>
 #include <thread>
 
+#include "tools/let_pass.h"
+
 namespace affskel::chaos {
 
 const std::vector<Fault>& faults() {
@@ -85,7 +87,7 @@ std::vector<const Fault*> schedule(const std::vector<const Fault*>& kinds, std::
 }
 
 void last_for(Milliseconds time) {
-  std::this_thread::sleep_for(time);
+  tests::let_pass(time);
 }
 
 void outlast_lease() {

@@ -11,6 +11,8 @@
 
 #include "reference.h"
 #include "run.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::chaos {
 namespace {
@@ -26,7 +28,7 @@ struct Options {
   bool list = false;
 };
 
-CLI::App* describe(CLI::App& app, Options& options) {
+void describe(CLI::App& app, Options& options) {
   app.add_option("--seed", options.seed, "Of the first run; the next ones take the next seeds")
       ->capture_default_str();
   app.add_option("--runs", options.runs, "Runs, each of a server of its own")->capture_default_str();
@@ -41,7 +43,6 @@ CLI::App* describe(CLI::App& app, Options& options) {
   app.add_option("--keep", options.keep, "Keep logs and data of runs that failed here");
   app.add_option("--table", options.table, "Write the table here, too, after each run");
   app.add_flag("--list", options.list, "Say what the kinds are");
-  return &app;
 }
 
 /// So that a small disk can be mounted that nobody else sees.  Before any thread is started.
@@ -50,9 +51,9 @@ bool enter_own_mounts() {
   const gid_t group = getgid();
   if (unshare(CLONE_NEWNS) != 0) {
     if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
-    write_file("/proc/self/setgroups", "deny");
-    write_file("/proc/self/uid_map", "0 " + std::to_string(user) + " 1");
-    write_file("/proc/self/gid_map", "0 " + std::to_string(group) + " 1");
+    tests::write_file("/proc/self/setgroups", "deny");
+    tests::write_file("/proc/self/uid_map", "0 " + std::to_string(user) + " 1");
+    tests::write_file("/proc/self/gid_map", "0 " + std::to_string(group) + " 1");
   }
   return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
 }
@@ -73,23 +74,6 @@ class SmallDisk {
  private:
   std::string path_;
   bool mounted_ = false;
-};
-
-/// A directory of our own, removed at the end.
-class Workshop {
- public:
-  Workshop() {
-    std::string pattern = std::filesystem::temp_directory_path() / "affskel-chaos-XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no directory of its own");
-    dir = pattern;
-  }
-  ~Workshop() {
-    std::error_code ignored;
-    std::filesystem::remove_all(dir, ignored);
-  }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-  std::string dir;
 };
 
 std::vector<const Fault*> chosen(const Options& options) {
@@ -134,7 +118,7 @@ bool run_once(const Options& options, const Catalogue& catalogue, const std::str
     good = run.go(tally);
   }
   if (!good) keep(dir, options.keep);
-  if (!options.table.empty()) write_file(options.table, tally.table());
+  if (!options.table.empty()) tests::write_file(options.table, tally.table());
   std::cerr << "seed " << seed << ": " << number << " faults, " << (good ? "all well" : "FAILED")
             << std::endl;
   return good;
@@ -143,13 +127,13 @@ bool run_once(const Options& options, const Catalogue& catalogue, const std::str
 int run_all(const Options& options) {
   signal(SIGPIPE, SIG_IGN);
   if (!enter_own_mounts()) std::cerr << "no mounts of its own: a full disk is pretended\n";
-  const Workshop workshop;
-  Catalogue catalogue(options.programs, workshop.dir);
-  make_references(options.programs, workshop.dir + "/reference", catalogue);
+  const tests::TemporaryDirectory workshop;
+  Catalogue catalogue(options.programs, workshop.path());
+  make_references(options.programs, workshop / "reference", catalogue);
   Tally tally;
   for (const Fault* kind : chosen(options)) tally.add(kind->name, {});
   for (std::uint64_t i = 0; i < options.runs; ++i) {
-    run_once(options, catalogue, workshop.dir, options.seed + i, tally);
+    run_once(options, catalogue, workshop.path(), options.seed + i, tally);
   }
   std::cout << tally.table();
   return tally.total().good() ? 0 : 1;
@@ -169,7 +153,8 @@ void find_programs(Options& options) {
 int main_of(int argc, char** argv) {
   CLI::App app("Real servers and workers under faults drawn from a seed; a table of what came of it");
   Options options;
-  CLI11_PARSE(*describe(app, options), argc, argv);
+  describe(app, options);
+  CLI11_PARSE(app, argc, argv);
   if (options.list) {
     for (const Fault& fault : faults()) std::cout << fault.name << ": " << fault.what << '\n';
     return 0;

@@ -1,39 +1,35 @@
 // The preloaded library in a program that everybody has.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 
 #include "catalogue.h"
 #include "process.h"
 #include "stage.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::chaos {
 namespace {
 
 class PreloadTest : public testing::Test {
  protected:
-  PreloadTest() : dir_(make_directory()), control_(dir_ + "/control") {}
-  ~PreloadTest() override { std::filesystem::remove_all(dir_); }
+  PreloadTest() : control_(dir_ / "control") {}
 
-  static std::string make_directory() {
-    std::string pattern = std::filesystem::temp_directory_path() / "affskel-chaos-test-XXXXXX";
-    return mkdtemp(pattern.data());
-  }
   // What the shell's commands print.
   std::string shell(const std::string& script) {
-    const std::string out = dir_ + "/out";
-    write_file(out, "");
+    const std::string out = dir_ / "out";
+    tests::write_file(out, "");
     run({{"/bin/sh", "-c", script},
          out,
          out,
          {std::string("LD_PRELOAD=") + AFFSKEL_CHAOS_PRELOAD, "AFFSKEL_CHAOS_CONTROL=" + control_.path()}},
         kPatience);
-    return read_file(out);
+    return tests::read_file(out);
   }
-  std::string file(const std::string& name) const { return dir_ + "/" + name; }
+  std::string file(const std::string& name) const { return dir_ / name; }
 
-  std::string dir_;
+  tests::TemporaryDirectory dir_;
   ControlFile control_;
 };
 
@@ -55,7 +51,7 @@ TEST_F(PreloadTest, WritesFail) {
     EXPECT_EQ(shell(script).substr(0, std::string(message).size()), message);
     EXPECT_GT((*control_).bites, 0U);
   }
-  EXPECT_EQ(read_file(file("a")), "x");
+  EXPECT_EQ(tests::read_file(file("a")), "x");
 }
 
 TEST_F(PreloadTest, SyncsFail) {

@@ -72,8 +72,16 @@ Process& Process::operator=(Process&& other) noexcept {
 }
 
 bool Process::alive() const {
-  pollfd end{fd_, POLLIN, 0};
-  return pid_ > 0 && poll(&end, 1, 0) == 0;
+  return !one_ends({this, 1}, std::chrono::milliseconds(0));
+}
+
+bool Process::one_ends(std::span<const Process> processes, std::chrono::milliseconds patience) {
+  std::vector<pollfd> ends;
+  for (const Process& process : processes) {
+    if (process.pid_ <= 0) return true;
+    ends.push_back({process.fd_, POLLIN, 0});
+  }
+  return poll(ends.data(), ends.size(), static_cast<int>(patience.count())) > 0;
 }
 
 void Process::send(int signal) const {

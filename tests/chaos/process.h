@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ class Process {
 
   /// SIGKILL, then waits.
   void kill_hard();
+
+  /// Waits until one of them has ended, for `patience` at most.  @returns whether one has; what was not
+  /// started counts as ended.
+  static bool one_ends(std::span<const Process> processes, std::chrono::milliseconds patience);
 
  private:
   void reap();

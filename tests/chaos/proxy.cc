@@ -1,8 +1,6 @@
 #include "proxy.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -17,20 +15,14 @@
 #include <string>
 #include <utility>
 
+#include "loopback.h"
+
 namespace affskel::chaos {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kQueue = std::size_t{1} << 20;
 constexpr std::uint64_t kForever = ~std::uint64_t{0};
-
-sockaddr_in loopback(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
 
 int connect_to(int port) {
   const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);

@@ -5,6 +5,7 @@
 
 #include "ledger.h"
 #include "stage.h"
+#include "tools/files.h"
 
 namespace affskel::chaos {
 namespace {
@@ -21,7 +22,7 @@ void must_equal_computed(const Stage& stage, const std::string& id, const std::s
   const Command fetch_text{
       {stage.programs().client, "--server", stage.address(), "fetch", id, "field", "-o", file}, "", "", {}};
   if (run(fetch_text, kPatience) != 0) throw std::runtime_error("the reference cannot be fetched as text");
-  const auto where = difference(read_file(file), computed);
+  const auto where = difference(tests::read_file(file), computed);
   if (where) throw std::runtime_error("the service's field is not that of compute: " + *where);
 }
 

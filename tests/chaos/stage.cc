@@ -8,13 +8,16 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <thread>
+
+#include "tools/files.h"
 
 namespace affskel::chaos {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr Milliseconds kLook{20};
+// A call waits for the server, and an end is waited for between two of them: neither is missed for long.
+constexpr Milliseconds kAnswer{500};
+constexpr Milliseconds kEnd{20};
 
 }  // namespace
 
@@ -68,10 +71,9 @@ void Stage::start_workers() {
 void Stage::wait_for_server() {
   const Clock::time_point give_up = Clock::now() + kPatience;
   v1::ServerInfo info;
-  while (!api_.info(info, Milliseconds(500)).ok()) {
-    if (!server_.alive()) return;
+  while (!api_.info(info, kAnswer).ok()) {
+    if (Process::one_ends({&server_, 1}, kEnd)) return;
     if (Clock::now() > give_up) throw Hang("the server does not answer");
-    std::this_thread::sleep_for(kLook);
   }
 }
 
@@ -86,11 +88,8 @@ void Stage::wait_for_workers() {
       });
     });
     if (heard == kWorkers) return;
-    for (const Process& worker : workers_) {
-      if (!worker.alive()) return;  // whoever restarts the dead ones calls again
-    }
+    if (Process::one_ends(workers_, kEnd)) return;  // whoever restarts the dead ones calls again
     if (Clock::now() > give_up) throw Hang("a worker is not heard from: " + info.ShortDebugString());
-    std::this_thread::sleep_for(kLook);
   }
 }
 
@@ -128,7 +127,7 @@ void Stage::start_over() {
 }
 
 int Stage::port() const {
-  const auto published = nlohmann::json::parse(read_file(data_dir_ + "/server.json"), nullptr, false);
+  const auto published = nlohmann::json::parse(tests::read_file(data_dir_ + "/server.json"), nullptr, false);
   if (!published.is_object()) return 0;
   for (const auto& address : published.value("addresses", std::vector<std::string>())) {
     if (address.rfind("127.0.0.1:", 0) == 0) return std::stoi(address.substr(10));
@@ -138,10 +137,11 @@ int Stage::port() const {
 
 std::string Stage::check(const std::string& data_dir) const {
   const std::string log = path("check.log");
-  write_file(log, "");
+  tests::write_file(log, "");
   const auto code = run({{programs_.server, "check", "--data-dir", data_dir}, "", log, {}}, kPatience);
   if (code == 0) return "";
-  return "check ended with " + (code ? std::to_string(*code) : "nothing, in time") + ": " + read_file(log);
+  return "check ended with " + (code ? std::to_string(*code) : "nothing, in time") + ": " +
+         tests::read_file(log);
 }
 
 }  // namespace affskel::chaos

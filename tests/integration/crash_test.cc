@@ -19,21 +19,13 @@ class CrashTest : public testing::Test {
  protected:
   // A job of some seconds, and its field computed without any server.
   void SetUp() override {
-    ASSERT_EQ(
-        lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "2048", "-o", lab_.path("m.off")})
-            .exit_code,
-        0);
+    lab_.make_torus(2048);
     const Output plain = lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", kPoints,
                                    "--directions", kDirections, "-o", lab_.path("plain.csv")});
     ASSERT_EQ(plain.exit_code, 0) << plain.err;
   }
 
-  std::string submit() const {
-    const Output submitted =
-        lab_.client({"submit", lab_.path("m.off"), "--points", kPoints, "--directions", kDirections});
-    EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
-    return submitted.out.substr(0, submitted.out.find('\n'));
-  }
+  std::string submit() const { return lab_.submit({"--points", kPoints, "--directions", kDirections}); }
 
   void expect_undisturbed_field(const std::string& id) const {
     const v1::Job job = lab_.follow_to_end(id);

@@ -15,16 +15,10 @@ constexpr std::size_t kRecordBytes = 20;
 class DamageTest : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(
-        lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "512", "-o", lab_.path("m.off")})
-            .exit_code,
-        0);
+    lab_.make_torus(512);
     server_.emplace(lab_.server());
     worker_.emplace(lab_.worker());
-    const Output submitted =
-        lab_.client({"submit", lab_.path("m.off"), "--points", "20000", "--directions", "sphere:300"});
-    ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
-    id_ = submitted.out.substr(0, submitted.out.find('\n'));
+    id_ = lab_.submit({"--points", "20000", "--directions", "sphere:300"});
     ASSERT_EQ(lab_.follow_to_end(id_).state(), v1::JOB_STATE_DONE);
     field_ = fetch_bytes();
     ASSERT_GT(field_.size(), std::size_t{kFlips} * kRecordBytes);
@@ -57,8 +51,8 @@ class DamageTest : public testing::Test {
     return lab_.run(arguments);
   }
 
-  /// Where a record of the field, or one of the next, lies in the file.  Two in a row: reports that were merged
-  /// may still lie about.  The next, for pages end between records or within one.
+  /// Where a record of the field, or one of the next, lies in the file.  Two in a row: reports that were
+  /// merged may still lie about.  The next, for pages end between records or within one.
   std::size_t place_of(std::size_t record) const {
     const std::string file = lab_.read("data/affskel.db");
     std::size_t at = std::string::npos;

@@ -14,11 +14,8 @@ constexpr int kLimit = 8;
 class FullDiskTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!lab_.can_mount()) GTEST_SKIP() << "no mounts of its own for this user here";
-    ASSERT_EQ(
-        lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "512", "-o", lab_.path("m.off")})
-            .exit_code,
-        0);
+    if (!lab_.can_mount()) GTEST_SKIP() << kCannotMount;
+    lab_.make_torus(512);
   }
 
   Output submit(const std::string& points) const {

@@ -12,23 +12,16 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include "tools/files.h"
 
 namespace affskel::integration {
 namespace {
 
 // Long enough for a loaded machine; nothing waits for it when all is well.
 constexpr auto kPatience = std::chrono::seconds(120);
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return std::move(bytes).str();
-}
 
 [[noreturn]] void execute(const std::vector<std::string>& arguments, const std::string& out,
                           const std::string& err, const std::vector<std::string>& environment) {
@@ -127,9 +120,6 @@ void Process::kill_hard() {
 }
 
 Lab::Lab() {
-  std::string pattern = std::filesystem::temp_directory_path() / "affskel-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-  dir_ = pattern;
   stub_ = connect(address());
 }
 
@@ -139,16 +129,14 @@ Lab::~Lab() {
       if (std::filesystem::exists(path(log))) fprintf(stderr, "---- %s\n%s", log, read(log).c_str());
     }
   }
-  std::error_code ignored;
-  std::filesystem::remove_all(dir_, ignored);
 }
 
 std::string Lab::read(const std::string& name) const {
-  return read_file(path(name));
+  return tests::read_file(path(name));
 }
 
 void Lab::write(const std::string& name, const std::string& bytes) const {
-  std::ofstream(path(name), std::ios::binary) << bytes;
+  tests::write_file(path(name), bytes);
 }
 
 Process Lab::server(const std::vector<std::string>& options) const {
@@ -211,7 +199,21 @@ Output Lab::run(const std::vector<std::string>& arguments,
   static int number = 0;
   const std::string out = path("out" + std::to_string(++number)), err = path("err" + std::to_string(number));
   const int code = wait_for(start(arguments, out, err, environment));
-  return {code, read_file(out), read_file(err)};
+  return {code, tests::read_file(out), tests::read_file(err)};
+}
+
+void Lab::make_torus(int triangles) const {
+  const Output made = run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", std::to_string(triangles),
+                           "-o", path("m.off")});
+  if (made.exit_code != 0) throw std::runtime_error("no torus: " + made.err);
+}
+
+std::string Lab::submit(const std::vector<std::string>& options) const {
+  std::vector<std::string> arguments = {"submit", path("m.off")};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Output submitted = client(arguments);
+  if (submitted.exit_code != 0) throw std::runtime_error("not submitted: " + submitted.err);
+  return submitted.out.substr(0, submitted.out.find('\n'));
 }
 
 v1::Job Lab::job(const std::string& id) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "affskel/v1/client_service.grpc.pb.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::integration {
 
@@ -43,13 +44,21 @@ struct Output {
   std::string err;
 };
 
+/// Why a test that mounts is skipped, and what would let it run.
+inline constexpr const char* kCannotMount =
+    "a small disk is a tmpfs in a mount namespace of its own, which this user may not make; to run this, "
+    "allow "
+    "user namespaces (sysctl kernel.unprivileged_userns_clone=1; in a container a seccomp profile with "
+    "unshare "
+    "and mount) and install unshare (util-linux)";
+
 /// The real programs in a directory of their own, removed at the end.
 class Lab {
  public:
   Lab();
   ~Lab();
 
-  std::string path(const std::string& name) const { return dir_ + "/" + name; }
+  std::string path(const std::string& name) const { return dir_ / name; }
   std::string address() const { return "unix:" + path("s.sock"); }
   std::string read(const std::string& name) const;
   void write(const std::string& name, const std::string& bytes) const;
@@ -65,6 +74,10 @@ class Lab {
 
   /// Runs affskel-client against address() to its end.
   Output client(const std::vector<std::string>& arguments) const;
+  /// Makes a torus of so many triangles as path("m.off").  @throws std::runtime_error.
+  void make_torus(int triangles) const;
+  /// Submits path("m.off").  @returns the job's id.  @throws std::runtime_error with what the client says.
+  std::string submit(const std::vector<std::string>& options) const;
   /// Runs any of the programs to its end.
   Output run(const std::vector<std::string>& arguments,
              const std::vector<std::string>& environment = {}) const;
@@ -84,7 +97,7 @@ class Lab {
  private:
   void wait_for_server() const;
 
-  std::string dir_;
+  tests::TemporaryDirectory dir_;
   std::unique_ptr<v1::ErosionService::Stub> stub_;
 };
 

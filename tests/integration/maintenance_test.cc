@@ -22,12 +22,7 @@ const std::vector<std::string> kQuickReports = {"--lease-ms", "1000", "--report-
 
 class ServerCommandsTest : public testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_EQ(
-        lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "2048", "-o", lab_.path("m.off")})
-            .exit_code,
-        0);
-  }
+  ServerCommandsTest() { lab_.make_torus(2048); }
 
   Output command(std::vector<std::string> arguments, const std::string& data_dir) const {
     arguments.insert(arguments.begin(), AFFSKEL_SERVER_BINARY);
@@ -35,14 +30,6 @@ class ServerCommandsTest : public testing::Test {
     return lab_.run(arguments);
   }
   Output check() const { return command({"check"}, lab_.path("data")); }
-
-  std::string submit(const std::vector<std::string>& options) const {
-    std::vector<std::string> arguments = {"submit", lab_.path("m.off")};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const Output submitted = lab_.client(arguments);
-    EXPECT_EQ(submitted.exit_code, 0) << submitted.err;
-    return submitted.out.substr(0, submitted.out.find('\n'));
-  }
 
   static void expect_field(const Lab& lab, const std::string& id, const std::string& expected) {
     const v1::Job job = lab.follow_to_end(id);
@@ -71,8 +58,8 @@ TEST_F(ServerCommandsTest, ABackupTakenInMidRunGoesOnElsewhere) {
 
   const Process server = lab_.server(kQuickReports);
   const Process worker = lab_.worker();
-  const std::string done = submit({"--points", "2000", "--wait"});
-  const std::string id = submit({"--points", kPoints, "--directions", kDirections});
+  const std::string done = lab_.submit({"--points", "2000", "--wait"});
+  const std::string id = lab_.submit({"--points", kPoints, "--directions", kDirections});
   const v1::Job acknowledged = lab_.follow_to_share(id, 0.3);
   ASSERT_EQ(acknowledged.state(), v1::JOB_STATE_RUNNING);
   const Output backup = command({"backup", "-o", lab_.path("copy.db")}, lab_.path("data"));
@@ -102,7 +89,7 @@ TEST_F(ServerCommandsTest, ABackupTakenInMidRunGoesOnElsewhere) {
 TEST_F(ServerCommandsTest, AKilledServersDatabaseIsSoundAndCopiedWithItsLog) {
   Process server = lab_.server(kQuickReports);
   Process worker = lab_.worker();
-  const std::string id = submit({"--points", kPoints, "--directions", kDirections});
+  const std::string id = lab_.submit({"--points", kPoints, "--directions", kDirections});
   const v1::Job acknowledged = lab_.follow_to_share(id, 0.2);
   server.kill_hard();
   worker.kill_hard();
@@ -127,7 +114,7 @@ TEST_F(ServerCommandsTest, AKilledServersDatabaseIsSoundAndCopiedWithItsLog) {
 TEST_F(ServerCommandsTest, PlantedFaultsAreFound) {
   Process server = lab_.server();
   const Process worker = lab_.worker();
-  submit({"--points", "2000", "--wait"});
+  lab_.submit({"--points", "2000", "--wait"});
   server.send(SIGTERM);
   ASSERT_EQ(server.wait(), 0);
   ASSERT_EQ(check().exit_code, 0);
@@ -160,11 +147,15 @@ TEST_F(ServerCommandsTest, MigrateIsRefusedWhileTheServerRuns) {
   EXPECT_EQ(check().exit_code, 0);
 }
 
-TEST_F(ServerCommandsTest, AFullDiskAndAMissingFolderAreToldByTheExitCode) {
+TEST_F(ServerCommandsTest, AMissingFolderIsToldByTheExitCode) {
   const Process server = lab_.server();
   const Output missing = command({"backup", "-o", lab_.path("missing/copy.db")}, lab_.path("data"));
   EXPECT_EQ(missing.exit_code, 3);
-  if (!lab_.can_mount()) GTEST_SKIP() << "no mounts of its own for this user here";
+}
+
+TEST_F(ServerCommandsTest, AFullDiskIsToldByTheExitCode) {
+  if (!lab_.can_mount()) GTEST_SKIP() << kCannotMount;
+  const Process server = lab_.server();
   const Output full =
       lab_.run({"/usr/bin/unshare", "--user", "--map-root-user", "--mount", "/bin/sh", "-c",
                 "mount -t tmpfs -o size=64k none \"$1\" && \"$2\" backup --data-dir \"$3\" -o \"$1/copy.db\";"

@@ -61,20 +61,15 @@ TEST_F(RestartTest, IdleWorkersSurviveGracefulRestarts) {
 
 // No task fails, and the job ends with the field that it would have had.
 TEST_F(RestartTest, BusyWorkersSurviveGracefulRestarts) {
-  const std::string mesh = lab_.path("m.off");
-  ASSERT_EQ(lab_.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "512", "-o", mesh}).exit_code,
-            0);
+  lab_.make_torus(512);
   const std::vector<std::string> params = {"--points", "30000", "--directions", "sphere:4000"};
-  std::vector<std::string> compute = {AFFSKEL_WORKER_BINARY, "compute", mesh, "-o", lab_.path("plain.csv")};
+  std::vector<std::string> compute = {AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "-o",
+                                      lab_.path("plain.csv")};
   compute.insert(compute.end(), params.begin(), params.end());
   ASSERT_EQ(lab_.run(compute).exit_code, 0);
   Process server = lab_.server();
   const std::vector<Process> all = workers();
-  std::vector<std::string> submit = {"submit", mesh};
-  submit.insert(submit.end(), params.begin(), params.end());
-  const Output submitted = lab_.client(submit);
-  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
-  const std::string id = submitted.out.substr(0, submitted.out.find('\n'));
+  const std::string id = lab_.submit(params);
   for (const double moment : {0.05, 0.2, 0.4, 0.6, 0.8}) {
     lab_.follow_to_share(id, moment);
     stop_in_order(server);

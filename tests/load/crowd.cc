@@ -1,10 +1,12 @@
 #include <cstdio>
+#include <stop_token>
 #include <thread>
 
 #include "../integration/lab.h"
 #include "loads.h"
 #include "made_up_worker.h"
 #include "process_stats.h"
+#include "tools/let_pass.h"
 
 namespace affskel::load {
 namespace {
@@ -37,9 +39,9 @@ grpc::Status watch(v1::ErosionService::Stub& stub, const std::string& id, std::c
   return status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED ? grpc::Status::OK : status;
 }
 
-void run_client(const std::string& address, int number, const std::atomic<bool>& stop, Calls& calls) {
+void run_client(const std::string& address, int number, const std::stop_token& stop, Calls& calls) {
   const auto stub = v1::ErosionService::NewStub(connect(address));
-  for (int round = 0; !stop; ++round) {
+  for (int round = 0; !stop.stop_requested(); ++round) {
     const std::string mesh = "mesh " + std::to_string(number) + "." + std::to_string(round);
     v1::Job job;
     if (!calls.timed("submit", [&] { return submit(*stub, mesh, mesh, &job); })) continue;
@@ -48,7 +50,7 @@ void run_client(const std::string& address, int number, const std::atomic<bool>&
     for (int i = 0; i < 4; ++i) {
       calls.timed("get", [&] { return get(*stub, job.id()); });
       calls.timed("list", [&] { return list(*stub); });
-      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      tests::let_pass(std::chrono::milliseconds(500), stop);
     }
     follower.join();
   }
@@ -60,20 +62,20 @@ bool run_crowd(const LoadOptions& options) {
   const integration::Lab lab;
   const integration::Process server = lab.server();
   Calls calls;
-  std::atomic<bool> stop = false;
+  std::stop_source stop;
   std::vector<std::thread> threads;
   std::vector<MadeUpWorkerOptions> workers(static_cast<std::size_t>(options.workers));
   for (std::size_t i = 0; i < workers.size(); ++i) {
     workers[i].address = lab.address();
     workers[i].id = "made-up-" + std::to_string(i);
-    threads.emplace_back([&, i] { run_made_up_worker(workers[i], stop, calls); });
+    threads.emplace_back([&, i] { run_made_up_worker(workers[i], stop.get_token(), calls); });
   }
   for (int i = 0; i < options.clients; ++i) {
-    threads.emplace_back([&, i] { run_client(lab.address(), i, stop, calls); });
+    threads.emplace_back([&, i] { run_client(lab.address(), i, stop.get_token(), calls); });
   }
-  std::this_thread::sleep_for(std::chrono::seconds(options.seconds));
+  tests::let_pass(std::chrono::seconds(options.seconds));
   const ProcessStats stats = stats_of(server.pid());
-  stop = true;
+  stop.request_stop();
   for (std::thread& thread : threads) thread.join();
   std::printf("crowd: %d clients, %d workers, %d s\n", options.clients, options.workers, options.seconds);
   calls.print();

@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <random>
 #include <string>
-#include <thread>
 
 #include "../integration/lab.h"
 #include "loads.h"
+#include "tools/let_pass.h"
 
 namespace affskel::load {
 namespace {
@@ -14,14 +14,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string submit_torus(const integration::Lab& lab) {
-  const std::string mesh = lab.path("m.off");
-  lab.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "2048", "-o", mesh});
-  const integration::Output submitted =
-      lab.client({"submit", mesh, "--points", "100000", "--directions", "sphere:1000000"});
-  return submitted.out.substr(0, submitted.out.find('\n'));
 }
 
 struct Kill {
@@ -35,7 +27,7 @@ Kill kill_once(const integration::Lab& lab, const std::string& id, integration::
   const std::uint64_t before = lab.job(id).counters().reports();
   lab.follow(id, [&](const v1::Job& job) { return job.counters().reports() > before; });
   const Clock::time_point heard = Clock::now();
-  std::this_thread::sleep_for(after);
+  tests::let_pass(std::chrono::duration_cast<std::chrono::nanoseconds>(after));
   Kill kill;
   kill.unreported = seconds_since(heard);
   worker.kill_hard();
@@ -53,7 +45,8 @@ bool run_kills(const LoadOptions& options) {
   const integration::Lab lab;
   const integration::Process server = lab.server();
   integration::Process worker = lab.worker();
-  const std::string id = submit_torus(lab);
+  lab.make_torus(2048);
+  const std::string id = lab.submit({"--points", "100000", "--directions", "sphere:1000000"});
   std::mt19937_64 random(1);
   // Workers report about once a second: any moment up to the next one.
   std::uniform_real_distribution<double> moment(0, 1);

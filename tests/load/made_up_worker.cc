@@ -1,7 +1,6 @@
 #include "made_up_worker.h"
 
-#include <thread>
-
+#include "tools/let_pass.h"
 #include "wire/direction_order.h"
 #include "wire/sha256.h"
 
@@ -10,14 +9,14 @@ namespace {
 
 class MadeUpWorker {
  public:
-  MadeUpWorker(const MadeUpWorkerOptions& options, const std::atomic<bool>& stop, Calls& calls)
+  MadeUpWorker(const MadeUpWorkerOptions& options, const std::stop_token& stop, Calls& calls)
       : options_(options),
         stop_(stop),
         calls_(calls),
         stub_(v1::WorkerService::NewStub(connect(options.address))) {}
 
   void run() {
-    while (!stop_) {
+    while (!stop_.stop_requested()) {
       v1::LeaseTaskRequest request;
       v1::WorkerIdentity& worker = *request.mutable_worker();
       worker.set_id(options_.id);
@@ -92,8 +91,8 @@ class MadeUpWorker {
     std::uint64_t left = 0;
     for (const v1::PositionRange& range : lease.positions()) left += range.end() - range.begin();
     for (const v1::PositionRange& range : lease.positions()) {
-      for (std::uint64_t p = range.begin(); p < range.end() && !stop_; ++p) {
-        std::this_thread::sleep_for(options_.pause / 8);  // eight directions a second, say
+      for (std::uint64_t p = range.begin(); p < range.end() && !stop_.stop_requested(); ++p) {
+        tests::let_pass(options_.pause / 8, stop_);  // eight directions a second, say
         if (p % 8 == 7 || left == 1) {
           if (!report(lease, range.begin(), p + 1, left == 1)) return;
         }
@@ -129,14 +128,14 @@ class MadeUpWorker {
   }
 
   const MadeUpWorkerOptions& options_;
-  const std::atomic<bool>& stop_;
+  const std::stop_token& stop_;
   Calls& calls_;
   std::unique_ptr<v1::WorkerService::Stub> stub_;
 };
 
 }  // namespace
 
-void run_made_up_worker(const MadeUpWorkerOptions& options, const std::atomic<bool>& stop, Calls& calls) {
+void run_made_up_worker(const MadeUpWorkerOptions& options, const std::stop_token& stop, Calls& calls) {
   MadeUpWorker(options, stop, calls).run();
 }
 

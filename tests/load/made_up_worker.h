@@ -1,7 +1,7 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
+#include <stop_token>
 #include <string>
 
 #include "calls.h"
@@ -18,6 +18,6 @@ struct MadeUpWorkerOptions {
 
 /// Leases tasks and reports made-up results until told to stop: the traffic of a worker without its sums, so
 /// that the server alone is measured.
-void run_made_up_worker(const MadeUpWorkerOptions& options, const std::atomic<bool>& stop, Calls& calls);
+void run_made_up_worker(const MadeUpWorkerOptions& options, const std::stop_token& stop, Calls& calls);
 
 }  // namespace affskel::load

@@ -28,14 +28,6 @@ void fill(v1::ErosionService::Stub& stub, int megabytes) {
   }
 }
 
-std::string submit_torus(const integration::Lab& lab) {
-  const std::string mesh = lab.path("m.off");
-  lab.run({AFFSKEL_CLIENT_BINARY, "make", "torus", "--triangles", "2048", "-o", mesh});
-  const integration::Output submitted =
-      lab.client({"submit", mesh, "--points", "100000", "--directions", "sphere:60000", "--priority", "9"});
-  return submitted.out.substr(0, submitted.out.find('\n'));
-}
-
 }  // namespace
 
 bool run_restart(const LoadOptions& options) {
@@ -44,7 +36,9 @@ bool run_restart(const LoadOptions& options) {
   integration::Process server = lab.server();
   fill(lab.stub(), options.megabytes);
   const integration::Process worker = lab.worker();
-  const std::string id = submit_torus(lab);
+  lab.make_torus(2048);
+  const std::string id =
+      lab.submit({"--points", "100000", "--directions", "sphere:60000", "--priority", "9"});
   std::error_code none;
   std::printf("restart: database of %.0f MiB\n",
               static_cast<double>(std::filesystem::file_size(lab.path("data/affskel.db"), none)) / (1 << 20));

@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
+#include "core/lattice/all_places.h"
 #include "core/lattice/lattice.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
@@ -115,16 +116,6 @@ class Comparison {
   double largest_ = 0;     // deviation, of v0
 };
 
-std::vector<Vec3> places(const core::Solid& solid, const core::Lattice& lattice) {
-  const core::SamplePlaces at(solid, lattice);
-  std::vector<Vec3> all;
-  for (const core::LatticeRun& run : lattice.axis[2].runs) {
-    for (std::uint32_t n = 0; n < run.length; ++n)
-      all.push_back(at.at(run.start[0], run.start[1], run.start[2] + n));
-  }
-  return all;
-}
-
 core::DirectionSet directions(const Plan& plan, const core::Solid& solid, std::mt19937_64& random) {
   const core::DirectionSet normals = core::make_directions(solid, "triangles");
   core::DirectionSet set = core::make_directions(solid, "random:" + std::to_string(plan.random) + ":7");
@@ -139,7 +130,7 @@ void compare(const Plan& plan) {
   core::LatticeOptions options;
   options.spacing = plan.spacing;
   const core::Lattice lattice = core::make_lattice(comparison.solid(), options);
-  const std::vector<Vec3> place = places(comparison.solid(), lattice);
+  const std::vector<Vec3> place = core::all_places(comparison.solid(), lattice);
   ASSERT_EQ(place.size(), lattice.points);
   std::mt19937_64 random(20031);
   for (const Vec3& d : directions(plan, comparison.solid(), random)) {

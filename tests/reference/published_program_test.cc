@@ -16,6 +16,7 @@
 
 #include "core/erosion/directions.h"
 #include "core/erosion/join_tree.h"
+#include "core/lattice/all_places.h"
 #include "core/lattice/lattice.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
@@ -64,15 +65,7 @@ class Limit {
     return scaled;
   }
 
-  std::vector<Vec3> points() const {
-    const core::SamplePlaces at(solid_, lattice_);
-    std::vector<Vec3> all;
-    for (const core::LatticeRun& run : lattice_.axis[2].runs) {
-      for (std::uint32_t n = 0; n < run.length; ++n)
-        all.push_back(at.at(run.start[0], run.start[1], run.start[2] + n));
-    }
-    return all;
-  }
+  std::vector<Vec3> points() const { return core::all_places(solid_, lattice_); }
 
  private:
   std::array<Vec3, 3> corners(std::uint32_t t) const {

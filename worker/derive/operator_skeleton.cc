@@ -7,18 +7,13 @@
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "core/shocks/skeleton.h"
-#include "core/shocks/zucker_hummel.h"
 #include "core/surface/alpha_shape.h"
 #include "derive/messages.h"
 #include "job/result_bytes.h"
-#include "wire/params.h"
 #include "wire/words.h"
 
 namespace affskel::worker {
 namespace {
-
-// The server fills in this default by itself.
-static_assert(wire::kZuckerHummelThreshold == core::kZuckerHummelThreshold);
 
 core::ShockOperator core_operator(v1::Operator which) {
   if (which == v1::OPERATOR_UNSPECIFIED) return core::ShockOperator::kZuckerHummel;

@@ -55,7 +55,7 @@ core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling
                           unsigned threads, core::ExecutionContext* context,
                           const std::function<std::uint64_t()>& available) {
   core::LatticeOptions options;
-  // Of the solid made before, memory is taken already.
+  // Asked here: the memory of the solid is taken already.
   if (available) options.memory_budget = available();
   options.point_bytes = core::kErosionBytesPerPoint + wire::kFieldRecordBytes;  // the server's field, fetched
   options.frame = frame;

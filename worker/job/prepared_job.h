@@ -23,8 +23,7 @@ class PreparedJob {
   /// @param context asked whether to stop; may be null.
   /// @param available tells the bytes that may be taken, see available_memory; none: no bound.
   /// @throws core::CoreError kBadInput when the mesh or a parameter is wrong; kCancelled when the context
-  /// asks
-  ///   to stop; kLimit when lattice and erosion would take more than is available.
+  ///   asks to stop; kLimit when lattice and erosion would take more than is available.
   PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1,
               core::ExecutionContext* context = nullptr,
               const std::function<std::uint64_t()>& available = nullptr);

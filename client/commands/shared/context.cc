@@ -4,7 +4,8 @@ namespace affskel::client {
 
 Session& Context::session() {
   if (!session_) {
-    session_.emplace(choose_server(server_, environment_), environment_, console_, policy_);
+    session_.emplace(choose_server(global_.server, environment_, global_.access), environment_, console_,
+                     policy_);
   }
   return *session_;
 }

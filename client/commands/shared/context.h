@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/cli/console.h"
+#include "client/cli/global_options.h"
 #include "client/connection/environment.h"
 #include "client/connection/session.h"
 
@@ -14,13 +15,13 @@ namespace affskel::client {
 class Context {
  public:
   /// @param out standard output, for what is printed as it is in every mode; results go to the console.
-  /// @param server the value of --server; empty = see choose_server.
-  Context(Console& console, std::ostream& out, Environment environment, std::string server,
+  /// @param global --server and what is shown to it; empty = see choose_server.
+  Context(Console& console, std::ostream& out, Environment environment, GlobalOptions global,
           RetryPolicy policy = {})
       : console_(console),
         out_(out),
         environment_(std::move(environment)),
-        server_(std::move(server)),
+        global_(std::move(global)),
         policy_(policy) {}
 
   Console& console() { return console_; }
@@ -34,7 +35,7 @@ class Context {
   Console& console_;
   std::ostream& out_;
   Environment environment_;
-  std::string server_;
+  GlobalOptions global_;
   RetryPolicy policy_;
   std::optional<Session> session_;
 };

@@ -11,8 +11,8 @@ namespace affskel::client {
 /// "252 points, 500 triangles" or "5012 points".
 std::string counts_text(const ShapeFile& shape);
 
-/// Notes what the output will not show of the file: columns for which the format has no place or whose
-/// names it cannot hold, polygons that were cut.
+/// Tells what of the file the output format cannot hold: columns, by their kind or name, and polygons, which
+/// were cut into triangles.
 void tell_what_is_lost(Console& console, const ShapeFile& shape, FileFormat format,
                        const std::string& output);
 

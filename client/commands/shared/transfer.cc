@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/artifacts/divergence_writer.h"
 #include "client/artifacts/field_writer.h"
@@ -9,7 +10,6 @@
 #include "client/artifacts/surface.h"
 #include "client/commands/shared/fetch_artifact.h"
 #include "client/commands/shared/follow.h"
-#include "client/files/write/atomic_file.h"
 #include "client/files/write/shape_writer.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
@@ -33,7 +33,7 @@ class FieldSink : public ArtifactSink {
   }
 
  private:
-  AtomicFile file_;
+  base::AtomicFile file_;
   FieldWriter writer_;
   FieldDecoder decoder_;
 };
@@ -46,7 +46,7 @@ class RawSink : public ArtifactSink {
   void end() override { file_.commit(); }
 
  private:
-  AtomicFile file_;
+  base::AtomicFile file_;
 };
 
 class DivergenceSink : public ArtifactSink {
@@ -61,7 +61,7 @@ class DivergenceSink : public ArtifactSink {
   }
 
  private:
-  AtomicFile file_;
+  base::AtomicFile file_;
   DivergenceWriter writer_;
 };
 
@@ -85,8 +85,8 @@ std::vector<std::string> comments_for(const v1::Job& job, const std::string& wha
   return comments;
 }
 
-// The points' share of v0.  The lattice's cells would give another sum, wrong where the solid is thin; this
-// is v0 when all points are left.
+// v0 times the share of the sample points, so that all points give v0.  Cells of the lattice would give
+// another sum, wrong where the solid is thin.
 double volume_of_points(const v1::Job& job, int points) {
   const double all = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
   return job.prepared().volume() * (points / all);
@@ -117,7 +117,7 @@ Written transfer_field(Context& context, const std::string& job, const Destinati
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
                           const Destination& destination) {
   const FileFormat format = choose_format(destination, skeleton_formats(), "skeleton");
-  AtomicFile out(destination.file);
+  base::AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SKELETON);
   if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
   v1::ArtifactHeader header;
@@ -137,7 +137,7 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
 Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
                          const Destination& destination) {
   const FileFormat format = choose_format(destination, surface_formats(), "surface");
-  AtomicFile out(destination.file);
+  base::AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
   if (surface != nullptr) *request.mutable_surface() = *surface;
   v1::ArtifactHeader header;
@@ -175,7 +175,7 @@ Written transfer_divergence(Context& context, const std::string& job, const v1::
 Written transfer_eroded_points(Context& context, const std::string& job, const v1::ErodedParams& params,
                                const Destination& destination) {
   const FileFormat format = choose_format(destination, skeleton_formats(), "eroded solid's points");
-  AtomicFile out(destination.file);
+  base::AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_POINTS);
   *request.mutable_eroded() = params;
   v1::ArtifactHeader header;
@@ -197,7 +197,7 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
 Written transfer_eroded_surface(Context& context, const std::string& job, const v1::ErodedParams& params,
                                 const Destination& destination) {
   const FileFormat format = choose_format(destination, surface_formats(), "eroded solid's surface");
-  AtomicFile out(destination.file);
+  base::AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_SURFACE);
   *request.mutable_eroded() = params;
   v1::ArtifactHeader header;

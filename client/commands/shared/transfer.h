@@ -9,8 +9,8 @@
 namespace affskel::client {
 
 /// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
-/// parameters.  Those that have to be computed first are waited for, after the file was opened: a place that
-/// cannot be written is known before the work is done.
+/// parameters.  The file is opened before the artefact is computed, so that a path which cannot be written
+/// fails at once.
 Written transfer_field(Context& context, const std::string& job, const Destination& destination);
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
                           const Destination& destination);

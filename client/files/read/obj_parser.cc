@@ -11,7 +11,7 @@ std::int64_t corner_of(std::string_view word, std::size_t known, std::uint64_t l
   if (from_end) digits.remove_prefix(1);
   const std::uint64_t number = core::parse_count(digits, line, "a vertex index");
   if (number == 0 || number > known) {
-    fail_at(line, "a face uses vertex " + core::quoted_piece(word) + "; " + std::to_string(known) +
+    fail_at(line, "a face uses vertex " + core::quoted_excerpt(word) + "; " + std::to_string(known) +
                       " vertices are known here, counted from 1");
   }
   return static_cast<std::int64_t>(from_end ? known - number : number - 1);

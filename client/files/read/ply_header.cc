@@ -21,7 +21,7 @@ PlyType parse_type(std::string_view word, std::uint64_t line) {
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<PlyType>(i);
   }
-  fail_at(line, "unknown type " + core::quoted_piece(word));
+  fail_at(line, "unknown type " + core::quoted_excerpt(word));
 }
 
 class HeaderReader {
@@ -48,7 +48,7 @@ class HeaderReader {
       } else if (words_[0] == "property") {
         read_property();
       } else {
-        fail("not a row of a PLY header: " + core::quoted_piece(words_[0]));
+        fail("not a row of a PLY header: " + core::quoted_excerpt(words_[0]));
       }
     }
     fail("the file ends before end_header");
@@ -85,7 +85,7 @@ class HeaderReader {
     } else if (words_[1] == "binary_big_endian") {
       header_.encoding = PlyEncoding::kBig;
     } else {
-      fail("unknown encoding " + core::quoted_piece(words_[1]));
+      fail("unknown encoding " + core::quoted_excerpt(words_[1]));
     }
   }
 
@@ -112,8 +112,8 @@ class HeaderReader {
     std::vector<PlyProperty>& known = header_.elements.back().properties;
     if (std::any_of(known.begin(), known.end(),
                     [&](const PlyProperty& p) { return p.name == property.name; })) {
-      fail("two properties of element " + core::quoted_piece(header_.elements.back().name) + " are called " +
-           core::quoted_piece(property.name));
+      fail("two properties of element " + core::quoted_excerpt(header_.elements.back().name) +
+           " are called " + core::quoted_excerpt(property.name));
     }
     known.push_back(std::move(property));
   }

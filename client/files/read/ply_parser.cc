@@ -103,15 +103,15 @@ class Values {
     try {
       value = core::parse_number(word, rows_.line(), "a value");
     } catch (const core::CoreError&) {
-      fail_at(line(), core::quoted_piece(word) + " is not a number, in " + place());
+      fail_at(line(), core::quoted_excerpt(word) + " is not a number, in " + place());
     }
     if (!is_whole(type)) return value;
     if (value != std::floor(value)) {
-      fail_at(line(), core::quoted_piece(word) + " is not a whole number, in " + place());
+      fail_at(line(), core::quoted_excerpt(word) + " is not a whole number, in " + place());
     }
     const auto [least, most] = kRange[static_cast<std::size_t>(type)];
     if (!(value >= least && value <= most)) {
-      fail_at(line(), core::quoted_piece(word) + " is outside the range of its type (" +
+      fail_at(line(), core::quoted_excerpt(word) + " is outside the range of its type (" +
                           base::to_text(least) + " to " + base::to_text(most) + "), in " + place());
     }
     return value;
@@ -152,11 +152,11 @@ class PlyReader {
   // Refuses what cannot be true before anything is allocated.
   void check_count(const PlyElement& element) const {
     if (element.properties.empty() && element.count > 0) {
-      fail_at(header_.lines, "element " + core::quoted_piece(element.name) + " has no properties");
+      fail_at(header_.lines, "element " + core::quoted_excerpt(element.name) + " has no properties");
     }
     if (element.count > values_.bytes_left() || element.count > std::numeric_limits<std::uint32_t>::max()) {
       fail_at(header_.lines, std::to_string(element.count) + " entries of element " +
-                                 core::quoted_piece(element.name) + " announced, but only " +
+                                 core::quoted_excerpt(element.name) + " announced, but only " +
                                  std::to_string(values_.bytes_left()) + " bytes follow");
     }
   }

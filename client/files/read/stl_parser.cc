@@ -76,7 +76,7 @@ class TextReader {
  private:
   void expect(bool met, const char* what) const {
     if (!met)
-      fail_at(rows_.line(), std::string("expected ") + what + ", not " + core::quoted_piece(rows_.text()));
+      fail_at(rows_.line(), std::string("expected ") + what + ", not " + core::quoted_excerpt(rows_.text()));
   }
 
   const std::vector<std::string_view>& next(const char* what) {

@@ -40,7 +40,7 @@ Header read_header(const std::vector<std::string_view>& names, std::uint64_t lin
   std::array<bool, 3> found{};
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::count(names.begin(), names.end(), names[i]) > 1) {
-      fail_at(line, "two columns are called " + core::quoted_piece(names[i]));
+      fail_at(line, "two columns are called " + core::quoted_excerpt(names[i]));
     }
     if (names[i] == "x" || names[i] == "y" || names[i] == "z") {
       const auto c = static_cast<std::size_t>(names[i].front() - 'x');

@@ -54,17 +54,17 @@ class Decoder {
 
   std::vector<double> run() const {
     const Type* type = find_type(array_.type);
-    if (type == nullptr) fail("has the type " + core::quoted_piece(array_.type));
+    if (type == nullptr) fail("has the type " + core::quoted_excerpt(array_.type));
     if (array_.format == "ascii") return words(*type);
     if (!encoding_.compressor.empty()) {
-      fail("is compressed (" + core::quoted_piece(encoding_.compressor) +
+      fail("is compressed (" + core::quoted_excerpt(encoding_.compressor) +
            "), which is not read; save it without compression");
     }
     if (array_.format == "binary") {
       const std::string bytes = from_base64(array_.text);
       return numbers(body(bytes), *type);
     }
-    if (array_.format != "appended") fail("has the format " + core::quoted_piece(array_.format));
+    if (array_.format != "appended") fail("has the format " + core::quoted_excerpt(array_.format));
     const std::uint64_t offset = core::parse_count(array_.offset, array_.line, "the offset");
     if (offset > encoding_.appended.size()) fail("begins behind the end of the file");
     const std::string_view rest = encoding_.appended.substr(offset);
@@ -73,7 +73,7 @@ class Decoder {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    fail_at(array_.line, "array " + core::quoted_piece(array_.name) + " " + what);
+    fail_at(array_.line, "array " + core::quoted_excerpt(array_.name) + " " + what);
   }
 
   std::vector<double> words(const Type& type) const {
@@ -85,7 +85,7 @@ class Decoder {
       const std::string_view word = text.substr(at, stop - at);
       const double value = core::parse_number(word, array_.line, "a value");
       if (type.whole && value != std::floor(value))
-        fail("holds " + core::quoted_piece(word) + ", which is not a whole number");
+        fail("holds " + core::quoted_excerpt(word) + ", which is not a whole number");
       values.push_back(value);
       at = stop;
     }
@@ -114,7 +114,7 @@ class Decoder {
                                   : number_at<std::uint32_t>(bytes.data());
   }
 
-  // The bytes behind their number.
+  // The bytes behind the header that gives their number.
   std::string_view body(std::string_view bytes) const {
     const std::uint64_t length = announced(bytes);
     if (length > bytes.size() - header_size()) {
@@ -124,7 +124,7 @@ class Decoder {
     return bytes.substr(header_size(), length);
   }
 
-  // Other arrays follow without a mark: how much is this one's is known from its length.
+  // Other arrays follow without a separator: the header gives the length of this one.
   std::vector<double> appended_base64(std::string_view text, const Type& type) const {
     constexpr std::size_t kHead = 12;  // digits that hold any header
     const std::uint64_t length = announced(from_base64(text.substr(0, kHead)));

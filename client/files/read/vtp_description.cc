@@ -76,7 +76,7 @@ class DescriptionReader : public XmlHandler {
   void read_head(const XmlElement& element) {
     if (element.name() != "VTKFile") fail_at(element.line(), "not a VTK XML file");
     if (element.attribute("type") != "PolyData") {
-      fail_at(element.line(), "a VTK file of type " + core::quoted_piece(element.attribute("type")) +
+      fail_at(element.line(), "a VTK file of type " + core::quoted_excerpt(element.attribute("type")) +
                                   "; only PolyData is read");
     }
     description_.encoding.big_endian = element.attribute("byte_order") == "BigEndian";

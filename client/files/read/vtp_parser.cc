@@ -41,7 +41,7 @@ class VtpReader {
   std::vector<double> numbers(const VtkArray& array) {
     std::vector<double> values = vtk_numbers(array, description_.encoding);
     if (values.size() > values_left_) {
-      fail_at(array.line, "array " + core::quoted_piece(array.name) +
+      fail_at(array.line, "array " + core::quoted_excerpt(array.name) +
                               " takes the file beyond one value per byte; arrays must not share their data");
     }
     values_left_ -= values.size();
@@ -87,7 +87,7 @@ class VtpReader {
     if (empty || columns_filled_ == file_.columns.size()) return;
     for (const PointColumn& column : file_.columns) {
       if (column.values.size() != file_.off.mesh.points.size()) {
-        fail_at(piece.line, "this piece is without the values of " + core::quoted_piece(column.name) +
+        fail_at(piece.line, "this piece is without the values of " + core::quoted_excerpt(column.name) +
                                 " that others have");
       }
     }
@@ -96,13 +96,13 @@ class VtpReader {
   std::vector<double> point_values(const VtkArray& array) {
     const std::size_t points = file_.off.mesh.points.size() - first_point_;
     if (array.components == 0 || array.components > kMaxColumns) {
-      fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
+      fail_at(array.line, "array " + core::quoted_excerpt(array.name) + " has " +
                               std::to_string(array.components) + " components; 1 to " +
                               std::to_string(kMaxColumns) + " are read");
     }
     std::vector<double> values = numbers(array);
     if (values.size() != points * array.components) {
-      fail_at(array.line, "array " + core::quoted_piece(array.name) + " has " +
+      fail_at(array.line, "array " + core::quoted_excerpt(array.name) + " has " +
                               std::to_string(values.size()) + " numbers for " + std::to_string(points) +
                               " points of " + std::to_string(array.components) + " components");
     }
@@ -122,14 +122,14 @@ class VtpReader {
     const auto [place, is_new] = places_.try_emplace(name, ColumnPlace{file_.columns.size(), pieces_begun_});
     if (!is_new) {
       if (std::exchange(place->second.piece, pieces_begun_) == pieces_begun_) {
-        fail_at(array.line, "two arrays give values called " + core::quoted_piece(name));
+        fail_at(array.line, "two arrays give values called " + core::quoted_excerpt(name));
       }
       PointColumn& column = file_.columns[place->second.index];
       column.whole = column.whole && is_vtk_whole(array.type);
       return column;
     }
     if (first_point_ > 0) {
-      fail_at(array.line, "the pieces before are without the values of " + core::quoted_piece(name));
+      fail_at(array.line, "the pieces before are without the values of " + core::quoted_excerpt(name));
     }
     if (file_.columns.size() == kMaxColumns) {
       fail_at(array.line, "the arrays have more than " + std::to_string(kMaxColumns) + " components in all");
@@ -157,7 +157,7 @@ class VtpReader {
     return whole;
   }
 
-  // Vertices are counted only.
+  // Cells of the section `Verts` are only counted.
   void read_cells(VtpPiece& piece, const std::string& section) {
     if (section == "Verts" && !piece.announced.contains(section)) return;
     const std::vector<VtkArray>& arrays = piece.arrays[section];

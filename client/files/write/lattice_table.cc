@@ -19,7 +19,7 @@ namespace {
 
 class TextOutput : public LatticeTable::Output {
  public:
-  TextOutput(AtomicFile& file, char separator, bool indices, const std::vector<LatticeColumn>& columns)
+  TextOutput(base::AtomicFile& file, char separator, bool indices, const std::vector<LatticeColumn>& columns)
       : file_(file), separator_(separator) {
     for (const LatticeColumn& column : columns) {
       shown_.insert(shown_.end(), column.components.size(), indices || !column.whole);
@@ -52,7 +52,7 @@ class TextOutput : public LatticeTable::Output {
     row_.push_back(separator_);
   }
 
-  AtomicFile& file_;
+  base::AtomicFile& file_;
   char separator_;
   std::vector<bool> shown_;  // per value of a row
   std::string row_;
@@ -60,7 +60,7 @@ class TextOutput : public LatticeTable::Output {
 
 class ImageOutput : public LatticeTable::Output {
  public:
-  ImageOutput(AtomicFile& file, const LatticePoints& points, const std::vector<LatticeColumn>& columns)
+  ImageOutput(base::AtomicFile& file, const LatticePoints& points, const std::vector<LatticeColumn>& columns)
       : image_(file, points) {
     for (const LatticeColumn& column : columns) {
       const auto components = static_cast<unsigned>(column.components.size());
@@ -93,7 +93,7 @@ class ImageOutput : public LatticeTable::Output {
   void finish() override { image_.finish(); }
 
  private:
-  // One of both, by the column's type.
+  // Only one of the two arrays is used, by the type of the column.
   struct Array {
     unsigned components;
     VtkHdfArray<double>* real;
@@ -105,7 +105,7 @@ class ImageOutput : public LatticeTable::Output {
   VtkHdfArray<std::uint8_t>* inside_ = nullptr;
 };
 
-std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, AtomicFile& file,
+std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, base::AtomicFile& file,
                                                   const LatticePoints& points,
                                                   const std::vector<LatticeColumn>& columns) {
   switch (format) {
@@ -127,7 +127,7 @@ std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, AtomicFile&
 
 }  // namespace
 
-LatticeTable::LatticeTable(FileFormat format, AtomicFile& file, const LatticePoints& points,
+LatticeTable::LatticeTable(FileFormat format, base::AtomicFile& file, const LatticePoints& points,
                            const std::vector<LatticeColumn>& columns)
     : output_(make_output(format, file, points, columns)) {}
 

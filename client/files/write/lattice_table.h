@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "client/base/lattice_points.h"
 #include "client/files/format.h"
-#include "client/files/write/atomic_file.h"
 
 namespace affskel::client {
 
@@ -26,7 +26,7 @@ struct LatticeColumn {
 class LatticeTable {
  public:
   /// `file` and `points` must outlive it.  @throws ClientError, naming the file, also from the others.
-  LatticeTable(FileFormat format, AtomicFile& file, const LatticePoints& points,
+  LatticeTable(FileFormat format, base::AtomicFile& file, const LatticePoints& points,
                const std::vector<LatticeColumn>& columns);
   ~LatticeTable();
 

@@ -107,7 +107,7 @@ void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<st
   write_points(format, shape, comments, write);
 }
 
-void write_into(AtomicFile& file, const std::function<void(const WriteBytes&)>& writer) {
+void write_into(base::AtomicFile& file, const std::function<void(const WriteBytes&)>& writer) {
   try {
     writer([&](std::string_view bytes) { file.write(bytes); });
   } catch (const ClientError& error) {

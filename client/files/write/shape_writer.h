@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "client/base/shape_file.h"
 #include "client/files/format.h"
-#include "client/files/write/atomic_file.h"
 
 namespace affskel::client {
 
@@ -50,6 +50,6 @@ void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<st
                  const WriteBytes& write);
 
 /// Lets `writer`, which calls one of these, write into a file, which its errors then name.
-void write_into(AtomicFile& file, const std::function<void(const WriteBytes&)>& writer);
+void write_into(base::AtomicFile& file, const std::function<void(const WriteBytes&)>& writer);
 
 }  // namespace affskel::client

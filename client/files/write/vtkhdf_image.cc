@@ -183,7 +183,7 @@ void place(hid_t root, const LatticePoints& points) {
 
 // Errors name the file that was asked for, not the temporary one.
 template <typename Action>
-void with_place(const AtomicFile& file, Action&& action) {
+void with_place(const base::AtomicFile& file, Action&& action) {
   errno = 0;
   try {
     action();
@@ -206,7 +206,7 @@ struct VtkHdfImage::Open {
   std::vector<std::unique_ptr<VtkHdfArrayBase>> arrays;
 };
 
-VtkHdfImage::VtkHdfImage(AtomicFile& file, const LatticePoints& points) : file_(file) {
+VtkHdfImage::VtkHdfImage(base::AtomicFile& file, const LatticePoints& points) : file_(file) {
   if (points.count() == 0) throw ClientError(ExitCode::kNotFound, "the field has no points", file.target());
   slab_.dims = points.dims();
   slab_.width = std::min(kSlab, slab_.dims[0]);

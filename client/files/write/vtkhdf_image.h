@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "client/base/lattice_points.h"
-#include "client/files/write/atomic_file.h"
 
 namespace affskel::client {
 
@@ -50,7 +50,7 @@ class VtkHdfArray : public VtkHdfArrayBase {
 class VtkHdfImage {
  public:
   /// `file` must outlive it.
-  VtkHdfImage(AtomicFile& file, const LatticePoints& points);
+  VtkHdfImage(base::AtomicFile& file, const LatticePoints& points);
   ~VtkHdfImage();
   VtkHdfImage(const VtkHdfImage&) = delete;
   VtkHdfImage& operator=(const VtkHdfImage&) = delete;
@@ -70,7 +70,7 @@ class VtkHdfImage {
   struct Open;
   void next_slab();
 
-  AtomicFile& file_;
+  base::AtomicFile& file_;
   VtkHdfSlab slab_;
   std::unique_ptr<Open> open_;
 };

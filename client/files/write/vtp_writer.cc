@@ -11,8 +11,8 @@
 #include "client/files/vtk_arrays.h"
 #include "client/files/write/shape_writers.h"
 #include "client/files/write/stored_type.h"
+#include "client/text/markup_text.h"
 #include "client/text/printable.h"
-#include "client/text/xml_text.h"
 
 namespace affskel::client {
 namespace {
@@ -110,7 +110,8 @@ class VtpWriter {
     for (const PointColumn& part : parts) {
       if (stored_as(part) != stored) stored = Stored::kDouble;
     }
-    std::string attributes = std::string("type=\"") + vtk_type(stored) + "\" Name=\"" + xml_text(name) + "\"";
+    std::string attributes =
+        std::string("type=\"") + vtk_type(stored) + "\" Name=\"" + markup_text(name) + "\"";
     if (parts.size() > 1) attributes += " NumberOfComponents=\"" + std::to_string(parts.size()) + "\"";
     describe(attributes, parts.size() * mesh_.points.size() * bytes_of(stored), [this, parts, stored] {
       std::string row;

@@ -1,8 +1,8 @@
-// The shape in which a sample point is drawn: the ellipsoid that has the ball's place in a cell of the
-// lattice, so that neighbours are equally near to each other along every axis, however long its steps are.
+// The shape in which a sample point is drawn: a ball, stretched with the cell of the lattice to an ellipsoid.
+// So the gaps between neighbours look alike along every axis, however long its steps are.
 import { Matrix3, Vector3 } from 'three';
 
-// For the fragments of a point of `size` pixels.  What is smaller than two pixels is drawn that large.
+// GLSL for the fragments of a point of `size` pixels.  Points are at least two pixels large.
 export const kOnEllipsoid = `
   uniform mat3 unstretch;
   uniform float size, pixels;
@@ -10,7 +10,8 @@ export const kOnEllipsoid = `
   vec2 fromCentre() {
     return vec2(gl_PointCoord.x - 0.5, 0.5 - gl_PointCoord.y) * size;
   }
-  // The line of sight in the ball's coordinates, and how far it enters the unit ball; negative: it misses.
+  // The line of sight in the ball's coordinates: at + t * along.  Returns the discriminant of its intersection
+  // with the unit ball; negative: it misses.
   float enter(out vec3 at, out vec3 along, out float middle) {
     at = unstretch * vec3(fromCentre() / pixels, 0.0);
     along = unstretch[2];
@@ -30,14 +31,14 @@ export const kOnEllipsoid = `
     return normalize((at + along * ((sqrt(rest) - middle) / dot(along, along))) * unstretch);
   }`;
 
-// Edges of the cells that `count` points share evenly.
+// The edges of a cell whose volume is `count` times as large.
 export const widened = (cell, count) => cell.map((edge) => edge.map((c) => c * Math.cbrt(count)));
 
 export class CellShape {
   // cell: three edges, page units; share: the ellipsoid's half axes in edges.
   constructor(cell, share) {
     const [a, b, c] = cell.map((edge) => new Vector3(...edge));
-    this.edge = Math.cbrt(Math.abs(a.dot(b.clone().cross(c)))); // of a cube as large
+    this.edge = Math.cbrt(Math.abs(a.dot(b.clone().cross(c)))); // of a cube of the same volume
     this.halfAxes = [a, b, c].map((edge) => edge.multiplyScalar(share));
     // unstretch: from page units in the viewer's directions to the unit ball.
     this.uniforms = { unstretch: { value: new Matrix3() }, size: { value: 2 }, pixels: { value: 1 } };

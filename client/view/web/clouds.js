@@ -1,5 +1,5 @@
 // Sample points as balls (the skeleton) and as a smooth skin (the eroded solid), stretched like the cells of
-// the lattice.  A slider only moves the end of a range in a fixed order, so that it costs nothing.
+// the lattice.  The points have a fixed order, and a slider only moves the end of what is drawn.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -32,8 +32,8 @@ const kBallFragment = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
   }`;
 
-// A point whose neighbours are all shown is hidden by them and not drawn.  Equal depths would be blended
-// twice: every point is moved by a part of a step.
+// A point whose neighbours are all shown is hidden by them and not drawn.  Points of equal depth would be
+// blended twice, so every point is moved by a pseudo-random fraction of the cell's size.
 const kSkinVertex = `
   attribute vec3 inward;
   attribute float around;
@@ -99,8 +99,8 @@ export class BallCloud {
 }
 
 export class SkinCloud {
-  // inward: unit normals as bytes, 3 per point; order: indices into the positions; cell: what a point stands
-  // for, three edges in page units; around: per point the least share of v0 among its neighbours.
+  // inward: unit normals as bytes, 3 per point; order: indices into the positions; cell: the three edges of a
+  // point's cell, page units; around: per point the least share of v0 among its neighbours.
   constructor(positions, { inward, order, cell, around }) {
     this.shape = new CellShape(cell, 0.85); // neighbours overlap in every direction
     this.geometry = new BufferGeometry();
@@ -115,7 +115,7 @@ export class SkinCloud {
       opacity: { value: 0.6 },
       tint: { value: [1, 1, 1] },
     };
-    // First only the depth, then the colour of what is nearest: one translucent layer, sorted by nothing.
+    // First only the depth, then the colour of what is nearest: one translucent layer without sorting.
     this.object = new Group();
     for (const colour of [false, true]) {
       this.object.add(

@@ -15,8 +15,8 @@ const kViridis = [
 export function viridis(t) {
   const place = Math.min(1, Math.max(0, t)) * (kViridis.length - 1);
   const low = Math.min(Math.floor(place), kViridis.length - 2);
-  const part = place - low;
-  return kViridis[low].map((value, c) => value + part * (kViridis[low + 1][c] - value));
+  const fraction = place - low;
+  return kViridis[low].map((value, c) => value + fraction * (kViridis[low + 1][c] - value));
 }
 
 // For CSS.  lift: how far the colours are mixed with white, 0 .. 1.
@@ -25,7 +25,7 @@ export function gradient(lift) {
   return `linear-gradient(to right, ${stops.join(', ')})`;
 }
 
-// E varies over orders of magnitude, like a volume: its cube root is like a length.
+// E is a volume and varies over orders of magnitude; its cube root is a length and varies evenly.
 export const colourPosition = (share, highest) => (highest > 0 ? Math.cbrt(Math.max(0, share) / highest) : 0);
 export const shareAt = (position, highest) => position ** 3 * highest;
 

@@ -21,7 +21,7 @@ export function decodePage(document) {
 }
 
 // Positions in page coordinates: the body's box about the origin, its longest side from -1 to 1.
-function grid(steps, { origin, axes }) {
+function positionsOf(steps, { origin, axes }) {
   const positions = new Float32Array(steps.length);
   for (let p = 0; p < steps.length; p += 3) {
     for (let c = 0; c < 3; ++c) {
@@ -32,10 +32,10 @@ function grid(steps, { origin, axes }) {
   return positions;
 }
 
-export const meshPositions = (page) => grid(page.arrays.meshSteps, page.meshGrid);
-export const pointPositions = (page) => grid(page.arrays.pointSteps, page.pointGrid);
+export const meshPositions = (page) => positionsOf(page.arrays.meshSteps, page.meshGrid);
+export const pointPositions = (page) => positionsOf(page.arrays.pointSteps, page.pointGrid);
 
-// Shown ranges are prefixes of a descending order: how many of `values`, taken in `order`, satisfy `inside`.
+// How many of `values`, taken in `order`, satisfy `inside`, when all that do come first (binary search).
 export function prefixLength(values, order, inside) {
   let low = 0;
   let high = order ? order.length : values.length;

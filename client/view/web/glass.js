@@ -10,7 +10,7 @@ import {
   ShaderMaterial,
 } from 'three';
 
-const kCreaseCosine = 0.643; // of 50 degrees: sharper edges stay edges
+const kCreaseCosine = 0.643; // of 50 degrees: sharper edges stay sharp
 
 const kVertexShader = `
   varying vec3 vNormal;
@@ -93,7 +93,7 @@ export class Glass {
       fade: { value: 1 },
     };
     this.object = new Group();
-    // The far wall first; nothing is sorted, and nothing needs to be.
+    // The far wall first, so that triangles need no sorting.
     for (const [side, order] of [
       [BackSide, 3],
       [FrontSide, 4],
@@ -119,7 +119,7 @@ export class Glass {
     this.uniforms.rim.value = theme.rim;
   }
 
-  // 1 = as usual, less = fainter.
+  // factor: 1 = as usual, less = fainter.
   fade(factor) {
     this.uniforms.fade.value = factor;
   }

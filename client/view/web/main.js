@@ -4,18 +4,18 @@ import { widened } from './cell.js';
 import { themeColours } from './colours.js';
 import { SkinCloud } from './clouds.js';
 import { decodePage, meshPositions, pointPositions } from './decode.js';
-import { BoxFrame } from './frame.js';
+import { TickedBox } from './ticked_box.js';
 import { Glass } from './glass.js';
 import { rounded, whole } from './numbers.js';
 import { drawCross, drawScaleBar, labelLegend, paintLegend } from './overlay.js';
 import { makeErosion, makeSkeleton } from './skeleton.js';
-import { leastAround, sublattice } from './shell.js';
+import { minAround, sublattice } from './neighbours.js';
 import { Slider } from './slider.js';
 import { Stage } from './stage.js';
 import { TickNumbers } from './ticks.js';
 
-const kNumbersBelow = 22; // pixels: a tick and a line
-const kTickBeside = 16; // pixels: a tick and gaps
+const kBottomInset = 22; // pixels below the box: a tick and a line of numbers
+const kSideInset = 16; // pixels beside the box, and the widest number: a tick and gaps
 
 const element = (id) => document.getElementById(id);
 
@@ -26,15 +26,15 @@ function fail(message) {
   document.body.classList.add('failed');
 }
 
-// What the buttons above, the legend below and the numbers of the box all round cover.
+// Pixels that the view keeps free: for the buttons above, the legend below, the numbers round the box.
 function freeEdges(numbers) {
   const [main, nav, foot] = ['main', 'nav', '.foot'].map((s) =>
     document.querySelector(s).getBoundingClientRect(),
   );
   return {
     top: nav.bottom - main.top,
-    bottom: main.bottom - foot.top + kNumbersBelow,
-    side: Math.min(numbers.widest() + kTickBeside, main.width / 4),
+    bottom: main.bottom - foot.top + kBottomInset,
+    side: Math.min(numbers.widest() + kSideInset, main.width / 4),
   };
 }
 
@@ -48,49 +48,49 @@ class Viewer {
       inward: page.arrays.pointInward,
       order: this.erosion.order,
       cell: widened(page.cell, page.thinning),
-      around: leastAround(
+      around: minAround(
         page.arrays.pointSteps,
         page.arrays.pointShares,
         sublattice(page.thinning).neighbours,
       ),
     });
     this.glass = new Glass(meshPositions(page), page.arrays.meshCorners);
-    this.frame = new BoxFrame(page.halfBox, page.centre, page.unit);
-    this.numbers = new TickNumbers(element('tick-numbers'), this.frame);
+    this.box = new TickedBox(page.halfBox, page.centre, page.unit);
+    this.numbers = new TickNumbers(element('tick-numbers'), this.box);
     this.stage = new Stage(element('canvas'), {
       up: page.up,
       halfBox: page.halfBox,
       inset: () => freeEdges(this.numbers),
-      onFrame: () => this.beforeFrame(),
+      beforeDraw: () => this.beforeDraw(),
     });
     this.layers = {
       mesh: this.glass.object,
       skeleton: this.skeleton.drawn.object,
       eroded: this.skin.object,
-      axes: this.frame.object,
+      axes: this.box.object,
     };
     this.stage.scene.add(...Object.values(this.layers));
     this.shown = { skeleton: 0, eroded: 0 };
-    this.tellFacts();
+    this.showFacts();
     this.wireSliders();
     this.wireToggles();
     this.wireButtons();
     this.setTheme(window.matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
   }
 
-  beforeFrame() {
+  beforeDraw() {
     const pixels = this.stage.pixelsPerUnit();
     const buffer = pixels * this.stage.renderer.getPixelRatio();
     this.stage.camera.updateMatrixWorld();
     this.skeleton.drawn.look(this.stage.camera, buffer);
     this.skin.look(this.stage.camera, buffer);
-    this.frame.look(this.stage.camera);
+    this.box.look(this.stage.camera);
     this.numbers.place(this.stage.camera, pixels);
     drawCross(element('cross'), this.stage.camera);
     drawScaleBar(element('scale'), pixels / this.page.unit, this.stage.canvas.clientWidth);
   }
 
-  tellFacts() {
+  showFacts() {
     const { page } = this;
     const facts = {
       triangles: whole(page.triangles),
@@ -110,7 +110,7 @@ class Viewer {
       );
     }
     element('ticks').textContent =
-      `Numbers on the box are coordinates, its ticks ${rounded(this.frame.tickDistance, 6)} units apart.`;
+      `Numbers on the box are coordinates, its ticks ${rounded(this.box.tickDistance, 6)} units apart.`;
     if (page.thinning > 1) {
       element('thinned').hidden = false;
       element('thinned').textContent =
@@ -154,7 +154,7 @@ class Viewer {
     const { skeleton, threshold } = this;
     this.shown.skeleton = skeleton.show(threshold.value);
     element('threshold-count').textContent = skeleton.describe(this.shown.skeleton, threshold.value);
-    this.stage.requestFrame();
+    this.stage.requestDraw();
   }
 
   applyLevel() {
@@ -164,7 +164,7 @@ class Viewer {
     const points = `${whole(this.shown.eroded)} points${page.thinning > 1 ? ' drawn' : ''}`;
     const volume = rounded((100 * this.shown.eroded) / this.erosion.total, 3);
     element('level-count').textContent = `${points}, about ${volume} % of the volume`;
-    this.stage.requestFrame();
+    this.stage.requestDraw();
   }
 
   // The erosion level as a share of v0.
@@ -180,7 +180,7 @@ class Viewer {
     }
     if (name === 'scale') element('scale').classList.toggle('off', !on);
     this.glass.fade(element('show-eroded').checked ? 0.45 : 1);
-    this.stage.requestFrame();
+    this.stage.requestDraw();
   }
 
   wireToggles() {
@@ -221,13 +221,13 @@ class Viewer {
     document.documentElement.dataset.theme = name;
     const colours = themeColours(name);
     this.stage.renderer.setClearColor(new Color(colours.background));
-    for (const layer of [this.glass, this.skeleton.drawn, this.skin, this.frame]) layer.paint(colours);
+    for (const layer of [this.glass, this.skeleton.drawn, this.skin, this.box]) layer.paint(colours);
     paintLegend(element('legend'), colours.lift);
     element('theme').textContent = name === 'dark' ? 'Light background' : 'Dark background';
-    this.stage.requestFrame();
+    this.stage.requestDraw();
   }
 
-  // For tests and the curious.
+  // For tests.
   state() {
     const { camera, controls } = this.stage;
     return {
@@ -244,7 +244,7 @@ class Viewer {
     };
   }
 
-  // Mean milliseconds per frame over `frames` frames, each waited for.
+  // Mean milliseconds to draw the scene, over `frames` drawings, each waited for.
   frameTime(frames) {
     const gl = this.stage.renderer.getContext();
     const pixel = new Uint8Array(4);

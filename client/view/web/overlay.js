@@ -3,17 +3,17 @@ import { Vector3 } from 'three';
 import { gradient, shareAt } from './colours.js';
 import { rounded, roundLength } from './numbers.js';
 
-const kCrossRadius = 23; // of the 72 wide drawing
+const kCrossRadius = 23; // in a drawing 72 wide
 const kLetterGap = 8;
 const kLetterWidth = 10;
-const kShortest = 0.2;
+const kMinLength = 0.2; // of an axis seen on the screen, as a share of itself: shorter ones get no letter
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
 export function drawCross(svg, camera) {
   const axes = Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }).map(([name, direction]) => {
     const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
     const length = Math.hypot(at.x, at.y);
-    const reach = kCrossRadius + kLetterGap / Math.max(length, kShortest);
+    const reach = kCrossRadius + kLetterGap / Math.max(length, kMinLength);
     return {
       name,
       length,
@@ -27,10 +27,10 @@ export function drawCross(svg, camera) {
     const label = svg.querySelector(`text.${name}`);
     ['x2', 'y2'].forEach((attribute, c) => line.setAttribute(attribute, end[c]));
     ['x', 'y'].forEach((attribute, c) => label.setAttribute(attribute, letter[c]));
-    // An axis that points at the viewer has no place for its letter, nor one that lies along a longer one.
+    // No letter for an axis that points at the viewer, nor where it would cover the letter of a longer axis.
     const near = (other) =>
       Math.hypot(letter[0] - other.letter[0], letter[1] - other.letter[1]) < kLetterWidth;
-    label.style.opacity = length < kShortest || axes.slice(0, place).some(near) ? 0 : 1;
+    label.style.opacity = length < kMinLength || axes.slice(0, place).some(near) ? 0 : 1;
   });
 }
 

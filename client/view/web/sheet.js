@@ -25,7 +25,7 @@ const kFragmentShader = `
 export class Sheet {
   // pieces: per triangle its piece, the heaviest is 0.
   constructor(positions, colours, pieces, corners) {
-    // Whole pieces come and go at the end of what is drawn.
+    // Lightest pieces last: the slider moves the end of what is drawn.
     this.order = descending(Int32Array.from(pieces, (piece) => -piece));
     const index = new Uint32Array(corners.length);
     this.order.forEach((t, place) => index.set(corners.subarray(3 * t, 3 * t + 3), 3 * place));

@@ -1,14 +1,14 @@
-// The two skeletons that a page can hold, behind one face: sample points with their |H|, or a sheet in
-// pieces with their shares of its weight.  Both come, or are put, in the order of what the threshold slider
-// compares.
+// The two kinds of skeleton that a page can hold, behind one interface: sample points with their |H|, or a
+// sheet in pieces with their shares of its weight.  Both are sorted by the value that the threshold slider
+// compares, descending.
 import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
 import { descending, prefixLength } from './decode.js';
 import { whole } from './numbers.js';
 import { Sheet } from './sheet.js';
-import { sublattice } from './shell.js';
+import { sublattice } from './neighbours.js';
 
-// As the operator's significance is defined: pieces with a smaller share are dropped.
+// Like the operator's significance, the slider drops pieces with a smaller share.
 function makeSheet({ arrays, highestShare, threshold }) {
   const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
   const colours = coloursOf(arrays.sheetShares, highestShare);
@@ -21,7 +21,7 @@ function makeSheet({ arrays, highestShare, threshold }) {
     symbol: 'share ≥',
     curve: 3, // most are small
     low: 0,
-    // The whole sheet: joining and placing it may have split off pieces below the operator's threshold.
+    // Joining and placing may have split off pieces below the operator's threshold: then 0, the whole sheet.
     first: shares.every((share) => share >= threshold) ? threshold : 0,
     keeps: (value, least) => value >= least,
     describe(triangles, least) {
@@ -65,7 +65,7 @@ export function makeSkeleton(page, positions) {
   };
 }
 
-// The points of the eroded solid by descending E: of a thinned page those that are evenly spread.
+// The points of the eroded solid by descending E; on a thinned page only the evenly spread ones.
 // `count(share)`: how many have E >= share of v0.
 export function makeErosion({ arrays, thinning }) {
   const { pointShares: shares, pointSteps: steps } = arrays;

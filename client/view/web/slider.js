@@ -20,7 +20,7 @@ export class Slider {
     });
   }
 
-  // Three digits, never beyond the ends: the last step must not lose the last points.
+  // Rounds down to three digits, but not below the low end.  Rounding up could lose the last points.
   round(value) {
     if (value <= this.low) return this.low;
     const unit = 10 ** (Math.floor(Math.log10(value)) - 2);

@@ -2,10 +2,10 @@
 import { Box3, OrthographicCamera, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'orbit-controls';
 
-const kDistance = 12; // beyond everything that panning can bring near
-const kDepth = 6; // of what is drawn, before and behind the middle
+const kDistance = 12; // of the camera: further away than any panning moves the body
+const kDepth = 6; // how far before and behind the middle things are drawn
 const kMargin = 1.06;
-const kMaxPixelRatio = 2; // more costs fill rate and shows nothing
+const kMaxPixelRatio = 2; // more costs time and cannot be seen
 const kOrbitStep = Math.PI / 18;
 
 // Where the camera stands, seen from the body, and what is up: z up and facing -y, or y up and facing +z.
@@ -15,14 +15,14 @@ const kViews = {
 };
 
 export class Stage {
-  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels at the top, at the
-  // bottom and on either side that a whole view keeps free.  `onFrame` runs before every frame.
-  constructor(canvas, { up, halfBox, inset, onFrame }) {
+  // `halfBox`: half the sides of the body's box about the origin.  `inset()`: pixels to keep free at the top,
+  // at the bottom and on either side when the whole body is shown.  `beforeDraw` runs before every drawing.
+  constructor(canvas, { up, halfBox, inset, beforeDraw }) {
     this.canvas = canvas;
     this.inset = inset;
     this.views = kViews[up];
     this.halfBox = new Vector3(...halfBox);
-    this.onFrame = onFrame;
+    this.beforeDraw = beforeDraw;
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.scene = new Scene();
     this.camera = new OrthographicCamera(-1, 1, 1, -1, kDistance - kDepth, kDistance + kDepth);
@@ -32,11 +32,11 @@ export class Stage {
     this.controls.screenSpacePanning = true;
     this.controls.minZoom = 0.1;
     this.controls.maxZoom = 500;
-    this.controls.addEventListener('change', () => this.requestFrame());
+    this.controls.addEventListener('change', () => this.requestDraw());
     this.controls.addEventListener('start', () => (this.view = ''));
     canvas.addEventListener('wheel', () => (this.view = ''));
     canvas.addEventListener('keydown', (event) => this.pressKey(event));
-    // A new size clears the canvas: drawn at once, before anybody sees it black.
+    // A new size clears the canvas: draw at once, before it is seen black.
     new ResizeObserver(() => {
       if (this.resize()) this.draw();
     }).observe(canvas.parentElement);
@@ -58,10 +58,10 @@ export class Stage {
     const room = Math.max(height / 3, height - top - bottom);
     this.camera.zoom = Math.min(((width - 2 * side) / height) / box.max.x, room / height / box.max.y) / kMargin;
     this.camera.setViewOffset(width, height, 0, (bottom - top) / 2, width, height); // updates the projection
-    this.requestFrame();
+    this.requestDraw();
   }
 
-  // To the size of the window's part; false when that has none.
+  // Fits the canvas to its parent element; false when that has no size.
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return false;
@@ -80,7 +80,7 @@ export class Stage {
       );
     if (this.view)
       this.show(this.view); // still as chosen: keep it in the window
-    else this.requestFrame();
+    else this.requestDraw();
     return true;
   }
 
@@ -89,7 +89,7 @@ export class Stage {
     return (this.canvas.clientHeight / 2) * this.camera.zoom;
   }
 
-  requestFrame() {
+  requestDraw() {
     if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
@@ -99,7 +99,7 @@ export class Stage {
   }
 
   draw() {
-    this.onFrame();
+    this.beforeDraw();
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -132,6 +132,6 @@ export class Stage {
       Math.max(this.controls.minZoom, this.camera.zoom * factor),
     );
     this.camera.updateProjectionMatrix();
-    this.requestFrame();
+    this.requestDraw();
   }
 }

@@ -3,18 +3,18 @@ import { Vector3 } from 'three';
 import { coordinate } from './numbers.js';
 
 const kGap = 4; // pixels between a tick and its number
-const kApart = 6; // and between two numbers
+const kMinGap = 6; // pixels between two numbers
 const kMultiples = [1, 2, 5, 10, 20, 50, 100];
 
 const overlap = (a, b) =>
-  Math.abs(a.x - b.x) < (a.width + b.width) / 2 + kApart / 2 &&
+  Math.abs(a.x - b.x) < (a.width + b.width) / 2 + kMinGap / 2 &&
   Math.abs(a.y - b.y) < (a.height + b.height) / 2;
 
 export class TickNumbers {
-  constructor(container, frame) {
+  constructor(container, box) {
     this.container = container;
-    this.frame = frame;
-    this.spans = frame.ticks.map((ticks, axis) =>
+    this.box = box;
+    this.spans = box.ticks.map((ticks, axis) =>
       ticks.map(({ coordinate: value }) => {
         const span = container.ownerDocument.createElement('span');
         span.className = 'xyz'[axis];
@@ -25,7 +25,7 @@ export class TickNumbers {
     );
   }
 
-  // Once there is a layout: how large every number is, pixels.
+  // The sizes of all numbers, pixels; needs a layout.
   measure() {
     if (this.sizes) return;
     this.sizes = this.spans.map((spans) =>
@@ -42,13 +42,13 @@ export class TickNumbers {
   place(camera, pixels) {
     this.measure();
     const placed = [];
-    this.frame.edges.forEach((edge, axis) => {
+    this.box.edges.forEach((edge, axis) => {
       const labels = edge ? this.labelsOf(edge, axis, camera) : [];
-      const every = edge ? this.stepOf(edge, axis, pixels) : 1;
+      const every = edge ? this.labelInterval(edge, axis, pixels) : 1;
       this.spans[axis].forEach((span, i) => {
         const label = labels[i];
         const shown =
-          edge && this.frame.ticks[axis][i].step % every === 0 && !placed.some((p) => overlap(p, label));
+          edge && this.box.ticks[axis][i].index % every === 0 && !placed.some((p) => overlap(p, label));
         span.hidden = !shown;
         if (!shown) return;
         placed.push(label);
@@ -62,8 +62,8 @@ export class TickNumbers {
   labelsOf(edge, axis, camera) {
     const { clientWidth, clientHeight } = this.container;
     const [right, up] = edge.outward;
-    return this.frame.ticks[axis].map(({ at }, i) => {
-      const foot = this.frame.placeOn(edge, axis, at);
+    return this.box.ticks[axis].map(({ at }, i) => {
+      const foot = this.box.placeOn(edge, axis, at);
       const tip = new Vector3(...foot.map((c, k) => c + edge.tick[k])).project(camera);
       const { width, height } = this.sizes[axis][i];
       const away = kGap + (Math.abs(right) * width) / 2 + (Math.abs(up) * height) / 2;
@@ -76,14 +76,14 @@ export class TickNumbers {
     });
   }
 
-  // Of how many ticks one gets its number, so that there is room for the longest.
-  stepOf(edge, axis, pixels) {
+  // Every how many ticks there is a number, so that there is room for the longest.
+  labelInterval(edge, axis, pixels) {
     const width = Math.max(0, ...this.sizes[axis].map((size) => size.width));
     const height = Math.max(0, ...this.sizes[axis].map((size) => size.height));
     const [right, up] = edge.outward;
     // Along the edge: across `outward`.
     const needed = Math.min(width / Math.max(1e-6, Math.abs(up)), height / Math.max(1e-6, Math.abs(right)));
-    const distance = (this.frame.tickDistance / this.frame.unit) * pixels * edge.length;
-    return kMultiples.find((multiple) => multiple * distance >= needed + kApart) || kMultiples[kMultiples.length - 1];
+    const distance = (this.box.tickDistance / this.box.unit) * pixels * edge.length;
+    return kMultiples.find((multiple) => multiple * distance >= needed + kMinGap) || kMultiples[kMultiples.length - 1];
   }
 }

@@ -2,10 +2,11 @@
 
 #include <sstream>
 
-#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 #include "sample_data.h"
 #include "test_environment.h"
+#include "tools/files.h"
 
 namespace affskel::client {
 
@@ -35,9 +36,9 @@ ClientTest::ClientTest() : server_(service_) {
   service_.artifacts[v1::ARTIFACT_KIND_DIRECTIONS] = sample_directions().SerializeAsString();
   service_.artifacts[v1::ARTIFACT_KIND_FIELD] = sample_field();
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = sample_skeleton().SerializeAsString();
-  v1::TriangleMesh surface;
-  for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) surface.add_xyz(v);
-  for (const unsigned c : {0u, 1u, 2u}) surface.add_corners(c);
+  v1::TriangleMesh surface = sample_sheet();
+  surface.clear_erosion();
+  surface.clear_strength();
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = surface.SerializeAsString();
   surface.set_volume(8e8);
   service_.artifacts[v1::ARTIFACT_KIND_ERODED_SURFACE] = surface.SerializeAsString();
@@ -47,23 +48,27 @@ ClientTest::ClientTest() : server_(service_) {
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE] = sample_divergence();
   mesh_ = core::write_off(core::make_box(2000, 2000, 2000));
   service_.artifacts[v1::ARTIFACT_KIND_MESH] = mesh_;
-  spit(dir_ / "cube.off", mesh_);
-  spit(dir_ / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n");
-  spit(dir_ / "open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  tests::write_file(dir_ / "cube.off", mesh_);
+  tests::write_file(dir_ / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n");
+  tests::write_file(dir_ / "open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
 }
 
-Outcome ClientTest::run(std::vector<std::string> arguments, const std::string& address) {
+Outcome run_client_in(const tests::TemporaryDirectory& home, const std::vector<std::string>& arguments) {
   std::ostringstream out, err;
-  arguments.insert(arguments.begin(), {"--server", address.empty() ? server_.address() : address});
   RetryPolicy retry;
   retry.first_pause = std::chrono::milliseconds(1);
   retry.patience = std::chrono::milliseconds(200);
   Outcome outcome;
   outcome.exit_code =
-      run_client(arguments, {out, err, false, test_environment({{"HOME", dir_.path()}}), retry});
+      run_client(arguments, {out, err, false, test_environment({{"HOME", home.path()}}), retry});
   outcome.out = out.str();
   outcome.err = err.str();
   return outcome;
+}
+
+Outcome ClientTest::run(std::vector<std::string> arguments, const std::string& address) {
+  arguments.insert(arguments.begin(), {"--server", address.empty() ? server_.address() : address});
+  return run_client_in(dir_, arguments);
 }
 
 }  // namespace affskel::client

@@ -7,6 +7,7 @@
 
 #include "client/commands/run_client.h"
 #include "fake_service.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 
@@ -18,7 +19,11 @@ struct Outcome {
   std::string out, err;
 };
 
-/// The client from its arguments to its exit code, against a server in this process that holds one done job
+/// The client from its arguments to its exit code, with a home of its own; it soon loses patience with
+/// servers.
+Outcome run_client_in(const tests::TemporaryDirectory& home, const std::vector<std::string>& arguments);
+
+/// The client against a server in this process that holds one done job
 /// with every artefact.  Files: cube.off, bad.off (a number is missing), open.off.
 class ClientTest : public ::testing::Test {
  protected:
@@ -26,7 +31,7 @@ class ClientTest : public ::testing::Test {
 
   Outcome run(std::vector<std::string> arguments, const std::string& address = "");
 
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
   FakeService service_;
   FakeServer server_;
   std::string mesh_;

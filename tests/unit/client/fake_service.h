@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "affskel/v1/client_service.grpc.pb.h"
-#include "temp_dir.h"
+#include "tools/temporary_directory.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -133,7 +133,7 @@ class FakeServer {
   std::string address() const { return "unix:" + (dir_ / "s"); }
 
  private:
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
   std::unique_ptr<grpc::Server> server_;
 };
 

@@ -88,4 +88,14 @@ inline v1::SkeletonPoints sample_skeleton() {
   return s;
 }
 
+/// A sheet of one triangle.
+inline v1::TriangleMesh sample_sheet() {
+  v1::TriangleMesh sheet;
+  for (const double v : {0., 0., 1000., 2000., 0., 1000., 0., 2000., 1000.}) sheet.add_xyz(v);
+  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
+  for (const double v : {3., 4., 5.}) sheet.add_erosion(v);
+  for (const double v : {0.5, 0.6, 0.7}) sheet.add_strength(v);
+  return sheet;
+}
+
 }  // namespace affskel::client

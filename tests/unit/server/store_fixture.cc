@@ -9,17 +9,6 @@
 
 namespace affskel::server {
 
-TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (std::filesystem::temp_directory_path() / "affskel-test-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-  path_ = name;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 v1::SubmitJobHeader submit_header(const std::string& mesh, const std::string& name) {
   v1::SubmitJobHeader header;
   header.set_name(name);
@@ -30,6 +19,23 @@ v1::SubmitJobHeader submit_header(const std::string& mesh, const std::string& na
   header.set_mesh_sha256(wire::sha256_hex(mesh));
   header.set_mesh_bytes(mesh.size());
   return header;
+}
+
+v1::FetchArtifactRequest artifact_request(const std::string& job, v1::ArtifactKind kind) {
+  v1::FetchArtifactRequest request;
+  request.set_job(job);
+  request.set_kind(kind);
+  return request;
+}
+
+v1::FetchArtifactRequest mesh_request(const std::string& job) {
+  return artifact_request(job, v1::ARTIFACT_KIND_MESH);
+}
+
+v1::FetchArtifactRequest skeleton_request(const std::string& job, double threshold) {
+  v1::FetchArtifactRequest request = artifact_request(job, v1::ARTIFACT_KIND_SKELETON);
+  request.mutable_skeleton()->set_threshold(threshold);
+  return request;
 }
 
 v1::WorkerIdentity worker_identity(const std::string& id, const std::string& core_version) {
@@ -213,9 +219,7 @@ v1::Job StoreTest::complete_job(std::uint32_t points, std::uint32_t directions, 
 }
 
 std::string StoreTest::field(const std::string& job) {
-  v1::FetchArtifactRequest request;
-  request.set_job(job);
-  request.set_kind(v1::ARTIFACT_KIND_FIELD);
+  v1::FetchArtifactRequest request = artifact_request(job, v1::ARTIFACT_KIND_FIELD);
   return read_all(*store_->open_artifact(request).reader);
 }
 

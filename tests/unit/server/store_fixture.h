@@ -12,6 +12,7 @@
 #include "store/clock.h"
 #include "store/field.h"
 #include "store/store.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::server {
 
@@ -26,18 +27,14 @@ class TestClock final : public Clock {
   std::atomic<std::int64_t> elapsed_ = 0;
 };
 
-/// A directory that is gone after the test.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using tests::TemporaryDirectory;
 
 v1::SubmitJobHeader submit_header(const std::string& mesh, const std::string& name = "body");
+
+/// A request without parameters.
+v1::FetchArtifactRequest artifact_request(const std::string& job, v1::ArtifactKind kind);
+v1::FetchArtifactRequest mesh_request(const std::string& job);
+v1::FetchArtifactRequest skeleton_request(const std::string& job, double threshold);
 
 v1::WorkerIdentity worker_identity(const std::string& id = "worker-a", const std::string& core_version = "1");
 

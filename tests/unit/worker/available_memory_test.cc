@@ -1,10 +1,11 @@
 #include "available_memory.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <string>
+
+#include "tools/temporary_directory.h"
 
 namespace affskel::worker {
 namespace {
@@ -15,12 +16,8 @@ namespace fs = std::filesystem;
 class AvailableMemoryTest : public testing::Test {
  protected:
   AvailableMemoryTest() {
-    std::string pattern = fs::temp_directory_path() / "affskel-memory-XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-    root_ = pattern;
     write("proc/meminfo", "MemTotal:       16000 kB\nMemFree:         1000 kB\nMemAvailable:    8000 kB\n");
   }
-  ~AvailableMemoryTest() override { fs::remove_all(root_); }
 
   void write(const std::string& path, const std::string& text) {
     fs::create_directories((root_ / path).parent_path());
@@ -34,7 +31,8 @@ class AvailableMemoryTest : public testing::Test {
     if (!stat.empty()) write("sys/fs/cgroup/" + path + "/memory.stat", stat);
   }
 
-  fs::path root_;
+  const tests::TemporaryDirectory directory_;
+  const fs::path root_ = directory_.path();
 };
 
 TEST_F(AvailableMemoryTest, IsTheMachinesWhereNothingElseBindsIt) {

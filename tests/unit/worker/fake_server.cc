@@ -1,10 +1,6 @@
 #include "fake_server.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
-#include <filesystem>
-#include <stdexcept>
 #include <utility>
 
 #include "wire/sha256.h"
@@ -12,9 +8,6 @@
 namespace affskel::worker {
 
 FakeServer::FakeServer() {
-  std::string pattern = std::filesystem::temp_directory_path() / "affskel-fake-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-  dir_ = pattern;
   grpc::ServerBuilder builder;
   builder.AddListeningPort(address(), grpc::InsecureServerCredentials());
   builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
@@ -24,12 +17,10 @@ FakeServer::FakeServer() {
 
 FakeServer::~FakeServer() {
   server_->Shutdown();
-  std::error_code ignored;
-  std::filesystem::remove_all(dir_, ignored);
 }
 
 std::string FakeServer::address() const {
-  return "unix:" + dir_ + "/s";
+  return "unix:" + dir_ / "s";
 }
 
 std::string FakeServer::tcp_address() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::worker {
 
@@ -75,7 +76,7 @@ class FakeServer final : public v1::WorkerService::Service {
   // Counts the call; the status that was asked for, or OK.
   grpc::Status begin(const std::string& method);
 
-  std::string dir_;
+  tests::TemporaryDirectory dir_;
   int port_ = 0;
   std::unique_ptr<grpc::Server> server_;
   mutable std::mutex mutex_;

@@ -21,22 +21,22 @@ class ExecutionContext {
 /// @param context may be null: nobody wants to stop it. @throws CoreError kCancelled when it asks to stop.
 void throw_if_stopped(ExecutionContext* context);
 
-/// throw_if_stopped for loops whose steps are too short to ask at each of them: asks about once a
-/// millisecond.  One thread; several threads each have their own.
+/// throw_if_stopped for loops whose rounds are too short to ask in each of them: asks about once a
+/// millisecond.  Used by one thread; several threads each have their own.
 class StopCheck {
  public:
   explicit StopCheck(ExecutionContext* context) : context_(context) {}
 
-  /// @param steps how many steps, of some nanoseconds each, were taken since the last call.
-  void did(std::uint64_t steps) {
-    done_ += steps;
-    if (done_ < kSteps) return;
+  /// @param operations done since the last call, of some nanoseconds each.
+  void did(std::uint64_t operations) {
+    done_ += operations;
+    if (done_ < kOperations) return;
     done_ = 0;
     throw_if_stopped(context_);
   }
 
  private:
-  static constexpr std::uint64_t kSteps = 1 << 16;
+  static constexpr std::uint64_t kOperations = 1 << 16;
 
   ExecutionContext* context_;
   std::uint64_t done_ = 0;

@@ -47,14 +47,15 @@ void parallel_for(unsigned threads, std::size_t count, const Body& body) {
 /// where they end.
 template <class Body>
 void parallel_ranges(unsigned threads, std::size_t count, const Body& body) {
-  // A few for each thread, since some may take longer than others; small work is left in one piece.
-  constexpr std::size_t kRangesPerThread = 8, kLeast = 1024;
-  const std::size_t ranges = threads <= 1 ? 1 : std::min(kRangesPerThread * threads, count / kLeast + 1);
+  // A few for each thread, since some may take longer than others; small work is not divided.
+  constexpr std::size_t kRangesPerThread = 8, kMinPerRange = 1024;
+  const std::size_t ranges =
+      threads <= 1 ? 1 : std::min(kRangesPerThread * threads, count / kMinPerRange + 1);
   parallel_for(threads, ranges, [&](std::size_t r) { body(count * r / ranges, count * (r + 1) / ranges); });
 }
 
-/// Runs first(share) and second(share), at the same time when there are threads for both; the shares are
-/// what each has for its own parts.  For recursions that halve their work.
+/// Runs first(n) and second(n), at the same time when `threads` > 1; n is the number of threads that each may
+/// use itself.  For recursions that halve their work.
 template <class First, class Second>
 void parallel_halves(unsigned threads, const First& first, const Second& second) {
   if (threads <= 1) {
@@ -71,9 +72,9 @@ void parallel_halves(unsigned threads, const First& first, const Second& second)
   });
 }
 
-/// Number of nodes of a binary tree over `count` items whose inner nodes pass half of theirs (rounded down)
-/// to the first child and the rest to the second, down to leaves of at most `leaf` items: where the second
-/// child's nodes begin in depth-first order, before any of them is made.
+/// Number of nodes of a binary tree over `count` items.  Internal nodes give half of their items (rounded
+/// down) to the first child and the rest to the second; leaves hold at most `leaf` items.  Called for a first
+/// child, it tells where the second child's nodes begin in depth-first order, before any of them is made.
 constexpr std::uint32_t halving_nodes(std::uint32_t count, std::uint32_t leaf) {
   // A level has nodes of two sizes only: `number` of `size` items, and `more` of one item more.
   std::uint32_t size = count, number = 1, more = 0, nodes = 0;

@@ -4,14 +4,13 @@
 
 namespace affskel::core {
 
-// Functions of the mathematical library whose last digit differs between machines, from + - * / and sqrt
-// alone, so that nothing that is stored, lays a lattice or decides a sign does.  See cube_root.h, too.
+// Functions whose last digit differs from one mathematical library to the next, from + - * / and sqrt alone.
+// To be used wherever the result is stored, lays a lattice or decides a sign.  See cube_root.h, too.
 
 /// Natural logarithm of a normal double > 0, to about 1e-15 of the larger of 1 and itself.
 double plain_log(double x);
 
-/// e^x for |x| <= 1, rounded to nearest but where e^x lies within 1e-10 of an ulp of the middle of two
-/// doubles.
+/// e^x for |x| <= 1, rounded to nearest unless e^x lies within 1e-10 ulp of the midpoint of two doubles.
 double plain_exp(double x);
 
 /// The angle from the x axis to (x, y), y >= 0: 0 .. pi, radians, to about 1e-15; 0 for (0, 0).

@@ -14,13 +14,13 @@ namespace affskel::core {
 /// A cell of the lattice, the cube between (i, j, k) and (i+1, j+1, k+1); indices from -1.
 using CellPlace = std::array<std::int64_t, 3>;
 
-/// The cells that shocks touch: those round their lattice edges, four to an edge.  Where two parts of the
-/// solid come nearer to each other than a cell, each has its own cell there, so that their shocks never meet.
+/// The cells round the lattice edges of shocks, four to an edge.  Where two parts of the solid come nearer to
+/// each other than a cell, each has a cell of its own there, so that their shocks never touch.
 struct ChordCells {
   std::vector<CellPlace> place;                    ///< per cell, in lattice order
   std::vector<std::uint32_t> part;                 ///< per cell: of the solid; ascending in one place
   std::vector<std::uint32_t> begin;                ///< per cell: its first entry in `members`; one more
-  std::vector<std::uint32_t> members;              ///< shocks (their places in the list), ascending by cell
+  std::vector<std::uint32_t> members;              ///< indices of shocks, ascending by cell
   std::vector<std::array<std::uint32_t, 4>> ring;  ///< per shock: its cells, once round its edge
 
   std::size_t size() const { return place.size(); }

@@ -33,7 +33,7 @@ std::optional<std::array<std::uint32_t, 2>> ends_of_edge(const Lattice& lattice,
   if (u != run_u || v != run_v || w - run_w >= run.length) return {};
   const std::uint32_t n = run.first + (w - run_w);
   const bool last = n + 1 == run.first + run.length;
-  if (last && (next == along.runs.end() || !goes_on(run, *next, axis))) return {};
+  if (last && (next == along.runs.end() || !continues_in(run, *next, axis))) return {};
   if (along.order.empty()) return std::array{n, n + 1};
   return std::array{along.order[n], along.order[n + 1]};
 }
@@ -61,7 +61,7 @@ ChordShock tangents_on_edge(const FrameField& field, std::uint32_t x, std::uint3
   return shock;
 }
 
-void settle_on_edge(const FrameField& field, ChordShock& shock) {
+void clamp_to_edge(const FrameField& field, ChordShock& shock) {
   const EdgeValue at_x = end_value(field, shock.point, shock.axis);
   shock.t = shock.strength > 0 ? std::clamp(shock.t, 0.0, 1.0) : 0.5;
   shock.erosion = shock.t < 1 ? at_x.erosion + shock.t * at_x.slope : field.erosion[shock.upper];

@@ -1,3 +1,6 @@
+// Once round a lattice square, the sheet is crossed as often one way as the other.  So a square with one
+// shock on its edges lies on the sheet's rim.  Where three or four of the squares round an edge do, the sheet
+// passes between the edge's ends, and their tangents merely fail to say where.
 #include "core/chords/chord_pinholes.h"
 
 #include <algorithm>
@@ -11,7 +14,7 @@
 namespace affskel::core {
 namespace {
 
-// The edges without a shock that most of the squares round them ask for one; ascending.
+// The edges without a shock of whose squares most lie on the rim; ascending.
 std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const ChordShock> shocks) {
   std::vector<std::uint32_t> all(shocks.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -26,7 +29,7 @@ std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const Ch
   std::vector<LatticeElement> result;
   for (std::size_t first = 0, last; first < asked.size(); first = last) {
     for (last = first + 1; last < asked.size() && asked[last] == asked[first];) ++last;
-    if (last - first >= kMaxOfFour) result.push_back(asked[first]);
+    if (last - first >= kMinRimSquares) result.push_back(asked[first]);
   }
   return result;
 }
@@ -47,7 +50,7 @@ std::vector<ChordShock> pinhole_shocks(const Lattice& lattice, const SolidParts&
     if (field.direction[x] == field.direction[y]) continue;
     ChordShock shock = tangents_on_edge(field, x, y, axis, place);
     if (!(shock.strength > 0)) shock.strength = 0;
-    settle_on_edge(field, shock);
+    clamp_to_edge(field, shock);
     shock.turn = shock.opening;
     result.push_back(shock);
   }

@@ -10,11 +10,10 @@
 
 namespace affskel::core {
 
-/// The shocks that a sheet lacks where its surroundings ask for one: on every edge of which three or four of
-/// the squares round it lie on the sheet's rim (see chord_squares.h).  The sheet then passes between the
-/// edge's ends, and their tangents merely fail to say where.  The shock lies where the tangents cross, moved
-/// to the nearer end when that is outside the edge, to the middle, with the strength 0, when they do not
-/// cross.  Edges whose ends have the same optimal direction stay open: no two chords are equal there.
+/// The shocks that a sheet lacks: one on every edge of which three or four of the squares round it lie on the
+/// sheet's rim (see chord_squares.h).  A shock lies where the tangents cross, clamped to the edge, or in the
+/// middle with the strength 0 when they do not cross.  Edges whose ends have the same optimal direction stay
+/// open: no two chords are equal there.
 /// @param parts of the solid in this lattice.
 /// @param shocks of this lattice, each edge once.
 /// @return the missing ones by (point, axis), their turn that of the edge alone.  O(n log n + n log R), R the

@@ -1,3 +1,12 @@
+// Step 3 of chord_pruning.h joins pieces by shortest paths from all pieces at once, then a least spanning
+// tree of the pieces (Mehlhorn 1988).  A shock costs 1 / (r w): 1 for opposite normals, 4 at 60 degrees, 100
+// and more between two facets.
+//
+// Step 4 fills a hole only where the rim shrinks: without that rule, a sheet that goes from one layer of
+// cells to the next fills up with the facets in between.
+//
+// The significance of 0.005, at height / 190 on 11 bodies of 292 to 8560 triangles, leaves one component on
+// all in the frame `axis` and on nine in `affine`; 0.02 leaves one on all in both.
 #include "core/chords/chord_pruning.h"
 
 #include <algorithm>
@@ -25,17 +34,17 @@ double cost(const ChordShock& shock) {
   return 1 / (shock.strength * shock.turn);
 }
 
-// Every cell's cheapest way to a piece, and the ways between pieces that follow from them.  A piece is named
-// by a shock of it.
-class Ways {
+// The cheapest path from every cell to a piece, and the paths between pieces that follow from them.  A piece
+// is named by one of its shocks.
+class Paths {
  public:
-  struct Way {
+  struct Path {
     double cost;
-    std::uint32_t shock, a, b;  // leads from cell a through the shock to cell b
+    std::uint32_t shock, a, b;  // crosses from cell a through the shock to cell b
   };
 
   // piece: per cell, kNone where there is none.
-  Ways(const std::vector<ChordShock>& shocks, const ChordCells& cells, std::vector<std::uint32_t> piece)
+  Paths(const std::vector<ChordShock>& shocks, const ChordCells& cells, std::vector<std::uint32_t> piece)
       : shocks_(shocks),
         cells_(cells),
         piece_(std::move(piece)),
@@ -48,25 +57,26 @@ class Ways {
   std::uint32_t piece(std::uint32_t cell) const { return piece_[cell]; }
 
   // Between different pieces, cheapest first.
-  std::vector<Way> list() const {
-    std::vector<Way> ways;
+  std::vector<Path> list() const {
+    std::vector<Path> paths;
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       for (std::uint32_t a : cells_.ring[s]) {
         for (std::uint32_t b : cells_.ring[s]) {
           if (a >= b || piece_[a] == kNone || piece_[b] == kNone || piece_[a] == piece_[b]) continue;
-          ways.push_back({distance_[a] + cost(shocks_[s]) + distance_[b], s, a, b});
+          paths.push_back({distance_[a] + cost(shocks_[s]) + distance_[b], s, a, b});
         }
       }
     }
-    std::stable_sort(ways.begin(), ways.end(), [](const Way& p, const Way& q) { return p.cost < q.cost; });
-    return ways;
+    std::stable_sort(paths.begin(), paths.end(),
+                     [](const Path& p, const Path& q) { return p.cost < q.cost; });
+    return paths;
   }
 
-  // All shocks on a way, from piece to piece.
+  // All shocks on a path, from piece to piece.
   template <class Visit>
-  void for_each_shock(const Way& way, Visit visit) const {
-    visit(way.shock);
-    for (std::uint32_t end : {way.a, way.b}) {
+  void for_each_shock(const Path& path, Visit visit) const {
+    visit(path.shock);
+    for (std::uint32_t end : {path.a, path.b}) {
       for (std::uint32_t cell = end; through_[cell] != kNone; cell = from_[cell]) visit(through_[cell]);
     }
   }
@@ -116,7 +126,7 @@ class Pruning {
         owner_(shocks.size(), kNone) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
     for (std::uint32_t p = 0; p < parts.count(); ++p) {
-      least_erosion_.push_back(options.min_erosion * (parts.points(p) * cell));
+      min_erosion_.push_back(options.min_erosion * (parts.points(p) * cell));
     }
   }
 
@@ -138,7 +148,7 @@ class Pruning {
 
   bool wide(std::uint32_t s) const { return shocks_[s].turn >= options_.strong_turn; }
 
-  bool strong(std::uint32_t s) const { return wide(s) && shocks_[s].erosion >= least_erosion_[part(s)]; }
+  bool strong(std::uint32_t s) const { return wide(s) && shocks_[s].erosion >= min_erosion_[part(s)]; }
 
   void count() {
     ShockCensus& census = result_.census;
@@ -146,7 +156,7 @@ class Pruning {
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       census.wide += wide(s) ? 1 : 0;
       census.strong += strong(s) ? 1 : 0;
-      census.widest_turn = std::max(census.widest_turn, shocks_[s].turn);
+      census.max_turn = std::max(census.max_turn, shocks_[s].turn);
     }
   }
 
@@ -163,7 +173,7 @@ class Pruning {
 
   bool kept(std::uint32_t s) const { return owner_[s] != kNone; }
 
-  // The pieces that the chosen shocks' cells belong to.
+  // Per cell the piece of its shocks; piece_of gives a shock's piece or kNone.
   template <class PieceOf>
   std::vector<std::uint32_t> pieces_by_cell(PieceOf piece_of) {
     std::vector<std::uint32_t> piece(cells_.size(), kNone);
@@ -176,14 +186,14 @@ class Pruning {
   }
 
   void keep_significant() {
-    const Ways ways(shocks_, cells_,
-                    pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNone; }));
-    std::vector<Ways::Way> used;
-    for (const Ways::Way& way : ways.list()) {
-      if (way.cost > options_.near_cost) break;
-      if (pieces_.unite(ways.piece(way.a), ways.piece(way.b))) used.push_back(way);
+    const Paths paths(shocks_, cells_,
+                      pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNone; }));
+    std::vector<Paths::Path> used;
+    for (const Paths::Path& path : paths.list()) {
+      if (path.cost > options_.near_cost) break;
+      if (pieces_.unite(paths.piece(path.a), paths.piece(path.b))) used.push_back(path);
     }
-    std::vector<double> mass(shocks_.size(), 0), whole(least_erosion_.size(), 0);
+    std::vector<double> mass(shocks_.size(), 0), whole(min_erosion_.size(), 0);
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!strong(s)) continue;
       mass[pieces_.find(s)] += weight(shocks_[s]);
@@ -195,33 +205,33 @@ class Pruning {
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!strong(s)) continue;
       const double share = mass[s] / whole[part(s)];  // 0 unless s stands for its piece
-      result_.census.heaviest_piece = std::max(result_.census.heaviest_piece, share);
+      result_.census.max_piece_share = std::max(result_.census.max_piece_share, share);
       if (!significant(s)) continue;
       owner_[s] = pieces_.find(s);
       if (owner_[s] == s) result_.pieces.push_back(share);
     }
     std::sort(result_.pieces.begin(), result_.pieces.end(), std::greater<>());
-    for (const Ways::Way& way : used) {
-      if (significant(ways.piece(way.a))) keep_way(ways, way);
+    for (const Paths::Path& path : used) {
+      if (significant(paths.piece(path.a))) keep_path(paths, path);
     }
   }
 
-  void keep_way(const Ways& ways, const Ways::Way& way) {
-    ways.for_each_shock(way, [&](std::uint32_t s) {
-      if (!kept(s)) owner_[s] = pieces_.find(ways.piece(way.a));
+  void keep_path(const Paths& paths, const Paths::Path& path) {
+    paths.for_each_shock(path, [&](std::uint32_t s) {
+      if (!kept(s)) owner_[s] = pieces_.find(paths.piece(path.a));
     });
   }
 
   void join_kept() {
-    const Ways ways(shocks_, cells_, pieces_by_cell([&](std::uint32_t s) { return owner_[s]; }));
-    for (const Ways::Way& way : ways.list()) {
-      if (!pieces_.unite(ways.piece(way.a), ways.piece(way.b))) continue;
+    const Paths paths(shocks_, cells_, pieces_by_cell([&](std::uint32_t s) { return owner_[s]; }));
+    for (const Paths::Path& path : paths.list()) {
+      if (!pieces_.unite(paths.piece(path.a), paths.piece(path.b))) continue;
       ++result_.bridges;
-      keep_way(ways, way);
+      keep_path(paths, path);
     }
   }
 
-  // All at once, so that the order does not matter.  Whether there was any.
+  // Adds all shocks at once, so that their order does not matter; returns whether there were any.
   bool fill_holes() {
     std::vector<std::uint8_t> used(cells_.size(), 0);
     std::vector<std::uint32_t> sheet;
@@ -236,7 +246,7 @@ class Pruning {
       const auto& ring = cells_.ring[s];
       if (kept(s) || !std::all_of(ring.begin(), ring.end(), [&](std::uint32_t c) { return used[c] != 0; }))
         continue;
-      if (rim_round(s, rim) < kMaxOfFour) continue;
+      if (rim_round(s, rim) < kMinRimSquares) continue;
       owner_[s] = s;
       any = true;
     }
@@ -257,9 +267,9 @@ class Pruning {
   const std::vector<ChordShock>& shocks_;
   const ChordPruningOptions& options_;
   const ChordCells cells_;
-  DisjointSets pieces_;                // of shocks; the least member stands for its piece
-  std::vector<std::uint32_t> owner_;   // per shock: a shock of the piece it is kept with, kNone if dropped
-  std::vector<double> least_erosion_;  // per part
+  DisjointSets pieces_;               // of shocks; the least member stands for its piece
+  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNone if dropped
+  std::vector<double> min_erosion_;   // per part
   SignificantShocks result_;
 };
 

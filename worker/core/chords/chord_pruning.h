@@ -10,45 +10,45 @@
 namespace affskel::core {
 
 // Notation.  N = (g_x - g_y) / |g_x - g_y| is the sheet's normal at a shock, whose lattice edge, along axis
-// a, stands for |N_a| squares of the lattice.  The weight of a shock is |N_a| r w,  r its relative strength,
-// w its turn (see measure_turns).  Two shocks touch when their edges bound a common cell.  To pass through a
-// shock costs 1 / (r w).  Reasons of the constants: README.md in worker/core.
+// a, stands for |N_a| squares of the lattice.  The weight of a shock is |N_a| r w, with r its relative
+// strength and w its turn (see measure_turns).  Two shocks touch when their edges bound a common cell.  A
+// path through a shock costs 1 / (r w).  Reasons of the constants: README.md in worker/core.
 
 struct ChordPruningOptions {
-  /// Pieces of the sheet with less than this share of the weight in their part of the solid are dropped,
-  /// 0 .. 1.  0 keeps all strong shocks (1e-9, say, where 0 stands for the default), 1 a piece that is alone.
+  /// Pieces of the sheet with less than this share of the weight in their part of the solid are dropped, 0 ..
+  /// 1.  0 keeps all strong shocks (where 0 stands for the default, take 1e-9), 1 only a piece that is alone.
   double significance = 0.005;
   /// Least turn of a strong shock, 0 .. 1; 1/2 is a right angle between the normals on its two sides.
   double strong_turn = 0.49;
   /// Least E of a strong shock, as a share of the volume of the sample points' cells in its part, 0 .. 1.
   double min_erosion = 0.001;
-  /// Pieces that weaker shocks join at no greater cost than this are weighed as one, >= 0.
+  /// Pieces that a path through weaker shocks joins at no greater cost are weighed as one, >= 0.
   double near_cost = 40;
 };
 
-/// What there was to choose from: why nothing may be left.
+/// Counts of the candidates, to tell why nothing may be left.
 struct ShockCensus {
   std::uint64_t candidates = 0;
-  std::uint64_t wide = 0;     ///< of these, with the turn of a strong shock
-  std::uint64_t strong = 0;   ///< of these, with the E of one
-  double widest_turn = 0;     ///< of the candidates
-  double heaviest_piece = 0;  ///< its share of the weight in its part of the solid, kept or not
+  std::uint64_t wide = 0;      ///< candidates with the turn of a strong shock
+  std::uint64_t strong = 0;    ///< candidates with its turn and E
+  double max_turn = 0;         ///< of the candidates
+  double max_piece_share = 0;  ///< largest share of the weight in a part of the solid, kept or not
 };
 
 /// What is left of the candidates.
 struct SignificantShocks {
   std::vector<ChordShock> shocks;  ///< in the order of the candidates
   std::vector<double> pieces;      ///< the kept pieces' shares of the weight in their part, largest first
-  std::uint32_t bridges = 0;       ///< ways laid between these pieces
+  std::uint32_t bridges = 0;       ///< paths that join these pieces
   ShockCensus census;
 };
 
 /// Keeps the shocks that matter, by hysteresis:
 /// 1. strong shocks that touch form pieces; pieces near each other (near_cost) are weighed as one;
 /// 2. pieces below the significance are dropped;
-/// 3. what is left is joined by the cheapest ways through weaker shocks, as far as there are any;
-/// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept ones and three or
-///    four of the squares lie on the sheet's rim (see chord_squares.h), until there is none left.
+/// 3. the others are joined by the cheapest paths through weaker shocks, as far as there are any;
+/// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept shocks and at
+///    least kMinRimSquares of the squares lie on the rim (see chord_squares.h), until there is none left.
 /// A function of r, E, w and N alone, affinely invariant when these are.  Each part of the solid keeps what
 /// it would keep alone.  O(n log n) for n candidates.
 /// @param parts of the solid in this lattice.

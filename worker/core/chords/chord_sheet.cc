@@ -1,3 +1,7 @@
+// Placing a vertex: least squares on the tangent planes of its cell's shocks, drawn towards their mean.  On
+// the rim the mean alone would lie on the outermost shocks, and a strip one shock wide would have no area:
+// there a vertex goes half way to the middle of its cell, in the sheet's plane.  What comes to lie outside
+// the solid goes back to the shocks' mean or the nearest shock.
 #include "core/chords/chord_sheet.h"
 
 #include <algorithm>
@@ -15,7 +19,7 @@
 #include "core/chords/chord_edge.h"
 #include "core/chords/chord_pinholes.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 #include "core/lattice/solid_parts.h"
 #include "core/solid/solid_membership.h"
 
@@ -64,14 +68,14 @@ class Contouring {
         regularisation_(regularisation),
         to_mesh_(inverse_transposed(frame_matrix(lattice))),
         cells_(chord_cells(lattice, parts, shocks)),
-        slabs_(lattice),
+        ranks_(lattice),
         interior_(parts, lattice) {}
 
   void run(ChordSheet& sheet, ExecutionContext* context) {
     sheet.vertices.reserve(cells_.size());
     std::int64_t reached = -1;
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
-      for (; reached < cells_.place[cell][0]; slabs_.move_to(static_cast<std::uint32_t>(++reached)))
+      for (; reached < cells_.place[cell][0]; ranks_.move_to(static_cast<std::uint32_t>(++reached)))
         throw_if_stopped(context);
       sheet.vertices.push_back(vertex(cell));
     }
@@ -79,7 +83,7 @@ class Contouring {
   }
 
  private:
-  // One shock of a cell as the others see it: normal and sides turned to agree with the first one's.
+  // A shock of a cell, its normal and its two sides turned to agree with the first shock's.
   struct Side {
     Vec3 normal, gradient_a, gradient_b;
   };
@@ -105,7 +109,8 @@ class Contouring {
     for (std::uint32_t s : members) {
       const ChordShock& shock = shocks_[s];
       const Side seen = side(shock, reference);
-      // In the sheet both branches change alike, so their mean gradient leads from the shock to the vertex.
+      // Along the sheet both branches change equally, so their mean gradient leads from the shock to the
+      // vertex.
       const Vec3 slope = 0.5 * (shock.gradient_low + shock.gradient_high);
       v.erosion += share * (shock.erosion + dot(slope, v.position - shock.position));
       v.strength += share * shock.strength;
@@ -155,8 +160,8 @@ class Contouring {
   bool inside(const CellPlace& at, std::uint32_t part) const {
     for (int corner = 0; corner < 8; ++corner) {
       const std::uint32_t point =
-          slabs_.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2));
-      if (point == SlabIndex::kOutside || parts_.of_point(point) != part) return false;
+          ranks_.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2));
+      if (point == LayerIndex::kOutside || parts_.of_point(point) != part) return false;
     }
     return true;
   }
@@ -192,7 +197,7 @@ class Contouring {
   double regularisation_;
   Matrix3 to_mesh_;  // F^-T
   ChordCells cells_;
-  SlabIndex slabs_;
+  LayerIndex ranks_;
   PartInterior interior_;
 };
 
@@ -210,10 +215,10 @@ void close_pinholes(const Lattice& lattice, const SolidParts& parts, const Frame
 
 // In a frame that stretches a flat solid, no turn may be as wide as that of a strong shock.
 double strong_turn(const std::vector<ChordShock>& shocks, const ChordSheetOptions& options) {
-  double widest = 0;
-  for (const ChordShock& shock : shocks) widest = std::max(widest, shock.turn);
+  double max_turn = 0;
+  for (const ChordShock& shock : shocks) max_turn = std::max(max_turn, shock.turn);
   return std::min(options.pruning.strong_turn,
-                  std::max(options.min_strong_turn, options.strong_share * widest));
+                  std::max(options.min_strong_turn, options.strong_share * max_turn));
 }
 
 }  // namespace

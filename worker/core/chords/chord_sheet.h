@@ -18,8 +18,8 @@ struct ChordSheetOptions {
   ChordShockOptions shocks;     ///< the candidates
   ChordTurnOptions turns;       ///< how far the normals turn at them
   ChordPruningOptions pruning;  ///< which of them stay; its `significance` is the threshold of `chords`
-  /// Where hardly a turn is as wide as pruning.strong_turn, this share of the widest turn takes its place,
-  /// 0 .. 1, but no less than min_strong_turn.
+  /// Where no turn is that wide, a strong one has this share of the largest turn instead of
+  /// pruning.strong_turn, 0 .. 1, but at least min_strong_turn.
   double strong_share = 0.8;
   double min_strong_turn = 0.1;  ///< 0 .. 1
   /// Pull of the shocks' mean on a vertex, against 1 for all tangent planes together, > 0.
@@ -32,8 +32,8 @@ struct ChordSheetVertex {
   double erosion = 0;       ///< E, volume
   double strength = 0;      ///< mean relative strength r of the cell's shocks
   double area = 0;          ///< mean area of the sections of the two chords, mesh units squared
-  Vec3 normal_a, normal_b;  ///< unit normals of the two chords, frame coordinates: a rises to the sheet from
-                            ///< the side that normal_a - normal_b points away from
+  Vec3 normal_a, normal_b;  ///< unit normals of the two chords, frame coordinates; normal_a - normal_b
+                            ///< points from a's side of the sheet to b's
 };
 
 /// The shock surface of the E field.
@@ -49,10 +49,10 @@ struct ChordSheet {
 
 /// The significant shocks joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002): one
 /// vertex for every lattice cell with shocks on its edges, one quadrilateral for every shock, through the
-/// vertices of the four cells round its edge, cut along its shorter diagonal.  How shocks are found, weighed
-/// and joined, and why: README.md in worker/core.
+/// vertices of the four cells round its edge, cut along its shorter diagonal.  README.md in worker/core tells
+/// how and why.
 ///
-/// Vertices lie in their cells; vertices and shocks lie in the solid, triangles need not.  The sheet ends at
+/// Vertices and shocks lie in the solid, vertices in their cells too; triangles need not.  The sheet ends at
 /// most half a spacing beyond its outermost shocks, branches where three chords are equal (edges with three
 /// and more triangles) and may be one-sided: triangles have no common orientation.  Each part of the solid
 /// (see SolidParts) has the sheet that it would have alone.  A function of solid, lattice and field alone.

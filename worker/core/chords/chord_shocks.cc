@@ -1,3 +1,10 @@
+// Notation: README.md in worker/core.  The same shock has r near 1 on edges across the sheet and a small r on
+// those along it.  What tells shocks from the facets of a level surface is therefore not r but the opening,
+// and the candidates are many: turns and pruning choose among them.
+//
+// Where E is smooth but its normals turn fast (the middle plane of a box seen by thousands of directions),
+// the opening across an edge shrinks with the spacing, and so does the largest kink's share of the turn: such
+// a ridge is a shock at coarse spacings only.  At a true shock both stay.
 #include "core/chords/chord_shocks.h"
 
 #include <algorithm>
@@ -39,7 +46,7 @@ class ShockFinder {
     if (!(shock.strength > 0)) return {};
     if (!(shock.strength >= options_.min_strength && shock.opening >= options_.min_opening)) return {};
     if (!(shock.t >= -options_.slack && shock.t <= 1 + options_.slack)) return {};
-    settle_on_edge(field_, shock);
+    clamp_to_edge(field_, shock);
     shock.turn = shock.opening;
     return shock;
   }

@@ -13,7 +13,7 @@ namespace affskel::core {
 // Notation.  x and y are the ends of a lattice edge, delta = y - x, g_x and g_y the gradients of E there, in
 // the coordinates of the lattice's frame (see frame_field.h).  The tangents of E at x and y cross at
 // x + t delta,  t = (E_y - E_x - g_y.delta) / s,  with the kink  s = (g_x - g_y).delta.
-// Why, and the reasons of all constants: README.md in worker/core.
+// Reasons of the constants: README.md in worker/core.
 
 struct ChordShockOptions {
   /// Least relative strength r = s / (|g_x.delta| + |g_y.delta|), 0 .. 1.
@@ -35,7 +35,7 @@ struct ChordShock {
   double erosion = 0;                    ///< E there, volume
   double strength = 0;                   ///< r
   double opening = 0;                    ///< o, of the edge's own ends
-  double turn = 0;                   ///< the same over a band across the sheet, see measure_turns(); o before
+  double turn = 0;  ///< opening over a band across the sheet, see measure_turns(); until then o
   Vec3 gradient_low, gradient_high;  ///< g_x and g_y; the sheet's normal is along their difference
   std::uint32_t direction_low = 0, direction_high = 0;  ///< indices of the two optimal directions
 };
@@ -50,7 +50,7 @@ struct ChordShock {
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
                                      const ChordShockOptions& options = {});
 
-/// The squares of the lattice that the shock's edge stands for, |N_a|: area of the sheet per spacing squared.
+/// The area of the sheet that the shock's edge stands for, in lattice squares: |N_a|.
 double squares_of(const ChordShock& shock);
 
 }  // namespace affskel::core

@@ -11,8 +11,8 @@
 #include "core/chords/chord_shocks.h"
 #include "core/lattice/solid_parts.h"
 
-// What bounds what in the lattice.  Once round a square, the sheet is crossed as often one way as the other:
-// a square with a single shock on its four edges lies on the sheet's rim.
+// Edges and squares of the lattice, and which bound which.  Once round a square, the sheet is crossed as
+// often one way as the other: a square with a single shock on its four edges lies on the sheet's rim.
 
 namespace affskel::core {
 
@@ -46,15 +46,15 @@ inline std::array<LatticeElement, 4> edges_of(const LatticeElement& square) {
   return {along_u, moved(along_u, v, 1), along_v, moved(along_v, u, 1)};
 }
 
-/// So many of the four squares round an edge must lie on the rim for a shock on it to close a hole: their rim
-/// then shrinks.
-inline constexpr std::size_t kMaxOfFour = 3;
+/// A shock is added on an edge only where at least this many of the four squares round it lie on the rim, so
+/// that the rim becomes shorter.
+inline constexpr std::size_t kMinRimSquares = 3;
 
-/// A square on the rim and its only shock (its place in the list).
+/// A square on the rim and the index of its only shock.
 using RimSquare = std::pair<LatticeElement, std::uint32_t>;
 
 /// The squares on the rim of a sheet made of the chosen shocks, ascending.
-/// @param chosen places in the list, each edge once.
+/// @param chosen indices of shocks, each edge once.
 std::vector<RimSquare> rim_squares(const SolidParts& parts, std::span<const ChordShock> shocks,
                                    std::span<const std::uint32_t> chosen);
 

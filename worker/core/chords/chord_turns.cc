@@ -1,3 +1,28 @@
+// How turns are measured.
+// 1. The shocks on a lattice line within q = (width d / h - 1) / 2 edges (rounded) of each other have one
+//    peak: the one with the largest kink s (the first of equal ones), provided that it has the options'
+//    least values.
+// 2. The turn of a peak is the opening between the places q edges beyond both of its ends, but no further
+//    than the line stays in the solid, and at least its own opening.  Between sample points normals are
+//    interpolated.  All other shocks keep their own opening.
+// 3. Then each peak takes the mean of its four cells' turns, at most twice its own; a cell has the mean of
+//    its shocks, weighted by turn and area |N_a|.
+//
+// Why a band.  Finite direction sets, and noise all the more, break one jump of the normals into several
+// small ones near each other.  Which of them is the widest changes with every perturbation, their sum does
+// not.  So the one with the largest kink, the peak, takes the turn of the whole band (non-maximum
+// suppression, as in Canny 1986).
+//
+// Why its width is a share of the depth.  Measured on bodies of 292, 1000 and 5000 triangles with 1 % vertex
+// noise (of the diagonal), 8 seeds: shares of the skeletons within sqrt(3)/128 of the height, both ways.
+//
+//   0.7 of the depth      92.9 / 93.6 %
+//   five spacings         94.2 / 93.6 %, but 51 tunnels for 22, and a third of the sheet is lost where the
+//                         spacing is halved
+//   the edge alone        91.0 / 89.1 %
+//
+// Halving the spacing (height / 90, 180, 360) moves what lies two coarse spacings from the rim by less than
+// half a coarse spacing, but for one or two vertices.
 #include "core/chords/chord_turns.h"
 
 #include <algorithm>
@@ -16,11 +41,11 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr std::uint32_t kMaxRounds = 16;
-// Edges to either side of a shock's own: more are a depth of 184 spacings and more, in bodies of a billion
-// sample points, or chords through a neck that cut off much more than is near them.
+// Edges to either side of a peak's own.  A wider band belongs to a depth of 184 spacings, as in a body of a
+// billion sample points, or to chords through a neck, whose volume is mostly far away.
 constexpr double kMaxReach = 64;
-// What a mean may make of a turn: twice as much.  Edges that lie in a sheet, between two facets of one of its
-// sides, have the sheet's own shocks round them.
+// A mean may at most double a turn: edges that lie in a sheet, between two facets of one of its sides, have
+// the sheet's own shocks round them.
 constexpr double kMaxGain = 2;
 
 class TurnGauge {
@@ -32,7 +57,7 @@ class TurnGauge {
         cells_(cells),
         shocks_(shocks),
         options_(options),
-        speaks_(shocks.size(), false) {}
+        is_peak_(shocks.size(), false) {}
 
   void measure() {
     reach_.reserve(shocks_.size());
@@ -56,7 +81,7 @@ class TurnGauge {
       if (whole > 0) mean[cell] = sum / whole;
     }
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-      if (!speaks_[s]) continue;
+      if (!is_peak_[s]) continue;
       const auto& [a, b, c, d] = cells_.ring[s];
       const double along = 0.25 * ((mean[a] + mean[b]) + (mean[c] + mean[d]));
       shocks_[s].turn = std::min(along, kMaxGain * shocks_[s].turn);
@@ -73,23 +98,23 @@ class TurnGauge {
     return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMaxReach);
   }
 
-  std::uint32_t whole_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
+  std::uint32_t rounded_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
 
-  // Per shock: the largest jump at most as many cells away as its band reaches.
+  // Finds per shock the largest jump at most as many cells away as its band reaches.
   void find_largest_jumps() {
     std::vector<double> by_cell(cells_.size(), 0);
-    std::uint32_t most = 0;
+    std::uint32_t max_reach = 0;
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       raise(by_cell, s, jump(s));
-      most = std::max(most, whole_reach(s));
+      max_reach = std::max(max_reach, rounded_reach(s));
     }
     largest_.resize(shocks_.size());
     for (std::uint32_t step = 0;; ++step) {
       throw_if_stopped(options_.context);
       for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-        if (whole_reach(s) >= step) largest_[s] = largest_round(by_cell, s);
+        if (rounded_reach(s) >= step) largest_[s] = largest_round(by_cell, s);
       }
-      if (step == most) return;
+      if (step == max_reach) return;
       std::vector<double> wider = by_cell;
       for (std::uint32_t s = 0; s < shocks_.size(); ++s) raise(wider, s, largest_round(by_cell, s));
       by_cell = std::move(wider);
@@ -109,7 +134,7 @@ class TurnGauge {
 
   bool is_among_largest(std::uint32_t s) const { return jump(s) >= options_.min_share * largest_[s]; }
 
-  // A line of sample points in the solid, and the shock on each edge from one to the next.
+  // Measures along all stretches of an axis: a line of sample points, and the shock on each edge of it.
   void walk(std::uint8_t axis) {
     const AxisRuns& along = lattice_.axis[axis];
     std::vector<std::uint32_t> shock_from(lattice_.points, kNone);
@@ -129,10 +154,10 @@ class TurnGauge {
 
   void gauge(std::uint32_t n) {
     const std::uint32_t s = on_line_[n];
-    if (s == kNone || shocks_[s].strength < options_.min_strength || !is_greatest(n) || !is_concentrated(n) ||
-        !is_among_largest(s))
+    if (s == kNone || shocks_[s].strength < options_.min_strength || !has_largest_kink(n) ||
+        !is_concentrated(n) || !is_among_largest(s))
       return;
-    speaks_[s] = true;
+    is_peak_[s] = true;
     const auto whole = static_cast<std::uint32_t>(reach_[s]);
     const double rest = reach_[s] - whole;
     double turn = turn_over(n, whole);
@@ -155,13 +180,13 @@ class TurnGauge {
   bool is_concentrated(std::uint32_t n) const {
     const std::uint32_t s = on_line_[n];
     const int axis = shocks_[s].axis;
-    const auto& [low, high] = ends_of_band(n, whole_reach(s));
+    const auto& [low, high] = ends_of_band(n, rounded_reach(s));
     return kink(s) >= options_.min_concentration * (low[axis] - high[axis]);
   }
 
-  bool is_greatest(std::uint32_t n) const {
+  bool has_largest_kink(std::uint32_t n) const {
     const double mine = kink(on_line_[n]);
-    const std::uint32_t reach = whole_reach(on_line_[n]);
+    const std::uint32_t reach = rounded_reach(on_line_[n]);
     const auto end = std::min<std::size_t>(on_line_.size(), std::size_t{n} + reach + 1);
     for (std::size_t m = n - std::min(n, reach); m < end; ++m) {
       if (m == n || on_line_[m] == kNone) continue;
@@ -182,7 +207,7 @@ class TurnGauge {
   const ChordCells& cells_;
   std::vector<ChordShock>& shocks_;
   const ChordTurnOptions& options_;
-  std::vector<bool> speaks_;                   // per shock: for those round it
+  std::vector<bool> is_peak_;                  // per shock
   std::vector<double> reach_;                  // per shock: q
   std::vector<double> largest_;                // per shock, see find_largest_jumps
   std::vector<std::uint32_t> line_, on_line_;  // of one stretch

@@ -18,26 +18,21 @@ struct ChordTurnOptions {
   /// Width of the band across the sheet, along a lattice line, as a share of the depth d, >= 0; at least the
   /// shock's own edge, at most 64 edges to either side of it.
   double width = 0.7;
-  /// Least jump |g_x - g_y| of a shock that speaks for those round it, as a share of the largest jump at most
-  /// as many cells away as the band reaches, 0 .. 1.
+  /// Least jump |g_x - g_y| of a peak, as a share of the largest jump at most as many cells away as the band
+  /// reaches, 0 .. 1.
   double min_share = 0.4;
-  /// Least kink s of a shock that speaks, as a share of the change of slope over its band, 0 .. 1.
+  /// Least kink s of a peak, as a share of the change of slope over its band, 0 .. 1.
   double min_concentration = 0.2;
-  /// Least relative strength r of a shock that speaks, 0 .. 1.
+  /// Least relative strength r of a peak, 0 .. 1.
   double min_strength = 0.56;
   /// Rounds of averaging along the sheet, at most 16.
   std::uint32_t rounds = 1;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
-/// Measures how far the optimal normals turn across each shock, and sets its `turn`.
-///
-/// Of all shocks on a lattice line within q = (width d / h - 1) / 2 edges (rounded) of each other, the one
-/// with the largest kink s (the first of equal ones) speaks for all: its turn is the opening between the
-/// places q edges beyond both of its ends, but no further than the line stays in the solid, and at least its
-/// own opening.  Between sample points normals are interpolated.  All other shocks keep their own opening,
-/// and so does one that fails the options' least values.  Then each that speaks takes the mean of its four
-/// cells' turns, at most twice its own; a cell has the mean of its shocks, weighted by turn and area |N_a|.
+/// Measures how far the optimal normals turn across each shock, and sets its `turn`.  A peak (the largest
+/// kink among the shocks near it on a line) takes the turn over its band, then the mean along the sheet; all
+/// other shocks keep their own opening.  Step by step: chord_turns.cc.
 ///
 /// Kinks and their ratios are affinely invariant; jump, depth and band are so as the opening is (see
 /// chord_shocks.h).

@@ -24,7 +24,7 @@ struct DirectionOptions {
   Matrix3 frame = kIdentity3;                           ///< F of sphere and random, see solid_frame
 };
 
-/// The set that `spec` names, parts joined by "+" in their order:
+/// The set that `spec` names: one of these, or several joined by "+" in their order.
 ///   triangles      the inward unit normals of the solid's triangles, by triangle;
 ///   sphere:N       the inward normals of the geodesic sphere of 20 f^2 triangles (the icosahedron's faces
 ///                  cut f-fold), f least with 20 f^2 >= N;

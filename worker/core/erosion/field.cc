@@ -29,11 +29,11 @@ void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
   mask.store(mask.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
 }
 
-void ErosionField::bound(std::uint32_t point, double most) {
-  if (!(most < erosion(point))) return;
+void ErosionField::bound(std::uint32_t point, double max_erosion) {
+  if (!(max_erosion < erosion(point))) return;
   const std::lock_guard<SpinLock> guard(lock_of(point));
-  if (!(most < erosion_[point])) return;
-  std::atomic_ref<double>(erosion_[point]).store(most, std::memory_order_relaxed);
+  if (!(max_erosion < erosion_[point])) return;
+  std::atomic_ref<double>(erosion_[point]).store(max_erosion, std::memory_order_relaxed);
   area_[point] = 0;
   direction_[point] = FieldValue::kNoDirection;
   if (changed_.empty()) return;

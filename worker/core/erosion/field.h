@@ -36,7 +36,7 @@ class ErosionField {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(erosion_.size()); }
 
-  /// E as of some moment not long ago: never less than the present one.
+  /// A recent value of E: never less than the present one.
   double erosion(std::uint32_t point) const {
     return std::atomic_ref<double>(const_cast<double&>(erosion_[point])).load(std::memory_order_relaxed);
   }
@@ -48,10 +48,10 @@ class ErosionField {
 
   void offer(std::uint32_t point, const FieldValue& value);
 
-  /// Makes it known that E is at most `most` at the point, by a direction that another worker reports.  A
-  /// lesser value here stays; a greater one, which cannot attain E, goes without being visited as a change.
-  /// The direction is then kNoDirection, so that an equal value still improves on the bound.
-  void bound(std::uint32_t point, double most);
+  /// Lowers E at the point to `max_erosion`, if it is greater: another worker knows a direction that attains
+  /// this.  The point then has kNoDirection, so that an equal chord still replaces the bound, and is no
+  /// change for take_changes(): what was offered here cannot be E.
+  void bound(std::uint32_t point, double max_erosion);
 
   /// A consistent copy of one value; without a direction after bound().
   FieldValue value(std::uint32_t point) const;
@@ -70,7 +70,7 @@ class ErosionField {
 
  private:
   static constexpr std::size_t kLocks = 1024;
-  // Held for a few stores; a mutex each would push the field's own values out of the first cache.
+  // Held for a few stores only.  As many mutexes would push the field out of the first-level cache.
   class SpinLock {
    public:
     void lock() {
@@ -84,7 +84,7 @@ class ErosionField {
     std::atomic_flag flag_;
   };
 
-  // Points that stand next to each other along a run share a lock and a mask of changes.
+  // Consecutive points share a lock and a bit mask of changes.
   static constexpr std::uint32_t kGroup = 16;
   struct ChangedGroup {
     std::uint32_t count = 0;

@@ -11,10 +11,8 @@
 
 namespace affskel::core {
 
-// Notation.  A lattice defines a frame: coordinates u in which it is parallel to the axes with the step
-// `spacing`, lattice point (i, j, k) at u = spacing (i, j, k).  A mesh place is x = o + F u with det F = 1
-// (or -1), F's columns the lattice's axes divided by the spacing.  Volumes are the same in both.  A plane
-// with normal n in mesh coordinates has the normal F^T n / |F^T n| in the frame, and grad_u E = F^T grad E.
+// The coordinates u of a lattice's frame: x = o + F u, det F = 1 (or -1), F's columns the lattice's axes
+// divided by the spacing.  README.md in worker/core tells how planes and gradients go over.
 
 /// F, column by column; exactly the identity for a lattice parallel to the axes.
 Matrix3 frame_matrix(const Lattice& lattice);

@@ -11,8 +11,9 @@ namespace {
 constexpr double kRounder = 384.0;
 // The tilt that breaks ties; any vector in no special position will do.
 constexpr Vec3 kTilt{0.5497787143782138, 0.7853981633974483, 0.2861788337373061};
-// Below the first comparing is quicker than clearing counters.  Below the others two or three digits of 8
-// bits leave so few keys equal that settling them costs less than a digit more, or counters of 11 bits.
+// With fewer vertices than the first, comparing is quicker than clearing counters.  With fewer than the
+// others, two or three digits of 8 bits leave so few equal keys that ordering these costs less than one digit
+// more, or than counters for digits of 11 bits.
 constexpr std::size_t kComparedVertices = 48;
 constexpr std::size_t kTwoDigitVertices = 500;
 constexpr std::size_t kThreeDigitVertices = 3000;
@@ -50,7 +51,7 @@ void HeightOrder::sort(const Vec3& d) {
   } else {
     radix_sort<11, 3>();
   }
-  settle_equal_keys();
+  resolve_ties();
   for (std::size_t r = 0; r < vertices; ++r) {
     order_[r] = entries_[r].vertex;
     height_[r] = rounded_[entries_[r].vertex];
@@ -105,7 +106,7 @@ void HeightOrder::radix_sort() {
 }
 
 // Keys hold the first bits of the heights; what they leave equal is compared in full.
-void HeightOrder::settle_equal_keys() {
+void HeightOrder::resolve_ties() {
   const auto full = [this](const Entry& a, const Entry& b) { return below(a.vertex, b.vertex); };
   for (std::size_t first = 0; first < entries_.size();) {
     std::size_t last = first + 1;

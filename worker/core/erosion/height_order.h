@@ -9,9 +9,9 @@ namespace affskel::core {
 
 /// Sorts the vertices of a mesh by height d.y, direction after direction.
 ///
-/// Heights are rounded to multiples of 2^-44 (coordinates are at most 1/2 in size), so that the vertices of
-/// a level face tie although their products round differently.  Ties are broken as by an infinitely
-/// small tilt of d, then by index: a level face then has one lowest vertex, not a scatter of false minima.
+/// Heights are rounded to multiples of 2^-44 (coordinates are at most 1/2), so that the vertices of a level
+/// face tie although their products round differently.  Ties are broken by height along a fixed tilt, then by
+/// index: so a level face has one lowest vertex, and no false minima.
 class HeightOrder {
  public:
   explicit HeightOrder(const std::vector<Vec3>& points);
@@ -32,7 +32,7 @@ class HeightOrder {
   void comparison_sort();
   template <int bits, int passes>
   void radix_sort();
-  void settle_equal_keys();
+  void resolve_ties();
   bool below(std::uint32_t a, std::uint32_t b) const;
 
   std::vector<double> x_, y_, z_;

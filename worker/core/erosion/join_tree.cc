@@ -1,10 +1,14 @@
 // Notation (see README.md in worker/core).  d: the direction; h(y) = d.y; ranks order the vertices by height.
 // A(t) is the area of a component's section at height t, V(t) its integral, the component's volume below t.
-// A is quadratic between vertices; what changes at them is prepared by section_bends.
+// A is quadratic between vertices; section_bends prepares what changes at them.
+//
+// Why the surface alone is enough.  Components of the solid merge only at points of its boundary, where the
+// surfaces merge, too.  Below an inner minimum, the line segment to the point that its ray meets stays in V:
+// so both lie in one component.
 //
 // A surface that crosses itself bounds the region that it winds round at least once, with overlaps counted
-// twice in volumes.  Components of that region are those of the surface's parts, joined where parts cross
-// (at_crossing) and where one is born inside another (nested minima, treated as inner ones).
+// twice in volumes.  Its components are joined where triangles cross (at_crossing) and where one is born
+// inside another (nested minima, which are treated as inner minima).
 #include "core/erosion/join_tree.h"
 
 #include <algorithm>
@@ -24,20 +28,19 @@ namespace {
 constexpr std::uint32_t kNone = SectionBends::kNone;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kThinRim = 1e-9;  // radians: what angle-weighted normals sum up to
-// Small trees get about this many cells in all: filling them costs less than the chords they save.
-constexpr std::uint32_t kFewCells = 1024;
-// Vertices in the order of their heights lie all over the memory of a large mesh; asking for them this many
-// ahead hides the wait.
+// Small trees get about this many bins in all: filling them costs less than the chords they save.
+constexpr std::uint32_t kMinBins = 1024;
+// Vertices are prefetched this many ahead: in the order of their heights they are scattered over memory.
 constexpr std::uint32_t kAhead = 16;
 
-// The exact A' and A'' / 2 of one component at its last cubic, which has them rounded.  Nearly level
-// triangles make these two huge until they cancel; A and V stay moderate, and the cubic's own are good
-// enough.
+// The exact A' and A'' / 2 of one component at its last cubic, which holds them rounded.  Nearly level
+// triangles make these two huge until they cancel; A and V stay moderate, and need no second double.
 struct Running {
   DoubleSum slope, bend;
 };
 
-// Up to `height` from the last cubic; adds volume, area and the exact values there to `sum` and `exact`.
+// Moves a component from its last cubic up to `height`: adds volume and area to `sum`, the derivatives to
+// `exact`.
 inline void advance(const Running& running, const Cubic& last, double height, Cubic& sum, Running& exact) {
   sum.volume += last.volume_at(height);
   sum.area += last.area_at(height);
@@ -57,12 +60,12 @@ struct Topology {
   std::vector<std::uint32_t> current;  // union-find: towards the arc that now holds this one
 };
 
-// Adds up the coefficients vertex by vertex and writes the cubics; returns the most negative step of a
+// Adds up the coefficients vertex by vertex and writes the cubics; returns the most negative change of a
 // volume.
 double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends& bends,
                     const Topology& topology, std::vector<Running>& running, JoinTree& tree) {
   constexpr double kThird = 1.0 / 3;
-  double least_step = 0;
+  double min_volume_change = 0;
   auto jump = bends.jumps.begin();
   for (std::uint32_t r = 0; r < order.size(); ++r) {
     if (r + kAhead < order.size()) {
@@ -96,11 +99,11 @@ double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends&
     }
     cubic.half_slope = 0.5 * exact.slope.value();
     cubic.sixth_bend = kThird * exact.bend.value();
-    least_step = std::min(least_step, cubic.volume - before);
+    min_volume_change = std::min(min_volume_change, cubic.volume - before);
     running[a] = exact;
     tree.cubics[arc.last_cubic] = cubic;
   }
-  return least_step;
+  return min_volume_change;
 }
 
 }  // namespace
@@ -126,9 +129,9 @@ class JoinTreeBuilder::Work {
     find_arcs();
     lay_out_cubics();
     running_.resize(tree_.arcs.size());
-    tree_.least_step = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
-    fill_cells();
-    if (options_.crosses_itself) lower_cells();
+    tree_.min_volume_change = pass_volumes(heights_.order(), vertex_, topology_, running_, tree_);
+    fill_bins();
+    if (options_.crosses_itself) lower_bins();
     for (std::size_t t = 0; t < vertex_.lowest.size(); ++t) {
       tree_.triangle_arc[input_.original_triangle[t]] = topology_.vertex_arc[vertex_.lowest[t]];
     }
@@ -226,10 +229,10 @@ class JoinTreeBuilder::Work {
     return join_meeting(r);
   }
 
-  // Where the surface crosses itself the parts of the solid on both sides overlap and are one.  Joined at
-  // the lower ends of the two triangles, at most their height too early: that makes single chords too large,
-  // which other directions put right, and none too small, which nothing would.  The later of the two lower
-  // ends joins them: only triangles that begin here can cross one that nobody has joined with them yet.
+  // Where two triangles cross, the regions on both sides are one.  They are joined at the higher of the two
+  // triangles' lowest corners: only triangles that begin at v can cross one that nobody has joined with them
+  // yet.  That is early by at most a triangle's height.  Single chords become too large, which other
+  // directions put right; none becomes too small, which nothing would.
   std::uint32_t at_crossing(std::uint32_t r) {
     const std::uint32_t v = heights_.order()[r];
     meeting_.clear();
@@ -274,70 +277,70 @@ class JoinTreeBuilder::Work {
     }
   }
 
-  // Cells of equal height, as many as cubics or, in small trees, a multiple of that.  Entry c: the last cubic
-  // in a cell before c, else the first cubic, which therefore reaches up to where cell c begins; one entry
-  // more after the last cell: the last cubic.
-  void fill_cells() {
+  // As many bins as cubics or, in small trees, a multiple of that.  Entry c: the last cubic that begins in a
+  // bin before c, or the first cubic; it therefore reaches up to where bin c begins.  One more entry after
+  // the last bin: the last cubic.
+  void fill_bins() {
     const auto cubics = static_cast<std::uint32_t>(tree_.cubics.size());
-    const std::uint32_t cells_per_cubic = cubics < kFewCells ? kFewCells / cubics : 1;
-    tree_.cells.resize(std::size_t{cubics} * cells_per_cubic + 2 * tree_.arcs.size());
-    tree_.cell_volume.resize(tree_.cells.size());
+    const std::uint32_t bins_per_cubic = cubics < kMinBins ? kMinBins / cubics : 1;
+    tree_.bins.resize(std::size_t{cubics} * bins_per_cubic + 2 * tree_.arcs.size());
+    tree_.bin_volume.resize(tree_.bins.size());
     std::uint32_t next = 0;
     for (Arc& arc : tree_.arcs) {
-      arc.first_cell = next;
-      arc.last_cell = next + (arc.last_cubic - arc.first_cubic) * cells_per_cubic;
-      fill_cells(arc);
-      next = arc.last_cell + 2;
+      arc.first_bin = next;
+      arc.last_bin = next + (arc.last_cubic - arc.first_cubic) * bins_per_cubic;
+      fill_bins(arc);
+      next = arc.last_bin + 2;
     }
   }
 
-  // Without a branch: how many cubics fall into a cell cannot be foreseen.
-  void fill_cells(Arc& arc) {
-    const std::uint32_t last = arc.last_cubic - arc.first_cubic, last_cell = arc.last_cell - arc.first_cell;
+  // Without a branch, for the processor could not predict how many cubics fall into a bin.
+  void fill_bins(Arc& arc) {
+    const std::uint32_t last = arc.last_cubic - arc.first_cubic, last_bin = arc.last_bin - arc.first_bin;
     const Cubic* cubics = &tree_.cubics[arc.first_cubic];
     const double span = cubics[last].height - cubics[0].height;
     arc.bottom = cubics[0].height;
-    arc.cell_scale = span > 0 ? last_cell / span : 0;
-    const double side = span > 0 ? span / last_cell : 0;
-    std::uint32_t* entry = &tree_.cells[arc.first_cell];
-    double* volume = &tree_.cell_volume[arc.first_cell];
-    std::fill(entry, entry + last_cell + 2, 0);
+    arc.bin_scale = span > 0 ? last_bin / span : 0;
+    const double side = span > 0 ? span / last_bin : 0;
+    std::uint32_t* entry = &tree_.bins[arc.first_bin];
+    double* volume = &tree_.bin_volume[arc.first_bin];
+    std::fill(entry, entry + last_bin + 2, 0);
     for (std::uint32_t i = 0; i <= last; ++i) {
-      entry[JoinTree::cell(arc, cubics[i].height) - arc.first_cell + 1] = i;
+      entry[JoinTree::bin(arc, cubics[i].height) - arc.first_bin + 1] = i;
     }
     std::uint32_t before = 0;
-    for (std::uint32_t c = 0; c <= last_cell; ++c) {
+    for (std::uint32_t c = 0; c <= last_bin; ++c) {
       before = std::max(before, entry[c]);
       entry[c] = arc.first_cubic + before;
       volume[c] = cubics[before].volume_at(std::min(arc.bottom + c * side, cubics[last].height));
     }
-    entry[last_cell + 1] = arc.last_cubic;
-    volume[last_cell + 1] = cubics[last].volume;
+    entry[last_bin + 1] = arc.last_cubic;
+    volume[last_bin + 1] = cubics[last].volume;
   }
 
-  // Where volumes may fall, a cell's entry becomes the least volume from there on, up to the root.
-  void lower_cells() {
+  // Where volumes may fall, the volume of a bin becomes the least one from there up to the root.
+  void lower_bins() {
     for (std::size_t a = tree_.arcs.size(); a-- > 0;) {  // parents before their children
       const Arc& arc = tree_.arcs[a];
       const bool root = arc.parent == Arc::kNone;
-      double least = root ? kInfinity : tree_.cell_volume[tree_.arcs[arc.parent].first_cell];
+      double least = root ? kInfinity : tree_.bin_volume[tree_.arcs[arc.parent].first_bin];
       double end = root ? tree_.cubics[arc.last_cubic].height : arc.top;
       std::uint32_t p = arc.last_cubic;  // `least` is for what lies above this cubic, which ends at `end`
-      for (std::uint32_t c = arc.last_cell + 2; c-- > arc.first_cell;) {
-        for (; p > tree_.cells[c]; --p) {
+      for (std::uint32_t c = arc.last_bin + 2; c-- > arc.first_bin;) {
+        for (; p > tree_.bins[c]; --p) {
           const Cubic& cubic = tree_.cubics[p];
           least = std::min(least, cubic.volume - fall(cubic, end));
           end = cubic.height;
         }
         const Cubic& cubic = tree_.cubics[p];
         const double own = fall(cubic, end);
-        double& volume = tree_.cell_volume[c];
+        double& volume = tree_.bin_volume[c];
         volume = std::min(least, own > tolerance_ ? cubic.volume - own : volume);
       }
     }
   }
 
-  // At most so much V falls between a cubic's beginning and its end.
+  // The most by which V falls between a cubic's beginning and its end.
   static double fall(const Cubic& cubic, double end) {
     const double b = cubic.half_slope, c3 = 3 * cubic.sixth_bend, width = end - cubic.height;
     double least = std::min(cubic.area, cubic.area_at(end));
@@ -350,8 +353,8 @@ class JoinTreeBuilder::Work {
       throw_invariant(std::to_string(tree_.roots) + " roots for " +
                       std::to_string(input_.solid_volume.size()) + " solids");
     }
-    if (tree_.least_step < -tolerance_) {
-      throw_invariant("the volume falls by " + std::to_string(-tree_.least_step / input_.volume) +
+    if (tree_.min_volume_change < -tolerance_) {
+      throw_invariant("the volume falls by " + std::to_string(-tree_.min_volume_change / input_.volume) +
                       " v0 along an arc");
     }
     for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {

@@ -28,8 +28,8 @@ struct Cubic {
   }
 };
 
-/// An arc of the tree: one component from the height where it is born or where others merge into it up
-/// to `top`, where it merges into `parent`.
+/// An arc of the tree: one component from the height where it is born, or where others merge into it, up to
+/// `top`, where it merges into `parent`.
 struct Arc {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   double top = 0;                 ///< +infinity for a root
@@ -37,9 +37,9 @@ struct Arc {
   std::uint32_t parent = kNone;   ///< kNone for a root
   std::uint32_t first_cubic = 0;  ///< cubics [first_cubic, last_cubic], by height; at least one
   std::uint32_t last_cubic = 0;
-  std::uint32_t first_cell = 0;  ///< of the look-up table, see JoinTree::cell()
-  std::uint32_t last_cell = 0;
-  double cell_scale = 0;  ///< cells per unit of height
+  std::uint32_t first_bin = 0;  ///< of the look-up table: equal intervals of height, see JoinTree::bin()
+  std::uint32_t last_bin = 0;
+  double bin_scale = 0;  ///< number of bins per unit of height
 };
 
 /// The sublevel join tree of a solid for one direction d: the components of {y in V : d.y <= t} as t
@@ -47,14 +47,14 @@ struct Arc {
 struct JoinTree {
   std::vector<Arc> arcs;
   std::vector<Cubic> cubics;
-  /// Per cell, and one more per arc: the least cubic of the cell's heights.
-  std::vector<std::uint32_t> cells;
-  /// Parallel to cells: V at the least height of the cell, or the least V from there on up to the root, where
-  /// volumes may fall (JoinTreeOptions).
-  std::vector<double> cell_volume;
+  /// Per bin, and one more per arc: the lowest cubic that any height of the bin may need.
+  std::vector<std::uint32_t> bins;
+  /// Parallel to bins: V at the bottom of the bin or, where volumes may fall (JoinTreeOptions), the least V
+  /// from there up to the root.
+  std::vector<double> bin_volume;
   std::vector<std::uint32_t> triangle_arc;  ///< per triangle: the arc that its lowest vertex lies on
   std::uint32_t roots = 0;
-  double least_step = 0;  ///< the most negative change of volume between neighbouring cubics, scaled units
+  double min_volume_change = 0;  ///< of V from one cubic of an arc to the next, scaled units; <= 0
 
   /// The arc at height h of the component that holds the lowest vertex of `triangle`.
   std::uint32_t climb(std::uint32_t triangle, double h) const {
@@ -63,21 +63,21 @@ struct JoinTree {
     return arc;
   }
 
-  /// The look-up table's cell for height h of the arc.  Grows with h.
-  static std::uint32_t cell(const Arc& arc, double h) {
-    const double c = (h - arc.bottom) * arc.cell_scale;
-    const std::uint32_t last = arc.last_cell - arc.first_cell;
-    return arc.first_cell + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
+  /// The look-up table's bin for height h of the arc.  Grows with h.
+  static std::uint32_t bin(const Arc& arc, double h) {
+    const double c = (h - arc.bottom) * arc.bin_scale;
+    const std::uint32_t last = arc.last_bin - arc.first_bin;
+    return arc.first_bin + (c > 0 ? (c < last ? static_cast<std::uint32_t>(c) : last) : 0);
   }
 
-  /// A lower bound of V at h and everywhere above on the way to the root, within twice
-  /// TreeInput::volume_tolerance().  Close to V at h, unless V falls further up.  One look-up.
-  double volume_below(const Arc& arc, double h) const { return cell_volume[cell(arc, h)]; }
+  /// A lower bound of V at h and at all heights above it, up to the root, within twice
+  /// TreeInput::volume_tolerance().  Close to V at h unless V falls further up.  One look-up.
+  double volume_below(const Arc& arc, double h) const { return bin_volume[bin(arc, h)]; }
 
   /// The cubic of `arc` that holds height h: the last one that starts at or below h, else the first.
   const Cubic& locate(const Arc& arc, double h) const {
-    // It lies between the entries of h's cell and of the next one.
-    const std::uint32_t* entry = &cells[cell(arc, h)];
+    // It lies between the entries of h's bin and of the next one.
+    const std::uint32_t* entry = &bins[bin(arc, h)];
     const Cubic* first = &cubics[entry[0]];
     const Cubic* last = &cubics[entry[1]];
     while (last - first > 8) {
@@ -89,8 +89,8 @@ struct JoinTree {
   }
 };
 
-/// What all directions of a solid share: area vectors, fans, the ray hierarchy, and a copy of its mesh.
-/// Immutable; threads share it.
+/// What all directions of a solid share: area vectors, fans, a tree of boxes for rays, and a copy of the
+/// mesh.  Immutable; threads share it.
 class TreeInput {
  public:
   /// Computed on up to `threads` threads.
@@ -103,8 +103,8 @@ class TreeInput {
   /// Triangles and edges that rise less than this (scaled units) count as level.
   static constexpr double kLevelHeight = 1e-11;
 
-  /// By how much a computed volume may be off or fall along a run, scaled units: 1e-9 v0 and kLevelHeight
-  /// times the surface (which includes what the rounding of heights to 2^-44 moves it).
+  /// Largest error of a computed volume, and the most by which it may fall along a run, scaled units: 1e-9 v0
+  /// and kLevelHeight times the surface (which includes the rounding of heights to 2^-44).
   double volume_tolerance() const;
 
  private:
@@ -112,9 +112,9 @@ class TreeInput {
 };
 
 struct JoinTreeOptions {
-  /// Whether the surface crosses itself: what it winds round the other way counts as a negative volume, so
-  /// that volumes may fall.  Otherwise it is checked that the roots are as many as the solids and that every
-  /// root's volume at its top is its solid's, and that volumes never fall, both within
+  /// Whether the surface crosses itself.  Regions that it winds round the other way then count as negative
+  /// volumes, so that volumes may fall.  Otherwise it is checked that there are as many roots as solids, that
+  /// each root's volume at its top is its solid's, and that volumes never fall, both within
   /// TreeInput::volume_tolerance().
   bool crosses_itself = false;
 };

@@ -78,7 +78,7 @@ void add_exactly(const Corners& at, double p, SectionBends& out) {
   add_steeply(out, at.hi_link, end);
 }
 
-// Few triangles of most directions, all of some.
+// For most directions few triangles need this, for some directions all.
 __attribute__((noinline)) void add_nearly_level(const Corners& at, double p, SectionBends& out) {
   const bool low = at.mid.height - at.lo.height <= kLevel, high = at.hi.height - at.mid.height <= kLevel;
   if (at.hi.height - at.lo.height <= kLevel || (low && high)) {
@@ -92,7 +92,7 @@ __attribute__((noinline)) void add_nearly_level(const Corners& at, double p, Sec
   }
 }
 
-// Without a branch: which of two is the lower cannot be foreseen.
+// Without a branch, for the processor could not predict which of two is the lower.
 inline void put_in_order(std::uint64_t& a, std::uint64_t& b) {
   const std::uint64_t change = (a ^ b) & (std::uint64_t{0} - static_cast<std::uint64_t>(b < a));
   a ^= change;

@@ -22,15 +22,14 @@ struct SectionBends {
   using Pair = double __attribute__((vector_size(16)));  ///< a register's worth
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// In one piece, for triangles meet their vertices in any order: each is one access to memory.
+  /// Kept together: triangles meet their vertices in any order, and each visit is then one access to memory.
   struct alignas(32) Vertex {
     Pair bend = {0, 0};  ///< change of A'' / 2: the sum of multiples of a unit near v0, and of the rest
     double height = 0;
     std::uint32_t rank = 0;      ///< by height
     std::uint32_t down = kNone;  ///< some lower neighbour, kNone at a minimum
   };
-  /// What only middle corners and those of nearly level triangles change, apart so that the above stays
-  /// small.
+  /// Data that few visits need: only those of middle corners and of nearly level triangles.
   struct Link {
     std::uint32_t middles = 0;    ///< triangles it is the middle corner of: 2 per lower link component
     std::uint32_t steep = kNone;  ///< index into steep_bend, kNone when it has none
@@ -42,7 +41,7 @@ struct SectionBends {
   std::vector<std::uint32_t> lowest;  ///< per triangle: its lowest corner
   std::vector<Jump> jumps;            ///< by rank
 
-  /// Asks the memory for what is known of a vertex.
+  /// Prefetches the data of a vertex.
   void prefetch(std::uint32_t vertex) const {
     __builtin_prefetch(&vertices[vertex]);
     __builtin_prefetch(&links[vertex]);

@@ -22,9 +22,9 @@ void store(double& shared, double value) {
   std::atomic_ref<double>(shared).store(value, std::memory_order_relaxed);
 }
 
-// A chord to 36 significant bits.  Of a solid that is its own mirror image two directions have equal chords,
-// but for the last bits: which of them is the lesser would change from point to point, and with it the
-// normal. Rounded they tie, and the lesser index decides.  Never changes the order of two chords.
+// A chord with 36 significant bits.  Where a solid is its own mirror image, two directions have chords that
+// are equal but for the last bits.  Unrounded, the lesser of the two, and with it the normal, would change
+// from point to point.  Never changes the order of two chords.
 double rounded(double volume) {
   constexpr int kDropped = 17;
   const auto bits = std::bit_cast<std::uint64_t>(volume) + (std::uint64_t{1} << (kDropped - 1));
@@ -55,7 +55,7 @@ class Sweeper::Pass {
   }
 
  private:
-  // The flattest axis: V hardly changes along its runs, so that one chord speaks for all their points.
+  // The axis nearest to level: V hardly changes along its runs, so that one test decides for many points.
   std::size_t choose_axis() const {
     std::size_t best = 0;
     double best_slope = kInfinity;
@@ -80,7 +80,7 @@ class Sweeper::Pass {
     return a == 2 ? run.first + offset : owner_.lattice_.axis[a].order[run.first + offset];
   }
 
-  // The arc that holds the component of the run's lowest point, or one below it.
+  // The arc of the component at the run's lowest point, or an arc below it.
   const Arc* first_arc(const LatticeRun& run, bool rising) const {
     return &tree_.arcs[tree_.triangle_arc[rising ? run.low : run.high]];
   }
@@ -89,7 +89,7 @@ class Sweeper::Pass {
     while (h >= arc->top) arc = &tree_.arcs[arc->parent];
   }
 
-  // Whether a point at height h on the arc, or any above it on its run, has a greater chord than `bound`.
+  // Whether the chords of all points of the run from height h upward exceed `bound`.
   bool exceeds(const Arc& arc, double h, double bound) const {
     return tree_.volume_below(arc, h) > bound + owner_.options_.margin;
   }
@@ -98,8 +98,8 @@ class Sweeper::Pass {
     ++counts_.evaluated;
     const Cubic& cubic = tree_.locate(arc, h);
     double volume = cubic.volume_at(h);
-    // Rounding may leave a little less than nothing.
-    if (volume < 0) volume = volume < -owner_.options_.margin ? owner_.options_.whole : 0;
+    // Rounding may give a small negative volume.
+    if (volume < 0) volume = volume < -owner_.options_.margin ? owner_.options_.solid_volume : 0;
     volume = rounded(volume);
     if (!owner_.field_.may_improve(p, volume)) return;
     const double area = cubic.area_at(h);
@@ -123,7 +123,7 @@ class Sweeper::Pass {
     return a == 1 ? pruned_runs<1, rising>() : pruned_runs<2, rising>();
   }
 
-  // Heights of a run's points, as height() gives them; what its points share is computed once.
+  // Heights of a run's points, equal to those of height(); computes what they share once.
   template <std::size_t a>
   class RunHeights {
    public:
@@ -144,8 +144,8 @@ class Sweeper::Pass {
     std::uint32_t start_;
   };
 
-  // Whether a test holds is hard to foresee, and a wrong guess costs the processor more than the test: what
-  // passes is listed without a branch, here and in pruned_segment(), and worked off afterwards.
+  // The processor cannot predict how a test ends, and a wrong guess costs more than the test.  So candidates
+  // are listed without a branch, here and in pruned_segment(), and evaluated afterwards.
   template <std::size_t a, bool rising>
   void pruned_runs() {
     const std::vector<LatticeRun>& runs = owner_.lattice_.axis[a].runs;
@@ -179,7 +179,7 @@ class Sweeper::Pass {
     AxisBounds& bounds = owner_.bounds_[a];
     const LatticeRun& run = owner_.lattice_.axis[a].runs[r];
     const RunHeights<a> heights(*this, run);
-    // A run of one segment: what was tested for it holds for the segment, too.
+    // The test of a run of one segment holds for the segment.
     store(bounds.run[r],
           run.length <= kSegment
               ? pruned_segment<a, rising>(run, heights, 0, run.length, arc)

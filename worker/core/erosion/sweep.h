@@ -11,9 +11,9 @@
 namespace affskel::core {
 
 struct SweepOptions {
-  bool prune = true;  ///< false: evaluate every point (yardstick and test of the pruning; same result)
-  double margin = 0;  ///< scaled volume; computed chords may fall along a run by at most this
-  double whole = 0;   ///< scaled volume of V: stands for chords that come out negative, see sweep()
+  bool prune = true;        ///< false: evaluate every point (to measure and test the pruning; same result)
+  double margin = 0;        ///< scaled volume by which computed chords may fall along a run
+  double solid_volume = 0;  ///< scaled volume of V, offered for negative chords, see sweep()
 };
 
 /// Counts of what sweeps did.
@@ -28,19 +28,19 @@ struct SweepCounts {
   }
 };
 
-/// Offers chord(x, d) of all sample points to a field, direction after direction, leaving out points that
-/// cannot improve: where the least volume from the first point of a run (or of one of its segments) on
-/// upwards, JoinTree::volume_below, exceeds the largest E in it by more than the margin, none of its points
-/// can improve.  The field after all directions is the same whatever was pruned.
+/// Offers chord(x, d) of all sample points to a field, direction after direction.  Skips points that cannot
+/// improve: if JoinTree::volume_below at the first point of a run, or of one of its segments, exceeds the
+/// largest E in it by more than the margin, none of its points can.  The field after all directions is the
+/// same whatever was skipped.
 ///
 /// Shared by threads: bounds are atomic and may be out of date, which only costs time.
 class Sweeper {
  public:
   Sweeper(const Lattice& lattice, ErosionField& field, const SweepOptions& options);
 
-  /// Direction number `index`, unit vector d, with its tree.  Chords are offered to 36 significant bits, so
-  /// that those of mirror images, which differ by rounding alone, tie and the index decides.  Chords below
-  /// -margin, which only a mesh that crosses itself gives, say nothing: the whole volume is offered for them.
+  /// Direction number `index`, unit vector d, with its tree.  Chords are offered with 36 significant bits, so
+  /// that those of mirror images, which differ by rounding alone, tie and the index decides.  A chord below
+  /// -margin occurs only where a mesh crosses itself, and means nothing: the volume of V is offered instead.
   SweepCounts sweep(const JoinTree& tree, const Vec3& d, std::uint32_t index);
 
  private:

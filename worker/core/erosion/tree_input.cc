@@ -13,7 +13,7 @@
 namespace affskel::core {
 namespace {
 
-// Of the plain kind: which side of a vertex the solid lies on is decided by these.
+// Not by libm: which side of a vertex the solid lies on is decided by these angles.
 double angle_between(const Vec3& a, const Vec3& b) {
   return plain_angle(norm(cross(a, b)), dot(a, b));
 }
@@ -122,14 +122,14 @@ void TreeInput::Data::find_crossings(const Solid& solid) {
 }
 
 void TreeInput::Data::find_nested(unsigned threads) {
-  constexpr double kStep = 1e-7;  // far less than the spacing of any lattice
+  constexpr double kOffset = 1e-7;  // far less than the spacing of any lattice
   const SolidMembership membership(mesh);
   nested.resize(mesh.points.size());
   parallel_ranges(threads, nested.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const double length = norm(pseudonormal[v]);
       if (length == 0) continue;
-      nested[v] = membership.contains(mesh.points[v] + (kStep / length) * pseudonormal[v]);
+      nested[v] = membership.contains(mesh.points[v] + (kOffset / length) * pseudonormal[v]);
     }
   });
 }

@@ -10,8 +10,8 @@
 
 namespace affskel::core {
 
-/// What TreeInput holds; for the sources of the join tree only.  Vertices and triangles have other indices
-/// than in the solid: those of many meshes go criss-cross, and every direction looks all of them up.
+/// What TreeInput holds; for the sources of the join tree only.  Vertices and triangles are numbered anew, so
+/// that neighbours are near in memory: every direction visits all of them.
 struct TreeInput::Data {
   Data(const Solid& solid, unsigned threads);
 
@@ -40,8 +40,8 @@ struct TreeInput::Data {
   std::vector<std::uint8_t> crosses;          ///< per vertex; empty unless the surface crosses itself
   std::vector<std::uint32_t> crossing_begin;  ///< per triangle and one more; likewise
   std::vector<std::uint32_t> crossing_triangles;
-  /// Per vertex: whether other parts of the surface wind round its outer side, so that the solid is there
-  /// too; empty unless the surface crosses itself.
+  /// Per vertex: whether its outer side lies inside the solid because another surface winds round it; empty
+  /// unless the surface crosses itself.
   std::vector<std::uint8_t> nested;
   std::vector<double> solid_volume;  ///< scaled units
   double volume = 0;                 ///< all solids, scaled units

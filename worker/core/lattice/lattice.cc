@@ -16,12 +16,12 @@
 namespace affskel::core {
 namespace {
 
-// So that max_points can be aimed at: v0 / dT^3 rounds.
+// Tolerance for rounding in v0 / dT^3, so that target_points may equal max_points.
 constexpr double kRounding = 1 + 1e-12;
 
 class LatticeBuilder {
  public:
-  // Of the options those that do not say where the points are.
+  // Of the options only those that do not say where the points are.
   LatticeBuilder(const Solid& solid, const LatticeGrid& grid, const LatticeOptions& options)
       : mesh_(solid.mesh), options_(options), threads_(options.threads), context_(options.context) {
     lattice_.grid = grid;
@@ -54,7 +54,7 @@ class LatticeBuilder {
     }
   };
 
-  // The triangle from crossing `c` upward where a line, within the solid so far, leaves it.
+  // The triangle where a line, inside the solid so far, leaves it at crossing `c` or above.
   static std::uint32_t exit_from(const LineCrossings& lines, std::uint64_t c, std::uint64_t end,
                                  Passage passage) {
     for (std::uint64_t e = c; e < end; ++e) {
@@ -121,8 +121,7 @@ class LatticeBuilder {
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
-    // Not filled first: with a great many points that alone takes seconds, in which nobody asks whether to
-    // stop.
+    // Left uninitialised: filling so much memory can take seconds, in which nobody asks whether to stop.
     const auto run_of = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
     const auto order = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
     const LatticeRun* first_run = lattice_.axis[2].runs.data();
@@ -224,7 +223,7 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
   return {solid.scale() * (high - low), f * (0.5 * (low + high))};
 }
 
-// The lattice of a spacing before it is filled.
+// The lattice of a spacing before its points are found.
 struct Plan {
   LatticeGrid grid;
   double lines = 0;
@@ -232,10 +231,9 @@ struct Plan {
   bool fits = false;    // within the limits; only then is there a grid
 };
 
-// An even number, or one: the middle planes of the box, where solids that are their own mirror images have
-// their skeletons, lie half-way between sample points.  At a point in the skeleton two chords are equal, and
-// which of them rounding takes for the lesser one would be chance.  None on the box itself, nor within
-// rounding of it.
+// An even number, or one: so the middle planes of the box, where mirror-symmetric solids have their
+// skeletons, lie half-way between sample points.  At a point in the skeleton two chords are equal, and
+// rounding would choose between them.  No point lies on the box itself, nor within rounding of it.
 double points_per_side(double steps) {
   constexpr double kShrunk = 1 - 1e-9;
   return steps * kShrunk > 1 ? 2 * std::ceil((steps * kShrunk - 1) / 2) : 1;
@@ -264,7 +262,7 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
   return plan;
 }
 
-// The least spacing that is within the limits: (v0 / points)^(1/3), or where dT^-1 has so many lines.
+// The least spacing within the limits: (v0 / max_points)^(1/3), or the one that has max_lines lines.
 double least_spacing(const Solid& solid, const FrameBox& box, const LatticeOptions& options) {
   const double by_points = cube_root(solid.volume / static_cast<double>(options.max_points));
   const double longest = std::max({box.sides.x, box.sides.y, box.sides.z});
@@ -274,12 +272,12 @@ double least_spacing(const Solid& solid, const FrameBox& box, const LatticeOptio
   return std::max(by_points, longest * (sum + std::sqrt(sum * sum + area * lines)) / lines);
 }
 
-// "about 1200", for what need not be a double any more.
+// A count for messages, "about 1200", of any size.
 std::string about(double number) {
   return std::isfinite(number) ? "about " + base::rounded(number, 3) : "more than 1e+308";
 }
 
-// The plan of a lattice within the limits.
+// The plan of a lattice that must lie within the limits.
 Plan fitting_plan(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
   const Plan plan = plan_lattice(solid, box, options, spacing);
   if (plan.fits) return plan;
@@ -293,8 +291,8 @@ Plan fitting_plan(const Solid& solid, const FrameBox& box, const LatticeOptions&
                       " lines are supported: take a spacing of " + least + " or more");
 }
 
-// Whether a lattice of so many points is to be searched for.  Too many by the volume are refused; lines that
-// a thin solid would not need are not.
+// Whether to search for a lattice of so many points although it does not fit: yes if only the lines are too
+// many, since a thin solid may not need them.
 bool may_search(const Plan& plan, const LatticeOptions& options) {
   return options.spacing == 0 && plan.estimate <= kRounding * static_cast<double>(options.max_points);
 }
@@ -337,7 +335,7 @@ std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOpt
 
 void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options) {
   const double spacing = wanted_spacing(solid, options);
-  // However the solid is turned, no side of its box is longer than this.  Some frames take minutes to find.
+  // In no orientation is a side of the box longer than this.  Tried first, because some frames take minutes.
   const double diagonal = kRounding * norm(solid.bbox_max - solid.bbox_min);
   const Plan largest = plan_lattice(solid, {{diagonal, diagonal, diagonal}, {}}, options, spacing);
   if (may_search(largest, options) || (largest.fits && kind != FrameKind::kAffine)) return;

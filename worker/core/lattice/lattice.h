@@ -34,8 +34,8 @@ struct LatticeRun {
 struct AxisRuns {
   std::vector<LatticeRun> runs;
   std::vector<std::uint32_t> order;  ///< sample points run by run; empty for axis 2, where it is 0, 1, 2, ...
-  /// Sample points within rounding of the surface that lie outside on their line along this axis: each is a
-  /// run of one point along axis 2 (low and high belong to axis 2; `first` is the point).
+  /// Sample points within rounding of the surface that lie outside on their line along this axis.  Each is a
+  /// run of one point along axis 2: low and high are those of axis 2, `first` is the point itself.
   std::vector<LatticeRun> strays;
 };
 
@@ -82,28 +82,27 @@ struct LatticeOptions {
   double point_bytes = 0;  ///< that the caller is going to take for every sample point
 };
 
-/// Lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
-/// bounding box in the frame's coordinates u = F^-1 (x - centre), and the watertight scan conversion of the
-/// solid in it: a point is inside when the surfaces below it along axis 2 enter more often than they leave
-/// (half-open, decided the same way from both triangles of every edge, so that the count of crossings of a
-/// line is always even).
+/// The lattice parallel to the axes of the frame, of step dT in the frame's units, centred on the solid's
+/// bounding box in the frame's coordinates u = F^-1 (x - centre), and the sample points in it (see
+/// scan_convert).  A point is inside when, along axis 2, the surfaces below it enter more often than they
+/// leave.
 ///
-/// Points lie half a dT, 3/2 dT, ... to either side of the box's middle planes as long as they are inside the
-/// box by more than 5e-10 of its side; where a side is at most dT, in its middle plane.  So no point lies in
-/// the middle planes of other solids: there a symmetric one has its skeleton.
-/// @throws CoreError kBadInput when spacing is not > 0 and finite or no point falls inside; kLimit, naming
-///   the least spacing within the limits, when more than max_points would, or there are more than max_lines,
-///   or before they take more than the memory budget; kCancelled when the context asks to stop.
+/// Places lie dT / 2, 3 dT / 2, ... to either side of the box's middle planes, as far as they are inside the
+/// box by more than 5e-10 of its side; where a side is at most dT, in its middle plane.  So no place lies in
+/// the middle planes of other solids, where symmetric ones have their skeleton.
+/// @throws CoreError kBadInput when spacing is not > 0 and finite, or no point falls inside; kLimit, naming
+///   the least spacing within the limits, when there would be more than max_points or max_lines, or lattice
+///   and caller would take more than the memory budget; kCancelled when the context asks to stop.
 Lattice make_lattice(const Solid& solid, const LatticeOptions& options);
 
-/// Checks the limits of make_lattice before a lattice is made, and throws what that would throw.  The frame
-/// is computed only when the answer depends on it.  Not found out: whether a point falls inside, and whether
-/// a search for target_points ends within the limits.
+/// Throws what make_lattice would throw for its limits, before a lattice is made.  Does not find out whether
+/// a point falls inside, nor whether the search for target_points ends within the limits.  The frame is
+/// computed only when the answer depends on it.
 /// @param options `frame` is not used.
 void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 
 /// How many sample points make_lattice would give for options.spacing, by one scan conversion; nothing when
-/// it would refuse them as too many, or too many lines.
+/// there would be more points or lines than the limits.
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given grid in scaled coordinates; axes need not be orthogonal or of equal length.

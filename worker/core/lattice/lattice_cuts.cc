@@ -1,3 +1,6 @@
+// Watertight scan conversion along the seven steps: a diagonal is an axis of a sheared grid of the same
+// lattice.  A sheared grid of a long lattice has the square of its length in lines, so only those that the
+// surface meets are kept.
 #include "core/lattice/lattice_cuts.h"
 
 #include <algorithm>

@@ -18,19 +18,16 @@ struct LatticeCut {
   bool gap = false;        ///< it leaves the solid and enters it again
 };
 
-/// The crossings of the surface with the edges of the Freudenthal (Kuhn) split of a lattice: those from
-/// place (i, j, k) to (i + a, j + b, k + c), where a, b, c are 0 or 1 and `step` = 4a + 2b + c, 1 to 7.
-/// Places go from -1 to dims: one layer more on every side.
+/// The crossings of the surface with the edges of the Freudenthal (Kuhn) split of a lattice: those from place
+/// (i, j, k) to (i + a, j + b, k + c), where a, b, c are 0 or 1 and `step` = 4a + 2b + c, 1 to 7.  Places go
+/// from -1 to dims: one layer more on every side.
 ///
-/// Watertight scan conversion along the seven steps (a diagonal is an axis of a sheared grid of the same
-/// lattice), so along the axes these are the crossings that made the lattice's runs.  Along the other steps a
-/// line may disagree, within rounding of the surface, with the lattice about what is inside: an edge can
-/// then have an end inside, one outside, and no cut.
+/// Along the axes these are the crossings that made the lattice's runs.  Along the diagonals a line may
+/// disagree with the lattice about what is inside, within rounding of the surface: an edge can then have one
+/// end inside and no cut.
 ///
-/// Memory in the order of the mesh's vertices and of the crossings, whatever the shape of the lattice: a
-/// sheared grid of a long lattice has the square of its length in lines, so only those that the surface
-/// meets are kept.  Time in that order, but for sorting the crossings, and in that of the lengths of the
-/// mesh's triangles in steps.
+/// Memory in the order of the mesh's vertices and of the crossings, whatever the lattice; time likewise, and
+/// in the order of the triangles' lengths in steps.
 class LatticeCuts {
  public:
   LatticeCuts(const Solid& solid, const Lattice& lattice);

@@ -1,3 +1,12 @@
+// Most solids have the target at dT = (v0 / target)^(1/3), which make_lattice tries first.  Solids thinner
+// than that do not: a plate between two layers of points has none, one that a layer runs through has too
+// many, and the number of points jumps as dT changes and need not fall as dT grows.  So from `first` dT is
+// doubled or halved until the target is bracketed, and the bracket halved in the logarithm until a lattice is
+// near.
+//
+// Where none is, and first of all for foils, spacings round (A / 2 target)^(1/2) are tried, A the area of the
+// surface: one layer through the middle of all that is thin.  If that fails, too (two layers have twice the
+// points of one), the nearest lattice that was met is taken.
 #include "core/lattice/point_spacing.h"
 
 #include <cmath>
@@ -9,13 +18,13 @@ namespace affskel::core {
 namespace {
 
 constexpr int kMaxDoublings = 60;
-constexpr int kMaxHalvings = 24;  // of the bracket in the logarithm: to a part in 10^7
-constexpr int kSteps = 24;        // to either side of the spacing for single layers ...
-constexpr double kStep = 0.004;   // ... in the logarithm: 10 %
+constexpr int kMaxHalvings = 24;      // of the bracket in the logarithm: to a part in 10^7
+constexpr int kTrials = 24;           // to either side of the spacing of single layers
+constexpr double kTrialStep = 0.004;  // between two of them, in the logarithm: 10 % in all
 
-constexpr double kMany = 4;  // thicknesses of a foil
+constexpr double kFoilRatio = 4;  // of the spacing to the mean thickness of a foil
 
-// Of the surface.
+// Area of the surface.
 double scaled_area(const Solid& solid) {
   const std::vector<Vec3>& p = solid.mesh.points;
   double sum = 0;
@@ -59,7 +68,7 @@ class SpacingSearch {
 
   void try_single_layers() {
     const double middle = single_layer_spacing();
-    for (int i = -kSteps; i <= kSteps && !found_; ++i) too_many(middle * plain_exp(i * kStep));
+    for (int i = -kTrials; i <= kTrials && !found_; ++i) too_many(middle * plain_exp(i * kTrialStep));
   }
 
   // A lattice beyond the limits has too many.
@@ -73,8 +82,8 @@ class SpacingSearch {
   void consider(double spacing, std::uint32_t points) {
     const double ratio = static_cast<double>(points) / static_cast<double>(options_.target_points);
     const double miss = ratio > 1 ? ratio : 1 / ratio;
-    if (miss >= least_miss_) return;
-    least_miss_ = miss;
+    if (miss >= min_miss_) return;
+    min_miss_ = miss;
     best_ = spacing;
     found_ = is_near(points, options_.target_points);
   }
@@ -82,15 +91,15 @@ class SpacingSearch {
   const Solid& solid_;
   LatticeOptions options_;
   double best_;
-  double least_miss_ = std::numeric_limits<double>::infinity();
+  double min_miss_ = std::numeric_limits<double>::infinity();
   bool found_ = false;
 };
 
 }  // namespace
 
 bool is_foil(const Solid& solid, double spacing) {
-  const double inner_volume = std::ldexp(solid.volume, -3 * solid.exponent);
-  return spacing > kMany * solid.scale() * 2 * inner_volume / scaled_area(solid);
+  const double scaled_volume = std::ldexp(solid.volume, -3 * solid.exponent);
+  return spacing > kFoilRatio * solid.scale() * 2 * scaled_volume / scaled_area(solid);
 }
 
 bool is_near(std::uint64_t points, std::uint64_t target) {

@@ -1,3 +1,7 @@
+// Notation.  g(y) are the lattice coordinates of y; a triangle is projected along the axis to (u, v); a row
+// is an integer v.  An edge crosses the row when exactly one end has v' <= v (ends compared exactly).  Its u
+// on the row is computed from its lower end, so both triangles of the edge get the same number.  A triangle
+// covers the integers between the u of its two crossing edges, lower bound included.
 #include "core/lattice/scan_conversion.h"
 
 #include <algorithm>
@@ -89,7 +93,7 @@ class Scanner {
             static_cast<std::int64_t>(std::ceil(std::clamp(high, 0.0, limit)))};
   }
 
-  // The crossings of all triangles, in as many parts as threads.
+  // The crossings of all triangles, one list per thread.
   std::vector<std::vector<CrossingOnLine>> find_crossings() const {
     std::vector<std::vector<CrossingOnLine>> found(std::max(1U, threads_));
     const std::size_t count = mesh_.triangles.size();

@@ -22,12 +22,8 @@ struct LineCrossings {
   std::vector<Crossing> crossings;
 };
 
-/// Watertight scan conversion of the surface along `axis`.  Notation: g(y) are the lattice coordinates
-/// of y, the triangle is projected along the axis to (u, v); a row is an integer v.  An edge crosses the
-/// row when exactly one end has v' <= v (ends compared exactly); its u on the row is computed from its
-/// lower end, so both triangles of the edge get the same number, and a triangle covers the integers
-/// between the u of its two crossing edges, lower bound included.  Every line therefore enters each
-/// closed surface as often as it leaves it, whatever the rounding.  On up to `threads` threads.
+/// Watertight scan conversion of the surface along `axis`: every line enters each closed surface as often as
+/// it leaves it, whatever the rounding.  On up to `threads` threads.
 /// @throws CoreError kCancelled when the context, if there is one, asks to stop.
 LineCrossings scan_convert(const Mesh& mesh, const LatticeGrid& grid, int axis, unsigned threads = 1,
                            ExecutionContext* context = nullptr);
@@ -38,8 +34,8 @@ struct CrossingOnLine {
   Crossing crossing;
 };
 
-/// The same crossings line by line, without a word for the lines that the surface does not meet: for frames
-/// with far more lines than those.  Memory in the order of the vertices and the crossings.
+/// The same crossings line by line, only for lines that the surface meets: for grids with far more lines than
+/// those.  Memory in the order of the vertices and the crossings.
 std::vector<CrossingOnLine> scan_convert_lines_met(const Mesh& mesh, const LatticeGrid& grid, int axis,
                                                    ExecutionContext* context = nullptr);
 

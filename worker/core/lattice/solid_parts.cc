@@ -12,7 +12,7 @@ SolidParts::SolidParts(const Solid& solid, const Lattice& lattice) : solid_(soli
   };
   DisjointSets sets(solid.solid_volume.size());
   for (const auto& [a, b] : solid.crossings) sets.unite(solid_of(a), solid_of(b));
-  // A set's least member comes first, and so has its number when the others ask for it.
+  // A set is named by its least member, which therefore has its number before the others ask for it.
   for (std::uint32_t s = 0; s < solid.solid_volume.size(); ++s) {
     const std::uint32_t least = sets.find(s);
     part_of_solid_.push_back(least == s ? count_++ : part_of_solid_[least]);

@@ -68,7 +68,7 @@ bool same_triangle(const Mesh& mesh, std::uint32_t s, std::uint32_t t) {
   return a == b;
 }
 
-// The worst of an edge census, for one message.
+// Counts open and crowded edges, names the first of each, and repeated triangles.
 class EdgeDefects {
  public:
   EdgeDefects(const Mesh& mesh, const TrianglePlace& place) : mesh_(mesh), place_(place) {}

@@ -20,8 +20,8 @@ using TrianglePlace = std::function<std::string(std::uint32_t triangle)>;
 ///   the same triangle twice; the message counts them and names the first place.
 HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place);
 
-/// The same into `mates`, without an error: false when some edge has not two different triangles.  On up to
-/// `threads` threads.
+/// The same into `mates`, without an error: false when some edge does not have two different triangles.  On
+/// up to `threads` threads.
 bool find_mates_if_closed(const Mesh& mesh, unsigned threads, HalfEdges& mates);
 
 /// Whether every edge has two triangles or more; cheaper than find_mates and without an error.

@@ -6,6 +6,10 @@
 namespace affskel::core {
 namespace {
 
+// How a diagonal comes to be an edge elsewhere: two quadrilaterals over the same two edges may both be cut
+// along the line between the edges' ends, and so hold one triangle twice; or the diagonal is the edge of two
+// triangles of other faces.  The surface then seems not to bound a solid, though its polygons do.
+
 // Both ends of an edge, the smaller first.
 std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
   return (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w);

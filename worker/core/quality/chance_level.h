@@ -15,11 +15,10 @@ struct ChanceLevelOptions {
   std::uint64_t seed = 1;
 };
 
-/// The chance level at a radius: the share of the solid's inside that lies within it of the skeleton, which
-/// is what points that know nothing of the skeleton would score.  Estimated from points drawn uniformly from
-/// the voxels of the sample points (equally many from each, to one; a seeded generator), those outside the
-/// solid dropped.  Sample points themselves would not do: no two of them are that near.  Without a lattice,
-/// or for all radii at once: interior_points.h.
+/// The chance level at a radius: the share of the solid's inside within it of the skeleton.  Estimated from
+/// points drawn uniformly from the voxels of the sample points (equally many from each, to one; a seeded
+/// generator), those outside the solid dropped; sample points themselves lie too far apart.  Without a
+/// lattice, or for all radii at once: interior_points.h.
 /// @param skeleton in coordinates of the lattice's frame (see frame_field.h), mesh units; not empty.
 /// @param solid of the lattice, in scaled coordinates.
 /// @return 0 .. 1; 0 when no draw falls inside.

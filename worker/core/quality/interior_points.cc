@@ -1,3 +1,5 @@
+// Lines are spread over the solid's box by the R2 sequence (Roberts 2018); each point lies somewhere in its
+// share of the length inside, by the golden ratio's sequence.
 #include "core/quality/interior_points.h"
 
 #include <algorithm>
@@ -73,7 +75,7 @@ class TurnedSolid {
   std::vector<std::pair<double, int>> crossings_;  // along the line; +1 into the solid, -1 out of it
 };
 
-// Half as many lines through the solid as points, so that neither lines nor the places on them stand out.
+// Half as many lines through the solid as points, so that the pattern shows neither lines nor rows on them.
 std::vector<Interval> inside_intervals(TurnedSolid& solid, std::uint32_t count) {
   std::vector<Interval> intervals;
   const std::uint64_t most = std::uint64_t{8} * count;
@@ -86,7 +88,7 @@ std::vector<Interval> inside_intervals(TurnedSolid& solid, std::uint32_t count) 
   return intervals;
 }
 
-// Point i stands for the lengths from i to i + 1 times the total / count, and lies somewhere there.
+// Of the total length, cut into `count` equal steps, point i lies somewhere in step i.
 std::vector<Vec3> spread(const std::vector<Interval>& intervals, std::uint32_t count) {
   double total = 0;
   for (const Interval& interval : intervals) total += interval.length;

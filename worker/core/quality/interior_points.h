@@ -12,11 +12,9 @@ struct InteriorPointsOptions {
   std::uint32_t count = 50000;  ///< > 0; this many
 };
 
-/// Points spread evenly over the inside of a solid, mesh units, however thin it is.  Lines along the solid's
-/// longest principal axis, spread over its box by the R2 sequence (Roberts 2018), are cut with the surface;
-/// the points lie on what is inside, as many per length on every line, each somewhere in its share of the
-/// length by the golden ratio's sequence.  Neither random nor periodic; only + - * / and sqrt.  At most
-/// 8 `count` lines are cut.
+/// Points spread evenly over the inside of a solid, mesh units, however thin it is: on lines along its
+/// longest principal axis, as many per length on every line.  Neither random nor periodic; only + - * / and
+/// sqrt.  At most 8 `count` lines are cut with the surface.
 /// The share_within(r) of their DistanceCurve (similarity.h) from a skeleton is the chance level at r (see
 /// chance_level.h).
 /// @throws CoreError kBadInput when the solid is so thin that none of the lines meets its inside.

@@ -1,3 +1,6 @@
+// b0 by union-find over the vertices that triangles use; b2 is the dimension of the closed surfaces modulo 2.
+// Triangles joined through edges of exactly two are taken as one patch, so that b2 is the number of patches
+// less the rank of the conditions that rims and branches put on them; b1 follows from V - E + F.
 #include "core/quality/sheet_topology.h"
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 
 namespace affskel::core {
 
-/// How far the points of one set lie from another set: the curve r -> share of the points within r, exactly,
-/// at any size: squares are taken of coordinates brought to one scale by a power of two.
+/// How far the points of one set lie from another set: the curve r -> share of the points within r.  Exact,
+/// for coordinates of any size.
 class DistanceCurve {
  public:
   /// @param from, to not empty; a distance is that from a point of `from` to the nearest point of `to`.

@@ -51,7 +51,7 @@ std::string on_threshold(std::vector<double> size, double threshold) {
   if (largest == 0) return found + ": the optimal normals do not change anywhere.";
   const auto wanted = size.begin() + static_cast<std::ptrdiff_t>(points_of_a_sheet(size.size()) - 1);
   std::nth_element(size.begin(), wanted, size.end(), std::greater<>());
-  // Below the wanted point's |H| by more than writing it in three digits can raise it.
+  // Lowered by 1 %, more than rounding to three digits can raise it.
   const double least = *wanted > 0 ? *wanted : largest;
   const std::string lower = base::rounded(0.99 * least, 3);
   const double bound = std::strtod(lower.c_str(), nullptr);
@@ -89,7 +89,7 @@ bool is_stretched(const Lattice& lattice) {
 }
 
 std::string on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
-  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.widest_turn) +
+  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
                        " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".";
   if (is_stretched(lattice)) {
     advice +=
@@ -102,10 +102,10 @@ std::string on_turn(const Lattice& lattice, const ShockCensus& census, const Cho
 }
 
 std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
-  const std::string lower = base::rounded(0.99 * census.heaviest_piece, 3);
+  const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
   return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
          base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
-         base::rounded(census.heaviest_piece, 3) + " of its sheet. --threshold " + lower +
+         base::rounded(census.max_piece_share, 3) + " of its sheet. --threshold " + lower +
          " would keep it, --threshold 1e-9 all.";
 }
 

@@ -19,7 +19,7 @@
 namespace affskel::core {
 namespace {
 
-// Scaled units: far above rounding, far below anything that is seen.
+// Tolerance in scaled units: far above rounding, far below anything that can be seen.
 constexpr double kOnSurface = 1e-12;
 
 std::optional<double> farthest(std::span<const Vec3> from, std::span<const Vec3> to) {
@@ -63,7 +63,7 @@ std::vector<Vec3> frame_places(const Lattice& lattice, const std::vector<Lattice
   return result;
 }
 
-// `other` is a subset of `places`: only the points that it lacks are away from it.
+// `other` is a subset of `places`, so only points that it lacks have a distance > 0 from it.
 void add_distances(const Lattice& lattice, const std::vector<LatticePlace>& places,
                    const std::vector<LatticePlace>& other, SkeletonQuality& quality) {
   if (other.empty()) return;

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/published_threshold.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
 #include "core/shocks/shock_operator.h"
-#include "core/shocks/zucker_hummel.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/solid.h"
 
@@ -33,7 +33,7 @@ struct SkeletonQuality {
 
 struct SkeletonQualityOptions {
   ShockOperator shock_operator = ShockOperator::kZuckerHummel;  ///< that gave H
-  double threshold = kZuckerHummelThreshold;                    ///< of the skeleton
+  double threshold = base::kZuckerHummelThreshold;              ///< of the skeleton
 };
 
 /// The quality of the skeleton of the points with |H| > threshold.

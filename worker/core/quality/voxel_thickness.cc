@@ -1,3 +1,5 @@
+// The shortest run is the one along the axis nearest to the sheet's normal: a digital plane has one voxel per
+// line along its steepest axis.  Of t voxels across the sheet each counts as 1/t of a layer.
 #include "core/quality/voxel_thickness.h"
 
 #include <algorithm>
@@ -21,7 +23,7 @@ class Thickness {
     walk(0, 1, 2);  // lattice order
     walk(1, 2, 0);
     walk(2, 0, 1);
-    // Counted first: the sum does not depend on the order of the voxels.
+    // Counted first, so that the sum does not depend on the order of the voxels.
     double layer = 0;
     std::sort(least_.begin(), least_.end());
     for (std::size_t from = 0; from < least_.size();) {

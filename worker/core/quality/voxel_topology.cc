@@ -10,8 +10,8 @@
 
 #include "core/base/disjoint_sets.h"
 
-// Notation.  A row is all places (i, j, *); a run is a maximal stretch of voxels of a row, a gap a maximal
-// stretch of background.  Rows are numbered within the voxels' bounding box, i and j from 0; rows beside the
+// Notation.  A row is all places (i, j, *); a run is a maximal sequence of voxels of a row, a gap a maximal
+// sequence of background.  Rows are numbered within the voxels' bounding box, i and j from 0; rows beside the
 // box are empty.
 
 namespace affskel::core {
@@ -118,7 +118,7 @@ class Background {
  private:
   using Range = std::pair<std::uint32_t, std::uint32_t>;
 
-  // Gap number `g` of a row, 0 .. number of its runs: its place in sets_ and its stretch.
+  // Gap number `g` of a row, 0 .. number of its runs: its index in sets_ and its interval.
   struct Gap {
     std::uint32_t set;
     std::int64_t first, last;
@@ -147,9 +147,9 @@ class Background {
   std::uint64_t bounded_ = 0;
 };
 
-// The complex is sorted by what its cells are in i and j: the cells over a vertex, an edge or a square of
-// the (i, j) plane are the voxels' closed stretches in k, united over the rows round it.  A union of closed
-// stretches has one vertex more than it has edges per component.
+// The complex is taken apart by what its cells are in i and j: over a vertex, an edge or a square of the (i,
+// j) plane lie the voxels' closed intervals in k, united over the rows round it.  A union of closed intervals
+// has one vertex more than edges per component.
 class EulerCharacteristic {
  public:
   explicit EulerCharacteristic(const Rows& rows) : rows_(rows) {}

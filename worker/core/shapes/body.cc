@@ -15,13 +15,14 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kLeast = 200, kMost = 200000;
+constexpr std::uint32_t kMinTriangles = 200, kMaxTriangles = 200000;
 
 void check(const MakeBodyOptions& options) {
-  if (options.triangles < kLeast || options.triangles > kMost || options.triangles % 2 != 0) {
+  if (options.triangles < kMinTriangles || options.triangles > kMaxTriangles || options.triangles % 2 != 0) {
     throw CoreError(CoreError::Code::kBadInput, "body: the number of triangles must be even and within " +
-                                                    std::to_string(kLeast) + " .. " + std::to_string(kMost) +
-                                                    ", not " + std::to_string(options.triangles));
+                                                    std::to_string(kMinTriangles) + " .. " +
+                                                    std::to_string(kMaxTriangles) + ", not " +
+                                                    std::to_string(options.triangles));
   }
   if (!(std::isfinite(options.height) && options.height > 0)) {
     throw CoreError(CoreError::Code::kBadInput,
@@ -38,7 +39,7 @@ Mesh fine_half(double triangles) {
   const Vec3 low{-4 * spacing, kBodyLow.y, kBodyLow.z};
   Mesh mesh = mesh_zero_set(body_function, {low, kBodyHigh, spacing});
   fair_onto(body_function, 0.05, 4, mesh);
-  return positive_x_part(mesh, 0.15 * spacing);
+  return positive_x_half(mesh, 0.15 * spacing);
 }
 
 /// Takes a reduced body to its height.  The vertices of a coarse mesh stand out of the surface they stand

@@ -71,7 +71,7 @@ void add_clipped(const Triangle& t, const std::vector<Vec3>& points, Crossings& 
 
 }  // namespace
 
-Mesh positive_x_part(Mesh mesh, double snap) {
+Mesh positive_x_half(Mesh mesh, double snap) {
   for (Vec3& p : mesh.points) {
     if (std::abs(p.x) < snap) p.x = 0;
   }

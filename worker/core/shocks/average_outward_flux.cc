@@ -1,3 +1,6 @@
+// With s a step to a neighbour, the sum of n(x + s) . s / |s| over the 26 of them is, regrouped by axes,
+// Zucker and Hummel's sum of differences: their weights 1, sqrt(2)/2, sqrt(3)/3 are the 1 / |s|.  So the
+// average outward flux is their H / 26, and 7 / 26 keeps the same points, up to rounding.
 #include "core/shocks/average_outward_flux.h"
 
 #include "core/shocks/neighbourhood.h"

@@ -1,3 +1,7 @@
+// The threshold.  The published rule is alpha / spacing with alpha "of the order of unity" (Betelu et al.
+// 2001). At a sheet parallel to two axes where the normal component across jumps by J <= 2, |H| = J / (2
+// spacing): alpha = 1 would keep no point of it even where the normals are opposite.  0.57 stands for the
+// jump that Zucker-Hummel's 7 does, J = 1.14.
 #include "core/shocks/central_differences.h"
 
 #include "core/shocks/neighbourhood.h"

@@ -7,10 +7,7 @@
 
 namespace affskel::core {
 
-/// Threshold for |H|, per mesh unit: alpha / spacing with alpha = 0.57.  The published rule says "of the
-/// order of unity" (Betelu et al. 2001).  At a sheet parallel to two axes where the normal component across
-/// jumps by J <= 2, |H| = J / (2 spacing): alpha = 1 would keep no point of it even where the normals are
-/// opposite.  0.57 stands for the jump that Zucker-Hummel's 7 does, J = 1.14.
+/// Threshold for |H|, per mesh unit: 0.57 / spacing, which keeps the same jumps as Zucker-Hummel's 7.
 inline double central_difference_threshold(double spacing) {
   return 0.57 / spacing;
 }

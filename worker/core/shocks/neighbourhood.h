@@ -8,35 +8,35 @@
 #include "core/erosion/directions.h"
 #include "core/erosion/field.h"
 #include "core/lattice/lattice.h"
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 
 // The walk that all shock operators have in common.
 
 namespace affskel::core {
 
 /// The optimal normals round one sample point.  A neighbour outside the solid counts as the centre itself, so
-/// that the solid's surface is no shock (measured against other rules: README.md in worker/core); a point
+/// that the solid's surface is no shock (measured against other rules in shock_operator.cc); a point
 /// without a direction has the normal 0.
 ///
 /// Goes along the lattice's last axis: of the 27 normals 18 are the point's before, and looking one up costs
 /// more than what an operator does with it.
 class Neighbourhood {
  public:
-  Neighbourhood(const DirectionSet& directions, const OptimalDirections& optimal, const SlabIndex& slabs)
-      : directions_(directions), optimal_(optimal), slabs_(slabs) {}
+  Neighbourhood(const DirectionSet& directions, const OptimalDirections& optimal, const LayerIndex& ranks)
+      : directions_(directions), optimal_(optimal), ranks_(ranks) {}
 
   /// Moves to lattice place (i, j, k), a sample point.
   void start(std::int64_t i, std::int64_t j, std::int64_t k) {
     place_ = {i, j, k};
     for (int step : {-1, 0, 1}) look_up(step);
-    settle();
+    collect();
   }
 
   /// Moves on to (i, j, k + 1), a sample point.
   void advance() {
     ++place_[2];
     look_up(1);
-    settle();
+    collect();
   }
 
   const Vec3& centre() const { return *normals_[index({0, 0, 0})]; }
@@ -68,14 +68,14 @@ class Neighbourhood {
   void look_up(int step) {
     Layer& to = layer(step);
     for (std::size_t e = 0; e < to.size(); ++e) {
-      const std::uint32_t p = slabs_.at(place_[0] + static_cast<std::int64_t>(e / 3) - 1,
+      const std::uint32_t p = ranks_.at(place_[0] + static_cast<std::int64_t>(e / 3) - 1,
                                         place_[1] + static_cast<std::int64_t>(e % 3) - 1, place_[2] + step);
-      to[e].inside = p != SlabIndex::kOutside;
+      to[e].inside = p != LayerIndex::kOutside;
       if (to[e].inside) to[e].normal = normal(p);
     }
   }
 
-  void settle() {
+  void collect() {
     const Vec3& centre = layer(0)[kCentre].normal;
     std::size_t n = 0;
     for (int step : {-1, 0, 1}) {
@@ -90,7 +90,7 @@ class Neighbourhood {
 
   const DirectionSet& directions_;
   const OptimalDirections& optimal_;
-  const SlabIndex& slabs_;
+  const LayerIndex& ranks_;
   std::array<std::int64_t, 3> place_{};
   std::array<Layer, 3> layers_;            // of k - 1, k and k + 1, each at (its k + 1) mod 3
   std::array<const Vec3*, 27> normals_{};  // in them, by index()
@@ -102,11 +102,11 @@ template <class Value>
 std::vector<double> at_every_point(const Lattice& lattice, const DirectionSet& directions,
                                    const OptimalDirections& optimal, ExecutionContext* context, Value value) {
   std::vector<double> result(lattice.points, 0);
-  SlabIndex slabs(lattice);
-  std::uint32_t reached = SlabIndex::kOutside;
-  Neighbourhood normals(directions, optimal, slabs);
+  LayerIndex ranks(lattice);
+  std::uint32_t reached = LayerIndex::kOutside;
+  Neighbourhood normals(directions, optimal, ranks);
   for (const LatticeRun& run : lattice.axis[2].runs) {
-    for (; reached != run.start[0]; slabs.move_to(++reached)) throw_if_stopped(context);
+    for (; reached != run.start[0]; ranks.move_to(++reached)) throw_if_stopped(context);
     normals.start(run.start[0], run.start[1], run.start[2]);
     for (std::uint32_t p = run.first; p < run.first + run.length; ++p) {
       if (p != run.first) normals.advance();

@@ -1,9 +1,22 @@
+// Neighbours outside the solid.  All operators look at the 26 neighbours of a sample point.  One outside the
+// solid counts as the centre itself, so that the surface is no shock; the published text is silent.  Measured
+// on ten bodies of 292 to 5000 triangles (frame `axis`, Zucker-Hummel): shares of the skeletons within
+// sqrt(3)/128 of the height of each other, both ways, under the map diag(2, 1, 1/2) and under 1 % noise:
+//
+//   a neighbour outside                                            map              noise
+//   counts as the centre                                           96.3 / 92.6 %    94.9 / 94.3 %
+//   has the normal 0 (a constant field diverges at the surface)    95.6 / 92.3 %    96.4 / 95.1 %
+//   makes its pair the middle of its row                           96.4 / 92.9 %    94.7 / 94.3 %
+//
+// Leaving out such pairs or points, or mirroring the halves inside, loses 0.3 to 0.7 points under the map on
+// seven of the bodies and does not win both ways at the noise.
 #include "core/shocks/shock_operator.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
+#include "base/published_threshold.h"
 #include "core/base/error.h"
 #include "core/shocks/average_outward_flux.h"
 #include "core/shocks/central_differences.h"
@@ -25,7 +38,7 @@ constexpr std::array kOperators = {
                       intermediate_difference_divergence},
     ShockOperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
                       central_difference_divergence},
-    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel", constant<kZuckerHummelThreshold>,
+    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel", constant<base::kZuckerHummelThreshold>,
                       [](const Lattice& lattice, const DirectionSet& directions,
                          const OptimalDirections& optimal, ExecutionContext* context) {
                         return zucker_hummel_divergence(lattice, directions, optimal, {}, context);

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/shocks/zucker_hummel.h"
+#include "base/published_threshold.h"
 
 namespace affskel::core {
 
 struct SkeletonOptions {
   /// Keep points with |H| above this; > 0, of the operator that gave H (see shock_operator.h).
-  double threshold = kZuckerHummelThreshold;
+  double threshold = base::kZuckerHummelThreshold;
 };
 
 struct SkeletonPoint {

@@ -1,3 +1,6 @@
+// The threshold.  At a sheet parallel to two axes where the normal component across jumps by J, a point
+// beside the sheet gets |H| = J times the weights of a plane: 1 + 2 sqrt(2) + 4 sqrt(3)/3 for Zucker-Hummel,
+// 16 here. 7 * 16 / (1 + 2 sqrt(2) + 4 sqrt(3)/3) = 18.247.
 #include "core/shocks/sobel.h"
 
 #include "core/shocks/neighbourhood.h"

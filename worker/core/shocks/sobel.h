@@ -7,10 +7,7 @@
 
 namespace affskel::core {
 
-/// Threshold for |H|, without unit and whatever the spacing: that of Zucker-Hummel for the same jump.  At a
-/// sheet parallel to two axes where the normal component across jumps by J, a point beside the sheet gets
-/// |H| = J times the weights of a plane: 1 + 2 sqrt(2) + 4 sqrt(3)/3 there, 16 here, and
-/// 7 * 16 / (1 + 2 sqrt(2) + 4 sqrt(3)/3) = 18.247.
+/// Threshold for |H|, without unit and whatever the spacing: keeps the same jumps as Zucker-Hummel's 7.
 constexpr double kSobelThreshold = 18.25;
 
 struct SobelOptions {

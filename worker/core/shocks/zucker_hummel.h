@@ -7,11 +7,6 @@
 
 namespace affskel::core {
 
-/// Threshold for |H|, without unit and whatever the spacing: Zografos (2003, section 6.2.2) found by trial
-/// that 7 gives the best skeletons on all his inputs.  At a sheet parallel to two axes it stands for a jump
-/// of the normal component across the sheet of J = 7 / (1 + 2 sqrt(2) + 4 sqrt(3)/3) = 1.140.
-constexpr double kZuckerHummelThreshold = 7;
-
 struct ZuckerHummelOptions {
   double face_weight = 1;                         ///< for the pair of neighbours across a face
   double edge_weight = 0.70710678118654752440;    ///< sqrt(2)/2, for the 4 pairs across edges
@@ -21,7 +16,7 @@ struct ZuckerHummelOptions {
 /// H = div n of the optimal normals at every sample point, by the operator of Zucker and Hummel (1981) in
 /// its symmetric form: the derivative along a lattice axis is the weighted sum of the differences of the
 /// 9 pairs of neighbours in the planes before and behind, not divided by weights or spacing, so that
-/// Zografos' threshold applies.  A neighbour outside the solid counts as the centre itself.
+/// base::kZuckerHummelThreshold applies.  A neighbour outside the solid counts as the centre itself.
 /// @param directions unit normals in the lattice's frame (see frame_directions).
 /// Returns one value per point; |H| <= 3 * 2 * (1 + 2 sqrt(2) + 4 sqrt(3)/3).
 std::vector<double> zucker_hummel_divergence(const Lattice& lattice, const DirectionSet& directions,

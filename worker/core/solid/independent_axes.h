@@ -13,16 +13,11 @@ struct IndependentAxes {
   std::array<double, 3> kurtosis{};
 };
 
-/// The axes along which a whitened variable w (E[w] = 0, E[w w^T] = 1) is as far from a Gaussian, and thus as
-/// near to independent, as it gets: they maximise the contrast sum (k - 3)^2 over all rotations (Comon 1994,
-/// "Independent component analysis, a new concept?").  The contrast turns with w, and so do the axes.
+/// The axes along which a whitened variable w (E[w] = 0, E[w w^T] = 1) is as far from a Gaussian as it gets:
+/// they maximise the contrast sum (k - 3)^2 over all rotations (Comon 1994, "Independent component analysis,
+/// a new concept?").  They turn with w.
 ///
-/// The maximum is the largest of those that Newton steps reach from 343 rotations spread over all that differ
-/// by more than order and signs.  Values that differ by less than 1e-6 of sum k^2 count as equal.  Of equal
-/// maxima the rotation nearest to the coordinate axes is taken.  Where the contrast stays the same when the
-/// axes turn about one line, they are turned so that the axis nearest to the plane across that line, and the
-/// coordinate axis nearest to that plane, project onto it in the same direction.  Where it stays the same
-/// about more lines than one, the result is the coordinate axes.
+/// Where symmetry leaves the axes open, the coordinate axes of w decide: see independent_axes.cc.
 ///
 /// Uses +, -, *, / and sqrt only, so that all machines agree on every bit; about 10 ms.
 IndependentAxes independent_axes(const FourthMoments& moments);

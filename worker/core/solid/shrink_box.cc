@@ -1,3 +1,5 @@
+// At the minimum every projection of the points along an axis has its rectangle of least area, and one side
+// of that lies on an edge of the projection's convex hull (Freeman & Shapira 1975).
 #include "core/solid/shrink_box.h"
 
 #include <algorithm>

@@ -13,9 +13,8 @@ struct FittedBox {
 };
 
 /// Turns a box about one of its axes after the other until no such turn makes it smaller: a local minimum of
-/// the volume, in which every projection of the points along an axis has its rectangle of least area, one
-/// side of which lies on an edge of the projection's hull (Freeman & Shapira 1975).  The points' edges decide
-/// the axes, so small errors of the start are forgotten.  Uses +, -, *, / and sqrt only.
+/// the volume (Freeman & Shapira 1975).  The axes follow from edges between the points, so small errors of
+/// the start are forgotten.  Uses +, -, *, / and sqrt only.
 /// @param points at least one.
 /// @param start nearly orthonormal axes.
 FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start);

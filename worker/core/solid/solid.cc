@@ -24,7 +24,7 @@ namespace {
 
 class SolidBuilder {
  public:
-  // Of the triangles `source` of the mesh, ascending.
+  // @param source the triangles of the mesh to use, ascending.
   SolidBuilder(const Mesh& mesh, std::vector<std::uint32_t> source, const SolidOptions& options,
                const std::vector<std::uint32_t>& vertex_line, const std::vector<std::uint32_t>& triangle_line)
       : options_(options), input_(mesh), vertex_line_(vertex_line), triangle_line_(triangle_line) {
@@ -56,7 +56,7 @@ class SolidBuilder {
     nest();
     throw_if_stopped(options_.context);
     const std::vector<double> volumes = scaled_volumes();
-    // Before surfaces are turned: which way those of specks face may be rounding.
+    // Before surfaces are turned, for the orientation of specks may be rounding.
     const std::vector<std::uint8_t> specks = find_specks(solid_, volumes);
     if (std::count(specks.begin(), specks.end(), 1) > 0) return without(specks);
     face_outward();
@@ -77,7 +77,7 @@ class SolidBuilder {
     solid_.notes.push_back({severity, code, message});
   }
 
-  // For changes that only repair mode may make.
+  // Notes a repair; refuses the mesh when repair is off.
   void repaired(const char* code, const std::string& message) {
     if (!options_.repair) refuse(message + " (repair is off)");
     note(MeshNote::Severity::kRepaired, code, message);
@@ -273,8 +273,8 @@ class SolidBuilder {
                                " surfaces faced inward and were turned, the first at " + place(first));
   }
 
-  // What the input is without these solids.  From the beginning: the box, and with it all scaled coordinates,
-  // may be another one.
+  // The solid of the input without these specks.  Built from the beginning, because the box may change, and
+  // with it all scaled coordinates.
   Solid without(const std::vector<std::uint8_t>& specks) {
     std::vector<std::uint32_t> kept, left_out;
     for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
@@ -285,7 +285,7 @@ class SolidBuilder {
     for (std::uint32_t& t : kept) t = triangle_source_[t];
     SolidBuilder rest(input_, std::move(kept), options_, vertex_line_, triangle_line_);
     rest.again_ = true;
-    // What was left out before is not there to be told of again.
+    // Keeps the notes about triangles and vertices that are not in the new input.
     for (const MeshNote& known : solid_.notes) {
       const bool collapsed =
           known.code == "degenerate-triangles" && known.severity == MeshNote::Severity::kRepaired;
@@ -348,7 +348,7 @@ class SolidBuilder {
 
   void look_for_self_intersections() {
     SelfIntersectionOptions options;
-    // Folded noise has a few per triangle.  More could fill the memory, and would say nothing new.
+    // Folded noise has a few crossings per triangle.  More could fill the memory, and would tell nothing new.
     options.max_pairs = 32 * solid_.mesh.triangles.size();
     options.threads = options_.threads;
     options.context = options_.context;
@@ -368,7 +368,7 @@ class SolidBuilder {
 
   SolidOptions options_;
   const Mesh& input_;
-  bool again_ = false;  // the same input, without specks
+  bool again_ = false;  // built again, without specks
   const std::vector<std::uint32_t>& vertex_line_;
   const std::vector<std::uint32_t>& triangle_line_;
   std::vector<std::uint32_t> triangle_source_;  // index in the input, per triangle kept

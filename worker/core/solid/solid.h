@@ -52,7 +52,7 @@ struct Solid {
   std::vector<double> solid_volume;           ///< per connected solid, mesh units cubed, > 0
   double volume = 0;                          ///< v0: all solids, mesh units cubed
   bool self_intersecting = false;             ///< triangles cross or touch that are not neighbours
-  /// Those that pass through each other, (i, j) with i < j ascending: there parts of the solid overlap.
+  /// Pairs of triangles that pass through each other, (i, j) with i < j, ascending.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<MeshNote> notes;
 

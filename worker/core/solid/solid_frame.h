@@ -30,8 +30,8 @@ FrameKind parse_frame(std::string_view name);
 ///   C^(-1/2) (x - centroid) (Comon 1994, see independent_axes), by descending kurtosis.  For an affine map M
 ///   of determinant 1 the frame of M V is M F, unless the solid's symmetry leaves the axes open.
 ///
-/// Signs, ties and what symmetric solids get: README.md in worker/core.  A function of the mesh alone, and
-/// all machines agree on every bit (kObb: see least_box_axes).
+/// Signs, ties and what symmetric solids get: solid_frame.cc.  A function of the mesh alone; all machines
+/// agree on every bit (kObb: see least_box_axes).
 /// @throws CoreError kBadInput when the solid is so flat that its covariance is singular to rounding
 ///   (kAffine).
 Matrix3 solid_frame(const Solid& solid, FrameKind kind);

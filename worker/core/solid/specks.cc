@@ -1,3 +1,12 @@
+// A speck may lie so far away that, beside the mesh's whole box, no solid has more than the least volume.
+// Then the others are compared with the largest solid, provided that it has more beside its own box.
+//
+// A solid is no speck
+// - when its volume, or the volume that one of its surfaces bounds (for skins thinner than rounding), is
+//   more than kSpeckShare of the largest solid's;
+// - when one of its surfaces bounds more than the least volume;
+// - when its volume counts beside the box of it and those it is compared with.  That is so when the mesh is
+//   large only because its specks lie far away, and there are such specks.
 #include "core/solid/specks.h"
 
 #include <algorithm>
@@ -14,7 +23,7 @@ double longest_side_of(const Box& box) {
   return std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
 }
 
-// Whether so much could be told from rounding in a mesh with this box.
+// Whether the volume can be told from rounding in a mesh with this box.
 bool counts_in(const Box& box, double volume) {
   int exponent = 0;  // of the cube that would be 1 in scaled coordinates
   if (std::frexp(longest_side_of(box), &exponent) == 0.5) --exponent;

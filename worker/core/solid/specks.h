@@ -32,17 +32,11 @@ struct SolidSize {
 /// either way.
 std::vector<SolidSize> solid_sizes(const Solid& solid);
 
-/// Specks: solids with no more than kMinScaledVolume, flat or tiny, beside others that have more, as scans
-/// have them.  No sample point comes to lie in them, and heights within them are rounding.
-///
-/// A speck may lie so far away that, beside the mesh's whole box, no solid has more.  Then the others are
-/// compared with the largest solid, provided that it has more beside its own box.
-///
-/// A solid is no speck when its volume, or that of one of its surfaces (a skin thinner than rounding has
-/// such), is more than kSpeckShare of the largest solid's; nor when it has a surface of more than the least
-/// volume; nor when its volume counts beside the box of it and those it is compared with, as when the mesh is
-/// large only because its specks lie far away, and there are such specks.
-/// @param solid as for solid_sizes.  @param volumes of its solids, scaled coordinates.
+/// Finds the specks: solids that are flat or tiny (at most kMinScaledVolume) beside others that are not, as
+/// scans have them.  No sample point lies in them, and heights within them are rounding.  Solids far away
+/// from the largest one are compared with it beside its own box; see specks.cc.
+/// @param solid as for solid_sizes.
+/// @param volumes of its solids, scaled coordinates.
 /// @return per solid 1 for a speck.
 std::vector<std::uint8_t> find_specks(const Solid& solid, const std::vector<double>& volumes);
 

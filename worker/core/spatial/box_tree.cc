@@ -23,12 +23,12 @@ BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(bo
 
 void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads) {
   Box box = boxes_[items_[first]];
-  std::uint32_t greatest = items_[first];
+  std::uint32_t max_index = items_[first];
   for (std::uint32_t i = first + 1; i < first + count; ++i) {
     box.include(boxes_[items_[i]]);
-    greatest = std::max(greatest, items_[i]);
+    max_index = std::max(max_index, items_[i]);
   }
-  nodes_[index] = {box, first, count, 0, greatest};
+  nodes_[index] = {box, first, count, 0, max_index};
   if (count <= kLeaf) return;
 
   std::size_t axis = 0;

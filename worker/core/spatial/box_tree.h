@@ -36,7 +36,7 @@ class BoxTree {
   struct Node {
     Box box;
     std::uint32_t first, count, right;
-    std::uint32_t greatest;  // of the indices below
+    std::uint32_t max_index;  // of the indices below
   };
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
@@ -44,9 +44,9 @@ class BoxTree {
   template <class Query = Box, class Visit>
   void walk(const Query& query, std::int64_t above, Visit visit) const {
     walk_halved_nodes(
-        nodes_, [&](const Node& node) { return node.greatest > above && query.meets(node.box); },
-        [&](std::uint32_t place) {
-          const std::uint32_t item = items_[place];
+        nodes_, [&](const Node& node) { return node.max_index > above && query.meets(node.box); },
+        [&](std::uint32_t position) {
+          const std::uint32_t item = items_[position];
           if (item > above && query.meets(boxes_[item])) visit(item);
         });
   }

@@ -10,8 +10,9 @@
 namespace affskel::core {
 namespace {
 
-// From here on fans and slivers get boxes of their own: below, comparing all the triangles costs less.
-constexpr std::uint32_t kMany = 64;
+// Fans of more triangles, and slivers when there are more, get boxes of their own.  For fewer, comparing all
+// of them costs less.
+constexpr std::uint32_t kMaxLoose = 64;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
@@ -72,7 +73,7 @@ bool is_oblique_sliver(const Box& box, const Corners& corners, double unit) {
 
 }  // namespace
 
-std::uint32_t CloseTriangles::Members::behind(std::uint32_t i) const {
+std::uint32_t CloseTriangles::Members::count_up_to(std::uint32_t i) const {
   return static_cast<std::uint32_t>(std::upper_bound(index.begin(), index.end(), i) - index.begin());
 }
 
@@ -96,9 +97,9 @@ CloseTriangles::CloseTriangles(const Mesh& mesh, const std::vector<Box>& boxes, 
   group_tree_ = BoxTree(std::move(whole), threads);
 }
 
-// Each triangle goes to the largest of the large fans at its corners.  What it then has to do with a smaller
-// fan at another corner is found triangle by triangle: of two neighbouring vertices, the lesser number of
-// triangles counts, and in a surface like a sphere's these sum to O(N) (Chiba and Nishizeki 1985).
+// Each triangle goes to the largest of the large fans at its corners.  Smaller fans at its other corners are
+// searched triangle by triangle.  Of two neighbouring vertices the one with fewer triangles counts; in a
+// surface like a sphere's these numbers sum to O(N) (Chiba and Nishizeki 1985).
 void CloseTriangles::assign_groups(const Mesh& mesh) {
   std::vector<std::uint32_t> valence(mesh.points.size(), 0);
   for (const Triangle& t : mesh.triangles) {
@@ -112,7 +113,7 @@ void CloseTriangles::assign_groups(const Mesh& mesh) {
     const std::uint32_t home = *std::max_element(t.begin(), t.end(), [&](std::uint32_t v, std::uint32_t w) {
       return std::pair(valence[v], w) < std::pair(valence[w], v);
     });
-    if (valence[home] > kMany) {
+    if (valence[home] > kMaxLoose) {
       const auto [place, added] = fan_at.emplace(home, static_cast<std::uint32_t>(groups_.size()));
       if (added) groups_.emplace_back().vertex = home;
       group_of_[i] = place->second;
@@ -121,7 +122,7 @@ void CloseTriangles::assign_groups(const Mesh& mesh) {
       slivers.members.index.push_back(i);
     }
   }
-  if (slivers.members.index.size() > kMany) {
+  if (slivers.members.index.size() > kMaxLoose) {
     for (const std::uint32_t i : slivers.members.index)
       group_of_[i] = static_cast<std::uint32_t>(groups_.size());
     groups_.push_back(std::move(slivers));

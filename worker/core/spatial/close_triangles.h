@@ -11,12 +11,10 @@ namespace affskel::core {
 
 /// Finds the triangles that come close to a triangle, by bounding boxes.
 ///
-/// Boxes parallel to the axes fail where there are many slivers, long and oblique: the boxes of the sides of
-/// a tilted cylinder nearly all meet.  Hence slivers have boxes along their own directions.
-///
-/// All boxes fail within large fans, the triangles round a vertex with very many: all of them hold the
-/// vertex. Two triangles of such a fan are compared as seen from the vertex, by boxes round the arcs that
-/// their opposite sides draw on the unit sphere.
+/// Most triangles have axis-parallel boxes.  Slivers (long, thin and oblique) have oriented ones: the
+/// axis-parallel boxes of the sides of a tilted cylinder nearly all meet.  In a large fan, the triangles
+/// round one vertex, all boxes meet at the vertex; so its triangles are compared by the boxes of the arcs
+/// that their opposite sides draw on a unit sphere round the vertex.
 ///
 /// Immutable after construction; queries from several threads are safe.
 class CloseTriangles {
@@ -34,7 +32,7 @@ class CloseTriangles {
     const std::uint32_t home = group_of_[i];
     const Corners corners = triangles_.corners(i);
     const Query query{boxes_[i], oriented_box(corners), triangles_.unit()};
-    const std::int64_t above = std::int64_t{loose_.members.behind(i)} - 1;
+    const std::int64_t above = std::int64_t{loose_.members.count_up_to(i)} - 1;
     const auto visit_loose = [&](std::uint32_t k) { visit(loose_.members.index[k]); };
     if (home == kNone) {
       loose_.tree.visit_above(boxes_[i], above, visit_loose);
@@ -44,7 +42,7 @@ class CloseTriangles {
     group_tree_.visit(query, [&](std::uint32_t g) {
       const Group& group = groups_[g];
       if (g != home || !group.is_fan()) return group.tree.visit_above(i, corners, query.oriented, visit);
-      const std::uint32_t local = group.members.behind(i) - 1;
+      const std::uint32_t local = group.members.count_up_to(i) - 1;
       group.arcs.visit_above(group.arcs.box(local), local,
                              [&](std::uint32_t k) { visit(group.members.index[k]); });
     });
@@ -57,7 +55,7 @@ class CloseTriangles {
   struct Members {
     std::vector<std::uint32_t> index;
     /// The number of members <= i.
-    std::uint32_t behind(std::uint32_t i) const;
+    std::uint32_t count_up_to(std::uint32_t i) const;
   };
 
   /// A large fan, or all slivers that are in none.

@@ -15,8 +15,8 @@
 
 namespace affskel::core {
 
-/// Calls `visit(place)` for the places of items in all leaves that `enter(node)` lets in, with all nodes
-/// above.
+/// Calls `visit(position)` for the items of all leaves that are reached, by their position in the order of
+/// the leaves.  A node is reached when `enter(node)` is true for it and for all nodes above it.
 template <class Node, class Enter, class Visit>
 void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit) {
   if (nodes.empty()) return;
@@ -32,12 +32,12 @@ void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit)
       stack[depth++] = index + 1;
       continue;
     }
-    for (std::uint32_t place = node.first; place < node.first + node.count; ++place) visit(place);
+    for (std::uint32_t at = node.first; at < node.first + node.count; ++at) visit(at);
   }
 }
 
-/// Halves the items of nodes[index], which is set but for `right`, by (key(item), item), and calls
-/// `build(index, first, count, threads)` for both halves, side by side.
+/// Splits the items of nodes[index], whose members but `right` are set, at the median of (key(item), item),
+/// and calls `build(index, first, count, threads)` for both halves, at the same time when `threads` > 1.
 template <class Node, class Key, class Build>
 void halve_node(std::vector<Node>& nodes, std::uint32_t index, std::vector<std::uint32_t>& items,
                 std::uint32_t leaf, unsigned threads, Key key, Build build) {

@@ -7,7 +7,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kLargest = (1 << 21) - 1;  // of a cell's number along an axis
+constexpr double kMaxCell = (1 << 21) - 1;  // of a cell's number along an axis
 
 // Bit i to bit 3 i, of 21 bits.
 std::uint64_t spread(std::uint64_t bits) {
@@ -20,7 +20,7 @@ std::uint64_t spread(std::uint64_t bits) {
 }
 
 std::uint64_t spread_cell(double x, double low, double scale) {
-  return spread(static_cast<std::uint64_t>(std::clamp((x - low) * scale, 0.0, kLargest)));
+  return spread(static_cast<std::uint64_t>(std::clamp((x - low) * scale, 0.0, kMaxCell)));
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> locality_order(const std::vector<Vec3>& points) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  const double scale = side > 0 ? kLargest / side : 0;
+  const double scale = side > 0 ? kMaxCell / side : 0;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
   places.reserve(points.size());
   for (const Vec3& p : points) {

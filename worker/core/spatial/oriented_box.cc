@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// More than projections on axes, centres and axes may be wrong by together (about 2^-48).
+// More than the rounding of axes, centres and projections together, which is about 2^-48.
 constexpr double kMargin = 0x1p-46;
 
 // Of a box with these half sides along these axes, along a direction.

@@ -11,9 +11,8 @@ namespace affskel::core {
 
 using Corners = std::array<Vec3, 3>;
 
-/// A mesh's triangles with coordinates of at most 1: the mesh's times a power of two, which is exact, so that
-/// neither squares of huge coordinates nor those of tiny ones leave the range of a double.  Keeps a reference
-/// to the mesh.
+/// The triangles of a mesh, multiplied by a power of two so that coordinates are at most 1.  That is exact,
+/// and keeps squares within the range of a double.  Keeps a reference to the mesh.
 class UnitTriangles {
  public:
   UnitTriangles() = default;  ///< of no mesh
@@ -24,7 +23,7 @@ class UnitTriangles {
     return {unit_ * mesh_->points[t[0]], unit_ * mesh_->points[t[1]], unit_ * mesh_->points[t[2]]};
   }
 
-  /// These coordinates per mesh unit.
+  /// The factor from mesh units to these coordinates.
   double unit() const { return unit_; }
 
  private:
@@ -55,7 +54,7 @@ class OrientedExtent {
 /// Along the triangle's longest side, and without thickness across its plane.
 OrientedBox oriented_box(const Corners& corners);
 
-/// The same as an oriented one.  @param unit its new coordinates per one of its own.
+/// The box as an oriented one, its coordinates multiplied by `unit`.
 OrientedBox oriented_box(const Box& box, double unit);
 
 /// Whether a plane parallel to a face of box `a` surely separates it from box `b`, whatever rounding did to

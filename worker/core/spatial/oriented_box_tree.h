@@ -8,10 +8,8 @@
 
 namespace affskel::core {
 
-/// A balanced tree of oriented boxes over triangles, for slivers: long and thin triangles that lie side by
-/// side keep boxes as thin as they are together, whatever direction they have (Gottschalk, Lin and Manocha
-/// 1996).  A tree of its own beside BoxTree, whose boxes of slivers nearly all meet: of 80,000 triangles of a
-/// tilted cylinder it has 13.1 million candidates where these boxes leave 3,600, for every 100th triangle.
+/// A balanced tree of oriented boxes over triangles, for slivers: around long and thin triangles that lie
+/// side by side, oriented boxes stay thin whatever their direction (Gottschalk, Lin and Manocha 1996).
 /// Immutable after construction; queries from several threads are safe.
 class OrientedBoxTree {
  public:
@@ -27,10 +25,10 @@ class OrientedBoxTree {
     walk_halved_nodes(
         nodes_,
         [&](const Node& node) {
-          return node.greatest > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
+          return node.max_index > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
         },
-        [&](std::uint32_t place) {
-          const std::uint32_t j = members_[place];
+        [&](std::uint32_t position) {
+          const std::uint32_t j = members_[position];
           if (j > i && !surely_apart(box, triangles_.corners(j))) visit(j);
         });
   }
@@ -39,7 +37,7 @@ class OrientedBoxTree {
   struct Node {
     OrientedBox box;
     std::uint32_t first, count, right;
-    std::uint32_t greatest;  // of the members below
+    std::uint32_t max_index;  // of the members below
   };
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);

@@ -10,9 +10,7 @@ namespace affskel::core {
 
 /// The distance from any place to the nearest of a set of points: a balanced k-d tree (Bentley 1975, split
 /// at the median of the longest side), built once in O(N log N).  Exact: the answer is that of a search
-/// through all points, bit for bit.  A tree of its own beside BoxTree, which does not go to the nearest box
-/// first: 100,000 queries in 200,000 points take 0.3 s here and 21 s there.  Immutable after construction;
-/// queries from several threads are safe.
+/// through all points, bit for bit.  Immutable after construction; queries from several threads are safe.
 class PointIndex {
  public:
   /// @param points finite; copied, so they need not outlive the index.  May be empty.

@@ -33,8 +33,8 @@ struct SelfIntersectionOptions {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options = {});
 
-/// Whether an edge of one of the triangles passes through the inside of the other: no touching, whose
-/// smallest change would end it.  Exact.
+/// Whether an edge of one of the triangles passes through the interior of the other.  Touching does not
+/// count, for the smallest move could end it.  Exact.
 bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j);
 
 }  // namespace affskel::core

@@ -67,12 +67,12 @@ Vec3 lowest_corner(std::span<const Vec3> points) {
 std::optional<std::vector<Vec3>> lattice_coordinates(std::span<const Vec3> points, double spacing) {
   if (!(spacing > 0)) return std::nullopt;
   constexpr double kTolerance = 1e-6;
-  constexpr double kMost = 1 << 24;
+  constexpr double kMaxSteps = 1 << 24;
   const Vec3 low = lowest_corner(points);
   bool whole = true;
   const auto snap = [&](double difference) {
     const double steps = difference / spacing, nearest = std::round(steps);
-    whole = whole && std::abs(steps - nearest) <= kTolerance && nearest <= kMost;
+    whole = whole && std::abs(steps - nearest) <= kTolerance && nearest <= kMaxSteps;
     return nearest;
   };
   std::vector<Vec3> snapped;

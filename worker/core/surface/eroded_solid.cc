@@ -11,6 +11,20 @@
 // sides, once in each sense: the joins close to loops, and discs in the loops to a closed manifold.  When the
 // two stops of one edge are joined (the end of a gap), they are so by way of a *rim* vertex of that side,
 // so that no two sides have a join in common.
+//
+// Where vertices lie.  A vertex is on an edge of the split between a full place and one that is not in the
+// eroded solid, or that the surface of V cuts off from it: where E falls to the level or, where E has a limit
+// above the level (at concave places), on the surface of V (level_crossing.h, lattice_cuts.h).  Two sample
+// points above the level with a gap of V between them, however narrow, are thus not joined along their edge.
+// Where E jumps, because chords begin to take in a limb more, the data leave a vertex open on its edge, and
+// it moves to an even place among its neighbours (loose_vertices.h).  Short edges are collapsed onto one of
+// their ends (tidy_mesh.h), so every vertex stays a crossing.  All that decides the shape happens in lattice
+// coordinates.
+//
+// Measured on a ball of radius 1, the level's ball having the radius r: vertices lie within 0.02 spacings of
+// it at the spacings 0.1 and 0.05 (0.05 within a spacing of the surface), and the volume falls short by at
+// most 0.4 (spacing / r)^2 of itself.  On a torus of radii 2 and 0.7, levels of 0.001 to 0.03 v0, halving the
+// spacing from 0.2 to 0.1 changes the volume by less than 2 %.
 #include "core/surface/eroded_solid.h"
 
 #include <algorithm>
@@ -24,7 +38,7 @@
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/lattice/lattice_cuts.h"
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 #include "core/surface/eroded_places.h"
 #include "core/surface/level_crossing.h"
 #include "core/tidy/loose_vertices.h"
@@ -65,7 +79,7 @@ class Marcher {
       for (at_[1] = -1; at_[1] < dims_[1]; ++at_[1]) march_row();
     }
     constexpr int kRounds = 40;  // enough for steps of a few voxels
-    settle_loose_vertices(loose_, kRounds, mesh_);
+    relax_loose_vertices(loose_, kRounds, mesh_);
     return std::move(mesh_);
   }
 
@@ -224,17 +238,18 @@ class Marcher {
 
   std::uint32_t add_stop(unsigned p, unsigned q, const LatticeCut* cut) {
     LevelCrossing found = crossing(p, q, cut);
-    double most = 1 - kMargin;
+    double max_share = 1 - kMargin;
     if (full(q)) {  // stay on this side of the gap
       const double gap = std::clamp((cut->leaves + cut->enters) / 2, 3 * kMargin, 1 - 3 * kMargin);
-      most = (p == (p & q) ? gap : 1 - gap) - kMargin;
+      max_share = (p == (p & q) ? gap : 1 - gap) - kMargin;
     }
-    for (double* t : {&found.share, &found.least, &found.most}) *t = std::clamp(*t, kMargin, most);
+    for (double* t : {&found.share, &found.min_share, &found.max_share})
+      *t = std::clamp(*t, kMargin, max_share);
     const Place from = place(p), to = place(q);
     const Vec3 start = position(from), along = position(to) - start;
     const std::uint32_t vertex = add_vertex(start + found.share * along);
-    if (found.least < found.most) {
-      loose_.push_back({vertex, start, along, found.least, found.most, found.share});
+    if (found.min_share < found.max_share) {
+      loose_.push_back({vertex, start, along, found.min_share, found.max_share, found.share});
     }
     return vertex;
   }
@@ -244,7 +259,7 @@ class Marcher {
     const Vec3 delta = field_.spacing * (position(place(q)) - position(place(p)));
     const Vec3& g = field_.gradient[x];
     const EdgeValue here{field_.erosion[x], dot(g, delta)};
-    if (y == SlabIndex::kOutside || has_gap(p, q)) {
+    if (y == LayerIndex::kOutside || has_gap(p, q)) {
       // Without a cut, p and q disagree about the surface by rounding, and it is near one of them.
       const double surface = cut == nullptr ? 1 : p == (p & q) ? cut->leaves : 1 - cut->enters;
       const double t = level_crossing_before_surface(here, surface, level_);
@@ -269,7 +284,7 @@ class Marcher {
   double level_;
   LatticeCuts cuts_;
   ErodedPlaces places_;
-  SlabIndex ranks_;  // of layer at_[0] + 1 and the two beside it
+  LayerIndex ranks_;  // of layer at_[0] + 1 and the two beside it
   Place dims_{};
   std::array<Layer, 2> layers_;
   // The cube in hand.

@@ -28,17 +28,15 @@ struct ErodedSurface {
 
 /// The boundary of the eroded solid {x in V : E(x) >= level}: closed, outward-oriented and manifold, whatever
 /// the field is, one component for every wall of every component; empty when no sample point reaches the
-/// level.  By marching tetrahedra (Doi & Koide 1991); how, and how accurate: README.md in worker/core.
+/// level.  By marching tetrahedra (Doi & Koide 1991); how, and how accurate: eroded_solid.cc.
 ///
 /// Vertices are at most a voxel's diagonal away from a sample point above the level, except those that close
 /// the end of a gap of V narrower than the spacing.  A lattice in an affinely mapped frame gives the affinely
 /// mapped surface.  A function of the arguments alone.
 ///
-/// Memory: 16 bytes for every place of a layer of the box across axis 0, and up to about 180 for every edge
-/// of the split that the surface of V or the result crosses.  Time: in the order of the sample points, of
-/// those edges (n log n), of the lattice's lines along axis 2 and of the triangles' lengths in steps; and a
-/// few nanoseconds for every place between the outermost eroded points of four neighbouring lines along
-/// axis 2.
+/// Memory: 16 bytes for every place of a layer of the box, and up to about 180 for every edge of the split
+/// that the surface of V or the result crosses.  Time: in the order of sample points, lattice lines and those
+/// edges.
 /// @throws CoreError kBadInput when the level is not a finite number >= 0, the shortest edge not in [0, 1),
 ///   or the field is not one of this lattice; kCancelled when the context asks to stop.
 ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const FrameField& field,

@@ -1,3 +1,16 @@
+// Between two sample points.  Where E is smooth: the root of the cubic through values and slopes.  Across a
+// shock, where E is the minimum of two smooth functions: the root on the two tangents.  It is taken for a
+// shock when the normals say so (`kinked`) and the tangents cross on the edge with a concave kink of more
+// than half the sum of the slopes' sizes.  Both bounds are far above those of the operator `chords`, which is
+// to miss no shock: at a weak one the cubic errs little, and where E is smooth it is by far the better.
+// Across a jump, where chords begin to take in a limb more (E falls by more than 3/2 of what the steeper
+// slope says): open between the roots of the tangents, in the middle.
+//
+// Before the surface, with tau = t / surface and p = -slope surface / E.  When the tangent falls to 0 before
+// the surface (p >= 1), E is taken for E (1 - tau)^n (1 - f tau) with n + f = p, 0 <= f < 1: exact for faces
+// (p = 1), smooth convex surfaces and convex edges (2) and corners (3).  Otherwise, at concave places, E has
+// a limit > 0 at the surface and is taken for its tangent; when that is above the level at the surface, the
+// surface itself bounds the eroded solid.
 #include "core/surface/level_crossing.h"
 
 #include <algorithm>

@@ -25,7 +25,7 @@ class OffReader {
     if (rows_.next()) {
       fail_at_line(rows_.line(), "more rows than the " + std::to_string(vertex_count_) + " vertices and " +
                                      std::to_string(face_count_) +
-                                     " faces announced: " + quoted_piece(rows_.words()[0]));
+                                     " faces announced: " + quoted_excerpt(rows_.words()[0]));
     }
     return std::move(result_);
   }
@@ -51,7 +51,7 @@ class OffReader {
                                      ") are not supported; expected [ST][C][N]OFF");
     }
     if (word != "OFF") {
-      fail_at_line(rows_.line(), "not an OFF file: starts with " + quoted_piece(rows_.words()[0]) +
+      fail_at_line(rows_.line(), "not an OFF file: starts with " + quoted_excerpt(rows_.words()[0]) +
                                      ", expected the header [ST][C][N]OFF");
     }
     rows_.drop_first_word();

@@ -28,8 +28,8 @@ struct OffMesh {
 
 /// Reads a Geomview OFF file in text form, strictly: header [ST][C][N]OFF, counts on the same or on the
 /// next line (the edge count may be absent), `#` comments, LF or CRLF; per vertex three finite numbers
-/// plus what the header promises; per face its size, indices and optional colours.  Polygons are cut
-/// into fans (the shorter diagonal for quadrilaterals).  The file must end after the last face.
+/// plus what the header promises; per face its size, indices and optional colours.  Polygons are cut into
+/// triangles (see cut_polygon).  The file must end after the last face.
 /// @throws CoreError kBadInput with line and cause for everything else (binary, 4OFF, nOFF, decimal
 ///   commas, NUL bytes, lone CR, trailing rows, indices out of range or not integral, NaN, infinity);
 ///   kLimit when a count exceeds the options; kCancelled when the context asks to stop.

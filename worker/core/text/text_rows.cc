@@ -75,7 +75,7 @@ void fail_at_line(std::uint64_t line, const std::string& message) {
   throw CoreError(CoreError::Code::kBadInput, "line " + std::to_string(line) + ": " + message, line);
 }
 
-std::string quoted_piece(std::string_view text) {
+std::string quoted_excerpt(std::string_view text) {
   std::string shown = "'";
   for (char c : text.substr(0, 40)) shown.push_back(c >= ' ' && c < 127 ? c : '?');
   return shown + (text.size() > 40 ? "...'" : "'");
@@ -85,7 +85,7 @@ std::uint64_t parse_count(std::string_view word, std::uint64_t line, const char*
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) {
-    fail_at_line(line, std::string(what) + " must be a whole number >= 0, not " + quoted_piece(word));
+    fail_at_line(line, std::string(what) + " must be a whole number >= 0, not " + quoted_excerpt(word));
   }
   return value;
 }
@@ -96,10 +96,10 @@ double parse_number(std::string_view word, std::uint64_t line, const char* what)
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range) {
-    fail_at_line(line, std::string(what) + " " + quoted_piece(word) + " is outside the range of a double");
+    fail_at_line(line, std::string(what) + " " + quoted_excerpt(word) + " is outside the range of a double");
   }
   if (error != std::errc{} || end != digits.data() + digits.size() || digits.front() == '+') {
-    fail_at_line(line, std::string(what) + " must be a number, not " + quoted_piece(word));
+    fail_at_line(line, std::string(what) + " must be a number, not " + quoted_excerpt(word));
   }
   return value;
 }
@@ -107,7 +107,7 @@ double parse_number(std::string_view word, std::uint64_t line, const char* what)
 double parse_finite(std::string_view word, std::uint64_t line, const char* what) {
   const double value = parse_number(word, line, what);
   if (!std::isfinite(value)) {
-    fail_at_line(line, std::string(what) + " " + quoted_piece(word) + " is not finite");
+    fail_at_line(line, std::string(what) + " " + quoted_excerpt(word) + " is not finite");
   }
   return value;
 }

@@ -42,8 +42,8 @@ class TextRows {
 /// @throws CoreError kBadInput naming the line, always.
 [[noreturn]] void fail_at_line(std::uint64_t line, const std::string& message);
 
-/// A piece of a file for a message: short, and printable whatever the bytes are.
-std::string quoted_piece(std::string_view text);
+/// An excerpt of a file in quotes, for a message: short, and printable whatever the bytes are.
+std::string quoted_excerpt(std::string_view text);
 
 /// @param what names the number in the message. @throws CoreError kBadInput unless it is a whole number >= 0.
 std::uint64_t parse_count(std::string_view word, std::uint64_t line, const char* what);

@@ -25,9 +25,9 @@ std::vector<Triangle> loose_triangles(std::span<const LooseVertex> loose, const 
   return result;
 }
 
-void settle(const Surroundings& around, LooseVertex& loose) {
+void relax(const Surroundings& around, LooseVertex& loose) {
   const double rise = dot(loose.along, around.normal);
-  // A segment along the surface says little of where they meet.
+  // Where a line runs along the surface, their meeting point is ill-defined.
   constexpr double kMinSine = 0.2;
   if (around.count == 0 || !(rise * rise > kMinSine * kMinSine * dot(loose.along, loose.along) *
                                                dot(around.normal, around.normal))) {
@@ -35,12 +35,12 @@ void settle(const Surroundings& around, LooseVertex& loose) {
   }
   const Vec3 mean = (1 / around.count) * around.sum;
   const double wanted = dot(mean - loose.from, around.normal) / rise;
-  loose.share = std::clamp(0.5 * (loose.share + wanted), loose.least, loose.most);
+  loose.share = std::clamp(0.5 * (loose.share + wanted), loose.min_share, loose.max_share);
 }
 
 }  // namespace
 
-void settle_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh) {
+void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh) {
   const std::vector<Triangle> triangles = loose_triangles(loose, mesh);
   std::vector<Surroundings> around(mesh.points.size());
   for (int round = 0; round < rounds; ++round) {
@@ -58,7 +58,7 @@ void settle_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh)
         ++here.count;
       }
     }
-    for (LooseVertex& l : loose) settle(around[l.vertex], l);
+    for (LooseVertex& l : loose) relax(around[l.vertex], l);
   }
   for (const LooseVertex& l : loose) mesh.points[l.vertex] = l.from + l.share * l.along;
 }

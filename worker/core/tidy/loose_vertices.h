@@ -7,19 +7,19 @@
 
 namespace affskel::core {
 
-/// A vertex of which only a segment is known, from + t along, least <= t <= most.
+/// A vertex known only to lie on a line segment: at from + t along, min_share <= t <= max_share.
 struct LooseVertex {
   std::uint32_t vertex = 0;
   Vec3 from, along;
-  double least = 0, most = 1;
+  double min_share = 0, max_share = 1;
   double share = 0.5;  ///< t, where the vertex starts
 };
 
-/// Moves loose vertices of a closed mesh along their segments until the surface is as even as the segments
+/// Moves loose vertices of a closed mesh along their line segments until the surface is as even as these
 /// allow (in the spirit of Gibson's constrained elastic surface nets, 1998): in each round every loose vertex
-/// goes half way to where its segment meets the plane through the mean of its neighbours, normal to the
-/// surface there.  The other vertices stay.  A plane is a fixed point.
+/// goes half way to where its line meets the plane through the mean of its neighbours, normal to the surface
+/// there.  The other vertices stay.  A plane is a fixed point.
 /// Linear in rounds times the size of the mesh; a function of its arguments alone.
-void settle_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh);
+void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh);
 
 }  // namespace affskel::core

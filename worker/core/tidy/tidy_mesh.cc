@@ -149,11 +149,12 @@ class Tidier {
   bool keeps_shape(Index from, Index to) const {
     for (Index t : star(from)) {
       const Triangle& old = mesh_.triangles[t];
-      // What is smaller than the edges to be collapsed goes by itself, and is too small to have a direction.
+      // Triangles smaller than the edges to be collapsed have no reliable direction, and will be collapsed
+      // themselves.
       if (uses(old, to) || longest_square(old) < limit_ / 4) continue;
       Triangle changed = old;
       *std::find(changed.begin(), changed.end(), from) = to;
-      // A needle still has a side to be collapsed.
+      // A new needle is allowed: it still has a side to be collapsed.
       if (quality(changed) < std::min(kSliver, quality(old)) && shortest_square(changed) >= limit_)
         return false;
       constexpr double kMinCosine = 0.5;

@@ -7,7 +7,8 @@
 #include "client/base/error.h"
 #include "hdf5_reader.h"
 #include "sample_data.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -30,7 +31,7 @@ std::string bytes_for(std::uint64_t points) {
 void write_all(FileFormat format, const std::string& path, const LatticePoints& points) {
   const std::string bytes = bytes_for(points.count());
   constexpr std::size_t kPiece = 29;
-  AtomicFile file(path);
+  base::AtomicFile file(path);
   DivergenceWriter writer(format, file, points);
   for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
     writer.data(std::string_view(bytes).substr(at, kPiece));
@@ -41,7 +42,7 @@ void write_all(FileFormat format, const std::string& path, const LatticePoints& 
 
 TEST(DivergenceWriter, AnImageReadsBackExactly) {
   const LatticePoints points(lattice_of_slabs());
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   write_all(FileFormat::kVtkHdf, dir / "H.vtkhdf", points);
   const hsize_t nx = points.dims()[0], ny = points.dims()[1], nz = points.dims()[2];
   std::vector<double> wanted(nx * ny * nz, std::nan(""));
@@ -65,7 +66,7 @@ TEST(DivergenceWriter, AnImageReadsBackExactly) {
 
 TEST(DivergenceWriter, AnImageLiesWhereTheFieldsDoes) {
   const LatticePoints points(sample_lattice());
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   write_all(FileFormat::kVtkHdf, dir / "H.vtkhdf", points);
   const hid_t file = H5Fopen((dir / "H.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t root = H5Gopen2(file, "VTKHDF", H5P_DEFAULT);
@@ -80,25 +81,25 @@ TEST(DivergenceWriter, AnImageLiesWhereTheFieldsDoes) {
 
 TEST(DivergenceWriter, TextHasARowPerPoint) {
   const LatticePoints points(sample_lattice());
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   write_all(FileFormat::kCsv, dir / "H.csv", points);
   write_all(FileFormat::kDat, dir / "H.dat", points);
   const std::string first = "0.10000000000000001,-2,1000000.3333333334,6\n";
-  EXPECT_EQ(slurp(dir / "H.csv").substr(0, 8 + first.size()), "x,y,z,H\n" + first);
+  EXPECT_EQ(tests::read_file(dir / "H.csv").substr(0, 8 + first.size()), "x,y,z,H\n" + first);
   std::string blanks = first;
   for (char& c : blanks) c = c == ',' ? ' ' : c;
-  EXPECT_EQ(slurp(dir / "H.dat").substr(0, blanks.size()), blanks);
+  EXPECT_EQ(tests::read_file(dir / "H.dat").substr(0, blanks.size()), blanks);
 }
 
 TEST(DivergenceWriter, RefusesTooFewAndTooManyValues) {
   const LatticePoints points(sample_lattice());
   for (const FileFormat format : {FileFormat::kCsv, FileFormat::kVtkHdf}) {
-    const TempDir dir;
-    AtomicFile file(dir / "H");
+    const tests::TemporaryDirectory dir;
+    base::AtomicFile file(dir / "H");
     DivergenceWriter few(format, file, points);
     few.data(bytes_for(4));
     EXPECT_THROW(few.finish(), ClientError);
-    AtomicFile other(dir / "G");
+    base::AtomicFile other(dir / "G");
     DivergenceWriter many(format, other, points);
     EXPECT_THROW(many.data(bytes_for(6)), ClientError);
   }

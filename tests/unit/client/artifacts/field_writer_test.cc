@@ -7,7 +7,8 @@
 
 #include "client/base/error.h"
 #include "sample_data.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -17,7 +18,7 @@ void write_sample(FileFormat format, const std::string& path, std::size_t piece)
   const LatticePoints points(sample_lattice());
   const v1::Directions directions = sample_directions();
   const std::string bytes = sample_field();
-  AtomicFile file(path);
+  base::AtomicFile file(path);
   FieldWriter writer(format, file, points);
   FieldDecoder decoder(points, directions, writer);
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
@@ -63,35 +64,35 @@ void expect_sample(const std::vector<std::vector<double>>& rows, std::size_t col
 }
 
 TEST(FieldWriter, CsvReadsBackExactlyInLatticeOrder) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   write_sample(FileFormat::kCsv, dir / "f.csv", 1000);
-  const std::string text = slurp(dir / "f.csv");
+  const std::string text = tests::read_file(dir / "f.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')), "x,y,z,E,nx,ny,nz,direction");
   expect_sample(read_rows(text, ',', true), 8);
   EXPECT_NE(text.find("0.10000000000000001"), std::string::npos) << "17 significant digits";
 }
 
 TEST(FieldWriter, DatHasNoHeaderAndSevenColumns) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   write_sample(FileFormat::kDat, dir / "f.dat", 1000);
-  expect_sample(read_rows(slurp(dir / "f.dat"), ' ', false), 7);
+  expect_sample(read_rows(tests::read_file(dir / "f.dat"), ' ', false), 7);
 }
 
 TEST(FieldWriter, RecordsMayBeCutAnywhere) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   write_sample(FileFormat::kCsv, dir / "whole.csv", 1000);
   for (const std::size_t piece : {1u, 7u, 19u, 20u, 21u, 33u}) {
     write_sample(FileFormat::kCsv, dir / "cut.csv", piece);
-    EXPECT_EQ(slurp(dir / "cut.csv"), slurp(dir / "whole.csv")) << piece;
+    EXPECT_EQ(tests::read_file(dir / "cut.csv"), tests::read_file(dir / "whole.csv")) << piece;
   }
 }
 
 TEST(FieldWriter, EqualFieldsAreEqualFiles) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   for (const FileFormat format : field_formats()) {
     write_sample(format, dir / "a", 13);
     write_sample(format, dir / "b", 100);
-    EXPECT_EQ(slurp(dir / "a"), slurp(dir / "b")) << extension_of(format);
+    EXPECT_EQ(tests::read_file(dir / "a"), tests::read_file(dir / "b")) << extension_of(format);
   }
 }
 
@@ -101,7 +102,7 @@ class DecoderErrors : public ::testing::Test {
     const LatticePoints points(sample_lattice());
     const v1::Directions directions = sample_directions();
     {
-      AtomicFile file(dir_ / "f.csv");
+      base::AtomicFile file(dir_ / "f.csv");
       FieldWriter writer(FileFormat::kCsv, file, points);
       FieldDecoder decoder(points, directions, writer);
       EXPECT_THROW(
@@ -113,7 +114,7 @@ class DecoderErrors : public ::testing::Test {
     }
     EXPECT_TRUE(dir_.names().empty());
   }
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
 };
 
 TEST_F(DecoderErrors, TooFewRecords) {

@@ -8,19 +8,20 @@
 #include "client/base/error.h"
 #include "client/files/write/shape_writer.h"
 #include "sample_data.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
 
 std::string written(FileFormat format, const v1::SkeletonPoints& skeleton,
                     const std::vector<std::string>& comments = {}) {
-  const TempDir dir;
-  AtomicFile file(dir / "s");
+  const tests::TemporaryDirectory dir;
+  base::AtomicFile file(dir / "s");
   write_into(file,
              [&](const WriteBytes& write) { write_points(format, shape_of(skeleton), comments, write); });
   file.commit();
-  return slurp(dir / "s");
+  return tests::read_file(dir / "s");
 }
 
 TEST(SkeletonWriter, CsvReadsBackExactly) {

@@ -11,7 +11,8 @@
 #include "client/base/error.h"
 #include "hdf5_reader.h"
 #include "sample_data.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -49,9 +50,9 @@ void expect_arrays(const std::string& path, const Expected& expected) {
 }
 
 TEST(VtkHdfWriter, PlacesTheImage) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   const LatticePoints points(sample_lattice());
-  AtomicFile out(dir / "f.vtkhdf");
+  base::AtomicFile out(dir / "f.vtkhdf");
   FieldWriter writer(FileFormat::kVtkHdf, out, points);
   writer.finish();
   out.commit();
@@ -87,8 +88,8 @@ TEST(VtkHdfWriter, PlacesAShearedImage) {
   const std::array<double, 9> axes = {2, 0, 0.5, 0.25, 1, 0, -1, 0.125, 0.5};
   for (int i = 0; i < 9; ++i) lattice.set_axes(i, axes[static_cast<std::size_t>(i)]);
   const LatticePoints points(lattice);
-  const TempDir dir;
-  AtomicFile out(dir / "f.vtkhdf");
+  const tests::TemporaryDirectory dir;
+  base::AtomicFile out(dir / "f.vtkhdf");
   FieldWriter(FileFormat::kVtkHdf, out, points).finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -111,8 +112,8 @@ TEST(VtkHdfWriter, PlacesAShearedImage) {
 }
 
 TEST(VtkHdfWriter, AnUprightImageHasNoFrame) {
-  const TempDir dir;
-  AtomicFile out(dir / "f.vtkhdf");
+  const tests::TemporaryDirectory dir;
+  base::AtomicFile out(dir / "f.vtkhdf");
   const LatticePoints points(sample_lattice());
   FieldWriter(FileFormat::kVtkHdf, out, points).finish();
   out.commit();
@@ -123,9 +124,9 @@ TEST(VtkHdfWriter, AnUprightImageHasNoFrame) {
 
 TEST(VtkHdfWriter, ArraysReadBackExactlyAcrossSlabs) {
   const LatticePoints points(lattice_of_slabs());
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   Expected expected{{}, points.dims()};
-  AtomicFile out(dir / "f.vtkhdf");
+  base::AtomicFile out(dir / "f.vtkhdf");
   FieldWriter writer(FileFormat::kVtkHdf, out, points);
   for (LatticeCursor cursor(points); !cursor.at_end(); cursor.advance()) {
     const auto rank = static_cast<std::uint32_t>(expected.points.size());
@@ -140,10 +141,10 @@ TEST(VtkHdfWriter, ArraysReadBackExactlyAcrossSlabs) {
 }
 
 TEST(VtkHdfWriter, AnAbandonedFileLeavesNothing) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   {
     const LatticePoints points(sample_lattice());
-    AtomicFile out(dir / "f.vtkhdf");
+    base::AtomicFile out(dir / "f.vtkhdf");
     FieldWriter writer(FileFormat::kVtkHdf, out, points);
     writer.put({});
   }
@@ -152,14 +153,14 @@ TEST(VtkHdfWriter, AnAbandonedFileLeavesNothing) {
 
 TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
   const LatticePoints points(sample_lattice());
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   ::testing::internal::CaptureStdout();
   for (const std::string& target : {dir / "f.vtkhdf", std::string("-")}) {
-    AtomicFile out(target);
+    base::AtomicFile out(target);
     FieldWriter(FileFormat::kVtkHdf, out, points).finish();
     out.commit();
   }
-  EXPECT_EQ(::testing::internal::GetCapturedStdout(), slurp(dir / "f.vtkhdf"));
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), tests::read_file(dir / "f.vtkhdf"));
 }
 
 // No file of this process may grow: what a full disk does, without one.
@@ -168,7 +169,7 @@ TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_FSIZE, &none);
   try {
-    AtomicFile file(target);
+    base::AtomicFile file(target);
     const LatticePoints points(sample_lattice());
     FieldWriter(FileFormat::kVtkHdf, file, points).finish();
   } catch (const ClientError& error) {
@@ -179,7 +180,7 @@ TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
 }
 
 TEST(VtkHdfWriter, AFullDiskIsALimitThatNamesTheFile) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   EXPECT_EXIT(write_without_room(dir / "field.vtkhdf"), testing::ExitedWithCode(0), "");
 }
 

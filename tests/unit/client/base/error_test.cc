@@ -69,6 +69,10 @@ TEST(ErrorFromErrno, TellsFullDisksAndForbiddenPlaces) {
   EXPECT_EQ(error_from_errno(ENOENT, "cannot write", "f").exit_code(), ExitCode::kUsage);
   EXPECT_EQ(error_from_errno(ENOENT, "cannot write", "f").for_people(),
             "f: cannot write: No such file or directory");
+  const ClientError full = error_from_file(base::FileError(ENOSPC, "cannot write", "f"));
+  EXPECT_EQ(full.exit_code(), ExitCode::kLimit);
+  EXPECT_EQ(full.file(), "f");
+  EXPECT_EQ(full.for_people(), "f: cannot write: No space left on device");
 }
 
 TEST(Console, JsonErrorsAreOneObjectWithPlace) {

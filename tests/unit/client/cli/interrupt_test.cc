@@ -7,9 +7,9 @@
 
 #include <array>
 
+#include "base/atomic_file.h"
 #include "client/base/error.h"
-#include "client/files/write/atomic_file.h"
-#include "temp_dir.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -31,11 +31,11 @@ TEST(InterruptDeathTest, TellsThatTheJobGoesOn) {
 }
 
 TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   EXPECT_EXIT(
       {
         install_interrupt_handlers();
-        AtomicFile file(dir / "out.csv");
+        base::AtomicFile file(dir / "out.csv");
         file.write(std::string(3 << 20, 'x'));
         if (dir.names().size() != 1) _exit(1);
         raise(SIGTERM);
@@ -44,7 +44,7 @@ TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
   EXPECT_TRUE(dir.names().empty());
 }
 
-// 0 when an AtomicFile into a pipe that nobody reads fails with a message about it.
+// 0 when an base::AtomicFile into a pipe that nobody reads fails with a message about it.
 [[noreturn]] void write_to_nobody() {
   install_interrupt_handlers();
   std::array<int, 2> ends{};
@@ -52,10 +52,11 @@ TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
   close(ends[0]);
   dup2(ends[1], STDOUT_FILENO);
   try {
-    AtomicFile file("-");
+    base::AtomicFile file("-");
     file.write("x");
     file.commit();
-  } catch (const ClientError& error) {
+  } catch (const base::FileError& failure) {
+    const ClientError error = error_from_file(failure);
     const bool told = error.for_people() == "standard output: cannot write: Broken pipe";
     _exit(told && error.exit_code() == ExitCode::kLimit ? 0 : 1);
   }
@@ -67,14 +68,14 @@ TEST(InterruptDeathTest, APipeThatNobodyReadsIsAnErrorNotADeath) {
 }
 
 TEST(InterruptDeathTest, RemovesEveryUnfinishedFile) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   EXPECT_EXIT(
       {
         install_interrupt_handlers();
-        AtomicFile first(dir / "a.csv");
-        AtomicFile second(dir / "b.svg");
-        { AtomicFile third(dir / "c.svg"); }
-        AtomicFile fourth(dir / "d.csv");
+        base::AtomicFile first(dir / "a.csv");
+        base::AtomicFile second(dir / "b.svg");
+        { base::AtomicFile third(dir / "c.svg"); }
+        base::AtomicFile fourth(dir / "d.csv");
         fourth.commit();
         if (dir.names().size() != 3) _exit(1);
         raise(SIGTERM);
@@ -84,17 +85,17 @@ TEST(InterruptDeathTest, RemovesEveryUnfinishedFile) {
 }
 
 TEST(InterruptDeathTest, AFileBeyondTheLimitIsAnErrorAndRemoved) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   EXPECT_EXIT(
       {
         install_interrupt_handlers();
         limit_file_size(1 << 16);
         try {
-          AtomicFile file(dir / "out.csv");
+          base::AtomicFile file(dir / "out.csv");
           file.write(std::string(3 << 20, 'x'));
           file.commit();
-        } catch (const ClientError& error) {
-          _exit(static_cast<int>(error.exit_code()));
+        } catch (const base::FileError& error) {
+          _exit(static_cast<int>(error_from_file(error).exit_code()));
         }
         _exit(0);
       },

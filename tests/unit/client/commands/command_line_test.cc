@@ -10,7 +10,8 @@
 #include "client/cli/affine_steps.h"
 #include "client/cli/completions.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -210,11 +211,12 @@ TEST(Completions, NameEveryCommandAndLongOption) {
 
 // What bash offers for a command line whose last word is being typed.
 std::string completed_by_bash(const std::string& words) {
-  const TempDir dir;
-  spit(dir / "completion", script("bash"));
-  spit(dir / "run",
-       "source '" + (dir / "completion") + "'\nCOMP_WORDS=(" + words +
-           ")\nCOMP_CWORD=$((${#COMP_WORDS[@]}-1))\n_affskel_client\nprintf '%s ' \"${COMPREPLY[@]}\"\n");
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "completion", script("bash"));
+  tests::write_file(
+      dir / "run",
+      "source '" + (dir / "completion") + "'\nCOMP_WORDS=(" + words +
+          ")\nCOMP_CWORD=$((${#COMP_WORDS[@]}-1))\n_affskel_client\nprintf '%s ' \"${COMPREPLY[@]}\"\n");
   std::FILE* pipe = popen(("bash '" + (dir / "run") + "'").c_str(), "r");
   std::string text;
   std::array<char, 4096> buffer{};

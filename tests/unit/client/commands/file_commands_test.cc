@@ -3,16 +3,15 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "client/commands/run_client.h"
 #include "client/files/read/read_shape.h"
+#include "client_fixture.h"
 #include "core/base/affine_map.h"
-#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
-#include "temp_dir.h"
-#include "test_environment.h"
+#include "core/text/off_file.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -20,31 +19,19 @@ namespace {
 using core::Vec3;
 using nlohmann::json;
 
-struct Outcome {
-  int exit_code = 0;
-  std::string out, err;
-};
-
 class FileCommandsTest : public ::testing::Test {
  protected:
   FileCommandsTest() {
-    spit(dir_ / "box.off", core::write_off(core::make_box(3, 2, 1)));
-    spit(dir_ / "a.csv", "x,y,z\n0,0,0\n10,0,0\n20,0,0\n30,0,0\n");
-    spit(dir_ / "b.xyz", "0 0 0\n10 1 0\n20 0 2\n");
-    spit(dir_ / "s.csv", "x,y,z,E,nx,ny,nz,direction,H\n1,2,3,10,0,0.6,0.8,5,7.5\n0,0,0,20,1,0,0,6,-8\n");
+    tests::write_file(dir_ / "box.off", core::write_off(core::make_box(3, 2, 1)));
+    tests::write_file(dir_ / "a.csv", "x,y,z\n0,0,0\n10,0,0\n20,0,0\n30,0,0\n");
+    tests::write_file(dir_ / "b.xyz", "0 0 0\n10 1 0\n20 0 2\n");
+    tests::write_file(dir_ / "s.csv",
+                      "x,y,z,E,nx,ny,nz,direction,H\n1,2,3,10,0,0.6,0.8,5,7.5\n0,0,0,20,1,0,0,6,-8\n");
   }
 
-  Outcome run(const std::vector<std::string>& arguments) {
-    std::ostringstream out, err;
-    Outcome outcome;
-    outcome.exit_code =
-        run_client(arguments, {out, err, false, test_environment({{"HOME", dir_.path()}}), {}});
-    outcome.out = out.str();
-    outcome.err = err.str();
-    return outcome;
-  }
+  Outcome run(const std::vector<std::string>& arguments) { return run_client_in(dir_, arguments); }
 
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
 };
 
 TEST_F(FileCommandsTest, CompareTellsSharesBothWays) {
@@ -63,10 +50,10 @@ TEST_F(FileCommandsTest, CompareTellsSharesBothWays) {
   EXPECT_DOUBLE_EQ(document.at("area_under_squared_curve").at("a_in_b").get<double>(), 10.75 / 16);
   EXPECT_EQ(document.at("hausdorff").at("a_to_b"), std::sqrt(104.0));
   EXPECT_EQ(document.at("hausdorff").at("b_to_a"), 2);
-  EXPECT_EQ(slurp(dir_ / "c.csv"),
+  EXPECT_EQ(tests::read_file(dir_ / "c.csv"),
             "radius,squared_radius,a_in_b,b_in_a\n0,0,0.25,0.33333333333333331\n"
             "1,1,0.5,0.66666666666666663\n2,4,0.75,1\n4,16,0.75,1\n");
-  EXPECT_EQ(slurp(dir_ / "c.svg").substr(0, 4), "<svg");
+  EXPECT_EQ(tests::read_file(dir_ / "c.svg").substr(0, 4), "<svg");
 }
 
 TEST_F(FileCommandsTest, CompareWithoutRadiiGoesByTheBox) {
@@ -89,8 +76,8 @@ TEST_F(FileCommandsTest, CompareTakesSquaredRadiiAsThePublishedWorkDoes) {
 
 TEST_F(FileCommandsTest, CompareKnowsTheChanceLevel) {
   // A single point in the middle of a cube of edge 2: within 0.9 of it lies the ball's share of the cube.
-  spit(dir_ / "cube.off", core::write_off(core::make_box(2, 2, 2)));
-  spit(dir_ / "centre.xyz", "1 1 1\n");
+  tests::write_file(dir_ / "cube.off", core::write_off(core::make_box(2, 2, 2)));
+  tests::write_file(dir_ / "centre.xyz", "1 1 1\n");
   const Outcome done = run({"--json", "compare", dir_ / "centre.xyz", dir_ / "centre.xyz", "--solid",
                             dir_ / "cube.off", "--radius", "0.9"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -115,9 +102,9 @@ TEST_F(FileCommandsTest, CompareSpreadsPointsOverSurfaces) {
 }
 
 TEST_F(FileCommandsTest, CompareRefusesWhatItCannotCompare) {
-  spit(dir_ / "none.csv", "x,y,z\n");
-  spit(dir_ / "nan.csv", "x,y,z\n1,2,3\n1,nan,3\n");
-  spit(dir_ / "same.csv", "x,y,z\n1,2,3\n");
+  tests::write_file(dir_ / "none.csv", "x,y,z\n");
+  tests::write_file(dir_ / "nan.csv", "x,y,z\n1,2,3\n1,nan,3\n");
+  tests::write_file(dir_ / "same.csv", "x,y,z\n1,2,3\n");
   EXPECT_EQ(run({"compare", dir_ / "a.csv", dir_ / "none.csv"}).exit_code, 3);
   EXPECT_EQ(run({"compare", dir_ / "a.csv", dir_ / "missing.csv"}).exit_code, 3);
   EXPECT_EQ(run({"compare", dir_ / "a.csv", dir_ / "b.xyz", "--solid", dir_ / "a.csv"}).exit_code, 3);
@@ -163,9 +150,9 @@ TEST_F(FileCommandsTest, CompareKeepsRadiiInRange) {
 }
 
 TEST_F(FileCommandsTest, CompareIsRightOrRefusesAtAnySize) {
-  spit(dir_ / "tiny.csv", "x,y,z\n0,0,0\n1e-170,0,0\n");
-  spit(dir_ / "tiny2.csv", "x,y,z\n0,3e-170,0\n1e-170,3e-170,0\n");
-  spit(dir_ / "huge.csv", "x,y,z\n0,0,0\n1e160,0,0\n");
+  tests::write_file(dir_ / "tiny.csv", "x,y,z\n0,0,0\n1e-170,0,0\n");
+  tests::write_file(dir_ / "tiny2.csv", "x,y,z\n0,3e-170,0\n1e-170,3e-170,0\n");
+  tests::write_file(dir_ / "huge.csv", "x,y,z\n0,0,0\n1e160,0,0\n");
   const Outcome refused = run({"compare", dir_ / "tiny.csv", dir_ / "tiny2.csv"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("3e-170"), std::string::npos) << refused.err;
@@ -176,7 +163,7 @@ TEST_F(FileCommandsTest, CompareIsRightOrRefusesAtAnySize) {
   EXPECT_EQ(huge.exit_code, 3);
   EXPECT_NE(huge.err.find("huge.csv"), std::string::npos) << huge.err;
   core::Mesh box = core::make_box(3e-80, 2e-80, 1e-80);
-  spit(dir_ / "tiny.off", core::write_off(box));
+  tests::write_file(dir_ / "tiny.off", core::write_off(box));
   const Outcome surface = run({"compare", dir_ / "tiny.off", dir_ / "a.csv"});
   EXPECT_EQ(surface.exit_code, 3);
   EXPECT_NE(surface.err.find("tiny.off"), std::string::npos) << surface.err;
@@ -185,10 +172,10 @@ TEST_F(FileCommandsTest, CompareIsRightOrRefusesAtAnySize) {
 TEST_F(FileCommandsTest, CompareKnowsTheChanceLevelOfThinSolids) {
   // A needle: points within 1e4 of its middle are a fifth of it.  A plate: within 1e5 of its middle lies
   // the disc's share.
-  spit(dir_ / "needle.off", core::write_off(core::make_box(1e5, 1, 1)));
-  spit(dir_ / "needle.xyz", "5e4 0.5 0.5\n");
-  spit(dir_ / "plate.off", core::write_off(core::make_box(1e6, 1e6, 1)));
-  spit(dir_ / "plate.xyz", "5e5 5e5 0.5\n");
+  tests::write_file(dir_ / "needle.off", core::write_off(core::make_box(1e5, 1, 1)));
+  tests::write_file(dir_ / "needle.xyz", "5e4 0.5 0.5\n");
+  tests::write_file(dir_ / "plate.off", core::write_off(core::make_box(1e6, 1e6, 1)));
+  tests::write_file(dir_ / "plate.xyz", "5e5 5e5 0.5\n");
   const auto chance = [&](const std::string& name, const char* radius) {
     const Outcome done = run({"--json", "compare", dir_ / (name + ".xyz"), dir_ / (name + ".xyz"), "--solid",
                               dir_ / (name + ".off"), "--radius", radius});
@@ -200,14 +187,14 @@ TEST_F(FileCommandsTest, CompareKnowsTheChanceLevelOfThinSolids) {
 }
 
 TEST_F(FileCommandsTest, CompareWritesBothFilesOrNone) {
-  spit(dir_ / "old.svg", "old");
+  tests::write_file(dir_ / "old.svg", "old");
   std::filesystem::create_directory(dir_ / "full.csv");
   for (const std::string& table : {dir_ / "none/c.csv", dir_ / "full.csv"}) {
     const Outcome done =
         run({"compare", dir_ / "a.csv", dir_ / "b.xyz", "--plot", dir_ / "old.svg", "-o", table});
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_NE(done.err.find(table), std::string::npos) << done.err;
-    EXPECT_EQ(slurp(dir_ / "old.svg"), "old");
+    EXPECT_EQ(tests::read_file(dir_ / "old.svg"), "old");
   }
   // A disk that fills up shows only when the table is written.
   std::filesystem::create_symlink("/dev/full", dir_ / "disk.csv");
@@ -215,7 +202,7 @@ TEST_F(FileCommandsTest, CompareWritesBothFilesOrNone) {
       run({"compare", dir_ / "a.csv", dir_ / "b.xyz", "--plot", dir_ / "old.svg", "-o", dir_ / "disk.csv"})
           .exit_code,
       8);
-  EXPECT_EQ(slurp(dir_ / "old.svg"), "old");
+  EXPECT_EQ(tests::read_file(dir_ / "old.svg"), "old");
   EXPECT_EQ(dir_.names().size(), 7u) << "temporary files are left";
 }
 
@@ -229,7 +216,7 @@ TEST_F(FileCommandsTest, StlThatWouldBeSpoiltIsRefusedByName) {
 }
 
 TEST_F(FileCommandsTest, ChangedNamesOfColumnsAreTold) {
-  spit(dir_ / "n.csv", "x,y,z,my col\n1,2,3,4\n");
+  tests::write_file(dir_ / "n.csv", "x,y,z,my col\n1,2,3,4\n");
   const Outcome done = run({"transform", dir_ / "n.csv", "-o", dir_ / "t.ply", "--scale", "2"});
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_NE(done.err.find("column 'my col' is written as 'my_col'"), std::string::npos) << done.err;
@@ -271,7 +258,7 @@ TEST_F(FileCommandsTest, TransformMapsWhatBelongsToThePoints) {
 }
 
 TEST_F(FileCommandsTest, TransformKnowsOtherNamesOfNormals) {
-  spit(dir_ / "n.csv", "x,y,z,nx_a,ny_a,nz_a,n2x,n2y,n2z,nice\n0,0,0,0,0,1,1,0,0,3\n");
+  tests::write_file(dir_ / "n.csv", "x,y,z,nx_a,ny_a,nz_a,n2x,n2y,n2z,nice\n0,0,0,0,0,1,1,0,0,3\n");
   ASSERT_EQ(run({"transform", dir_ / "n.csv", "-o", dir_ / "t.csv", "--rotate", "y:90"}).exit_code, 0);
   const ShapeFile shape = read_shape(dir_ / "t.csv");
   EXPECT_EQ(shape.column("nx_a")->values[0], 1);
@@ -321,7 +308,8 @@ TEST_F(FileCommandsTest, PerturbMovesEveryVertexByAShareOfTheDiagonal) {
   EXPECT_DOUBLE_EQ(document.at("sigma").get<double>(), sigma);
   EXPECT_EQ(document.at("seed"), 3);
   EXPECT_FALSE(document.at("self_intersecting"));
-  const core::Mesh box = core::make_box(3, 2, 1), noisy = core::read_off(slurp(dir_ / "p.off")).mesh;
+  const core::Mesh box = core::make_box(3, 2, 1),
+                   noisy = core::read_off(tests::read_file(dir_ / "p.off")).mesh;
   for (std::size_t v = 0; v < box.points.size(); ++v) {
     EXPECT_GT(norm(noisy.points[v] - box.points[v]), 0);
     EXPECT_LT(norm(noisy.points[v] - box.points[v]), 6 * sigma);
@@ -330,15 +318,15 @@ TEST_F(FileCommandsTest, PerturbMovesEveryVertexByAShareOfTheDiagonal) {
   EXPECT_EQ(
       run({"perturb", dir_ / "box.off", "-o", dir_ / "q.off", "--noise", "0.005", "--seed", "3"}).exit_code,
       0);
-  EXPECT_EQ(slurp(dir_ / "q.off"), slurp(dir_ / "p.off"));
+  EXPECT_EQ(tests::read_file(dir_ / "q.off"), tests::read_file(dir_ / "p.off"));
   EXPECT_EQ(
       run({"perturb", dir_ / "box.off", "-o", dir_ / "q.off", "--sigma", "0.01", "--seed", "3"}).exit_code,
       0);
-  EXPECT_NE(slurp(dir_ / "q.off"), slurp(dir_ / "p.off"));
+  EXPECT_NE(tests::read_file(dir_ / "q.off"), tests::read_file(dir_ / "p.off"));
 }
 
 TEST_F(FileCommandsTest, PerturbWarnsWhenTheSurfaceCrossesItself) {
-  spit(dir_ / "sphere.off", core::write_off(core::make_sphere(1, 1280)));
+  tests::write_file(dir_ / "sphere.off", core::write_off(core::make_sphere(1, 1280)));
   const Outcome done =
       run({"--quiet", "perturb", dir_ / "sphere.off", "-o", dir_ / "p.off", "--noise", "10%"});
   EXPECT_EQ(done.exit_code, 0);

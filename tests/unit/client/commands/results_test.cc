@@ -3,6 +3,7 @@
 
 #include "client_fixture.h"
 #include "sample_data.h"
+#include "tools/files.h"
 
 namespace affskel::client {
 namespace {
@@ -11,11 +12,11 @@ using nlohmann::json;
 
 TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
   EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.csv"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "f.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
+  EXPECT_EQ(tests::read_file(dir_ / "f.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
   EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.xyz"}).exit_code, 0);
   EXPECT_EQ(run({"fetch", "@last", "surface", "-o", dir_ / "s.stl"}).exit_code, 0);
   EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.anything"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "m.anything"), mesh_);
+  EXPECT_EQ(tests::read_file(dir_ / "m.anything"), mesh_);
   EXPECT_FALSE(service_.fetches.back().has_skeleton());
   EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.ply"}).exit_code, 2);
   EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
@@ -24,7 +25,7 @@ TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
 TEST_F(ClientTest, FetchSaysWhenTheMeshIsNotWhatItsFileIsCalled) {
   const Outcome called_stl = run({"fetch", "@last", "mesh", "-o", dir_ / "m.STL"});
   EXPECT_EQ(called_stl.exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "m.STL"), mesh_);
+  EXPECT_EQ(tests::read_file(dir_ / "m.STL"), mesh_);
   EXPECT_NE(called_stl.err.find("warning"), std::string::npos) << called_stl.err;
   EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.off"}).err.find("warning"), std::string::npos);
 }
@@ -55,7 +56,7 @@ TEST_F(ClientTest, ResultsGoToTheStandardOutput) {
     command.back() = dir_ / "file";
     if (command[0] == "render") command.back() += ".png";
     ASSERT_EQ(run(command).exit_code, 0) << command[0];
-    EXPECT_EQ(piped, slurp(command.back())) << command[0];
+    EXPECT_EQ(piped, tests::read_file(command.back())) << command[0];
     command.back() = "-";
     command.insert(command.begin(), "--json");
     EXPECT_EQ(run(command).exit_code, 2) << "both want standard output";
@@ -80,7 +81,7 @@ TEST_F(ClientTest, APlaceThatCannotBeWrittenIsKnownBeforeTheWorkIsDone) {
 
 TEST_F(ClientTest, AFormatStandsAboveTheExtension) {
   EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.txt", "--format", "csv"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "s.txt").substr(0, 6), "x,y,z,");
+  EXPECT_EQ(tests::read_file(dir_ / "s.txt").substr(0, 6), "x,y,z,");
   EXPECT_EQ(run({"erode", "@last", "--volume", "3", "-o", dir_ / "e.csv", "--format", "stl"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
 }
@@ -125,7 +126,7 @@ TEST_F(ClientTest, AThresholdAloneIsForTheJobsOperator) {
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_CHORDS);
   EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 0.1);
   EXPECT_EQ(service_.fetches.back().job(), service_.job.id()) << "@last may be another job by then";
-  EXPECT_NE(slurp(dir_ / "s.ply").find("operator chords, threshold 0.1"), std::string::npos);
+  EXPECT_NE(tests::read_file(dir_ / "s.ply").find("operator chords, threshold 0.1"), std::string::npos);
   ASSERT_EQ(run({"surface", "@last", "--threshold", "0.1", "-o", dir_ / "s.off"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
   EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 0.1);
@@ -144,7 +145,7 @@ TEST_F(ClientTest, AnOperatorAloneHasItsDefaultThreshold) {
 
 TEST_F(ClientTest, RenderWritesAPng) {
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "300"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "p.png").substr(1, 3), "PNG");
+  EXPECT_EQ(tests::read_file(dir_ / "p.png").substr(1, 3), "PNG");
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png", "--width", "3"}).exit_code, 2);
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.jpg"}).exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(dir_ / "p.jpg"));
@@ -160,17 +161,13 @@ TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
   EXPECT_EQ(service_.fetches.front().skeleton().threshold(), 3);
   EXPECT_EQ(service_.fetches.front().skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
 
-  v1::TriangleMesh sheet;
-  for (const double v : {0., 0., 1000., 2000., 0., 1000., 0., 2000., 1000.}) sheet.add_xyz(v);
-  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
-  for (const double e : {3., 4., 5.}) sheet.add_erosion(e);
-  for (const double r : {0.5, 0.6, 0.7}) sheet.add_strength(r);
+  v1::TriangleMesh sheet = sample_sheet();
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   service_.fetches.clear();
   ASSERT_EQ(run({"render", "@last", "--operator", "chords", "-o", other, "--width", "300"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.front().kind(), v1::ARTIFACT_KIND_SURFACE);
   EXPECT_EQ(service_.fetches.front().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
-  EXPECT_NE(slurp(plain), slurp(other));
+  EXPECT_NE(tests::read_file(plain), tests::read_file(other));
   sheet.add_corners(9);
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   EXPECT_EQ(run({"render", "@last", "--operator", "chords", "-o", other}).exit_code, 70) << "a damaged sheet";
@@ -190,14 +187,14 @@ TEST_F(ClientTest, RenderOfAnEmptySheetSaysWhy) {
 
 TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.csv"}).exit_code, 0);
-  const std::string text = slurp(dir_ / "H.csv");
+  const std::string text = tests::read_file(dir_ / "H.csv");
   EXPECT_EQ(text.substr(0, 8), "x,y,z,H\n");
   EXPECT_NE(text.find(",-7.25\n"), std::string::npos) << text;
   EXPECT_FALSE(service_.fetches.back().has_skeleton()) << "the job's own operator";
   EXPECT_EQ(run({"fetch", "@last", "divergence", "--operator", "sobel", "-o", dir_ / "H.dat"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.vtkhdf"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "H.vtkhdf").substr(1, 3), "HDF");
+  EXPECT_EQ(tests::read_file(dir_ / "H.vtkhdf").substr(1, 3), "HDF");
   EXPECT_EQ(run({"fetch", "@last", "mesh", "--operator", "sobel", "-o", dir_ / "m.off"}).exit_code, 2);
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(4 * 8);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "short.csv"}).exit_code, 70);
@@ -211,14 +208,14 @@ TEST_F(ClientTest, ErodeWritesPointsOrASurface) {
   EXPECT_EQ(run({"erode", "@last", "--volume", "3e9", "-o", dir_ / "e.csv"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_POINTS);
   EXPECT_EQ(service_.fetches.back().eroded().volume(), 3e9);
-  EXPECT_EQ(slurp(dir_ / "e.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
+  EXPECT_EQ(tests::read_file(dir_ / "e.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
   EXPECT_EQ(run({"erode", "@last", "--volume", "3", "--as", "points", "-o", dir_ / "e.ply"}).exit_code, 0);
-  EXPECT_EQ(slurp(dir_ / "e.ply").find("property double H"), std::string::npos);
+  EXPECT_EQ(tests::read_file(dir_ / "e.ply").find("property double H"), std::string::npos);
   EXPECT_EQ(run({"erode", "@last", "--volume", "3", "-o", dir_ / "E.STL"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
   const Outcome told = run({"--json", "erode", "@last", "--fraction", "0.5", "-o", dir_ / "e.ply"});
   EXPECT_EQ(json::parse(told.out).at("volume"), 8e8);
-  EXPECT_NE(slurp(dir_ / "e.ply").find("volume 8e+08"), std::string::npos);
+  EXPECT_NE(tests::read_file(dir_ / "e.ply").find("volume 8e+08"), std::string::npos);
   EXPECT_EQ(run({"erode", "@last", "--fraction", "7%", "-o", dir_ / "e.stl"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.07);
   EXPECT_EQ(run({"fetch", "@last", "eroded", "-o", dir_ / "f.off"}).exit_code, 0);
@@ -229,7 +226,7 @@ TEST_F(ClientTest, ErodedPointsTellTheirShareOfTheVolume) {
   // Two of the five sample points of a solid of 8e9.
   const Outcome told = run({"erode", "@last", "--fraction", "0.1", "-o", dir_ / "e.ply", "--as", "points"});
   EXPECT_NE(told.err.find("2 points, volume about 3.2e+09"), std::string::npos) << told.err;
-  EXPECT_NE(slurp(dir_ / "e.ply").find("volume about 3.2e+09"), std::string::npos);
+  EXPECT_NE(tests::read_file(dir_ / "e.ply").find("volume about 3.2e+09"), std::string::npos);
   const json document =
       json::parse(run({"--json", "erode", "@last", "--fraction", "0.1", "-o", dir_ / "e.csv"}).out);
   EXPECT_DOUBLE_EQ(document.at("volume"), 3.2e9);
@@ -278,7 +275,7 @@ TEST_F(ClientTest, QualityIsToldEverywhere) {
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
   *service_.job.mutable_quality() = skeleton.quality();
   EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.ply"}).exit_code, 0);
-  EXPECT_NE(slurp(dir_ / "s.ply").find("comment quality betti: 1, 0, 0"), std::string::npos);
+  EXPECT_NE(tests::read_file(dir_ / "s.ply").find("comment quality betti: 1, 0, 0"), std::string::npos);
   EXPECT_NE(run({"status", "@last"}).out.find("skeleton_inside:      100 %"), std::string::npos);
   EXPECT_EQ(json::parse(run({"--json", "status", "@last"}).out).at("quality").at("components"), 1);
   skeleton.mutable_quality()->set_advice("take more directions");
@@ -327,7 +324,7 @@ TEST_F(ClientTest, SheetsOfChordsKeepTheirProperties) {
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   EXPECT_EQ(run({"surface", "@last", "--operator", "chords", "-o", dir_ / "c.ply"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
-  const std::string ply = slurp(dir_ / "c.ply");
+  const std::string ply = tests::read_file(dir_ / "c.ply");
   EXPECT_NE(ply.find("property double E\n"), std::string::npos);
   EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 3 * 4 * 8 + 13);
   sheet.add_erosion(6);

@@ -5,9 +5,10 @@
 #include <sstream>
 
 #include "client_fixture.h"
-#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 #include "test_environment.h"
+#include "tools/files.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -106,7 +107,7 @@ TEST_F(ClientTest, SubmitRefusesBadMeshesWithoutTheServer) {
 
 TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
   const std::string stem("c\xFF_e");
-  spit(dir_ / (stem + ".off"), mesh_);
+  tests::write_file(dir_ / (stem + ".off"), mesh_);
   const Outcome done = run({"submit", dir_ / (stem + ".off"), "-o", dir_ / "OUT"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(service_.submitted.name(), "c\xEF\xBF\xBD_e");
@@ -147,8 +148,8 @@ TEST_F(ClientTest, SubmitIntoADirectoryWritesAllThree) {
   EXPECT_EQ(document.at("id"), service_.job.id());
   EXPECT_EQ(document.at("files").at("field"), dir_ / "OUT/deep/cube.field.vtkhdf");
   EXPECT_TRUE(std::filesystem::exists(dir_ / "OUT/deep/cube.field.vtkhdf"));
-  EXPECT_EQ(slurp(dir_ / "OUT/deep/cube.skeleton.ply").substr(0, 4), "ply\n");
-  EXPECT_EQ(slurp(dir_ / "OUT/deep/cube.surface.off").substr(0, 3), "OFF");
+  EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.skeleton.ply").substr(0, 4), "ply\n");
+  EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.surface.off").substr(0, 3), "OFF");
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir_ / "OUT/deep")) ++files;
   EXPECT_EQ(files, 3u);
@@ -346,7 +347,7 @@ TEST_F(ClientTest, OtherFormatsAreSubmittedAsOffText) {
 
 TEST_F(ClientTest, MakeWritesShapes) {
   EXPECT_EQ(run({"make", "torus", "--triangles", "18", "-o", dir_ / "t.off"}).exit_code, 0);
-  EXPECT_EQ(core::read_off(slurp(dir_ / "t.off")).mesh.triangles.size(), 18u);
+  EXPECT_EQ(core::read_off(tests::read_file(dir_ / "t.off")).mesh.triangles.size(), 18u);
   ::testing::internal::CaptureStdout();
   run({"make", "box", "--size", "3,2,1", "-o", "-"});
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), core::write_off(core::make_box(3, 2, 1)));

@@ -1,62 +1,34 @@
 // The command `view` against a server in this process; what is on the page is tested in page_test.cc.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "client/commands/run_client.h"
-#include "core/text/off_file.h"
-#include "core/shapes/shapes.h"
-#include "fake_service.h"
+#include "client_fixture.h"
 #include "sample_data.h"
-#include "test_environment.h"
+#include "tools/files.h"
 
 namespace affskel::client {
 namespace {
 
 using nlohmann::json;
 
-struct Outcome {
-  int exit_code = 0;
-  std::string out, err;
-};
-
-class ViewTest : public ::testing::Test {
+class ViewTest : public ClientTest {
  protected:
-  ViewTest() : server_(service_) {
-    service_.job.set_id("0123456789abcdef0123456789abcdef");
-    service_.job.set_name("cube");
-    service_.job.set_state(v1::JOB_STATE_DONE);
-    service_.job.mutable_prepared()->set_points(5);
-    service_.job.mutable_prepared()->set_volume(8e9);
-    service_.job.mutable_prepared()->set_spacing(200);
-    service_.artifacts[v1::ARTIFACT_KIND_MESH] = core::write_off(core::make_box(2000, 2000, 2000));
-    service_.artifacts[v1::ARTIFACT_KIND_LATTICE] = sample_lattice().SerializeAsString();
-    service_.artifacts[v1::ARTIFACT_KIND_DIRECTIONS] = sample_directions().SerializeAsString();
-    service_.artifacts[v1::ARTIFACT_KIND_FIELD] = sample_field();
-    std::string divergences;
-    for (const double h : {0.0, -7.25, 1.0 / 3, 2.0, 9.1}) {
-      divergences.append(reinterpret_cast<const char*>(&h), sizeof h);
-    }
-    service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE] = divergences;
+  // The page is made of the field and the divergence; in the folder there is only what `view` leaves there.
+  ViewTest() {
+    service_.artifacts.erase(v1::ARTIFACT_KIND_SKELETON);
+    service_.artifacts.erase(v1::ARTIFACT_KIND_SURFACE);
+    for (const std::string& name : dir_.names()) std::filesystem::remove(dir_ / name);
   }
 
   Outcome run(std::vector<std::string> arguments) {
-    std::ostringstream out, err;
-    arguments.insert(arguments.begin(), {"--server", server_.address(), "view", "@last"});
-    RetryPolicy retry;
-    retry.first_pause = std::chrono::milliseconds(1);
-    retry.patience = std::chrono::milliseconds(200);
-    Outcome outcome;
-    outcome.exit_code =
-        run_client(arguments, {out, err, false, test_environment({{"HOME", dir_.path()}}), retry});
-    outcome.out = out.str();
-    outcome.err = err.str();
-    return outcome;
+    arguments.insert(arguments.begin(), {"view", "@last"});
+    return ClientTest::run(arguments);
   }
 
   json facts() const {
-    const std::string page = slurp(dir_ / "p.html"), open = "id=\"facts\">";
+    const std::string page = tests::read_file(dir_ / "p.html"), open = "id=\"facts\">";
     const std::size_t begin = page.find(open) + open.size();
     return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
   }
@@ -67,10 +39,6 @@ class ViewTest : public ::testing::Test {
     }
     return {};
   }
-
-  TempDir dir_;
-  FakeService service_;
-  FakeServer server_;
 };
 
 TEST_F(ViewTest, WritesThePage) {
@@ -86,7 +54,7 @@ TEST_F(ViewTest, WritesThePage) {
   const json told = json::parse(run({"--json", "-o", dir_ / "p.html"}).out);
   EXPECT_EQ(told.at("file"), dir_ / "p.html");
   EXPECT_EQ(told.at("points"), 5);
-  EXPECT_EQ(told.at("bytes"), slurp(dir_ / "p.html").size());
+  EXPECT_EQ(told.at("bytes"), tests::read_file(dir_ / "p.html").size());
 }
 
 TEST_F(ViewTest, TakesTheJobsSkeletonOrAnother) {
@@ -143,11 +111,7 @@ TEST_F(ViewTest, EveryOperatorBeginsAtItsOwnThreshold) {
 TEST_F(ViewTest, ChordsAreShownAsASheet) {
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   service_.artifacts.erase(v1::ARTIFACT_KIND_DIVERGENCE);
-  v1::TriangleMesh sheet;
-  for (const double v : {0., 0., 0., 1., 0., 0., 0., 1., 0.}) sheet.add_xyz(v);
-  for (const unsigned c : {0u, 1u, 2u}) sheet.add_corners(c);
-  for (const double v : {1., 2., 3.}) sheet.add_erosion(v);
-  for (const double v : {0.5, 0.6, 0.7}) sheet.add_strength(v);
+  v1::TriangleMesh sheet = sample_sheet();
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   const Outcome done = run({"-o", dir_ / "p.html"});
   ASSERT_EQ(done.exit_code, 0) << done.err;

@@ -9,8 +9,9 @@
 #include <thread>
 
 #include "client/base/error.h"
-#include "temp_dir.h"
 #include "test_environment.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -46,7 +47,7 @@ TEST(EmbeddedPaths, DeepHomesGetAShortSocket) {
 }
 
 TEST(MakePrivateDirectory, IsOursAlone) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   make_private_directory(dir.path() / "a" / "b", true);
   struct stat info {};
   stat((dir.path() / "a" / "b").c_str(), &info);
@@ -55,7 +56,7 @@ TEST(MakePrivateDirectory, IsOursAlone) {
 }
 
 TEST(MakePrivateDirectory, RefusesWhatOthersMayHavePrepared) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   std::filesystem::create_directory(dir / "open");
   chmod((dir / "open").c_str(), 0770);
   EXPECT_THROW(make_private_directory(dir / "open", true), ClientError);
@@ -64,7 +65,7 @@ TEST(MakePrivateDirectory, RefusesWhatOthersMayHavePrepared) {
   chmod((dir / "real").c_str(), 0700);
   std::filesystem::create_directory_symlink("real", dir / "link");
   EXPECT_THROW(make_private_directory(dir / "link", true), ClientError);
-  spit(dir / "file", "");
+  tests::write_file(dir / "file", "");
   EXPECT_THROW(make_private_directory(dir / "file", false), ClientError);
 }
 
@@ -77,14 +78,14 @@ class EnsureEmbeddedServer : public ::testing::Test {
   }
   // The servers are children of this process.
   ~EnsureEmbeddedServer() override {
-    const std::string pid = slurp(dir_ / "home/pid");
+    const std::string pid = tests::read_file(dir_ / "home/pid");
     if (!pid.empty()) {
       kill(std::stoi(pid), SIGTERM);
       waitpid(std::stoi(pid), nullptr, 0);
     }
   }
 
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
   Environment environment_ = test_environment({{"AFFSKEL_HOME", dir_ / "home"}});
   EmbeddedPaths paths_;
   EmbeddedOptions options_;
@@ -100,18 +101,18 @@ TEST_F(EnsureEmbeddedServer, StartsOneAndSaysSo) {
   const std::string said = err_.str();
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
   EXPECT_EQ(out_.str(), "");
-  EXPECT_EQ(slurp(dir_ / "home/arguments"), "--data-dir\n" + paths_.home.string() +
-                                                "\n--listen\nunix:" + paths_.socket.string() +
-                                                "\n--workers\nauto\n--idle-exit\n60\nsession leader: 1\n");
+  EXPECT_EQ(tests::read_file(dir_ / "home/arguments"),
+            "--data-dir\n" + paths_.home.string() + "\n--listen\nunix:" + paths_.socket.string() +
+                "\n--workers\nauto\n--idle-exit\n60\nsession leader: 1\n");
 }
 
 TEST_F(EnsureEmbeddedServer, AttachesSilentlyToARunningOne) {
   ensure_embedded_server(paths_, options_, environment_, console_);
-  const std::string pid = slurp(dir_ / "home/pid");
+  const std::string pid = tests::read_file(dir_ / "home/pid");
   err_.str("");
   ensure_embedded_server(paths_, options_, environment_, console_);
   EXPECT_EQ(err_.str(), "");
-  EXPECT_EQ(slurp(dir_ / "home/pid"), pid);
+  EXPECT_EQ(tests::read_file(dir_ / "home/pid"), pid);
 }
 
 TEST_F(EnsureEmbeddedServer, TwoClientsAtOnceShareOne) {
@@ -130,7 +131,7 @@ TEST_F(EnsureEmbeddedServer, TwoClientsAtOnceShareOne) {
 }
 
 TEST_F(EnsureEmbeddedServer, TellsAFullDiskByItsExitCode) {
-  spit(dir_ / "home/full", "");
+  tests::write_file(dir_ / "home/full", "");
   options_.grace = std::chrono::milliseconds(50);
   try {
     ensure_embedded_server(paths_, options_, environment_, console_);
@@ -141,7 +142,7 @@ TEST_F(EnsureEmbeddedServer, TellsAFullDiskByItsExitCode) {
 }
 
 TEST_F(EnsureEmbeddedServer, ReportsTheLogOfAServerThatCannotStart) {
-  spit(dir_ / "home/refuse", "");
+  tests::write_file(dir_ / "home/refuse", "");
   options_.grace = std::chrono::milliseconds(50);
   try {
     ensure_embedded_server(paths_, options_, environment_, console_);
@@ -154,7 +155,7 @@ TEST_F(EnsureEmbeddedServer, ReportsTheLogOfAServerThatCannotStart) {
 }
 
 TEST_F(EnsureEmbeddedServer, KeepsTheLogFromGrowingForEver) {
-  spit(paths_.log, std::string(9 << 20, 'x'));
+  tests::write_file(paths_.log, std::string(9 << 20, 'x'));
   ensure_embedded_server(paths_, options_, environment_, console_);
   EXPECT_LT(std::filesystem::file_size(paths_.log), 1u << 20);
   EXPECT_EQ(std::filesystem::file_size(paths_.log.string() + ".1"), 9u << 20);
@@ -166,14 +167,14 @@ TEST_F(EnsureEmbeddedServer, ReportsAProgramThatCannotRun) {
 }
 
 TEST(FindServerProgram, LooksInThePath) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   try {
     find_server_program("/nowhere", test_environment({{"PATH", dir.path()}}));
     FAIL() << "found although it is nowhere";
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kUnreachable);
   }
-  spit(dir / "affskel-server", "");
+  tests::write_file(dir / "affskel-server", "");
   EXPECT_THROW(find_server_program("/nowhere", test_environment({{"PATH", dir.path()}})), ClientError)
       << "not executable";
   chmod((dir / "affskel-server").c_str(), 0700);
@@ -182,9 +183,9 @@ TEST(FindServerProgram, LooksInThePath) {
 }
 
 TEST(FindServerProgram, PrefersItsOwnDirectory) {
-  const TempDir dir, other;
+  const tests::TemporaryDirectory dir, other;
   for (const std::string& program : {dir / "affskel-server", other / "affskel-server"}) {
-    spit(program, "");
+    tests::write_file(program, "");
     chmod(program.c_str(), 0700);
   }
   EXPECT_EQ(find_server_program(dir.path(), test_environment({{"PATH", other.path()}})),

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "client/base/error.h"
-#include "temp_dir.h"
 #include "test_environment.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -13,13 +14,13 @@ class ServerChoiceTest : public ::testing::Test {
  protected:
   void write_config(const std::string& text) {
     std::filesystem::create_directories(dir_.path() / "affskel");
-    spit(dir_.path() / "affskel" / "config", text);
+    tests::write_file(dir_.path() / "affskel" / "config", text);
   }
   Environment environment(const std::string& server = "") {
     return test_environment(
         {{"XDG_CONFIG_HOME", dir_.path()}, {"HOME", "/nowhere"}, {"AFFSKEL_SERVER", server}});
   }
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
 };
 
 TEST_F(ServerChoiceTest, OptionThenEnvironmentThenConfigThenEmbedded) {
@@ -61,6 +62,34 @@ TEST_F(ServerChoiceTest, ConfigErrorsHaveALine) {
       EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
     }
   }
+}
+
+TEST_F(ServerChoiceTest, FilesOfTheConfigurationGoWithItsServerAlone) {
+  write_config("server = lab:7060\ntoken_file = my.token\ntls_ca = /etc/lab.pem\n");
+  const ServerChoice configured = choose_server("", environment());
+  EXPECT_EQ(configured.access.token_file, (dir_.path() / "affskel" / "my.token").string());
+  EXPECT_EQ(configured.access.tls_ca, "/etc/lab.pem");
+  EXPECT_EQ(choose_server("other:7060", environment()).access.token_file, "");
+  EXPECT_EQ(choose_server("", environment("other:7060")).access.token_file, "");
+}
+
+TEST_F(ServerChoiceTest, FilesByOptionThenEnvironmentThenConfiguration) {
+  write_config("server = lab:7060\ntoken_file = my.token\n");
+  const Environment environment = test_environment({{"XDG_CONFIG_HOME", dir_.path()},
+                                                    {"AFFSKEL_TOKEN_FILE", "/env.token"},
+                                                    {"AFFSKEL_TLS_CA", "/env.pem"}});
+  EXPECT_EQ(choose_server("", environment).access.token_file, "/env.token");
+  wire::AccessFiles given;
+  given.token_file = "given.token";
+  const ServerChoice choice = choose_server("", environment, given);
+  EXPECT_EQ(choice.access.token_file, "given.token");
+  EXPECT_EQ(choice.access.tls_ca, "/env.pem");
+}
+
+TEST_F(ServerChoiceTest, ThePrivateServerIsShownNothing) {
+  wire::AccessFiles given;
+  given.token_file = "given.token";
+  EXPECT_EQ(choose_server("", environment(), given).access.token_file, "");
 }
 
 TEST(ConfigFile, DefaultsToTheHomeDirectory) {

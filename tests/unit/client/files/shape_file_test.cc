@@ -14,7 +14,8 @@
 #include "core/solid/solid.h"
 #include "core/text/off_file.h"
 #include "sample_data.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 class ShapeFileTest : public ::testing::Test {
  protected:
   ShapeFile read(const std::string& name, const std::string& bytes) {
-    spit(dir_ / name, bytes);
+    tests::write_file(dir_ / name, bytes);
     return read_shape(dir_ / name);
   }
 
@@ -39,13 +40,13 @@ class ShapeFileTest : public ::testing::Test {
     }
   }
 
-  TempDir dir_;
+  tests::TemporaryDirectory dir_;
 };
 
 TEST_F(ShapeFileTest, SkeletonsReadBackAsTheyWereWritten) {
   const v1::SkeletonPoints skeleton = sample_skeleton();
   for (const char* name : {"s.csv", "s.ply", "s.off", "s.xyz", "S.PLY", "s.vtp"}) {
-    AtomicFile file(dir_ / name);
+    base::AtomicFile file(dir_ / name);
     const FileFormat format = choose_format(dir_ / name, skeleton_formats(), "skeleton");
     write_into(file, [&](const WriteBytes& write) {
       write_points(format, shape_of(skeleton), {"a comment"}, write);

@@ -79,7 +79,7 @@ std::vector<Number> array_of(const std::string& page, const char* name, const ch
   return values;
 }
 
-// The place of a step, as decode.js reckons it.
+// The position of a lattice place, computed as decode.js does.
 std::array<double, 3> place(const json& grid, const std::vector<std::uint16_t>& steps, std::size_t point) {
   std::array<double, 3> at{};
   for (std::size_t c = 0; c < 3; ++c) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/base/error.h"
 #include "core/chords/chord_fields.h"
@@ -21,23 +22,38 @@ ChordPruningOptions quarter() {
   return options;
 }
 
-// Shocks of the plane z = 1.5 in a box of 40 x 20 x 4 points, laid by hand.
+// Equal shocks over 0 <= i - i0 < ni, 0 <= j - j0 < nj.
+struct Patch {
+  std::uint32_t i0, ni, j0, nj;
+  double turn, strength = 1, erosion = 100;
+};
+
+// Patches in the plane z = 1.5 of a box of 40 x 20 x 4 points.
 class Plane {
  public:
-  // Over 0 <= i - i0 < ni, 0 <= j - j0 < nj.
-  void add(std::uint32_t i0, std::uint32_t ni, std::uint32_t j0, std::uint32_t nj, double turn,
-           double strength = 1, double erosion = 100) {
-    for (std::uint32_t i = i0; i < i0 + ni; ++i) {
-      for (std::uint32_t j = j0; j < j0 + nj; ++j) {
+  Plane(std::initializer_list<Patch> patches) {
+    for (const Patch& patch : patches) add(patch);
+    std::sort(shocks_.begin(), shocks_.end(),
+              [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
+  }
+
+  SignificantShocks prune(const ChordPruningOptions& options = quarter()) const {
+    return significant_shocks(box_.lattice, SolidParts(box_.solid, box_.lattice), shocks_, options);
+  }
+
+ private:
+  void add(const Patch& patch) {
+    for (std::uint32_t i = patch.i0; i < patch.i0 + patch.ni; ++i) {
+      for (std::uint32_t j = patch.j0; j < patch.j0 + patch.nj; ++j) {
         ChordShock shock;
         shock.place = {i, j, 1};
         shock.point = (i * 20 + j) * 4 + 1;
         shock.upper = shock.point + 1;
         shock.axis = 2;
         shock.position = {static_cast<double>(i), static_cast<double>(j), 1.5};
-        shock.erosion = erosion;
-        shock.strength = strength;
-        shock.turn = turn;
+        shock.erosion = patch.erosion;
+        shock.strength = patch.strength;
+        shock.turn = patch.turn;
         shock.gradient_low = {0, 0, 1};
         shock.gradient_high = {0, 0, -1};
         shocks_.push_back(shock);
@@ -45,13 +61,6 @@ class Plane {
     }
   }
 
-  SignificantShocks prune(const ChordPruningOptions& options = quarter()) {
-    std::sort(shocks_.begin(), shocks_.end(),
-              [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
-    return significant_shocks(box_.lattice, SolidParts(box_.solid, box_.lattice), shocks_, options);
-  }
-
- private:
   BoxLattice box_{40, 20, 4};
   std::vector<ChordShock> shocks_;
 };
@@ -68,9 +77,9 @@ ChordPruningOptions with_significance(double significance) {
 }
 
 TEST(SignificantShocks, APieceIsWeighedByAreaStrengthAndTurn) {
-  Plane plane;
-  plane.add(0, 10, 0, 10, 1);
-  plane.add(30, 5, 0, 4, 0.3, 0.5);  // 20 * 0.15 = 3 against 100
+  const Plane plane = {
+      {0, 10, 0, 10, 1}, {30, 5, 0, 4, 0.3, 0.5}  // 20 * 0.15 = 3 against 100
+  };
   const SignificantShocks all = plane.prune(with_significance(0.029));
   ASSERT_EQ(all.pieces.size(), 2U);
   EXPECT_NEAR(all.pieces[0], 100.0 / 103, 1e-12);
@@ -83,30 +92,21 @@ TEST(SignificantShocks, APieceIsWeighedByAreaStrengthAndTurn) {
 }
 
 TEST(SignificantShocks, WeakShocksAloneAreDroppedAndCarryNoWeight) {
-  Plane plane;
-  plane.add(0, 3, 0, 3, 1);
-  plane.add(20, 10, 0, 20, 0.24);
+  const Plane plane = {{0, 3, 0, 3, 1}, {20, 10, 0, 20, 0.24}};
   const SignificantShocks kept = plane.prune(with_significance(0));
   EXPECT_EQ(kept.shocks.size(), 9U);
   EXPECT_EQ(kept.pieces, std::vector<double>{1.0});
 }
 
 TEST(SignificantShocks, DiagonalNeighboursTouch) {
-  Plane plane;
-  plane.add(0, 5, 0, 5, 1);
-  plane.add(5, 5, 5, 5, 1);
-  plane.add(20, 1, 5, 1, 1);
+  const Plane plane = {{0, 5, 0, 5, 1}, {5, 5, 5, 5, 1}, {20, 1, 5, 1, 1}};
   EXPECT_EQ(plane.prune(with_significance(0)).pieces.size(), 2U);
 }
 
 // Between two pieces a weak field with a cheaper lane in row 3.
 TEST(SignificantShocks, PiecesAreJoinedByTheCheapestWay) {
-  Plane plane;
-  plane.add(0, 5, 0, 8, 1);
-  plane.add(15, 5, 0, 8, 0.5);
-  plane.add(5, 10, 0, 3, 0.05);
-  plane.add(5, 10, 3, 1, 0.1);
-  plane.add(5, 10, 4, 4, 0.05);
+  const Plane plane = {
+      {0, 5, 0, 8, 1}, {15, 5, 0, 8, 0.5}, {5, 10, 0, 3, 0.05}, {5, 10, 3, 1, 0.1}, {5, 10, 4, 4, 0.05}};
   const SignificantShocks kept = plane.prune();
   EXPECT_EQ(kept.pieces.size(), 2U);  // 10 steps of cost 10: too far to be weighed as one
   EXPECT_EQ(kept.bridges, 1U);
@@ -121,12 +121,11 @@ TEST(SignificantShocks, PiecesAreJoinedByTheCheapestWay) {
 
 // A speck counts with the piece that it hangs on by a cheap way, but not with one far away.
 TEST(SignificantShocks, NearPiecesAreWeighedAsOne) {
-  Plane plane;
-  plane.add(0, 10, 0, 20, 1);
-  plane.add(12, 1, 10, 1, 0.25);
-  plane.add(10, 2, 10, 1, 0.2);
-  plane.add(30, 1, 10, 1, 0.25);
-  plane.add(13, 17, 10, 1, 0.01);
+  const Plane plane = {{0, 10, 0, 20, 1},
+                       {12, 1, 10, 1, 0.25},
+                       {10, 2, 10, 1, 0.2},
+                       {30, 1, 10, 1, 0.25},
+                       {13, 17, 10, 1, 0.01}};
   const SignificantShocks kept = plane.prune();
   EXPECT_TRUE(keeps(kept, 12, 10));
   EXPECT_TRUE(keeps(kept, 11, 10));
@@ -136,13 +135,8 @@ TEST(SignificantShocks, NearPiecesAreWeighedAsOne) {
 }
 
 TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
-  Plane plane;
-  plane.add(0, 9, 0, 4, 1);
-  plane.add(0, 4, 4, 1, 1);
-  plane.add(4, 1, 4, 1, 0.01);
-  plane.add(5, 4, 4, 1, 1);
-  plane.add(0, 9, 5, 4, 1);
-  plane.add(0, 9, 9, 1, 0.01);
+  const Plane plane = {{0, 9, 0, 4, 1}, {0, 4, 4, 1, 1}, {4, 1, 4, 1, 0.01},
+                       {5, 4, 4, 1, 1}, {0, 9, 5, 4, 1}, {0, 9, 9, 1, 0.01}};
   const SignificantShocks kept = plane.prune();
   EXPECT_TRUE(keeps(kept, 4, 4));
   EXPECT_FALSE(keeps(kept, 4, 9));
@@ -151,9 +145,7 @@ TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
 
 // The volume is 40 * 20 * 4 = 3200, a thousandth of it 3.2.
 TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
-  Plane plane;
-  plane.add(0, 10, 0, 10, 1, 1, 3.3);
-  plane.add(20, 10, 0, 10, 1, 1, 3.1);
+  const Plane plane = {{0, 10, 0, 10, 1, 1, 3.3}, {20, 10, 0, 10, 1, 1, 3.1}};
   EXPECT_EQ(plane.prune().shocks.size(), 100U);
   ChordPruningOptions options = quarter();
   options.min_erosion = 0;
@@ -249,28 +241,25 @@ TEST(SignificantShocks, ASmallSolidIsWeighedAlone) {
 }
 
 TEST(SignificantShocks, TellsWhatThereWasToChooseFrom) {
-  Plane plane;
-  plane.add(0, 10, 0, 10, 0.9);
-  plane.add(20, 5, 0, 5, 0.9);
-  plane.add(20, 5, 10, 5, 0.2);
-  plane.add(30, 3, 0, 2, 0.3, 1, 3.1);
+  const Plane plane = {
+      {0, 10, 0, 10, 0.9}, {20, 5, 0, 5, 0.9}, {20, 5, 10, 5, 0.2}, {30, 3, 0, 2, 0.3, 1, 3.1}};
   const SignificantShocks kept = plane.prune(with_significance(0.9));
   EXPECT_TRUE(kept.shocks.empty());
   EXPECT_EQ(kept.census.candidates, 156U);
   EXPECT_EQ(kept.census.wide, 131U);
   EXPECT_EQ(kept.census.strong, 125U);
-  EXPECT_EQ(kept.census.widest_turn, 0.9);
-  EXPECT_NEAR(kept.census.heaviest_piece, 0.8, 1e-12);
+  EXPECT_EQ(kept.census.max_turn, 0.9);
+  EXPECT_NEAR(kept.census.max_piece_share, 0.8, 1e-12);
 }
 
 TEST(SignificantShocks, NothingComesOfNothing) {
-  Plane plane;
+  const Plane plane = {};
   EXPECT_TRUE(plane.prune().shocks.empty());
   EXPECT_TRUE(plane.prune().pieces.empty());
 }
 
 TEST(SignificantShocks, RefusesOptionsOutOfRange) {
-  Plane plane;
+  const Plane plane = {};
   for (const ChordPruningOptions& options :
        {ChordPruningOptions{-1}, ChordPruningOptions{1.5}, ChordPruningOptions{std::nan("")},
         ChordPruningOptions{0, 2}, ChordPruningOptions{0, 0, -1}, ChordPruningOptions{0, 0, 0, -1}}) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -24,7 +24,7 @@ Lattice lattice_of(const Solid& solid, double spacing) {
 void for_each_edge(const Lattice& lattice,
                    const std::function<void(const Place&, const Place&, unsigned, bool, bool)>& visit) {
   const auto dims = lattice.grid.dims;
-  SlabIndex ranks(lattice);
+  LayerIndex ranks(lattice);
   for (std::int64_t i = -1; i < dims[0]; ++i) {
     if (i + 1 < dims[0]) ranks.move_to(static_cast<std::uint32_t>(i + 1));
     for (std::int64_t j = -1; j < dims[1]; ++j) {
@@ -32,7 +32,7 @@ void for_each_edge(const Lattice& lattice,
         for (unsigned step = 1; step < 8; ++step) {
           const Place from{i, j, k}, to{i + ((step >> 2) & 1), j + ((step >> 1) & 1), k + (step & 1)};
           const auto inside = [&](const Place& p) {
-            return ranks.at(p[0], p[1], p[2]) != SlabIndex::kOutside;
+            return ranks.at(p[0], p[1], p[2]) != LayerIndex::kOutside;
           };
           visit(from, to, step, inside(from), inside(to));
         }

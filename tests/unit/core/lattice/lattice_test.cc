@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/lattice/all_places.h"
 #include "core/lattice/scan_conversion.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/shapes.h"
@@ -21,16 +22,13 @@ Lattice lattice_of(const Solid& solid, double spacing) {
 }
 
 std::vector<Vec3> places_of(const Solid& solid, const Lattice& lattice) {
-  const SamplePlaces places(solid, lattice);
-  std::vector<Vec3> result;
+  std::uint32_t points = 0;
   for (const LatticeRun& run : lattice.axis[2].runs) {
-    EXPECT_EQ(run.first, result.size());
-    for (std::uint32_t n = 0; n < run.length; ++n) {
-      result.push_back(places.at(run.start[0], run.start[1], run.start[2] + n));
-    }
+    EXPECT_EQ(run.first, points);
+    points += run.length;
   }
-  EXPECT_EQ(result.size(), lattice.points);
-  return result;
+  EXPECT_EQ(points, lattice.points);
+  return all_places(solid, lattice);
 }
 
 TEST(MakeLattice, FillsABoxSymmetrically) {

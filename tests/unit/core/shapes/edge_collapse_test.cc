@@ -25,7 +25,7 @@ TEST(EdgeCollapseTest, ReachesTheCountAndKeepsTopologyAndVolume) {
 }
 
 TEST(EdgeCollapseTest, ReachesOddAndEvenCountsOfAHalf) {
-  const Mesh half = positive_x_part(make_sphere(1, 2000), 0.01);
+  const Mesh half = positive_x_half(make_sphere(1, 2000), 0.01);
   for (const std::size_t triangles : {100u, 101u, 150u, 151u}) {
     const Mesh coarse = collapse_edges(half, triangles);
     EXPECT_EQ(coarse.triangles.size(), triangles);

@@ -8,6 +8,7 @@
 
 #include "core/base/symmetric_eigen.h"
 #include "core/shapes/shapes.h"
+#include "core/solid/kurtosis.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -41,16 +42,6 @@ Matrix3 contracted(const FourthMoments& m) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t l = 0; l < 3; ++l)
       sum[i] = sum[i] + Vec3{m[i][0][l][int(l)], m[i][1][l][int(l)], m[i][2][l][int(l)]};
-  }
-  return sum;
-}
-
-// E[(u.w)^4].
-double along(const FourthMoments& m, const Vec3& u) {
-  const std::array<double, 3> c = {u.x, u.y, u.z};
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) sum += c[i] * c[j] * dot(u, m[i][j] * u);
   }
   return sum;
 }
@@ -126,7 +117,7 @@ TEST(SolidMoments, GoAlongWithAnAffineMap) {
       for (std::size_t j = 0; j < 3; ++j) expect_near(fourth[i][j], of_map[i][j], 1e-10);
     }
     const FourthMoments plain = fourth_moments(mesh, before.volume, before.centroid, kIdentity3);
-    EXPECT_NEAR(along(fourth, axis), along(plain, transposed(kMap) * axis), 1e-10);
+    EXPECT_NEAR(kurtosis_along(fourth, axis), kurtosis_along(plain, transposed(kMap) * axis), 1e-10);
   }
 }
 

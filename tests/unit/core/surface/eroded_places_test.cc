@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -25,14 +25,14 @@ unsigned gaps_from(const LatticeCuts& cuts, std::int64_t i, std::int64_t j, std:
 }
 
 // One row against the definitions, place by place.
-void expect_row(const ErodedPlaces::Row& row, std::int64_t i, std::int64_t j, const SlabIndex& ranks,
+void expect_row(const ErodedPlaces::Row& row, std::int64_t i, std::int64_t j, const LayerIndex& ranks,
                 const std::vector<double>& erosion, const LatticeCuts& cuts, const LatticeGrid& grid,
                 Seen& seen) {
   ErodedPlaces::Extent extent;
   for (std::int64_t k = -1; k <= grid.dims[2]; ++k) {
     SCOPED_TRACE(testing::Message() << "place " << i << ' ' << j << ' ' << k);
     const std::uint32_t rank = ranks.at(i, j, k);
-    const bool full = rank != SlabIndex::kOutside && erosion[rank] >= 1;
+    const bool full = rank != LayerIndex::kOutside && erosion[rank] >= 1;
     EXPECT_EQ(row.full[k], full ? 1 : 0);
     if (full) extent.take(k, k);
     seen.full += full;
@@ -59,7 +59,7 @@ TEST(ErodedPlacesTest, TellFullPlacesAndGapsOfEveryPairOfLayers) {
   for (std::uint32_t p = 0; p < lattice.points; ++p) field.erosion.push_back(random() % 3 == 0 ? 1 : 0);
 
   ErodedPlaces places(lattice, field, cuts, 1);
-  SlabIndex ranks(lattice);
+  LayerIndex ranks(lattice);
   const auto dims = lattice.grid.dims;
   Seen seen;
   for (std::int64_t at = -1; at < dims[0]; ++at) {

@@ -17,8 +17,8 @@ TEST(LevelCrossingBetweenTest, IsExactForCubics) {
   for (double t : {0.1, 0.37, 0.5, 0.99}) {
     const LevelCrossing found = level_crossing_between(above, below, e(t), false);
     EXPECT_NEAR(found.share, t, 1e-14);
-    EXPECT_EQ(found.least, found.share);
-    EXPECT_EQ(found.most, found.share);
+    EXPECT_EQ(found.min_share, found.share);
+    EXPECT_EQ(found.max_share, found.share);
   }
 }
 
@@ -33,16 +33,16 @@ TEST(LevelCrossingBetweenTest, FollowsTheTangentsAcrossAKink) {
 TEST(LevelCrossingBetweenTest, IsOpenAcrossAJump) {
   // 4 - t / 2 on one side, 1.5 - t / 2 on the other: nothing says where the one ends.
   const LevelCrossing wide = level_crossing_between({4, -0.5}, {1, -0.5}, 2, false);
-  EXPECT_EQ(wide.least, 0);
-  EXPECT_EQ(wide.most, 1);
+  EXPECT_EQ(wide.min_share, 0);
+  EXPECT_EQ(wide.max_share, 1);
   EXPECT_EQ(wide.share, 0.5);
   // The first side itself falls to the level at 1/2.
   const LevelCrossing half = level_crossing_between({4, -1}, {1, -0.5}, 3.5, false);
-  EXPECT_EQ(half.most, 0.5);
+  EXPECT_EQ(half.max_share, 0.5);
   EXPECT_EQ(half.share, 0.25);
   const LevelCrossing unknown = level_crossing_between({kInfinity, 0}, {1, -1}, 2, false);
   EXPECT_EQ(unknown.share, 0.5);
-  EXPECT_EQ(unknown.most, 1);
+  EXPECT_EQ(unknown.max_share, 1);
 }
 
 TEST(LevelCrossingBeforeSurfaceTest, IsExactForFacesSmoothPartsEdgesAndCorners) {

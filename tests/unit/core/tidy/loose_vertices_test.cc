@@ -30,7 +30,7 @@ TEST(LooseVerticesTest, EvenOutToThePlaneOfTheirSurroundings) {
   const Mesh before = mesh;
   std::vector<LooseVertex> loose = roughen_top(mesh, 0, 1);
   ASSERT_GT(loose.size(), 30u);
-  settle_loose_vertices(loose, 200, mesh);
+  relax_loose_vertices(loose, 200, mesh);
   std::size_t next = 0;
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
     if (next < loose.size() && loose[next].vertex == v) {
@@ -45,7 +45,7 @@ TEST(LooseVerticesTest, EvenOutToThePlaneOfTheirSurroundings) {
 TEST(LooseVerticesTest, StayWithinTheirBounds) {
   Mesh mesh = make_box(4, 4, 4, 8);
   std::vector<LooseVertex> loose = roughen_top(mesh, 0.6, 0.9);
-  settle_loose_vertices(loose, 50, mesh);
+  relax_loose_vertices(loose, 50, mesh);
   for (const LooseVertex& l : loose) {
     EXPECT_GE(l.share, 0.6);
     EXPECT_LT(l.share, 0.7);  // the plane round it is at 0.5

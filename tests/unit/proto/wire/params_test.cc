@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/published_threshold.h"
+
 namespace affskel::wire {
 namespace {
 
@@ -75,7 +77,7 @@ TEST(ParamsTest, FramesAreNamedInKeysUnlessTheyAreTheMeshs) {
 TEST(ParamsTest, SkeletonDefaultsAreFilledIn) {
   const v1::SkeletonParams filled = canonical(v1::SkeletonParams());
   EXPECT_EQ(filled.operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
-  EXPECT_EQ(filled.threshold(), kZuckerHummelThreshold);
+  EXPECT_EQ(filled.threshold(), base::kZuckerHummelThreshold);
   v1::SkeletonParams negative_zero;
   negative_zero.set_threshold(-0.0);
   EXPECT_EQ(cache_key(canonical(negative_zero)), cache_key(filled));

@@ -162,9 +162,7 @@ TEST_F(RepairTest, DerivedArtefactsAreMadeAgain) {
   const v1::Job job = complete_job(kPoints, kDirections);
   flip("artifact_chunks", "length(data) = 8");
   open();
-  v1::FetchArtifactRequest request;
-  request.set_job(job.id());
-  request.set_kind(v1::ARTIFACT_KIND_SKELETON);
+  v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_SKELETON);
   EXPECT_STORE_ERROR(read_all(*store_->open_artifact(request).reader), kDamaged);
   store_.reset();
   EXPECT_EQ(repair(), 1);
@@ -177,9 +175,7 @@ TEST_F(RepairTest, DerivedArtefactsAreMadeAgain) {
 // Clients alone use the lattice: the field is kept, and the lattice made when somebody asks.
 TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
   const v1::Job job = complete_job(kPoints, kDirections);
-  v1::FetchArtifactRequest request;
-  request.set_job(job.id());
-  request.set_kind(v1::ARTIFACT_KIND_LATTICE);
+  v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_LATTICE);
   const std::string lattice = read_all(*store_->open_artifact(request).reader);
   flip("artifact_chunks", "artifact_id = (SELECT id FROM artifacts WHERE kind = 'lattice')");
   EXPECT_EQ(repair(), 1);

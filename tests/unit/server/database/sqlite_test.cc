@@ -15,6 +15,12 @@ class DatabaseTest : public testing::Test {
   TemporaryDirectory directory_;
 };
 
+/// A mesh and its erosion 1, for rows that refer to them.
+void add_erosion(Database& db, const std::string& sha256) {
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha256);
+  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha256);
+}
+
 TEST_F(DatabaseTest, OpensDurablyAndWithForeignKeys) {
   Database db(file(), Database::Mode::kReadWrite);
   Statement mode = db.query("PRAGMA journal_mode");
@@ -155,8 +161,7 @@ TEST_F(DatabaseTest, MigratingKeepsWhatIsStored) {
   const std::vector<Migration>& all = embedded_migrations();
   migrate(db, {all[0]});
   const std::string sha(64, 'a'), id(32, '0');
-  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
-  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  add_erosion(db, sha);
   db.run(
       "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
       "created_ms) VALUES (?, 'n', 'o', 5, 'queued', 'prepare', 1, x'', '', 0)",
@@ -183,8 +188,7 @@ TEST_F(DatabaseTest, MigratingFromTheSchemaBeforeKeepsTheQueue) {
   const std::vector<Migration>& all = embedded_migrations();
   migrate(db, {all.begin(), all.begin() + 5});
   const std::string sha(64, 'a'), id(32, '0');
-  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
-  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  add_erosion(db, sha);
   db.run(
       "INSERT INTO jobs (seq, id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key,"
       " created_ms) VALUES (9, ?, 'n', 'o', 5, 'running', 'erode', 1, x'', '', 0)",
@@ -257,8 +261,7 @@ TEST_F(DatabaseTest, KindsAreThoseOfTheirTables) {
   Database db(file(), Database::Mode::kReadWrite);
   migrate(db);
   const std::string sha(64, 'a');
-  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
-  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  add_erosion(db, sha);
   const char* insert =
       "INSERT INTO artifacts (erosion_id, kind, params_key, bytes, sha256, items) VALUES (1, ?, '', 1, ?, 0)";
   EXPECT_THROW(db.run(insert, "medial-axis", sha), SqliteError);
@@ -293,8 +296,7 @@ TEST_F(DatabaseTest, ChecksStates) {
   Database db(file(), Database::Mode::kReadWrite);
   migrate(db);
   const std::string sha(64, 'a');
-  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
-  db.run("INSERT INTO erosions (id, mesh_sha256, params, params_key) VALUES (1, ?, x'', '')", sha);
+  add_erosion(db, sha);
   const char* insert =
       "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
       "created_ms)"

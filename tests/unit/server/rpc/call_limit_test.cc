@@ -35,6 +35,13 @@ struct Now {
   void pass(milliseconds duration) { time += duration; }
 };
 
+/// A second passes, in which so many bytes come.
+void receive_in_a_second(std::uint64_t bytes, Pace& pace, Now& now) {
+  now.pass(seconds(1));
+  pace.moved(bytes, now.time);
+  pace.turn(now.time);
+}
+
 TEST(PaceTest, TheFirstMessageHasItsTime) {
   Now now;
   Pace pace;
@@ -51,9 +58,7 @@ TEST(PaceTest, AByteASecondIsTooSlow) {
   Pace pace;
   pace.turn(now.time);
   for (int second = 0; second < 19; ++second) {
-    now.pass(seconds(1));
-    pace.moved(1, now.time);
-    pace.turn(now.time);
+    receive_in_a_second(1, pace, now);
     EXPECT_FALSE(pace.late(now.time)) << second;
   }
   now.pass(seconds(1));
@@ -65,9 +70,7 @@ TEST(PaceTest, WhoKeepsTheRateIsNeverLate) {
   Pace pace;
   pace.turn(now.time);
   for (int second = 0; second < 1000; ++second) {
-    now.pass(seconds(1));
-    pace.moved(1100, now.time);
-    pace.turn(now.time);
+    receive_in_a_second(1100, pace, now);
     ASSERT_FALSE(pace.late(now.time)) << second;
   }
   EXPECT_EQ(pace.total(), 1100000U);

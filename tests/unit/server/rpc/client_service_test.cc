@@ -15,19 +15,6 @@ namespace {
 
 using ClientServiceTest = ServiceTest;
 
-v1::FetchArtifactRequest fetch_request(const std::string& job, v1::ArtifactKind kind) {
-  v1::FetchArtifactRequest request;
-  request.set_job(job);
-  request.set_kind(kind);
-  return request;
-}
-
-v1::FetchArtifactRequest skeleton_request(const std::string& job, double threshold) {
-  v1::FetchArtifactRequest request = fetch_request(job, v1::ARTIFACT_KIND_SKELETON);
-  request.mutable_skeleton()->set_threshold(threshold);
-  return request;
-}
-
 std::atomic<bool> disk_is_full = false;
 
 ssize_t pwrite_or_full(int fd, const void* bytes, size_t count, off_t offset) {
@@ -126,7 +113,7 @@ TEST_F(ClientServiceTest, WholePathWithTwoWorkers) {
   const v1::Job done = watch(id);
   EXPECT_EQ(done.state(), v1::JOB_STATE_DONE);
   EXPECT_EQ(done.directions_done(), 100U);
-  const Fetched field = fetch(*client_, fetch_request(id, v1::ARTIFACT_KIND_FIELD));
+  const Fetched field = fetch(*client_, artifact_request(id, v1::ARTIFACT_KIND_FIELD));
   ASSERT_TRUE(field.status.ok()) << field.status.error_message();
   EXPECT_EQ(field.data, expected_field(5000, 100));
   EXPECT_EQ(field.header.bytes(), field.data.size());
@@ -258,7 +245,7 @@ TEST_F(ClientServiceTest, LargeMeshComesBackUnchanged) {
   std::string mesh;
   for (int i = 0; mesh.size() < (std::size_t{5} << 20); ++i) mesh += std::to_string(i) + "\r\n";
   const std::string id = submit(mesh);
-  const Fetched fetched = fetch(*client_, fetch_request(id, v1::ARTIFACT_KIND_MESH));
+  const Fetched fetched = fetch(*client_, artifact_request(id, v1::ARTIFACT_KIND_MESH));
   EXPECT_TRUE(fetched.status.ok());
   EXPECT_EQ(fetched.data, mesh);
 }
@@ -314,9 +301,9 @@ TEST_F(ClientServiceTest, ARequestLeavesWithTheClientThatAsked) {
 
 TEST_F(ClientServiceTest, FetchBeforeTheEndIsRefused) {
   const std::string id = submit();
-  EXPECT_EQ(fetch(*client_, fetch_request(id, v1::ARTIFACT_KIND_FIELD)).status.error_code(),
+  EXPECT_EQ(fetch(*client_, artifact_request(id, v1::ARTIFACT_KIND_FIELD)).status.error_code(),
             grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_EQ(fetch(*client_, fetch_request("0123456789", v1::ARTIFACT_KIND_FIELD)).status.error_code(),
+  EXPECT_EQ(fetch(*client_, artifact_request("0123456789", v1::ARTIFACT_KIND_FIELD)).status.error_code(),
             grpc::StatusCode::NOT_FOUND);
 }
 
@@ -380,6 +367,32 @@ TEST_F(ClientServiceTest, IsNotIdleWhileDeletedJobsAreTidiedAway) {
   EXPECT_EQ(db.integer("SELECT count(*) FROM mesh_chunks"), 0) << "idle with a deleted mesh on the disk";
   EXPECT_LE(idle, std::chrono::steady_clock::now() - still_tidying)
       << "counted from before the end of tidying";
+}
+
+TEST_F(ClientServiceTest, MoreWatchesThanThereMayBeAreRefused) {
+  options_.limits.watches = 1;
+  start();
+  v1::WatchJobRequest request;
+  request.set_job(submit());
+  grpc::ClientContext first_context, second_context;
+  const auto first = client_->WatchJob(&first_context, request);
+  v1::Job job;
+  ASSERT_TRUE(first->Read(&job));
+  const auto second = client_->WatchJob(&second_context, request);
+  EXPECT_FALSE(second->Read(&job));
+  EXPECT_EQ(second->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+  first_context.TryCancel();
+  first->Finish();
+}
+
+TEST_F(ClientServiceTest, ADrainingServerTakesNoNewStreamsOfClients) {
+  const std::string id = submit();
+  server_->drain();
+  v1::SubmitJobResponse response;
+  EXPECT_EQ(submit_mesh(*client_, submit_header("OFF 2"), "OFF 2", &response).error_code(),
+            grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(fetch(*client_, mesh_request(id)).status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(job(id).state(), v1::JOB_STATE_QUEUED) << "short calls are answered to the end";
 }
 
 }  // namespace

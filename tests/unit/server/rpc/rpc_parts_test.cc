@@ -1,8 +1,12 @@
+#include <sqlite3.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <condition_variable>
 #include <mutex>
 
 #include "database/errors.h"
+#include "database/sqlite.h"
 #include "rpc/event_hub.h"
 #include "rpc/status.h"
 #include "rpc/upload.h"
@@ -65,6 +69,23 @@ TEST(StatusTest, LongMessagesAreCutAtACharacter) {
   EXPECT_EQ(
       status_of(std::make_exception_ptr(StoreError(StoreError::Code::kInvalid, "short"))).error_message(),
       "short");
+}
+
+int out_of_files(const char*, int, int) {
+  errno = EMFILE;
+  return -1;
+}
+
+TEST(OutOfFilesTest, IsNoErrorOfTheDatabaseButOneToTryAgain) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "db").string();
+  Database(file, Database::Mode::kReadWrite).execute("CREATE TABLE t (a INTEGER) STRICT");
+  sqlite3_vfs* const vfs = sqlite3_vfs_find(nullptr);
+  vfs->xSetSystemCall(vfs, "open", reinterpret_cast<sqlite3_syscall_ptr>(out_of_files));
+  const grpc::Status status = guarded([&] { const Database refused(file, Database::Mode::kReadOnly); });
+  vfs->xSetSystemCall(vfs, nullptr, nullptr);
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(status.error_message().find(file), std::string::npos) << status.error_message();
 }
 
 grpc::StatusCode add(Upload& upload, std::size_t bytes) {

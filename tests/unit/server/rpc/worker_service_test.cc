@@ -111,9 +111,7 @@ TEST_F(WorkerServiceTest, ReportInManyMessages) {
   const v1::Lease lease = block(20000, 16);
   v1::ReportResponse response;
   EXPECT_TRUE(send_report(*worker_, lease, 0, 16, true, &response).ok());
-  v1::FetchArtifactRequest request;
-  request.set_job(lease.job().id());
-  request.set_kind(v1::ARTIFACT_KIND_FIELD);
+  v1::FetchArtifactRequest request = artifact_request(lease.job().id(), v1::ARTIFACT_KIND_FIELD);
   EXPECT_EQ(fetch(*client_, request).data, expected_field(20000, 16));
 }
 

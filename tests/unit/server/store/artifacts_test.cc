@@ -7,19 +7,6 @@ namespace {
 
 class ArtifactTest : public StoreTest {
  protected:
-  v1::FetchArtifactRequest request(const std::string& job, v1::ArtifactKind kind) {
-    v1::FetchArtifactRequest result;
-    result.set_job(job);
-    result.set_kind(kind);
-    return result;
-  }
-
-  v1::FetchArtifactRequest skeleton(const std::string& job, double threshold) {
-    v1::FetchArtifactRequest result = request(job, v1::ARTIFACT_KIND_SKELETON);
-    result.mutable_skeleton()->set_threshold(threshold);
-    return result;
-  }
-
   std::string refusal(const v1::FetchArtifactRequest& wanted) {
     return error_of([&] { store_->open_artifact(wanted); });
   }
@@ -27,15 +14,16 @@ class ArtifactTest : public StoreTest {
 
 TEST_F(ArtifactTest, LatticeAndDirectionsAreThereAfterPreparing) {
   const v1::Job job = submit();
-  EXPECT_STORE_ERROR(store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_LATTICE)), kPrecondition);
+  EXPECT_STORE_ERROR(store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_LATTICE)),
+                     kPrecondition);
   prepare(10, 20);
   v1::Lattice lattice;
   ASSERT_TRUE(lattice.ParseFromString(
-      read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_LATTICE)).reader)));
+      read_all(*store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_LATTICE)).reader)));
   EXPECT_EQ(lattice.run_length(0), 10U);
   v1::Directions directions;
   ASSERT_TRUE(directions.ParseFromString(
-      read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_DIRECTIONS)).reader)));
+      read_all(*store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_DIRECTIONS)).reader)));
   EXPECT_EQ(directions.xyz_size(), 60);
 }
 
@@ -45,49 +33,51 @@ TEST_F(ArtifactTest, FieldOnlyWhenComplete) {
   prepare(10, 20);
   finish_block(lease());
   EXPECT_STORE_ERROR(field(job.id()), kPrecondition);
-  EXPECT_STORE_ERROR(store_->open_artifact(skeleton(job.id(), 3)), kPrecondition);
+  EXPECT_STORE_ERROR(store_->open_artifact(skeleton_request(job.id(), 3)), kPrecondition);
   finish_block(lease());
   EXPECT_EQ(field(job.id()).size(), 200U);
 }
 
 TEST_F(ArtifactTest, DefaultSkeletonIsStored) {
   const v1::Job job = complete_job(10, 20);
-  EXPECT_EQ(read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SKELETON)).reader),
+  EXPECT_EQ(read_all(*store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_SKELETON)).reader),
             "skeleton");
-  EXPECT_EQ(read_all(*store_->open_artifact(skeleton(job.id(), 7)).reader), "skeleton");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 7)).reader), "skeleton");
 }
 
 TEST_F(ArtifactTest, OtherSkeletonIsMadeOnceAndKept) {
   const v1::Job job = complete_job(10, 20);
-  const Store::ArtifactState first = store_->open_artifact(skeleton(job.id(), 3));
+  const Store::ArtifactState first = store_->open_artifact(skeleton_request(job.id(), 3));
   ASSERT_EQ(first.reader, nullptr);
-  EXPECT_EQ(store_->open_artifact(skeleton(job.id(), 3)).task, first.task) << "one task for all who ask";
+  EXPECT_EQ(store_->open_artifact(skeleton_request(job.id(), 3)).task, first.task)
+      << "one task for all who ask";
   EXPECT_EQ(store_->counts().requests, 1);
   const v1::Lease task = lease();
   EXPECT_EQ(task.kind(), v1::TASK_KIND_SKELETON);
   EXPECT_EQ(task.skeleton().threshold(), 3);
   store_->complete(derive_header(task.token(), "finer", 9), "finer");
-  EXPECT_EQ(read_all(*store_->open_artifact(skeleton(job.id(), 3)).reader), "finer");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 3)).reader), "finer");
   EXPECT_EQ(store_->counts().requests, 0);
   EXPECT_EQ(store_->job(job.id()).skeleton_points(), 3U) << "of the default skeleton";
   open();
-  EXPECT_EQ(read_all(*store_->open_artifact(skeleton(job.id(), 3)).reader), "finer");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 3)).reader), "finer");
 }
 
 TEST_F(ArtifactTest, SurfaceTakesTheJobsSkeletonByDefault) {
   const v1::Job job = complete_job(10, 20);
-  ASSERT_EQ(store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader, nullptr);
+  ASSERT_EQ(store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader, nullptr);
   const v1::Lease task = lease();
   EXPECT_EQ(task.kind(), v1::TASK_KIND_SURFACE);
   EXPECT_EQ(task.surface().skeleton().threshold(), job.skeleton().threshold());
   EXPECT_EQ(task.surface().alpha(), 0);
   store_->complete(derive_header(task.token(), "surface", 2), "surface");
-  EXPECT_EQ(read_all(*store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader), "surface");
+  EXPECT_EQ(read_all(*store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_SURFACE)).reader),
+            "surface");
 }
 
 TEST_F(ArtifactTest, DivergenceAndErodedSolidsAreMadeOnRequest) {
   const v1::Job job = complete_job(10, 20);
-  v1::FetchArtifactRequest divergence = skeleton(job.id(), 3);
+  v1::FetchArtifactRequest divergence = skeleton_request(job.id(), 3);
   divergence.set_kind(v1::ARTIFACT_KIND_DIVERGENCE);
   ASSERT_EQ(store_->open_artifact(divergence).reader, nullptr);
   v1::Lease task = lease();
@@ -97,7 +87,7 @@ TEST_F(ArtifactTest, DivergenceAndErodedSolidsAreMadeOnRequest) {
   divergence.mutable_skeleton()->set_threshold(4);
   EXPECT_EQ(read_all(*store_->open_artifact(divergence).reader), "H") << "the same for every threshold";
 
-  v1::FetchArtifactRequest eroded = request(job.id(), v1::ARTIFACT_KIND_ERODED_SURFACE);
+  v1::FetchArtifactRequest eroded = artifact_request(job.id(), v1::ARTIFACT_KIND_ERODED_SURFACE);
   ASSERT_EQ(store_->open_artifact(eroded).reader, nullptr);
   task = lease();
   EXPECT_EQ(task.kind(), v1::TASK_KIND_ERODED_SURFACE);
@@ -129,36 +119,36 @@ TEST_F(ArtifactTest, RequestsComeBeforeJobs) {
   v1::SubmitJobHeader urgent = submit_header("OFF 2");
   urgent.set_priority(9);
   store_->submit(urgent, "OFF 2");
-  store_->open_artifact(skeleton(job.id(), 3));
+  store_->open_artifact(skeleton_request(job.id(), 3));
   EXPECT_EQ(lease().kind(), v1::TASK_KIND_SKELETON);
 }
 
 TEST_F(ArtifactTest, FailedRequestLeavesTheJobAlone) {
   const v1::Job job = complete_job(10, 20);
-  const std::int64_t task = store_->open_artifact(skeleton(job.id(), 3)).task;
-  EXPECT_FALSE(store_->open_artifact(skeleton(job.id(), 3), task).error);
+  const std::int64_t task = store_->open_artifact(skeleton_request(job.id(), 3)).task;
+  EXPECT_FALSE(store_->open_artifact(skeleton_request(job.id(), 3), task).error);
   v1::JobError error;
   error.set_code("LIMIT");
   error.set_message("too many points");
   store_->fail(lease().token(), error, false);
-  const Store::ArtifactState failed = store_->open_artifact(skeleton(job.id(), 3), task);
+  const Store::ArtifactState failed = store_->open_artifact(skeleton_request(job.id(), 3), task);
   ASSERT_TRUE(failed.error);
   EXPECT_EQ(failed.error->message(), "too many points");
   EXPECT_EQ(failed.task, task);
   EXPECT_FALSE(has_work()) << "whoever waits for it does not start it anew";
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
-  EXPECT_NE(store_->open_artifact(skeleton(job.id(), 3)).task, task) << "asking again tries again";
+  EXPECT_NE(store_->open_artifact(skeleton_request(job.id(), 3)).task, task) << "asking again tries again";
 }
 
 TEST_F(ArtifactTest, RequestIsGivenUpAfterTooManyLosses) {
   const v1::Job job = complete_job(10, 20);
-  const std::int64_t task = store_->open_artifact(skeleton(job.id(), 3)).task;
+  const std::int64_t task = store_->open_artifact(skeleton_request(job.id(), 3)).task;
   for (std::int64_t i = 0; i < options_.max_losses; ++i) {
     lease();
     clock_.advance(options_.lease_ms + 1);
     store_->expire_leases();
   }
-  const Store::ArtifactState lost = store_->open_artifact(skeleton(job.id(), 3), task);
+  const Store::ArtifactState lost = store_->open_artifact(skeleton_request(job.id(), 3), task);
   ASSERT_TRUE(lost.error);
   EXPECT_EQ(lost.error->code(), "WORKER_LOST");
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
@@ -167,15 +157,16 @@ TEST_F(ArtifactTest, RequestIsGivenUpAfterTooManyLosses) {
 
 TEST_F(ArtifactTest, RefusesWrongRequests) {
   const v1::Job job = complete_job(10, 20);
-  EXPECT_STORE_ERROR(store_->open_artifact(skeleton(job.id(), -1)), kInvalid);
-  EXPECT_STORE_ERROR(store_->open_artifact(request(job.id(), v1::ARTIFACT_KIND_UNSPECIFIED)), kInvalid);
-  v1::FetchArtifactRequest surface = request(job.id(), v1::ARTIFACT_KIND_SURFACE);
+  EXPECT_STORE_ERROR(store_->open_artifact(skeleton_request(job.id(), -1)), kInvalid);
+  EXPECT_STORE_ERROR(store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_UNSPECIFIED)),
+                     kInvalid);
+  v1::FetchArtifactRequest surface = artifact_request(job.id(), v1::ARTIFACT_KIND_SURFACE);
   surface.mutable_surface()->set_alpha(-1);
   EXPECT_STORE_ERROR(store_->open_artifact(surface), kInvalid);
-  v1::FetchArtifactRequest eroded = request(job.id(), v1::ARTIFACT_KIND_ERODED_POINTS);
+  v1::FetchArtifactRequest eroded = artifact_request(job.id(), v1::ARTIFACT_KIND_ERODED_POINTS);
   eroded.mutable_eroded()->set_fraction(2);
   EXPECT_STORE_ERROR(store_->open_artifact(eroded), kInvalid);
-  v1::FetchArtifactRequest divergence = request(job.id(), v1::ARTIFACT_KIND_DIVERGENCE);
+  v1::FetchArtifactRequest divergence = artifact_request(job.id(), v1::ARTIFACT_KIND_DIVERGENCE);
   divergence.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   EXPECT_STORE_ERROR(store_->open_artifact(divergence), kInvalid);
 }
@@ -184,7 +175,7 @@ TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
   const v1::Job job = complete_job(10, 20);
   for (int kind = 1; kind < v1::ArtifactKind_ARRAYSIZE; ++kind) {
     for (const std::string word : {"skeleton", "surface", "eroded"}) {
-      v1::FetchArtifactRequest wrong = request(job.id(), static_cast<v1::ArtifactKind>(kind));
+      v1::FetchArtifactRequest wrong = artifact_request(job.id(), static_cast<v1::ArtifactKind>(kind));
       const std::string name = v1::ArtifactKind_Name(wrong.kind());
       bool right = false;
       if (word == "skeleton") {
@@ -204,12 +195,13 @@ TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
       }
     }
   }
-  EXPECT_NE(refusal(request(job.id(), static_cast<v1::ArtifactKind>(99))).find("99"), std::string::npos);
+  EXPECT_NE(refusal(artifact_request(job.id(), static_cast<v1::ArtifactKind>(99))).find("99"),
+            std::string::npos);
 }
 
 TEST_F(ArtifactTest, TellsWhyAJobThatHasEndedHasNoField) {
   const v1::Job job = submit();
-  const v1::FetchArtifactRequest field = request(job.id(), v1::ARTIFACT_KIND_FIELD);
+  const v1::FetchArtifactRequest field = artifact_request(job.id(), v1::ARTIFACT_KIND_FIELD);
   EXPECT_NE(refusal(field).find(" yet (queued"), std::string::npos) << refusal(field);
   store_->cancel(job.id());
   EXPECT_NE(refusal(field).find("cancelled"), std::string::npos) << refusal(field);

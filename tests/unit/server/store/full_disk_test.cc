@@ -304,9 +304,7 @@ TEST_F(FullDiskTest, AMeshThatIsHalfGoneCanBeSubmittedAgain) {
   }
   const v1::Job second = submit(mesh);
   tidy_up();
-  v1::FetchArtifactRequest request;
-  request.set_job(second.id());
-  request.set_kind(v1::ARTIFACT_KIND_MESH);
+  v1::FetchArtifactRequest request = artifact_request(second.id(), v1::ARTIFACT_KIND_MESH);
   EXPECT_TRUE(read_all(*store_->open_artifact(request).reader) == mesh);
 }
 

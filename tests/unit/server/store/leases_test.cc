@@ -6,7 +6,23 @@
 namespace affskel::server {
 namespace {
 
-using LeaseTest = StoreTest;
+class LeaseTest : public StoreTest {
+ protected:
+  /// The positions of all blocks of a job of so many directions, in the order in which they are leased.
+  std::vector<v1::PositionRange> all_blocks(std::uint32_t directions) {
+    options_.max_leases_held = 1000;
+    open();
+    submit();
+    prepare(4, directions);
+    std::vector<v1::PositionRange> blocks;
+    while (const std::optional<v1::Lease> block = store_->lease(worker_identity(), "", false)) {
+      EXPECT_EQ(block->kind(), v1::TASK_KIND_ERODE);
+      EXPECT_EQ(block->positions_size(), 1);
+      blocks.push_back(block->positions(0));
+    }
+    return blocks;
+  }
+};
 
 TEST_F(LeaseTest, NoWorkNoLease) {
   EXPECT_FALSE(store_->lease(worker_identity(), "", false));
@@ -24,17 +40,11 @@ TEST_F(LeaseTest, RefusesIncompleteIdentities) {
 }
 
 TEST_F(LeaseTest, CutsBlocksOfPositions) {
-  options_.max_leases_held = 1000;
-  open();
-  submit();
-  prepare(4, 1000);
   std::set<std::uint64_t> begins;
   std::uint64_t covered = 0;
-  while (const std::optional<v1::Lease> block = store_->lease(worker_identity(), "", false)) {
-    ASSERT_EQ(block->kind(), v1::TASK_KIND_ERODE);
-    ASSERT_EQ(block->positions_size(), 1);
-    begins.insert(block->positions(0).begin());
-    covered += block->positions(0).end() - block->positions(0).begin();
+  for (const v1::PositionRange& block : all_blocks(1000)) {
+    begins.insert(block.begin());
+    covered += block.end() - block.begin();
   }
   EXPECT_EQ(begins.size(), 12U + 16U);  // 12 of 63 reach past 750, then 244 in blocks of 16
   EXPECT_EQ(covered, 1000U);
@@ -42,16 +52,12 @@ TEST_F(LeaseTest, CutsBlocksOfPositions) {
 
 // Whoever comes last to the end has little left to do alone.
 TEST_F(LeaseTest, BlocksGetFinerTowardsTheEnd) {
-  options_.max_leases_held = 1000;
-  open();
-  submit();
-  prepare(4, 16000);
   std::vector<std::uint64_t> sizes;
   std::uint64_t covered = 0;
-  while (const std::optional<v1::Lease> block = store_->lease(worker_identity(), "", false)) {
-    EXPECT_EQ(block->positions(0).begin(), covered);
-    covered = block->positions(0).end();
-    sizes.push_back(covered - block->positions(0).begin());
+  for (const v1::PositionRange& block : all_blocks(16000)) {
+    EXPECT_EQ(block.begin(), covered);
+    covered = block.end();
+    sizes.push_back(covered - block.begin());
   }
   EXPECT_EQ(covered, 16000U);
   std::vector<std::uint64_t> expected(12, 1000);

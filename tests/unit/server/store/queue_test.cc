@@ -19,9 +19,7 @@ class QueueTest : public StoreTest {
   }
 
   std::int64_t ask(const std::string& job, double threshold) {
-    v1::FetchArtifactRequest request;
-    request.set_job(job);
-    request.set_kind(v1::ARTIFACT_KIND_SKELETON);
+    v1::FetchArtifactRequest request = artifact_request(job, v1::ARTIFACT_KIND_SKELETON);
     request.mutable_skeleton()->set_threshold(threshold);
     return store_->open_artifact(request).task;
   }
@@ -128,9 +126,7 @@ TEST_F(QueueTest, CancellingAFinishedJobTakesItsRequestsBack) {
   const std::int64_t task = ask(done.id(), 3);
   EXPECT_EQ(store_->cancel(done.id()).state(), v1::JOB_STATE_DONE);
   EXPECT_EQ(requests(), 0);
-  v1::FetchArtifactRequest request;
-  request.set_job(done.id());
-  request.set_kind(v1::ARTIFACT_KIND_SKELETON);
+  v1::FetchArtifactRequest request = artifact_request(done.id(), v1::ARTIFACT_KIND_SKELETON);
   request.mutable_skeleton()->set_threshold(3);
   EXPECT_STORE_ERROR(store_->open_artifact(request, task), kPrecondition);
   EXPECT_STORE_ERROR(store_->cancel(done.id()), kPrecondition);

@@ -22,9 +22,7 @@ TEST_F(SubmitTest, StoresMeshAndJob) {
   EXPECT_EQ(job.mesh_bytes(), mesh.size());
   EXPECT_EQ(job.params().directions(), "triangles");
   EXPECT_EQ(job.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
-  v1::FetchArtifactRequest request;
-  request.set_job(job.id());
-  request.set_kind(v1::ARTIFACT_KIND_MESH);
+  v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_MESH);
   EXPECT_EQ(read_all(*store_->open_artifact(request).reader), mesh);
 }
 

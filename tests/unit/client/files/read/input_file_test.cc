@@ -13,7 +13,8 @@
 #include "client/files/read/read_file.h"
 #include "client/files/write/shape_writer.h"
 #include "core/shapes/shapes.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -29,20 +30,20 @@ ExitCode exit_of(const std::function<void()>& action) {
 }
 
 TEST(ReadFile, ReturnsTheBytesOfFilesAndPipes) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   std::string bytes(200000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
-  spit(dir / "file", bytes);
+  tests::write_file(dir / "file", bytes);
   EXPECT_EQ(read_file(dir / "file"), bytes);
   ASSERT_EQ(mkfifo((dir / "pipe").c_str(), 0600), 0);
-  std::thread writer([&] { spit(dir / "pipe", bytes); });
+  std::thread writer([&] { tests::write_file(dir / "pipe", bytes); });
   EXPECT_EQ(read_file(dir / "pipe"), bytes);
   writer.join();
 }
 
 TEST(ReadFile, KeepsToItsLimit) {
-  const TempDir dir;
-  spit(dir / "file", "12345");
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "file", "12345");
   EXPECT_EQ(read_file(dir / "file", 5), "12345");
   EXPECT_EQ(exit_of([&] { read_file(dir / "file", 4); }), ExitCode::kLimit);
   EXPECT_EQ(exit_of([&] { read_file("/dev/zero", 1000); }), ExitCode::kLimit) << "no size to ask for";
@@ -72,13 +73,13 @@ TEST(ReadFileDeathTest, WithoutMemoryItNamesTheFile) {
 #endif
 
 TEST(ReadFile, TakesNoMoreThanTheFileNeeds) {
-  const TempDir dir;
-  spit(dir / "file", std::string(10000000, 'x'));
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "file", std::string(10000000, 'x'));
   EXPECT_LT(read_file(dir / "file").capacity(), 10100000u);
 }
 
 TEST(ReadFile, MissingFilesAndDirectoriesAreBadInput) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   EXPECT_EQ(exit_of([&] { read_file(dir / "none"); }), ExitCode::kBadInput);
   EXPECT_EQ(exit_of([&] { read_file(dir.path()); }), ExitCode::kBadInput);
 }
@@ -91,11 +92,11 @@ std::string bytes_as(FileFormat format, const core::Mesh& mesh) {
 }
 
 TEST(ReadInput, MakesOffTextOfOtherFormats) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   const core::Mesh box = core::make_box(3, 2, 1);
   for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl}) {
     const std::string path = dir / ("box" + std::string(extension_of(format))), bytes = bytes_as(format, box);
-    spit(path, bytes);
+    tests::write_file(path, bytes);
     const InputFile input = read_input(path);
     EXPECT_EQ("." + input.format, extension_of(format));
     EXPECT_TRUE(input.converted());
@@ -114,10 +115,10 @@ TEST(ReadInput, MakesOffTextOfOtherFormats) {
 }
 
 TEST(ReadInput, KeepsTheBytesOfOffText) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   const std::string text = "# mine\n" + core::write_off(core::make_box(3, 2, 1));
   for (const char* name : {"box.off", "box", "box.mesh"}) {
-    spit(dir / name, text);
+    tests::write_file(dir / name, text);
     const InputFile input = read_input(dir / name);
     EXPECT_EQ(input.bytes, text);
     EXPECT_FALSE(input.converted());
@@ -129,23 +130,23 @@ TEST(ReadInput, KeepsTheBytesOfOffText) {
 }
 
 TEST(ReadInput, KnowsAFormatByItsNameOrItsFirstBytes) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   const std::string ply = bytes_as(FileFormat::kPly, core::make_box(3, 2, 1));
-  spit(dir / "scan", ply);
+  tests::write_file(dir / "scan", ply);
   EXPECT_EQ(read_input(dir / "scan").format, "ply");
-  spit(dir / "scan.off", ply);
+  tests::write_file(dir / "scan.off", ply);
   EXPECT_EQ(exit_of([&] { read_input(dir / "scan.off"); }), ExitCode::kBadInput);
-  spit(dir / "scan.STL", ply);
+  tests::write_file(dir / "scan.STL", ply);
   EXPECT_EQ(exit_of([&] { read_input(dir / "scan.STL"); }), ExitCode::kBadInput);
-  spit(dir / "points.obj", "v 0 0 0\nv 1 0 0\n");
+  tests::write_file(dir / "points.obj", "v 0 0 0\nv 1 0 0\n");
   EXPECT_EQ(exit_of([&] { read_input(dir / "points.obj"); }), ExitCode::kBadInput) << "no triangles";
 }
 
 TEST(CheckSolid, RepairsOnlyWhenAllowedAndTellsIt) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   core::Mesh mesh = core::make_tetrahedron(10);
   std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
-  spit(dir / "t.off", core::write_off(mesh));
+  tests::write_file(dir / "t.off", core::write_off(mesh));
   const InputFile input = read_input(dir / "t.off");
   EXPECT_EQ(exit_of([&] { check_solid(input, false); }), ExitCode::kBadInput);
   std::ostringstream out, err;

@@ -8,9 +8,9 @@
 #include "affskel/v1/types.pb.h"
 #include "client/artifacts/surface.h"
 #include "client/base/error.h"
-#include "core/text/off_file.h"
 #include "core/shapes/shapes.h"
-#include "temp_dir.h"
+#include "core/text/off_file.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -99,9 +99,9 @@ TEST(MeshWriter, StlHoldsNormalsAndCorners) {
 
 // The exit code and the cause of writing as .stl, into a file.
 std::string refusal_of_stl(const core::Mesh& mesh) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   try {
-    AtomicFile file(dir / "out.stl");
+    base::AtomicFile file(dir / "out.stl");
     write_into(file,
                [&](const WriteBytes& write) { write_surface(FileFormat::kStl, shape_of(mesh), {}, write); });
     file.commit();

@@ -8,7 +8,8 @@
 #include "client/base/error.h"
 #include "client/files/write/shape_writer.h"
 #include "sample_data.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::client {
 namespace {
@@ -87,13 +88,13 @@ using Doubles = std::vector<double>;
 using Indices = std::vector<std::int64_t>;
 
 VtpFile written_skeleton(const v1::SkeletonPoints& skeleton, const std::vector<std::string>& comments = {}) {
-  const TempDir dir;
-  AtomicFile file(dir / "s");
+  const tests::TemporaryDirectory dir;
+  base::AtomicFile file(dir / "s");
   write_into(file, [&](const WriteBytes& write) {
     write_points(FileFormat::kVtp, shape_of(skeleton), comments, write);
   });
   file.commit();
-  return VtpFile(slurp(dir / "s"));
+  return VtpFile(tests::read_file(dir / "s"));
 }
 
 TEST(VtpWriter, ASkeletonIsVerticesWithArrays) {

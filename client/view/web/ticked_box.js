@@ -3,8 +3,8 @@ import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments
 import { roundLength } from './numbers.js';
 
 const kTickLength = 0.03;
-const kMostTicks = 12; // along the longest side, when it has no luck with its coordinates
-const kShortest = 0.05; // of an axis on the screen, as a share of its length, to be worth numbers
+const kTicksAimedAt = 12; // along the longest side; round distances give 6 to 16
+const kMinLength = 0.05; // of an axis seen on the screen, as a share of itself: shorter ones get no numbers
 
 function boxEdges(half) {
   const ends = [];
@@ -28,13 +28,14 @@ function boxEdges(half) {
   return ends;
 }
 
-// The multiples of `distance` on a side of the box: mesh coordinates, and where they are in page units.
+// The multiples of `distance` on a side of the box: `coordinate` in mesh units, `at` in page units, and which
+// multiple it is.
 function ticksOf(half, centre, unit, distance) {
   const ticks = [];
   const last = Math.floor((centre + half * unit) / distance + 1e-9);
   for (let k = Math.ceil((centre - half * unit) / distance - 1e-9); k <= last; ++k) {
     const coordinate = Number((k * distance).toPrecision(12));
-    ticks.push({ coordinate, step: k, at: (coordinate - centre) / unit });
+    ticks.push({ coordinate, index: k, at: (coordinate - centre) / unit });
   }
   return ticks;
 }
@@ -45,20 +46,20 @@ function setLines(object, ends) {
   object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(ends), 3));
 }
 
-export class BoxFrame {
+export class TickedBox {
   // half: half sides, page units; centre: of the box, mesh units; unit: mesh units per page unit.
   constructor(half, centre, unit) {
     this.half = half;
     this.unit = unit;
-    this.tickDistance = roundLength((4 * unit * Math.max(...half)) / kMostTicks); // mesh units
+    this.tickDistance = roundLength((4 * unit * Math.max(...half)) / kTicksAimedAt); // mesh units
     this.ticks = half.map((h, axis) => ticksOf(h, centre[axis], unit, this.tickDistance));
     this.material = new LineBasicMaterial({ transparent: true, opacity: 0.28 });
-    this.box = lines(this.material);
-    setLines(this.box, boxEdges(half));
+    this.edgeLines = lines(this.material);
+    setLines(this.edgeLines, boxEdges(half));
     this.marks = lines(this.material);
     this.marks.frustumCulled = false; // moves from edge to edge, its bounds with it
     this.object = new Group();
-    this.object.add(this.box, this.marks);
+    this.object.add(this.edgeLines, this.marks);
     for (const part of this.object.children) part.renderOrder = 5;
     this.edges = [];
   }
@@ -67,9 +68,9 @@ export class BoxFrame {
     this.material.color.set(theme.ink);
   }
 
-  // Moves the ticks to those edges of the box that lie lowest on the screen, or leftmost when they stand: per
-  // axis `foot` (a point of the edge, page units), `tick` (from foot to tip) and `outward` (on the screen, y
-  // up); null for an axis that points at the viewer.
+  // Moves the ticks of each axis to the edge of the box that lies lowest on the screen or, where the axis stands
+  // upright, leftmost.  `edges` then holds per axis `foot` (a point of the edge, page units), `tick` (from foot
+  // to tip) and `outward` (on the screen, y up); null for an axis that points at the viewer.
   look(camera) {
     const onScreen = [0, 1, 2].map((axis) =>
       new Vector3(...[0, 1, 2].map((c) => (c === axis ? 1 : 0))).transformDirection(camera.matrixWorldInverse),
@@ -92,7 +93,7 @@ export class BoxFrame {
   edgeOf(axis, onScreen) {
     const along = onScreen[axis];
     const length = Math.hypot(along.x, along.y);
-    if (length < kShortest) return null;
+    if (length < kMinLength) return null;
     let outward = [-along.y / length, along.x / length];
     const lying = Math.abs(along.x) >= Math.abs(along.y);
     if (outward[lying ? 1 : 0] > 0) outward = outward.map((c) => -c);

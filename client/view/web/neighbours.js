@@ -1,4 +1,4 @@
-// Which points of an eroded solid can be seen: those with a neighbour that is not in it.
+// Neighbours on the lattice.  Points of an eroded solid can be seen when a neighbour is not in it.
 
 // A hash table of lattice places, open addressing: the index of the point there, or -1.
 class Places {
@@ -27,15 +27,15 @@ class Places {
   }
 }
 
-// All (a, b, c) with components -1, 0, 1 of which `nonzero` are not 0.
-function directions(nonzero) {
+// All (a, b, c) of -1, 0 and 1, of which `nonzero` are not 0.
+function offsets(nonzero) {
   const signs = [-1, 0, 1];
   const all = signs.flatMap((a) => signs.flatMap((b) => signs.map((c) => [a, b, c])));
   return all.filter((d) => d.filter((c) => c !== 0).length === nonzero);
 }
 
-// The points that a page of one point in `thinning` holds for the eroded solid (see ViewSelection in
-// client/view/view_points.h), and the steps to the nearest others of these.
+// Which points a page holds for the eroded solid, one in `thinning` (see ViewSelection in
+// client/view/view_points.h), and the offsets from one of them to the nearest others.
 export function sublattice(thinning) {
   const stride = 2 ** Math.floor(Math.log2(thinning) / 3);
   const kind = thinning / stride ** 3; // 1 simple, 2 face-centred, 4 body-centred
@@ -44,12 +44,12 @@ export function sublattice(thinning) {
   return {
     holds: (i, j, k) =>
       i % stride === 0 && j % stride === 0 && k % stride === 0 && even(i / stride, j / stride, k / stride),
-    neighbours: directions({ 1: 1, 2: 2, 4: 3 }[kind]).map((d) => d.map((c) => c * stride)),
+    neighbours: offsets({ 1: 1, 2: 2, 4: 3 }[kind]).map((d) => d.map((c) => c * stride)),
   };
 }
 
-// Per point the least share among its neighbours; -1 at the surface of the body, where one is missing.
-export function leastAround(steps, shares, neighbours) {
+// Per point the least share of v0 among its neighbours; -1 where a neighbour lies outside the body.
+export function minAround(steps, shares, neighbours) {
   const places = new Places(steps);
   return shares.map((_, p) => {
     let least = Infinity;

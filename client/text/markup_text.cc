@@ -1,10 +1,10 @@
-#include "client/text/xml_text.h"
+#include "client/text/markup_text.h"
 
 #include "base/utf8.h"
 
 namespace affskel::client {
 
-std::string xml_text(std::string_view text) {
+std::string markup_text(std::string_view text) {
   std::string safe;
   for (const char c : base::to_utf8(text)) {
     switch (c) {
@@ -19,6 +19,9 @@ std::string xml_text(std::string_view text) {
         break;
       case '"':
         safe += "&quot;";
+        break;
+      case '\'':
+        safe += "&#39;";  // which HTML 4 knows, too
         break;
       default:
         safe += c;

@@ -1,18 +1,19 @@
-#include "client/files/write/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <cstdlib>
 
-#include "client/base/error.h"
-#include "temp_dir.h"
+#include "tools/files.h"
+#include "tools/temporary_directory.h"
 
-namespace affskel::client {
+namespace affskel::base {
 namespace {
 
 TEST(AtomicFile, AppearsOnlyWhenCommitted) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   {
     AtomicFile file(dir / "out.txt");
     file.write("hello ");
@@ -20,12 +21,12 @@ TEST(AtomicFile, AppearsOnlyWhenCommitted) {
     file.write("world");
     file.commit();
   }
-  EXPECT_EQ(slurp(dir / "out.txt"), "hello world");
+  EXPECT_EQ(tests::read_file(dir / "out.txt"), "hello world");
   EXPECT_EQ(dir.names().size(), 1u);
 }
 
 TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   {
     AtomicFile file(dir / "out.txt");
     file.write(std::string(3 << 20, 'x'));  // more than the buffer: the temporary file has content
@@ -34,41 +35,41 @@ TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
 }
 
 TEST(AtomicFile, KeepsTheOldFileWithoutCommit) {
-  const TempDir dir;
-  spit(dir / "out.txt", "old");
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "out.txt", "old");
   { AtomicFile(dir / "out.txt").write("new"); }
-  EXPECT_EQ(slurp(dir / "out.txt"), "old");
+  EXPECT_EQ(tests::read_file(dir / "out.txt"), "old");
   EXPECT_EQ(dir.names().size(), 1u);
 }
 
 TEST(AtomicFile, KeepsModeAndFollowsLinks) {
-  const TempDir dir;
-  spit(dir / "real.txt", "old");
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "real.txt", "old");
   chmod((dir / "real.txt").c_str(), 0640);
   std::filesystem::create_symlink("real.txt", dir / "link.txt");
   AtomicFile file(dir / "link.txt");
   file.write("new");
   file.commit();
   EXPECT_TRUE(std::filesystem::is_symlink(dir / "link.txt"));
-  EXPECT_EQ(slurp(dir / "real.txt"), "new");
+  EXPECT_EQ(tests::read_file(dir / "real.txt"), "new");
   struct stat info {};
   stat((dir / "real.txt").c_str(), &info);
   EXPECT_EQ(info.st_mode & 07777, 0640u);
 }
 
 TEST(AtomicFile, FollowsLinksThatLeadNowhereYet) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   std::filesystem::create_directory(dir / "sub");
   std::filesystem::create_symlink("sub/second", dir / "first");
   std::filesystem::create_symlink(dir / "real.txt", dir / "sub/second");
   AtomicFile file(dir / "first");
   file.write("new");
   file.commit();
-  EXPECT_EQ(slurp(dir / "real.txt"), "new");
+  EXPECT_EQ(tests::read_file(dir / "real.txt"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(dir / "first"));
   EXPECT_TRUE(std::filesystem::is_symlink(dir / "sub/second"));
   std::filesystem::create_symlink("loop", dir / "loop");
-  EXPECT_THROW(AtomicFile(dir / "loop"), ClientError);
+  EXPECT_THROW(AtomicFile(dir / "loop"), FileError);
 }
 
 TEST(AtomicFile, LeavesDevicesWhatTheyAre) {
@@ -114,7 +115,7 @@ TEST(AtomicFile, TheStandardOutputGetsEverythingOrNothing) {
 TEST(AtomicFile, LibrariesWriteForTheStandardOutputByPath) {
   EXPECT_EQ(on_stdout([&] {
               AtomicFile file("-");
-              spit(file.path(), "by path");
+              tests::write_file(file.path(), "by path");
               file.commit();
             }),
             "by path");
@@ -124,53 +125,53 @@ TEST(AtomicFile, WithoutAFolderForTemporaryFilesThereIsNoStandardOutput) {
   const char* const before = std::getenv("TMPDIR");
   const std::string old = before == nullptr ? "" : before;
   setenv("TMPDIR", "/nowhere/at/all", 1);
-  EXPECT_THROW(AtomicFile("-"), ClientError);
+  EXPECT_THROW(AtomicFile("-"), FileError);
   before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", old.c_str(), 1);
 }
 
 TEST(AtomicFile, NamesTheTargetWhenItCannotBeWritten) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   try {
     AtomicFile file(dir / "missing/out.txt");
     FAIL() << "a missing directory was accepted";
-  } catch (const ClientError& error) {
-    EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.code().value(), ENOENT);
     EXPECT_EQ(error.file(), dir / "missing/out.txt");
   }
-  EXPECT_THROW(AtomicFile(dir.path()), ClientError);
+  EXPECT_THROW(AtomicFile(dir.path()), FileError);
 }
 
 TEST(AtomicFile, TakesNamesAsLongAsTheFileSystemDoes) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   const std::string longest(255, 'n');
   AtomicFile file(dir / longest);
   file.write("x");
   file.commit();
   EXPECT_EQ(dir.names(), (std::vector<std::string>{longest}));
-  EXPECT_THROW(AtomicFile(dir / (longest + "n")), ClientError) << "known at once, not when all is done";
+  EXPECT_THROW(AtomicFile(dir / (longest + "n")), FileError) << "known at once, not when all is done";
   EXPECT_EQ(dir.names().size(), 1u);
 }
 
 TEST(AtomicFile, SyncDoesNotMakeTheFileAppear) {
-  const TempDir dir;
+  const tests::TemporaryDirectory dir;
   AtomicFile file(dir / "out.txt");
   file.write("hello");
   file.sync();
   EXPECT_FALSE(std::filesystem::exists(dir / "out.txt"));
   file.commit();
-  EXPECT_EQ(slurp(dir / "out.txt"), "hello");
+  EXPECT_EQ(tests::read_file(dir / "out.txt"), "hello");
 }
 
-TEST(AtomicFile, FullDiskIsALimit) {
+TEST(AtomicFile, TellsOfAFullDisk) {
   AtomicFile file("/dev/full");
   file.write("x");
   try {
     file.commit();
     FAIL() << "a full disk was not noticed";
-  } catch (const ClientError& error) {
-    EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.code().value(), ENOSPC);
   }
 }
 
 }  // namespace
-}  // namespace affskel::client
+}  // namespace affskel::base

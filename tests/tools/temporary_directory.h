@@ -1,28 +1,29 @@
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
-namespace affskel::client {
+namespace affskel::tests {
 
-/// A directory of its own for one test, removed with everything in it.
-class TempDir {
+/// A directory of its own, removed with everything in it.
+class TemporaryDirectory {
  public:
-  TempDir() {
+  TemporaryDirectory() {
     std::string name = (std::filesystem::temp_directory_path() / "affskel-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary directory");
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error("no temporary directory can be made: " + name);
     path_ = name;
   }
-  ~TempDir() {
+  ~TemporaryDirectory() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  TempDir(const TempDir&) = delete;
-  TempDir& operator=(const TempDir&) = delete;
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
@@ -40,15 +41,4 @@ class TempDir {
   std::filesystem::path path_;
 };
 
-inline std::string slurp(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-inline void spit(const std::filesystem::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
-
-}  // namespace affskel::client
+}  // namespace affskel::tests

@@ -1,25 +1,25 @@
-#include "core/lattice/slab_index.h"
+#include "core/lattice/layer_index.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace affskel::core {
 
-SlabIndex::SlabIndex(const Lattice& lattice) : lattice_(lattice) {
+LayerIndex::LayerIndex(const Lattice& lattice) : lattice_(lattice) {
   const auto& dims = lattice.grid.dims;
-  for (auto& slab : slabs_) slab.assign(std::size_t{dims[1]} * dims[2], kOutside);
+  for (auto& layer : layers_) layer.assign(std::size_t{dims[1]} * dims[2], kOutside);
 }
 
-void SlabIndex::move_to(std::uint32_t i) {
+void LayerIndex::move_to(std::uint32_t i) {
   if (i == 0) fill(0);
   fill(i + 1);
 }
 
-void SlabIndex::fill(std::uint32_t i) {
+void LayerIndex::fill(std::uint32_t i) {
   const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
   const auto begin_of = [&](const LatticeRun& run) {
     const std::size_t place = std::size_t{run.start[1]} * lattice_.grid.dims[2] + run.start[2];
-    return slabs_[i % 3].begin() + static_cast<std::ptrdiff_t>(place);
+    return layers_[i % 3].begin() + static_cast<std::ptrdiff_t>(place);
   };
   // Only what i - 3 left there is wiped out: most of the box may be empty.
   RunRange& filled = filled_[i % 3];

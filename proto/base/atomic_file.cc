@@ -1,4 +1,4 @@
-#include "client/files/write/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,10 +7,9 @@
 #include <cerrno>
 #include <vector>
 
-#include "client/base/error.h"
-#include "client/cli/interrupt.h"
+#include "base/temporary_files.h"
 
-namespace affskel::client {
+namespace affskel::base {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,9 +28,9 @@ fs::path follow_dangling(fs::path path) {
   constexpr int kMaxLinks = 40;  // as the kernel
   std::error_code error;
   for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
-    if (links == kMaxLinks) throw error_from_errno(ELOOP, "cannot write", path);
+    if (links == kMaxLinks) throw FileError(ELOOP, "cannot write", path);
     const fs::path to = fs::read_symlink(path, error);
-    if (error) throw error_from_errno(error.value(), "cannot write", path);
+    if (error) throw FileError(error.value(), "cannot write", path);
     path = path.parent_path() / to;  // absolute targets replace the whole
   }
   return path;
@@ -64,7 +63,7 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   struct stat info {};
   const bool exists = target != "-" && stat(target.c_str(), &info) == 0;
   if (!exists && target != "-" && errno != ENOENT) fail("cannot write");
-  if (exists && S_ISDIR(info.st_mode)) throw ClientError(ExitCode::kUsage, "is a directory", target);
+  if (exists && S_ISDIR(info.st_mode)) throw FileError(EISDIR, "cannot write", target);
   if (target == "-" || (exists && !S_ISREG(info.st_mode))) {
     open_stream(target);
     return;
@@ -93,7 +92,7 @@ void AtomicFile::open_stream(const fs::path& target) {
   if (stream_ < 0) fail("cannot write");
   std::error_code error;
   const fs::path directory = fs::temp_directory_path(error);
-  if (error) throw error_from_errno(error.value(), "cannot use the folder for temporary files", "$TMPDIR");
+  if (error) throw FileError(error.value(), "cannot use the folder for temporary files", "$TMPDIR");
   try {
     make_temporary(directory);
   } catch (...) {  // no destructor will run
@@ -112,7 +111,7 @@ void AtomicFile::make_temporary(const fs::path& directory) {
 }
 
 void AtomicFile::fail(const char* action) const {
-  throw error_from_errno(errno, action, target_);
+  throw FileError(errno, action, target_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -162,8 +161,8 @@ void AtomicFile::copy_to_stream() {
   buffer_.clear();
   errno = error;
   if (!written || got < 0) fail("cannot write");
-  // What was sent is not sent again.
+  // Emptied, so that nothing is sent twice.
   if (ftruncate(fd_, 0) != 0 || lseek(fd_, 0, SEEK_SET) != 0) fail("cannot write");
 }
 
-}  // namespace affskel::client
+}  // namespace affskel::base

@@ -1,0 +1,155 @@
+#include "wire/channel.h"
+
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/client_interceptor.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "base/mutex.h"
+
+namespace affskel::wire {
+namespace {
+
+// Far above any certificate chain and any token.
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
+
+std::string read_file(const std::string& path, const char* what) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::invalid_argument(path + ": cannot read the " + what + ": " + std::strerror(errno));
+  std::string text;
+  for (std::istreambuf_iterator<char> at(in), end; at != end && text.size() <= kMaxFileBytes; ++at)
+    text.push_back(*at);
+  if (in.bad()) throw std::invalid_argument(path + ": cannot read the " + what + ": " + std::strerror(errno));
+  if (text.size() > kMaxFileBytes)
+    throw std::invalid_argument(path + ": too large for a " + std::string(what));
+  return text;
+}
+
+std::string read_pem(const std::string& path, const char* what) {
+  std::string text = read_file(path, what);
+  if (text.find("-----BEGIN ") != std::string::npos) return text;
+  throw std::invalid_argument(path + ": no " + what + " in PEM form");
+}
+
+/// The first line.  Metadata of gRPC are printable ASCII; the message quotes nothing of it.
+std::string read_token(const std::string& path) {
+  std::string text = read_file(path, "token");
+  text.resize(std::min(text.find_first_of("\r\n"), text.size()));
+  const bool good =
+      !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7F; });
+  if (!good) throw std::invalid_argument(path + ": its first line is no token");
+  return text;
+}
+
+/// The token of a file, as the file is now.  Thread-safe.
+class Token {
+ public:
+  explicit Token(std::string path) : path_(std::move(path)), text_(read_token(path_)), seen_(look()) {}
+
+  /// A file that is gone or broken leaves the token that was there.
+  std::string text() {
+    const base::MutexLock lock(mutex_);
+    const Seen now = look();
+    if (now != seen_) {
+      seen_ = now;
+      try {
+        text_ = read_token(path_);
+      } catch (const std::invalid_argument&) {
+      }
+    }
+    return text_;
+  }
+
+ private:
+  using Seen = std::pair<ino_t, std::pair<time_t, long>>;
+
+  Seen look() const {
+    struct stat status {};
+    if (stat(path_.c_str(), &status) != 0) return {};
+    return {status.st_ino, {status.st_mtim.tv_sec, status.st_mtim.tv_nsec}};
+  }
+
+  const std::string path_;
+  base::Mutex mutex_;
+  std::string text_ ABSL_GUARDED_BY(mutex_);
+  Seen seen_ ABSL_GUARDED_BY(mutex_);
+};
+
+/// Puts the token into a call's metadata.  An interceptor serves every transport; gRPC's call credentials
+/// refuse those without TLS, Unix sockets among them.
+class ShowToken final : public grpc::experimental::Interceptor {
+ public:
+  explicit ShowToken(std::shared_ptr<Token> token) : token_(std::move(token)) {}
+
+  void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
+    using Hook = grpc::experimental::InterceptionHookPoints;
+    if (methods->QueryInterceptionHookPoint(Hook::PRE_SEND_INITIAL_METADATA)) {
+      methods->GetSendInitialMetadata()->insert({"authorization", "Bearer " + token_->text()});
+    }
+    methods->Proceed();
+  }
+
+ private:
+  std::shared_ptr<Token> token_;
+};
+
+class ShowTokenFactory final : public grpc::experimental::ClientInterceptorFactoryInterface {
+ public:
+  explicit ShowTokenFactory(std::shared_ptr<Token> token) : token_(std::move(token)) {}
+  grpc::experimental::Interceptor* CreateClientInterceptor(grpc::experimental::ClientRpcInfo*) override {
+    return new ShowToken(token_);  // gRPC takes it
+  }
+
+ private:
+  std::shared_ptr<Token> token_;
+};
+
+std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Address& address, const AccessFiles& files) {
+  if (files.tls_cert.empty() != files.tls_key.empty()) {
+    throw std::invalid_argument("a certificate and its key go together: " +
+                                (files.tls_cert.empty() ? files.tls_key : files.tls_cert) + " is alone");
+  }
+  if (address.is_unix || files.tls_ca.empty()) return grpc::InsecureChannelCredentials();
+  grpc::SslCredentialsOptions options;
+  options.pem_root_certs = read_pem(files.tls_ca, "certificate");
+  if (!files.tls_cert.empty()) {
+    options.pem_cert_chain = read_pem(files.tls_cert, "certificate");
+    options.pem_private_key = read_pem(files.tls_key, "key");
+  }
+  return grpc::SslCredentials(options);
+}
+
+}  // namespace
+
+void forbid_core_dumps() {
+  prctl(PR_SET_DUMPABLE, 0);
+}
+
+std::shared_ptr<grpc::Channel> make_channel(const Address& address, const AccessFiles& files,
+                                            const grpc::ChannelArguments& arguments) {
+  const bool secret = !files.token_file.empty() || !files.tls_key.empty();
+  if (secret) forbid_core_dumps();
+  const std::shared_ptr<grpc::ChannelCredentials> credentials = credentials_of(address, files);
+  std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>> interceptors;
+  if (!files.token_file.empty()) {
+    if (files.tls_ca.empty() && !address.is_local()) {
+      throw std::invalid_argument("the token of " + files.token_file + " would go to " + address.target() +
+                                  " in the clear: say by --tls-ca how its server is known");
+    }
+    interceptors.push_back(std::make_unique<ShowTokenFactory>(std::make_shared<Token>(files.token_file)));
+  }
+  return grpc::experimental::CreateCustomChannelWithInterceptors(address.target(), credentials, arguments,
+                                                                 std::move(interceptors));
+}
+
+}  // namespace affskel::wire

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "affskel/v1/client_service.pb.h"
+
+namespace affskel::server {
+
+/// Who makes a call.
+struct Identity {
+  std::string owner;  ///< whose jobs are the caller's own; empty: nobody's in particular (see Gate)
+  v1::Role role = v1::ROLE_UNSPECIFIED;
+  std::int64_t token = 0;  ///< the id of the token that said so; 0 = none
+};
+
+}  // namespace affskel::server

@@ -1,0 +1,81 @@
+#include "process/console.h"
+
+#include <cerrno>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+namespace affskel::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Errors by the names that the client gives them.
+const char* name_of(ExitCode code) {
+  switch (code) {
+    case ExitCode::kFaults:
+      return "FAULT";
+    case ExitCode::kUsage:
+      return "USAGE";
+    case ExitCode::kBadInput:
+      return "BAD_INPUT";
+    case ExitCode::kNotFound:
+      return "NOT_FOUND";
+    case ExitCode::kCancelled:
+      return "CANCELLED";
+    case ExitCode::kNotAllowed:
+      return "NOT_ALLOWED";
+    case ExitCode::kLimit:
+      return "LIMIT";
+    default:
+      return "INTERNAL";
+  }
+}
+
+// Paths and damaged rows may hold any bytes.
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Each message is one line, whatever it quotes.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return text;
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.is_string() ? one_line(value.get<std::string>()) : dump(value);
+}
+
+}  // namespace
+
+void Console::result(const Json& document) const {
+  if (json_) return print(dump(document) + "\n");
+  std::string lines;
+  for (const auto& [key, value] : document.items()) lines += key + ": " + text_of(value) + "\n";
+  print(lines);
+}
+
+void Console::print(const std::string& text) const {
+  errno = 0;
+  if (!(std::cout << text).flush()) {
+    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), "cannot write the results");
+  }
+}
+
+void Console::error(ExitCode code, const std::string& message) const {
+  if (json_) {
+    std::cerr << dump({{"error", {{"code", name_of(code)}, {"message", message}}}}) << '\n';
+  } else {
+    std::cerr << "affskel-server: " << one_line(message) << '\n';
+  }
+}
+
+void Console::note(const std::string& message) const {
+  if (!json_) std::cerr << "affskel-server: " << message << '\n';
+}
+
+}  // namespace affskel::server

@@ -1,0 +1,126 @@
+#include "process/token_command.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "access/token.h"
+#include "base/quoted.h"
+#include "database/database_file.h"
+#include "database/migrate.h"
+#include "database/sqlite.h"
+#include "process/data_dir.h"
+#include "store/clock.h"
+#include "wire/words.h"
+
+namespace affskel::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The database of a data directory, of this program's schema, for as long as a command works on it.
+class TokenDatabase {
+ public:
+  /// @param make where there is none yet.
+  TokenDatabase(const std::string& data_dir, bool make) {
+    if (data_dir_holder(data_dir)) {
+      db_ = std::make_unique<Database>(existing_database_file(data_dir), Database::Mode::kReadWrite);
+      checked_schema(*db_);  // the server has migrated it
+      return;
+    }
+    if (!make) existing_database_file(data_dir);
+    held_.emplace(data_dir);
+    db_ = std::make_unique<Database>(ready_database_file(database_file(held_->path())),
+                                     Database::Mode::kReadWrite);
+    migrate(*db_);
+  }
+
+  Database& operator*() { return *db_; }
+
+ private:
+  std::optional<DataDir> held_;
+  std::unique_ptr<Database> db_;
+};
+
+/// Unix milliseconds as people write it, in UTC.
+std::string time_text(const std::optional<std::int64_t>& ms, const char* absent) {
+  if (!ms) return absent;
+  return fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(static_cast<std::time_t>(*ms / 1000)));
+}
+
+const char* state_of(const TokenRow& token, std::int64_t now_ms) {
+  return token.revoked_ms ? "revoked" : token.is_expired(now_ms) ? "expired" : "good";
+}
+
+Json json_of(const TokenRow& token, std::int64_t now_ms) {
+  const auto time = [](const std::optional<std::int64_t>& ms) { return ms ? Json(*ms) : Json(); };
+  return {{"id", token.id},
+          {"owner", token.owner},
+          {"role", wire::word(token.role)},
+          {"state", state_of(token, now_ms)},
+          {"created_ms", token.created_ms},
+          {"expires_ms", time(token.expires_ms)},
+          {"revoked_ms", time(token.revoked_ms)},
+          {"last_used_ms", time(token.last_used_ms)}};
+}
+
+}  // namespace
+
+ExitCode add_token_command(const Options& options, const Console& console) {
+  TokenDatabase db(options.data_dir, true);
+  const std::string token = new_token();
+  const std::int64_t now = unix_ms();
+  std::optional<std::int64_t> expires;
+  if (options.expires) expires = now + std::chrono::milliseconds(*options.expires).count();
+  const std::int64_t id = add_token(*db, token, options.owner, options.role, now, expires);
+  if (console.json()) {
+    console.result({{"token", token},
+                    {"id", id},
+                    {"owner", options.owner},
+                    {"role", wire::word(options.role)},
+                    {"expires_ms", expires ? Json(*expires) : Json()}});
+  } else {
+    console.print(token + "\n");
+    console.note("token " + std::to_string(id) + " of " + base::quoted(options.owner) + ", role " +
+                 wire::word(options.role) + ", good until " + time_text(expires, "it is revoked") +
+                 "; it is not shown again");
+  }
+  return ExitCode::kDone;
+}
+
+ExitCode list_tokens_command(const Options& options, const Console& console) {
+  TokenDatabase db(options.data_dir, false);
+  const std::int64_t now = unix_ms();
+  const std::vector<TokenRow> tokens = list_tokens(*db);
+  if (console.json()) {
+    Json all = Json::array();
+    for (const TokenRow& token : tokens) all.push_back(json_of(token, now));
+    console.print(all.dump() + "\n");
+    return ExitCode::kDone;
+  }
+  std::string table = fmt::format("{:>4}  {:<7}  {:<7}  {:<16}  {:<16}  {:<16}  {}\n", "ID", "ROLE", "STATE",
+                                  "CREATED", "EXPIRES", "LAST USED", "OWNER");
+  for (const TokenRow& token : tokens) {
+    table += fmt::format("{:>4}  {:<7}  {:<7}  {:<16}  {:<16}  {:<16}  {}\n", token.id,
+                         wire::word(token.role), state_of(token, now), time_text(token.created_ms, ""),
+                         time_text(token.expires_ms, "never"), time_text(token.last_used_ms, "never"),
+                         token.owner);
+  }
+  console.print(table);
+  return ExitCode::kDone;
+}
+
+ExitCode revoke_token_command(const Options& options, const Console& console) {
+  TokenDatabase db(options.data_dir, false);
+  revoke_token(*db, options.token, unix_ms());
+  console.note("token " + std::to_string(options.token) + " is worth nothing any more");
+  return ExitCode::kDone;
+}
+
+}  // namespace affskel::server

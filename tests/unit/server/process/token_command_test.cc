@@ -1,0 +1,108 @@
+#include "process/token_command.h"
+
+#include <nlohmann/json.hpp>
+
+#include "access/token.h"
+#include "database/database_file.h"
+#include "process/data_dir.h"
+#include "process/maintenance.h"
+#include "store_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+/// The commands as they are run, on a directory that may be new.
+class TokenCommandTest : public testing::Test {
+ protected:
+  std::string data_dir() const { return (directory_.path() / "data").string(); }
+
+  Options options(Command command) const {
+    Options result;
+    result.command = command;
+    result.data_dir = data_dir();
+    return result;
+  }
+  Options adding(const std::string& owner, v1::Role role = v1::ROLE_USER) const {
+    Options result = options(Command::kTokenAdd);
+    result.owner = owner;
+    result.role = role;
+    return result;
+  }
+  int run(const Options& options) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int code = run_maintenance(options);
+    out_ = testing::internal::GetCapturedStdout();
+    err_ = testing::internal::GetCapturedStderr();
+    return code;
+  }
+  std::optional<TokenRow> find(const std::string& token) const {
+    Database db(database_file(data_dir()), Database::Mode::kReadOnly);
+    return find_token(db, token);
+  }
+
+  TemporaryDirectory directory_;
+  std::string out_;
+  std::string err_;
+};
+
+TEST_F(TokenCommandTest, TheFirstTokenMakesTheDatabase) {
+  ASSERT_EQ(run(adding("ada", v1::ROLE_ADMIN)), 0) << err_;
+  ASSERT_EQ(out_.back(), '\n');
+  const std::string token = out_.substr(0, out_.size() - 1);
+  EXPECT_EQ(token.find_first_of(" \n"), std::string::npos) << "alone on a line";
+  const std::optional<TokenRow> row = find(token);
+  ASSERT_TRUE(row);
+  EXPECT_EQ(row->owner, "ada");
+  EXPECT_EQ(row->role, v1::ROLE_ADMIN);
+  EXPECT_FALSE(row->expires_ms);
+  EXPECT_EQ(err_.find(token), std::string::npos);
+}
+
+TEST_F(TokenCommandTest, WorksWhileAServerHoldsTheDirectory) {
+  ASSERT_EQ(run(adding("ada")), 0);
+  const DataDir held(data_dir());
+  Options more = adding("bob");
+  more.expires = std::chrono::hours(24);
+  more.json = true;
+  ASSERT_EQ(run(more), 0) << err_;
+  const auto added = nlohmann::json::parse(out_);
+  EXPECT_EQ(added["owner"], "bob");
+  EXPECT_EQ(added["role"], "user");
+  const TokenRow row = *find(added["token"]);
+  EXPECT_EQ(*row.expires_ms - row.created_ms, 24 * 3600 * 1000);
+  Options revoke = options(Command::kTokenRevoke);
+  revoke.token = added["id"];
+  EXPECT_EQ(run(revoke), 0);
+  EXPECT_TRUE(find(added["token"])->revoked_ms);
+}
+
+TEST_F(TokenCommandTest, TheListHasAllButTheTokens) {
+  ASSERT_EQ(run(adding("ada")), 0);
+  const std::string token = out_.substr(0, out_.size() - 1);
+  ASSERT_EQ(run(options(Command::kTokenList)), 0);
+  EXPECT_NE(out_.find("ada"), std::string::npos);
+  EXPECT_NE(out_.find("good"), std::string::npos);
+  EXPECT_EQ(out_.find(token.substr(8)), std::string::npos);
+  Options json = options(Command::kTokenList);
+  json.json = true;
+  ASSERT_EQ(run(json), 0);
+  const auto listed = nlohmann::json::parse(out_);
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed[0]["state"], "good");
+  EXPECT_TRUE(listed[0]["last_used_ms"].is_null());
+}
+
+TEST_F(TokenCommandTest, FaultsHaveTheirCodes) {
+  EXPECT_EQ(run(options(Command::kTokenList)), 3) << "no database, and none is made";
+  EXPECT_FALSE(std::filesystem::exists(data_dir()));
+  ASSERT_EQ(run(adding("ada")), 0);
+  Options revoke = options(Command::kTokenRevoke);
+  revoke.token = 99;
+  EXPECT_EQ(run(revoke), 4);
+  EXPECT_NE(err_.find("no token 99"), std::string::npos);
+  EXPECT_EQ(run(adding("a\nb")), 2);
+}
+
+}  // namespace
+}  // namespace affskel::server
