@@ -24,6 +24,10 @@ bool run_restart(const LoadOptions& options);
 /// Kills the only worker at random moments, and times the work that is lost and the way back.
 bool run_kills(const LoadOptions& options);
 
+/// One owner's long queue and another's single job, with real workers: how long it takes, against its time on
+/// the idle server.
+bool run_turns(const LoadOptions& options);
+
 /// Many small jobs with real workers, one after the other; prints what server and workers hold meanwhile.
 bool run_soak(const LoadOptions& options);
 

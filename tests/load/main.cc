@@ -11,10 +11,10 @@ int main(int argc, char** argv) {
   LoadOptions options;
   CLI::App app("Loads on a real server: how fast it answers, what it holds");
   app.add_option("--clients", options.clients, "crowd: clients at once")->capture_default_str();
-  app.add_option("--workers", options.workers, "crowd: made-up workers; soak: real ones, at most 2")
+  app.add_option("--workers", options.workers, "crowd: made-up workers; soak, turns: real ones, at most 2")
       ->capture_default_str();
   app.add_option("--seconds", options.seconds, "crowd: how long")->capture_default_str();
-  app.add_option("--jobs", options.jobs, "queue, soak: number of jobs")->capture_default_str();
+  app.add_option("--jobs", options.jobs, "queue, soak, turns: number of jobs")->capture_default_str();
   app.add_option("--megabytes", options.megabytes, "restart: size of the database")->capture_default_str();
   app.add_option("--kills", options.kills, "kills: how many")
       ->check(CLI::PositiveNumber)
@@ -31,8 +31,9 @@ int main(int argc, char** argv) {
   app.add_subcommand("restart", "A server of a large database is killed")->callback(run(run_restart));
   app.add_subcommand("kills", "The only worker is killed at random moments")->callback(run(run_kills));
   app.add_subcommand("soak", "Many small jobs, one after the other")->callback(run(run_soak));
+  app.add_subcommand("turns", "One owner's long queue and another's single job")->callback(run(run_turns));
   app.add_subcommand("all", "All of them")->callback([&] {
-    for (auto* load : {run_crowd, run_queue, run_restart, run_kills, run_soak}) run(load)();
+    for (auto* load : {run_crowd, run_queue, run_restart, run_kills, run_turns, run_soak}) run(load)();
   });
   try {
     app.parse(argc, argv);
