@@ -9,6 +9,7 @@ void ArtifactWaiters::join(std::int64_t task) {
     mutex_.assert_held();
     return !going_.contains(task);
   });
+  left_.erase(task);
   ++waiting_[task];
 }
 
@@ -23,12 +24,33 @@ void ArtifactWaiters::give_up(std::int64_t task) {
     if (!leave_locked(task) || closed_) return;
     going_.insert(task);
   }
-  withdraw_(task);
+  withdraw(task);
+}
+
+void ArtifactWaiters::retry() {
+  for (;;) {
+    std::int64_t task = 0;
+    {
+      const base::MutexLock lock(mutex_);
+      if (left_.empty() || closed_) return;
+      task = *left_.begin();
+      left_.erase(task);
+      going_.insert(task);
+    }
+    if (!withdraw(task)) return;
+  }
+}
+
+/// A task that is among those going; afterwards it is gone, or left for later.
+bool ArtifactWaiters::withdraw(std::int64_t task) {
+  const bool withdrawn = withdraw_(task);
   {
     const base::MutexLock lock(mutex_);
     going_.erase(task);
+    if (!withdrawn) left_.insert(task);
   }
   withdrawn_.notify_all();
+  return withdrawn;
 }
 
 /// Whether that was the last one.

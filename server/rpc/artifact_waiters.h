@@ -15,8 +15,8 @@ namespace affskel::server {
 /// taken back.  Thread-safe.
 class ArtifactWaiters {
  public:
-  /// Takes a task back; may block, must not throw.
-  using Withdraw = std::function<void(std::int64_t task)>;
+  /// Takes a task back; may block, must not throw.  False when that failed.
+  using Withdraw = std::function<bool(std::int64_t task)>;
 
   explicit ArtifactWaiters(Withdraw withdraw) : withdraw_(std::move(withdraw)) {}
 
@@ -30,6 +30,9 @@ class ArtifactWaiters {
   /// One gives up: the task is withdrawn when this was the last.
   void give_up(std::int64_t task);
 
+  /// Takes back, once more, what could not be taken back, and what nobody has joined since.
+  void retry();
+
   /// From now on nothing is withdrawn: the server closes, and its successor decides.
   void close();
 
@@ -37,6 +40,7 @@ class ArtifactWaiters {
   std::size_t count(std::int64_t task) const;
 
  private:
+  bool withdraw(std::int64_t task);
   bool leave_locked(std::int64_t task) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const Withdraw withdraw_;
@@ -44,6 +48,7 @@ class ArtifactWaiters {
   std::condition_variable_any withdrawn_;
   std::map<std::int64_t, std::size_t> waiting_ ABSL_GUARDED_BY(mutex_);  // by task
   std::set<std::int64_t> going_ ABSL_GUARDED_BY(mutex_);                 // tasks that are being taken back
+  std::set<std::int64_t> left_ ABSL_GUARDED_BY(mutex_);                  // tasks that could not be taken back
   bool closed_ ABSL_GUARDED_BY(mutex_) = false;
 };
 

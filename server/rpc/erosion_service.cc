@@ -69,7 +69,7 @@ ErosionServiceImpl::ErosionServiceImpl(CallRoom& room, Store& store, WorkerRegis
       jobs_(jobs),
       hub_(hub),
       facts_(std::move(facts)),
-      waiters_([&store](std::int64_t task) { guarded([&] { store.withdraw(task); }); }) {}
+      waiters_([&store](std::int64_t task) { return guarded([&] { store.withdraw(task); }).ok(); }) {}
 
 /// A short call.
 grpc::ServerUnaryReactor* ErosionServiceImpl::answer(Method method, grpc::CallbackServerContext& context,

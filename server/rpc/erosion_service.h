@@ -51,6 +51,9 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
   /// Requests for artefacts that end from now on are left to the next server.
   void close() { waiters_.close(); }
 
+  /// Takes requests back that nobody waits for and that could not be taken back before, on a full disk say.
+  void retry_withdrawals() { waiters_.retry(); }
+
  private:
   grpc::ServerUnaryReactor* answer(Method method, grpc::CallbackServerContext& context,
                                    std::function<void(const Identity&)> body);

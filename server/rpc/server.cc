@@ -179,6 +179,7 @@ void Server::maintain() {
       release_dead_workers(*store_);
       store_->expire_leases();
     });
+    erosion_service_->retry_withdrawals();
     guarded([this] { room_.tick_gate(); });
     guarded([this] { keep_secrets(); });
     tidy();

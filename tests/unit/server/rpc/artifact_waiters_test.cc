@@ -11,7 +11,10 @@ namespace {
 
 TEST(ArtifactWaitersTest, TheLastWhoGivesUpTakesTheTaskBack) {
   std::vector<std::int64_t> withdrawn;
-  ArtifactWaiters waiters([&](std::int64_t task) { withdrawn.push_back(task); });
+  ArtifactWaiters waiters([&](std::int64_t task) {
+    withdrawn.push_back(task);
+    return true;
+  });
   waiters.join(7);
   waiters.join(7);
   waiters.join(8);
@@ -33,6 +36,7 @@ TEST(ArtifactWaitersTest, WhoComesWhileATaskIsTakenBackWaitsForThat) {
     begun.set_value();
     go_on.get_future().wait();
     gone = true;
+    return true;
   });
   waiters.join(7);
   std::thread first([&] { waiters.give_up(7); });
@@ -48,11 +52,38 @@ TEST(ArtifactWaitersTest, WhoComesWhileATaskIsTakenBackWaitsForThat) {
 }
 
 TEST(ArtifactWaitersTest, AServerThatClosesLeavesTheTasks) {
-  ArtifactWaiters waiters([](std::int64_t) { ADD_FAILURE(); });
+  ArtifactWaiters waiters([](std::int64_t) {
+    ADD_FAILURE();
+    return true;
+  });
   waiters.join(7);
   waiters.close();
   waiters.give_up(7);
   EXPECT_EQ(waiters.count(7), 0U);
+}
+
+// On a full disk, say.  Whoever asks for the same meanwhile keeps it.
+TEST(ArtifactWaitersTest, WhatCouldNotBeTakenBackIsTriedAgain) {
+  bool works = false;
+  std::vector<std::int64_t> withdrawn;
+  ArtifactWaiters waiters([&](std::int64_t task) {
+    if (works) withdrawn.push_back(task);
+    return works;
+  });
+  for (const std::int64_t task : {7, 8, 9}) {
+    waiters.join(task);
+    waiters.give_up(task);
+  }
+  waiters.retry();
+  EXPECT_TRUE(withdrawn.empty());
+  waiters.join(8);
+  works = true;
+  waiters.retry();
+  EXPECT_EQ(withdrawn, (std::vector<std::int64_t>{7, 9}));
+  waiters.retry();
+  EXPECT_EQ(withdrawn.size(), 2U) << "once";
+  waiters.give_up(8);
+  EXPECT_EQ(withdrawn.back(), 8);
 }
 
 }  // namespace
