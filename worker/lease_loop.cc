@@ -8,7 +8,6 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
-#include <new>
 #include <optional>
 #include <random>
 #include <set>
@@ -21,6 +20,7 @@
 #include "core/base/version.h"
 #include "derive/derive.h"
 #include "erode_task.h"
+#include "failure.h"
 #include "job/prepared_job.h"
 #include "job/result_bytes.h"
 #include "last_report.h"
@@ -42,13 +42,14 @@ constexpr int kExitNotAllowed = 7;
 constexpr auto kFirstRest = std::chrono::milliseconds(250);
 constexpr auto kMaxRest = std::chrono::milliseconds(4000);
 
-v1::WorkerIdentity own_identity(const std::string& id, unsigned threads) {
+v1::WorkerIdentity own_identity(const std::string& id, unsigned threads, std::uint64_t memory) {
   v1::WorkerIdentity identity;
   identity.set_id(id);
   identity.set_host(wire::host_name());
   identity.set_pid(static_cast<std::uint32_t>(getpid()));
   identity.set_threads(threads);
   identity.set_core_version(core::kCoreVersion);
+  identity.set_memory(memory);
   return identity;
 }
 
@@ -82,49 +83,6 @@ v1::ErosionParams prepared_params(const v1::Job& job) {
   return params;
 }
 
-v1::JobError describe(const core::CoreError& error) {
-  v1::JobError message;
-  switch (error.code()) {
-    case core::CoreError::Code::kBadInput:
-      message.set_code("BAD_INPUT");
-      break;
-    case core::CoreError::Code::kLimit:
-      message.set_code("LIMIT");
-      break;
-    default:
-      message.set_code("INTERNAL");
-  }
-  message.set_message(error.what());
-  message.set_line(error.line());
-  return message;
-}
-
-// What a failed task tells the server.
-struct Failure {
-  v1::JobError error;
-  bool retryable = false;
-};
-
-Failure describe(const std::exception_ptr& problem, const std::string& host) {
-  Failure failure;
-  try {
-    std::rethrow_exception(problem);
-  } catch (const core::CoreError& error) {
-    failure.error = describe(error);
-  } catch (const std::bad_alloc&) {
-    failure.error.set_code("LIMIT");
-    const std::uint64_t left = available_memory() / 1000000;
-    failure.error.set_message("not enough memory on worker " + host +
-                              (left > 0 ? ", which has " + std::to_string(left) + " MB available" : "") +
-                              "; take a wider spacing or a worker with more");
-  } catch (const std::exception& error) {
-    failure.error.set_code("INTERNAL");
-    failure.error.set_message(error.what());
-    failure.retryable = true;
-  }
-  return failure;
-}
-
 class LeaseLoop {
  public:
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
@@ -135,12 +93,13 @@ class LeaseLoop {
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
         }) {
-    *request_.mutable_worker() = own_identity(id_, options.threads);
+    const std::uint64_t memory = options.memory != 0 ? options.memory : available_memory();
+    *request_.mutable_worker() = own_identity(id_, options.threads, memory);
   }
 
   int run() {
-    spdlog::info("worker={} server={} threads={} msg=\"ready\"", request_.worker().id(), options_.server,
-                 options_.threads);
+    spdlog::info("worker={} server={} threads={} memory={} msg=\"ready\"", request_.worker().id(),
+                 options_.server, options_.threads, request_.worker().memory());
     Clock::time_point last_work = Clock::now();
     while (!stop_.stop_requested()) {
       const std::optional<v1::Lease> lease = next_lease();
@@ -257,13 +216,14 @@ class LeaseLoop {
 
   // Whether the task will be tried again.
   bool tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
-    const Failure failure = describe(problem, request_.worker().host());
+    const Failure failure = describe(problem, request_.worker());
     spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", job, token,
                   failure.error.code(), failure.error.message());
     v1::FailTaskRequest request;
     request.set_token(token);
     *request.mutable_error() = failure.error;
     request.set_retryable(failure.retryable);
+    request.set_memory_needed(failure.memory_needed);
     try {
       link_.fail(request);
     } catch (const LeaseLost&) {
@@ -354,13 +314,20 @@ class LeaseLoop {
     // A prepared job has fitted into the memory of some worker: one that is short of it must not fail the job
     // for all.
     const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
-    job_ = std::make_unique<PreparedJob>(
-        mesh, prepared_params(lease.job()), options_.threads, &context,
-        first ? std::function<std::uint64_t()>([] { return available_memory(); })
-              : std::function<std::uint64_t()>());
+    job_ =
+        std::make_unique<PreparedJob>(mesh, prepared_params(lease.job()), options_.threads, &context,
+                                      first ? std::function<std::uint64_t()>([this] { return memory_left(); })
+                                            : std::function<std::uint64_t()>());
     job_id_ = lease.job().id();
     database_ = lease.database();
     return *job_;
+  }
+
+  // Bytes that may be taken now; 0 when nothing is known.
+  std::uint64_t memory_left() const {
+    const std::uint64_t left = available_memory();
+    if (options_.memory == 0) return left;
+    return left == 0 ? options_.memory : std::min(left, options_.memory);
   }
 
   void forget() {

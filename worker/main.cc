@@ -109,6 +109,12 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.add_option("--threads", flags.loop.threads, "computing threads")
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();
+  app.add_option(
+         "--memory", flags.loop.memory,
+         "bytes that the worker may take, with K, M or G for powers of 1024: tasks that need more go to "
+         "others; default: what is available of machine, control group and ulimit when it starts")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("BYTES");
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -289,6 +289,18 @@ v1::Job Session::resume(const std::string& job) {
   return unary(request, &Stub::ResumeJob);
 }
 
+v1::Job Session::pin(const std::string& job) {
+  v1::PinJobRequest request;
+  request.set_job(job);
+  return unary(request, &Stub::PinJob);
+}
+
+v1::Job Session::unpin(const std::string& job) {
+  v1::UnpinJobRequest request;
+  request.set_job(job);
+  return unary(request, &Stub::UnpinJob);
+}
+
 std::string Session::delete_job(const std::string& job) {
   v1::DeleteJobRequest request;
   request.set_job(job);

@@ -53,6 +53,8 @@ class Session {
   v1::Job watch(const std::string& job, const std::function<void(const v1::Job&)>& seen);
   v1::Job cancel(const std::string& job);
   v1::Job resume(const std::string& job);
+  v1::Job pin(const std::string& job);
+  v1::Job unpin(const std::string& job);
   std::string delete_job(const std::string& job);
   v1::ServerInfo server_info();
   /// Checks size and SHA-256 of what arrives.

@@ -110,6 +110,17 @@ std::string job_details(const v1::Job& job) {
   text += key_line("stage", stage_word(job.stage()));
   if (job.state() == v1::JOB_STATE_FAILED) text += key_line("reason", failure_text(job.error()));
   if (!job.waiting_reason().empty()) text += key_line("reason", job.waiting_reason());
+  if (job.pinned()) text += key_line("pinned", "yes");
+  if (job.removed_ms() > 0) {
+    text += key_line("results_removed",
+                     utc_time(job.removed_ms()) + ", by the server's retention; resume computes them again");
+  }
+  if (job.expires_ms() > 0) {
+    text += key_line("expires", utc_time(job.expires_ms()) +
+                                    (job.removed_ms() > 0 ? ", with its mesh" : ", its results") +
+                                    "; pin keeps it");
+  }
+  if (job.memory_needed() > 0) text += key_line("memory_needed", std::to_string(job.memory_needed()));
   if (job.cancel_requested()) text += key_line("cancel_requested", "yes");
   text += key_line("directions", progress_text(job));
   if (job.state() == v1::JOB_STATE_DONE) {

@@ -31,13 +31,14 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
                                   (silent == 0 ? "" : " and " + std::to_string(silent) + " silent"));
   for (const v1::WorkerInfo& w : info.workers()) {
     const std::string threads = base::counted(w.threads(), "thread");
-    text +=
-        key_line("worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) +
-                               ", " + threads + (w.supervised() ? ", supervised" : "") + ", core " +
-                               w.core_version() + ", seen " + age_text(w.last_seen_ms(), now_ms) + " ago, " +
-                               (w.silent()         ? "silent: dead, stopped or cut off"
-                                : w.task().empty() ? "idle"
-                                                   : w.task()));
+    text += key_line(
+        "worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) + ", " +
+                      threads + (w.memory() > 0 ? ", " + std::to_string(w.memory() / 1000000) + " MB" : "") +
+                      (w.supervised() ? ", supervised" : "") + ", core " + w.core_version() + ", seen " +
+                      age_text(w.last_seen_ms(), now_ms) + " ago, " +
+                      (w.silent()         ? "silent: dead, stopped or cut off"
+                       : w.task().empty() ? "idle"
+                                          : w.task()));
   }
   return text;
 }

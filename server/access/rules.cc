@@ -16,6 +16,8 @@ constexpr MethodRule kMethods[] = {
     {Method::kWatchJob, "WatchJob", Side::kClient, true, false, true},
     {Method::kCancelJob, "CancelJob", Side::kClient, true, false, true},
     {Method::kResumeJob, "ResumeJob", Side::kClient, true, false, true},
+    {Method::kPinJob, "PinJob", Side::kClient, true, false, true},
+    {Method::kUnpinJob, "UnpinJob", Side::kClient, true, false, true},
     {Method::kDeleteJob, "DeleteJob", Side::kClient, true, false, true},
     {Method::kFetchArtifact, "FetchArtifact", Side::kClient, true, false, true},
     {Method::kGetServerInfo, "GetServerInfo", Side::kClient, true, false, true},

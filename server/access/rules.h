@@ -23,6 +23,8 @@ enum class Method {
   kWatchJob,
   kCancelJob,
   kResumeJob,
+  kPinJob,
+  kUnpinJob,
   kDeleteJob,
   kFetchArtifact,
   kGetServerInfo,

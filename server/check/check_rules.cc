@@ -58,11 +58,13 @@ constexpr const char* kJobs[] = {
     "SELECT 'job ' || j.id, 'is in stage ' || j.stage || ', its erosion is ' || CASE"
     " WHEN e.finished THEN 'finished' WHEN e.core_version IS NULL THEN 'not prepared'"
     " ELSE 'prepared and not finished' END FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
-    " WHERE j.stage NOT IN (CASE WHEN e.finished THEN 'derive' WHEN e.core_version IS NULL THEN 'prepare'"
+    " WHERE j.removed_ms = 0 AND j.stage NOT IN (CASE WHEN e.finished THEN 'derive' WHEN e.core_version IS "
+    "NULL THEN 'prepare'"
     " ELSE 'erode' END, iif(e.finished, 'complete', ''))",
 
     "SELECT 'job ' || j.id, 'is done, but its skeleton is missing' FROM jobs j WHERE j.state = 'done'"
-    " AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id AND kind = 'skeleton'"
+    " AND j.removed_ms = 0 AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id AND kind "
+    "= 'skeleton'"
     " AND params_key = j.skeleton_key)",
 
     "SELECT 'job ' || j.id, 'tells of ' || j.skeleton_points || ' skeleton points, its skeleton has '"
@@ -138,6 +140,28 @@ constexpr const char* kQueues[] = {
     " LEFT JOIN turns t USING (owner, on_request) WHERE q.turn IS NOT t.turn",
 };
 
+// What owners use, which triggers count: see migration 9.
+constexpr const char* kUse[] = {
+    "SELECT 'erosion ' || id, 'is counted with ' || bytes || ' bytes, it has ' || n FROM (SELECT e.id, "
+    "e.bytes,"
+    " iif(EXISTS (SELECT 1 FROM jobs WHERE erosion_id = e.id AND removed_ms > 0), 0, 20 * ifnull(e.points, "
+    "0))"
+    " + (SELECT ifnull(sum(bytes), 0) FROM artifacts WHERE erosion_id = e.id) AS n FROM erosions e"
+    " WHERE e.dropped = 0) WHERE n <> bytes",
+
+    "SELECT 'use of owner ' || quote(owner), 'is counted as ' || counted || ', is ' || there FROM (SELECT "
+    "u.owner,"
+    " u.queued_jobs || ' jobs, ' || u.mesh_bytes || ' and ' || u.stored_bytes || ' bytes' AS counted,"
+    " (SELECT count(*) FROM jobs WHERE owner = u.owner AND state IN ('queued', 'running')) || ' jobs, ' || "
+    "m.bytes"
+    " || ' and ' || (m.bytes + (SELECT ifnull(sum(bytes), 0) FROM erosions WHERE id IN"
+    "  (SELECT erosion_id FROM jobs WHERE owner = u.owner))) || ' bytes' AS there"
+    " FROM owner_use u JOIN (SELECT u.owner, (SELECT ifnull(sum(bytes), 0) FROM meshes WHERE sha256 IN"
+    "  (SELECT e.mesh_sha256 FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.owner = u.owner)) AS "
+    "bytes"
+    "  FROM owner_use u) m USING (owner)) WHERE counted <> there",
+};
+
 template <std::size_t count>
 void check_all(Database& db, FaultLog& faults, const char* const (&rules)[count]) {
   for (const char* rule : rules) {
@@ -155,6 +179,7 @@ void check_rules(Database& db, FaultLog& faults) {
   check_all(db, faults, kJobs);
   check_all(db, faults, kTasks);
   check_all(db, faults, kQueues);
+  check_all(db, faults, kUse);
 }
 
 }  // namespace affskel::server

@@ -3,7 +3,7 @@
 ALTER TABLE tasks ADD COLUMN owner TEXT NOT NULL DEFAULT '';  -- jobs.owner
 -- Number of the last grant to its job, where the jobs of an owner take turns; 0 = never, or they come in order.
 ALTER TABLE tasks ADD COLUMN turn INTEGER NOT NULL DEFAULT 0;
--- Bytes of memory that a worker must have, see wire/memory_need.h; 0 = any worker will do.
+-- Bytes of memory that a worker must have, see store/memory_need.h; 0 = any worker will do.
 ALTER TABLE tasks ADD COLUMN needs_memory INTEGER NOT NULL DEFAULT 0 CHECK (needs_memory >= 0);
 
 -- Number of the last grant to an owner.  Negative before the first: in the order in which owners came.

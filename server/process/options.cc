@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "process/exit_code.h"
+#include "process/policy_options.h"
 #include "wire/version.h"
 #include "wire/words.h"
 
@@ -34,6 +35,14 @@ Examples:
 
 SIGTERM and SIGINT drain: nothing more is leased, workers report and give their leases back, exit 0.
 DATA_DIR/server.json names process, version and the addresses actually bound while the server runs.
+
+Limits, quotas and retention are best kept in a file for --config:
+  limit = ["queued-jobs=100K", "stored-bytes=2T"]
+  quota = ["queued-jobs=2K", "stored-bytes=200G", "chords=1T", "ada:stored-bytes=500G"]
+  retention = ["results-age=90d", "jobs-age=365d", "ada:results-age=0", "total-bytes=1T", "grace=7d"]
+What exceeds a limit is refused, with limit and use (exit code 8 of affskel-client); points x directions that only
+the mesh tells fail the job. Results go before jobs with their meshes; pinned and unfinished jobs stay.
+
 DATA_DIR/reserve is room kept for a full disk: there jobs wait, and can still be cancelled and deleted.
 Exit codes: 0 stopped; 2 usage, address or data directory; 8 disk full; 70 internal error. Those of the commands
 are in their help: affskel-server check --help.)";
@@ -97,6 +106,14 @@ unsigned worker_count(const std::string& text) {
     throw CLI::ValidationError("--workers", "expected 0 .. 1024 or auto, got '" + text + "'");
   }
   return count;
+}
+
+Policy checked_policy(const PolicyWords& words) {
+  try {
+    return parse_policy(words);
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(error.what());
+  }
 }
 
 /// NaN would compare as "never idle".
@@ -185,6 +202,27 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
       ->capture_default_str();
   app.set_config("--config", "", "Read options from a TOML or INI file, named as here without the dashes")
       ->type_name("FILE");
+}
+
+/// What owners may use, and what is kept.
+void add_policy(CLI::App& app, PolicyWords& words) {
+  const auto add = [&app](const char* name, std::vector<std::string>& list, const char* type,
+                          const char* what) {
+    app.add_option(name, list, what)
+        ->type_name(type)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  add("--limit", words.limits, "NAME=VALUE",
+      "Limit of the whole server, repeatable: queued-jobs, mesh-bytes, stored-bytes, chords (of a job: "
+      "points x "
+      "directions)");
+  add("--quota", words.quotas, "[OWNER:]NAME=VALUE",
+      "The same for each owner, or for the one that is named, repeatable");
+  add("--retention", words.retentions, "[OWNER:]NAME=VALUE",
+      "How long what is finished is kept, repeatable: results-age, jobs-age (90d, 12h), stored-bytes; of the "
+      "whole "
+      "server total-bytes, and grace, the time between notice and removal (7d)");
 }
 
 /// Adds a command that works on the data directory by itself.
@@ -282,15 +320,18 @@ void refuse_server_options(const CLI::App& app) {
 ParsedOptions parse_options(int argc, char** argv) {
   ParsedOptions parsed;
   std::string workers = "0";
+  PolicyWords policy;
   CLI::App app("Queue and store of the affine skeleton service", "affskel-server");
   app.set_version_flag("--version", std::string("affskel-server ") + wire::kVersion);
   app.footer(kFooter);
   add_options(app, parsed.options, workers);
+  add_policy(app, policy);
   add_commands(app, parsed.options);
   try {
     app.parse(argc, argv);
     refuse_server_options(app);
     parsed.options.workers = worker_count(workers);
+    parsed.options.policy = checked_policy(policy);
     if (parsed.options.report_interval_ms >= parsed.options.lease_ms) {
       throw CLI::ValidationError("--report-interval-ms", "must be less than --lease-ms");
     }

@@ -32,6 +32,7 @@ struct Options {
   std::int64_t report_interval_ms = 1000;
   std::uint64_t max_mesh_mb = 1024;
   OwnerOrder owner_order = OwnerOrder::kFirstCome;
+  Policy policy;
   std::string log_level = "info";
   bool json = false;                            ///< of the commands: one JSON document instead of lines
   bool repair = false;                          ///< of check

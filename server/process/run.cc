@@ -184,6 +184,7 @@ void run_server(const Options& options) {
   server_options.store.report_interval_ms = options.report_interval_ms;
   server_options.store.max_mesh_bytes = options.max_mesh_mb << 20;
   server_options.store.owner_order = options.owner_order;
+  server_options.store.policy = options.policy;
   Server server(server_options);
   Supervisor supervisor(
       supervisor_options(options, server),

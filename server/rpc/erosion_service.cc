@@ -128,6 +128,21 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::ResumeJob(grpc::CallbackServerCont
   });
 }
 
+grpc::ServerUnaryReactor* ErosionServiceImpl::PinJob(grpc::CallbackServerContext* context,
+                                                     const v1::PinJobRequest* request, v1::Job* response) {
+  return answer(Method::kPinJob, *context, [this, request, response](const Identity& caller) {
+    *response = jobs_.with_reason(store_.pin(job_ref(request->job(), caller), true));
+  });
+}
+
+grpc::ServerUnaryReactor* ErosionServiceImpl::UnpinJob(grpc::CallbackServerContext* context,
+                                                       const v1::UnpinJobRequest* request,
+                                                       v1::Job* response) {
+  return answer(Method::kUnpinJob, *context, [this, request, response](const Identity& caller) {
+    *response = jobs_.with_reason(store_.pin(job_ref(request->job(), caller), false));
+  });
+}
+
 grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerContext* context,
                                                         const v1::DeleteJobRequest* request,
                                                         v1::DeleteJobResponse* response) {

@@ -39,6 +39,10 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
                                       const v1::CancelJobRequest* request, v1::Job* response) override;
   grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context,
                                       const v1::ResumeJobRequest* request, v1::Job* response) override;
+  grpc::ServerUnaryReactor* PinJob(grpc::CallbackServerContext* context, const v1::PinJobRequest* request,
+                                   v1::Job* response) override;
+  grpc::ServerUnaryReactor* UnpinJob(grpc::CallbackServerContext* context, const v1::UnpinJobRequest* request,
+                                     v1::Job* response) override;
   grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
                                       const v1::DeleteJobRequest* request,
                                       v1::DeleteJobResponse* response) override;

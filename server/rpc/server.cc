@@ -193,7 +193,10 @@ void Server::tidy() {
   for (bool more = true; more;) {
     more = false;
     const auto begin = now();
-    guarded([&] { more = store_->tidy(); });
+    guarded([&] {
+      const bool retained = store_->retain();
+      more = store_->tidy() || retained;
+    });
     tidying_ = more;
     base::MutexLock lock(mutex_);
     if (stopped_.wait_for(lock, now() - begin, [this] {

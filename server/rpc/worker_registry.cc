@@ -49,6 +49,7 @@ void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_m
   info.set_threads(worker.threads());
   info.set_core_version(worker.core_version());
   info.set_supervised(supervised);
+  info.set_memory(worker.memory());
   hear(entry);
   forget_silent();
 }

@@ -44,7 +44,8 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::FailTask(grpc::CallbackServerContex
                                                       const v1::FailTaskRequest* request,
                                                       v1::ReportResponse* response) {
   return with_lease_of(Method::kFailTask, *context, request->token(), [this, request, response] {
-    *response = store_.fail(request->token(), request->error(), request->retryable());
+    *response =
+        store_.fail(request->token(), request->error(), request->retryable(), request->memory_needed());
     return true;
   });
 }

@@ -25,7 +25,8 @@ constexpr const char* kJobColumns =
     " j.finished_ms, j.error_code, j.error_message, j.error_line, j.directions_reported, "
     "j.directions_repeated,"
     " j.reports, j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
-    " j.skeleton_points, e.stride, j.quality"
+    " j.skeleton_points, e.stride, j.quality, j.pinned, j.removed_ms, j.expires_ms,"
+    " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0)"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -89,6 +90,10 @@ ReadJob read_job(const Statement& row) {
   job.set_skeleton_points(columns.natural());
   job.set_order_stride(columns.natural());
   if (const auto quality = columns.blob_or_null()) parse(*job.mutable_quality(), *quality);
+  job.set_pinned(columns.flag());
+  job.set_removed_ms(columns.natural());
+  job.set_expires_ms(columns.natural());
+  job.set_memory_needed(columns.natural());
   return read;
 }
 
@@ -112,7 +117,8 @@ std::string checked_prefix(const std::string& text) {
 std::optional<JobRow> find_job(Database& db, const std::string& id) {
   Statement row = db.query(
       "SELECT j.state, j.stage, j.cancel_requested, j.erosion_id, j.skeleton, j.skeleton_key, e.mesh_sha256,"
-      " e.params_key, e.core_version, e.points, e.directions, e.directions_done, e.finished"
+      " e.params_key, e.core_version, e.points, e.directions, e.directions_done, e.finished, j.owner, "
+      "j.finished_ms, j.pinned, j.removed_ms"
       " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?",
       id);
   if (!row.step()) return std::nullopt;
@@ -132,6 +138,10 @@ std::optional<JobRow> find_job(Database& db, const std::string& id) {
   job.directions = columns.integer();
   job.directions_done = columns.integer();
   job.finished = columns.flag();
+  job.owner = columns.text();
+  job.finished_ms = columns.integer();
+  job.pinned = columns.flag();
+  job.removed_ms = columns.integer();
   return job;
 }
 

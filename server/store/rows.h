@@ -20,6 +20,7 @@ struct Range {
 /// A job with its erosion, as the scheduler needs them.
 struct JobRow {
   std::string id;
+  std::string owner;
   v1::JobState state = v1::JOB_STATE_UNSPECIFIED;
   v1::JobStage stage = v1::JOB_STAGE_UNSPECIFIED;
   bool cancel_requested = false;
@@ -33,6 +34,9 @@ struct JobRow {
   std::int64_t directions = 0;
   std::int64_t directions_done = 0;
   bool finished = false;
+  std::int64_t finished_ms = 0;  // 0 while it is active
+  bool pinned = false;
+  std::int64_t removed_ms = 0;  // when retention removed its results; 0 = they are kept
 
   /// QUEUED or RUNNING.
   bool active() const { return state == v1::JOB_STATE_QUEUED || state == v1::JOB_STATE_RUNNING; }

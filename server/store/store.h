@@ -55,7 +55,7 @@ class Store final : public TokenSource {
   /// acknowledged from then on, and whoever runs the store should end.
   bool lost() const;
 
-  // For clients: store_submit.cc, store_jobs.cc
+  // For clients: store_submit.cc, store_jobs.cc, store_keeping.cc
 
   struct Submitted {
     v1::Job job;
@@ -72,8 +72,11 @@ class Store final : public TokenSource {
   JobPage list(const ListFilter& filter);
   /// A queued job is cancelled at once, a running one is marked.
   v1::Job cancel(const JobRef& job_ref);
-  /// A failed or cancelled job goes on from where it was; an active one stays as it is.
+  /// A failed or cancelled job goes on from where it was, and a done one whose results were removed begins
+  /// anew; an active one stays as it is.
   v1::Job resume(const JobRef& job_ref);
+  /// Keeps a job from retention, or no longer.
+  v1::Job pin(const JobRef& job_ref, bool pinned);
   /// Deletes a job that is not active, and marks what no other job needs for tidy().  Returns its id.
   std::string remove(const JobRef& job_ref);
 
@@ -125,7 +128,9 @@ class Store final : public TokenSource {
   /// whatever becomes of the rest; only report() calls positions done.
   void report_part(const std::string& token, const RecordBatch& records);
   v1::ReportResponse complete(const v1::CompleteTaskHeader& header, std::string_view data);
-  v1::ReportResponse fail(const std::string& token, const v1::JobError& error, bool retryable);
+  /// @param memory_needed bytes, when the worker has too little memory for the task: a larger one gets it.
+  v1::ReportResponse fail(const std::string& token, const v1::JobError& error, bool retryable,
+                          std::uint64_t memory_needed = 0);
   v1::ReportResponse give_back(const std::string& token);
   /// Opens an input of a leased task.
   std::unique_ptr<BlobReader> open_input(const std::string& token, v1::ArtifactKind kind);
@@ -142,6 +147,10 @@ class Store final : public TokenSource {
   /// left, gives pages back to the file system, shortens the log.  On a full disk, first looks whether there
   /// is room again.  True when the next step can be taken at once: store_space.cc.
   bool tidy();
+
+  /// One short step of retention: removes what is due, or plans and tells what will be.  True when the next
+  /// step can be taken at once.
+  bool retain();
 
   // For the gate: store_tokens.cc
 

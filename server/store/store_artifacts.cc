@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "database/errors.h"
+#include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/artifact_kinds.h"
@@ -66,6 +67,15 @@ std::int64_t stored_artifact(Database& db, const JobRow& job, const std::string&
   return *id;
 }
 
+void require_results(const JobRow& job) {
+  if (job.removed_ms == 0) return;
+  throw StoreError(
+      StoreError::Code::kPrecondition,
+      "the results of job " + job.id +
+          " were removed by retention, its mesh is kept: resume the job, which computes them again;"
+          " pin it to keep them then");
+}
+
 void require_finished(Database& db, const JobRow& job) {
   if (!job.finished) throw missing(db, job, "complete field");
 }
@@ -78,6 +88,7 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
           job.id, wanted.key.kind, wanted.key.params_key, job.active() && !job.cancel_requested)) {
     return *task;
   }
+  require_stored_room(tx.db, tx.options.policy, job.owner, 0);
   tx.require_room();
   tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + wanted.key.kind + " " +
                            wanted.key.params_key);
@@ -130,6 +141,7 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
   state.task = write([&](Tx& tx) -> std::int64_t {
     mutex_.assert_held();
     const JobRow job = get_job(tx.db, resolve_job(tx.db, request.job()));
+    if (kind.task != v1::TASK_KIND_UNSPECIFIED) require_results(job);
     switch (kind.task) {
       case v1::TASK_KIND_UNSPECIFIED:
         mesh = job.mesh_sha256;

@@ -5,6 +5,8 @@
 #include "base/quoted.h"
 #include "database/errors.h"
 #include "store/blocks.h"
+#include "store/memory_need.h"
+#include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/artifact_kinds.h"
@@ -161,6 +163,13 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
       refuse("a summary belongs to the prepare task, and only to it");
     }
     if (parts) {
+      const JobRow job = get_job(tx.db, task.job_id);
+      if (const auto error = over_quota(tx.db, options_.policy, job.owner, header.prepared(),
+                                        static_cast<std::int64_t>(data.size()))) {
+        give_up(tx, task, *error);
+        settle_job(tx, task.job_id);
+        return reply(true);
+      }
       store_prepared(tx, task, header, *parts);
     } else {
       store_derived(tx, task, header, data);
@@ -171,7 +180,22 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
   });
 }
 
-v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable) {
+namespace {
+
+/// The task waits for a worker with more memory, the first time for one with what this one says is needed.
+void wait_for_larger(Tx& tx, const TaskRow& task, std::uint64_t bytes) {
+  const auto known = static_cast<std::uint64_t>(
+      tx.db.integer("SELECT needs_memory FROM tasks WHERE id = ?", task.id).value_or(0));
+  tx.db.run("UPDATE tasks SET needs_memory = ? WHERE id = ?", rounded_need(std::max(bytes, known + 1)),
+            task.id);
+  release_task(tx, task);
+  settle_job(tx, task.job_id);
+}
+
+}  // namespace
+
+v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable,
+                               std::uint64_t memory_needed) {
   v1::JobError known = error;
   known.set_code(known_code(error.code()));
   known.set_message(base::shortened(error.message(), kMaxReasonBytes));
@@ -182,7 +206,9 @@ v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& err
     tx.changes.log.push_back("event=task_failed job=" + task.job_id + " task=" + std::to_string(task.id) +
                              " worker=" + task.worker + " code=" + known.code() + " retryable=" +
                              (retryable ? "true" : "false") + " message=\"" + known.message() + "\"");
-    if (retryable) {
+    if (memory_needed > 0) {
+      wait_for_larger(tx, task, memory_needed);
+    } else if (retryable) {
       count_loss(tx, task, known);
     } else {
       give_up(tx, task, known);

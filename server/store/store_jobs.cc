@@ -1,6 +1,9 @@
-#include <algorithm>
+#include <vector>
 
 #include "database/errors.h"
+#include "store/memory_need.h"
+#include "store/quota.h"
+#include "store/retention.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "wire/words.h"
@@ -60,17 +63,57 @@ v1::Job Store::cancel(const JobRef& job_ref) {
   });
 }
 
+namespace {
+
+/// A done job whose results were removed: by its own work, or another job's that is done.
+void compute_again(Tx& tx, const JobRow& job) {
+  require_queue_room(tx.db, tx.options.policy, job.owner);
+  tx.require_room();
+  begin_erosion_anew(tx, job);
+  tx.db.run(
+      "UPDATE jobs SET state = 'queued', stage = 'prepare', finished_ms = 0, skeleton_points = 0, quality = "
+      "NULL,"
+      " removed_ms = 0, expires_ms = 0 WHERE id = ?",
+      job.id);
+  tx.changes.jobs.insert(job.id);
+  tx.changes.log.push_back("event=resumed job=" + job.id + " why=\"its results were removed\"");
+  const std::optional<std::int64_t> finished =
+      find_finished_erosion(tx.db, job.mesh_sha256, job.params_key, current_core_version(tx.db));
+  if (finished) return adopt_erosion(tx, job.id, *finished);
+  add_task(tx, job.id, v1::TASK_KIND_PREPARE);
+}
+
+/// What workers found may have been true of them that day only.
+void forget_memory_needs(Tx& tx, const std::string& job) {
+  std::vector<std::int64_t> pending;
+  {
+    Statement row = tx.db.query("SELECT id FROM tasks WHERE job_id = ? AND state = 'pending'", job);
+    while (row.step()) pending.push_back(row.integer(0));
+  }
+  for (const std::int64_t id : pending) {
+    const TaskRow task = *find_task(tx.db, id);
+    tx.db.run("UPDATE tasks SET needs_memory = ?2 WHERE id = ?1 AND needs_memory <> ?2", id,
+              memory_need_of(tx.db, job, task.kind, task.params));
+  }
+}
+
+}  // namespace
+
 v1::Job Store::resume(const JobRef& job_ref) {
   return write_job(job_ref, [](Tx& tx, const JobRow& job) {
+    if (job.state == v1::JOB_STATE_DONE && job.removed_ms > 0) return compute_again(tx, job);
     if (job.state == v1::JOB_STATE_DONE) {
       throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " is done: nothing to resume");
     }
     if (job.active() && !job.cancel_requested) return;
+    if (!job.active()) require_queue_room(tx.db, tx.options.policy, job.owner);
     tx.db.run(
         "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
-        " finished_ms = 0, error_code = NULL, error_message = '', error_line = 0 WHERE id = ?",
+        " finished_ms = 0, error_code = NULL, error_message = '', error_line = 0, removed_ms = 0,"
+        " expires_ms = 0 WHERE id = ?",
         job.id);
     tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
+    forget_memory_needs(tx, job.id);
     tx.changes.work = true;
     tx.changes.log.push_back("event=resumed job=" + job.id);
     settle_job(tx, job.id);
@@ -84,10 +127,7 @@ std::string Store::remove(const JobRef& job_ref) {
       throw StoreError(StoreError::Code::kPrecondition,
                        "job " + job.id + " is " + wire::word(job.state) + ": cancel it first");
     }
-    tx.db.run("DELETE FROM jobs WHERE id = ?", job.id);
-    drop_unused_erosion(tx, job.erosion_id);
-    tx.changes.eased = true;
-    tx.changes.jobs.insert(job.id);
+    delete_job(tx, job);
     tx.changes.log.push_back("event=deleted job=" + job.id);
     return job.id;
   });

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "database/errors.h"
@@ -36,6 +38,11 @@ Seeker seeker_of(const v1::WorkerIdentity& worker, const std::string& preferred_
   seeker.worker = worker.id();
   seeker.core_version = worker.core_version();
   seeker.preferred_job = preferred_job;
+  // Workers that do not say are offered everything.
+  if (worker.memory() > 0) {
+    seeker.memory = static_cast<std::int64_t>(
+        std::min(worker.memory(), static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())));
+  }
   return seeker;
 }
 

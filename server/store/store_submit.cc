@@ -1,5 +1,6 @@
 #include "base/quoted.h"
 #include "database/errors.h"
+#include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/submission.h"
 #include "store/tasks.h"
@@ -33,7 +34,8 @@ std::string find_equal_job(Database& db, const Submission& submission) {
       "SELECT j.id FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
       " WHERE e.mesh_sha256 = ? AND e.params_key = ? AND (e.core_version IS NULL OR e.core_version = ?)"
       " AND j.owner = ? AND j.name = ? AND j.skeleton_key = ?"
-      " AND j.state IN ('queued', 'running', 'done') AND j.cancel_requested = 0 ORDER BY j.seq DESC LIMIT 1",
+      " AND j.state IN ('queued', 'running', 'done') AND j.cancel_requested = 0 AND j.removed_ms = 0 ORDER "
+      "BY j.seq DESC LIMIT 1",
       submission.header.mesh_sha256(), submission.params_key, current_core_version(db),
       submission.header.owner(), submission.header.name(), submission.skeleton_key);
   return row.step() ? row.text(0) : std::string();
@@ -84,7 +86,12 @@ Store::Submitted Store::submit(const v1::SubmitJobHeader& header, std::string_vi
 
 Submission Store::check(const v1::SubmitJobHeader& header) {
   Submission submission = checked_submission(header, options_.max_mesh_bytes);
-  read([&](Database& db) { return find_request(db, submission); });
+  // Before the mesh is sent; the transaction that stores it looks again.
+  read([&](Database& db) {
+    if (!find_request(db, submission).empty() || !find_equal_job(db, submission).empty()) return false;
+    require_quota(db, options_.policy, submission);
+    return true;
+  });
   return submission;
 }
 
@@ -110,6 +117,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
       remember_repeated(tx, header.owner(), earlier);
       return {job_message(tx.db, earlier), true};
     }
+    require_quota(tx.db, options_.policy, submission);
     tx.require_room();
     const std::string id = insert_job(tx, submission, mesh);
     remember_request(tx, submission, id);

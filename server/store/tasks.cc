@@ -7,6 +7,7 @@
 #include "database/errors.h"
 #include "store/blobs.h"
 #include "store/field.h"
+#include "store/memory_need.h"
 #include "wire/words.h"
 
 namespace affskel::server {
@@ -180,16 +181,17 @@ std::int64_t enqueue(Tx& tx, const std::string& job_id, const NewTask& task) {
   const auto position = [&](std::int64_t Range::*end) {
     return task.block ? std::optional((*task.block).*end) : std::nullopt;
   };
+  const std::string params(task.params ? task.params->bytes : std::string_view());
   tx.db.run(
       "INSERT INTO tasks (job_id, kind, state, on_request, first_position, end_position, params, params_key,"
-      " seq, priority, owner, turn, parked, needs_core)"
+      " seq, priority, owner, turn, parked, needs_memory, needs_core)"
       " SELECT j.id, ?2, 'pending', ?3, ?4, ?5, ?6, ?7, j.seq, j.priority, j.owner,"
       "  ifnull((SELECT max(turn) FROM tasks WHERE job_id = j.id), 0),"
-      "  ?3 = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1),"
+      "  ?3 = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1), ?8,"
       "  iif(?2 = 'erode' OR (?2 = 'prepare' AND ?3 = 1), ifnull(e.core_version, ''), '')"
       " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?1",
       job_id, wire::word(task.kind), task.on_request, position(&Range::begin), position(&Range::end),
-      task.params, task.params_key);
+      task.params, task.params_key, memory_need_of(tx.db, job_id, task.kind, params));
   tx.changes.work = true;
   return tx.db.last_insert_rowid();
 }

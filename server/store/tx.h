@@ -7,6 +7,7 @@
 
 #include "database/disk_reserve.h"
 #include "database/sqlite.h"
+#include "store/policy.h"
 
 namespace affskel::server {
 
@@ -18,6 +19,7 @@ enum class OwnerOrder {
 
 struct StoreOptions {
   OwnerOrder owner_order = OwnerOrder::kFirstCome;
+  Policy policy;
   std::int64_t lease_ms = 5000;            ///< a lease ends when its worker is silent for this long
   std::int64_t report_interval_ms = 1000;  ///< what workers are told
   std::int64_t max_losses = 5;  ///< leases lost in a row, without progress, before a task is given up

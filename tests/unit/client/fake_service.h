@@ -87,6 +87,16 @@ class FakeService final : public v1::ErosionService::Service {
     *response = job;
     return fails;
   }
+  grpc::Status PinJob(grpc::ServerContext*, const v1::PinJobRequest*, v1::Job* response) override {
+    job.set_pinned(true);
+    *response = job;
+    return fails;
+  }
+  grpc::Status UnpinJob(grpc::ServerContext*, const v1::UnpinJobRequest*, v1::Job* response) override {
+    job.set_pinned(false);
+    *response = job;
+    return fails;
+  }
   grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest*,
                          v1::DeleteJobResponse* response) override {
     response->set_id(job.id());

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/number_text.h"
-#include "core/base/error.h"
 
 namespace affskel::core {
 namespace {
@@ -43,11 +42,11 @@ void require_lattice_memory(const LatticeSize& size, double point_bytes, std::ui
       size.points > 0
           ? base::rounded(size.points, 3) + " sample points at spacing " + base::rounded(size.spacing, 3)
           : base::rounded(size.lines, 3) + " lattice lines at spacing " + base::rounded(size.spacing, 3);
-  throw CoreError(CoreError::Code::kLimit,
-                  points + " take about " + bytes_text(need) + " of memory, and this worker has " +
-                      bytes_text(available) + " available; spacing " + base::rounded(fits.spacing, 3) +
-                      " fits" +
-                      (fits.points >= 1 ? ", with about " + base::rounded(fits.points, 2) + " points" : ""));
+  throw LatticeMemoryError(
+      points + " take about " + bytes_text(need) + " of memory, and this worker has " +
+          bytes_text(available) + " available; spacing " + base::rounded(fits.spacing, 3) + " fits" +
+          (fits.points >= 1 ? ", with about " + base::rounded(fits.points, 2) + " points" : ""),
+      static_cast<std::uint64_t>(need));
 }
 
 }  // namespace affskel::core

@@ -301,6 +301,10 @@ TEST_F(ClientTest, ServerErrorsBecomeExitCodes) {
 
 TEST_F(ClientTest, JobCommandsPrintTheState) {
   EXPECT_EQ(run({"resume", "@last"}).out, "done\n");
+  EXPECT_EQ(run({"pin", "@last"}).out, "pinned\n");
+  EXPECT_TRUE(service_.job.pinned());
+  EXPECT_EQ(run({"unpin", "@last"}).out, "unpinned\n");
+  EXPECT_FALSE(service_.job.pinned());
   EXPECT_EQ(run({"delete", "@last"}).out, "deleted\n");
   service_.job = sample_job(v1::JOB_STATE_RUNNING);
   service_.job.set_cancel_requested(true);

@@ -83,6 +83,22 @@ TEST(JobDetails, TellsWhyAJobFailedOrWaits) {
   EXPECT_NE(job_details(job).find("reason:               no workers\n"), std::string::npos);
 }
 
+TEST(JobDetails, TellsHowLongAJobIsKept) {
+  constexpr std::uint64_t kTime = 1'700'000'000'000;
+  v1::Job job;
+  job.set_state(v1::JOB_STATE_DONE);
+  EXPECT_EQ(job_details(job).find("expires"), std::string::npos);
+  job.set_expires_ms(kTime);
+  EXPECT_NE(job_details(job).find(utc_time(kTime) + ", its results; pin keeps it\n"), std::string::npos);
+  job.set_removed_ms(kTime - 1000);
+  EXPECT_NE(job_details(job).find(utc_time(kTime) + ", with its mesh; pin keeps it\n"), std::string::npos);
+  EXPECT_NE(job_details(job).find(utc_time(kTime - 1000) +
+                                  ", by the server's retention; resume computes them again\n"),
+            std::string::npos);
+  job.set_pinned(true);
+  EXPECT_NE(job_details(job).find("pinned:               yes\n"), std::string::npos);
+}
+
 TEST(JobDetails, ShowsTheFrameUnlessItIsTheMeshs) {
   v1::Job job;
   for (const double v : {1, 0, 0, 0, 1, 0, 0, 0, 1}) job.mutable_prepared()->add_frame(v);

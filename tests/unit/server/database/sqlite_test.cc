@@ -1,5 +1,6 @@
 #include "database/sqlite.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "database/migrate.h"
@@ -255,6 +256,42 @@ TEST_F(DatabaseTest, MigratingMakesTheQueueOneOfOwners) {
   EXPECT_EQ(lines("SELECT owner || ' ' || priority || ' ' || ready FROM queues ORDER BY priority, turn"),
             "bob 5 2;ada 5 1;bob 9 1;");
   EXPECT_EQ(lines("SELECT owner FROM turns WHERE turn >= 0"), "") << "nobody has had a turn";
+}
+
+TEST_F(DatabaseTest, MigratingCountsWhatOwnersHave) {
+  Database db(file(), Database::Mode::kReadWrite);
+  const std::vector<Migration>& all = embedded_migrations();
+  const auto first = std::find_if(all.begin(), all.end(), [](const Migration& m) { return m.number == 9; });
+  ASSERT_NE(first, all.end());
+  migrate(db, {all.begin(), first});
+  const std::string sha(64, 'a');
+  db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
+  db.run(
+      "INSERT INTO erosions (id, mesh_sha256, params, params_key, core_version, prepared, points, "
+      "directions, stride)"
+      " VALUES (1, ?1, x'', '', 'c', x'', 10, 4, 1), (2, ?1, x'', 'k', NULL, NULL, NULL, NULL, NULL)",
+      sha);
+  db.run(
+      "INSERT INTO artifacts (erosion_id, kind, params_key, bytes, sha256, items) VALUES (1, 'lattice', '', "
+      "7, ?, 0)",
+      sha);
+  db.run(
+      "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
+      "created_ms)"
+      " VALUES (printf('%032d', 1), 'n', 'ada', 5, 'running', 'erode', 1, x'', '', 0),"
+      " (printf('%032d', 2), 'n', 'ada', 5, 'cancelled', 'erode', 1, x'', '', 0),"
+      " (printf('%032d', 3), 'n', 'bob', 5, 'queued', 'prepare', 2, x'', '', 0)");
+  migrate(db);
+  const auto use = [&](const char* owner) {
+    Statement row = db.query(
+        "SELECT queued_jobs || ' ' || mesh_bytes || ' ' || stored_bytes FROM owner_use WHERE owner = ?",
+        owner);
+    return row.step() ? row.text(0) : std::string();
+  };
+  EXPECT_EQ(use("ada"), "1 3 210");
+  EXPECT_EQ(use("bob"), "1 3 3");
+  db.run("DELETE FROM jobs WHERE owner = 'ada'");
+  EXPECT_EQ(use("ada"), "0 0 0");
 }
 
 TEST_F(DatabaseTest, KindsAreThoseOfTheirTables) {

@@ -49,6 +49,29 @@ TEST(OptionsTest, Defaults) {
   EXPECT_FALSE(parsed.options.idle_exit_s);
 }
 
+TEST(OptionsTest, PolicyFromAFileAndTheCommandLine) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "server.toml").string();
+  std::ofstream(file) << "owner-order = \"round-robin\"\n"
+                         "limit = [\"queued-jobs=100K\", \"stored-bytes=2T\"]\n"
+                         "quota = [\"queued-jobs=2K\", \"ada:stored-bytes=500G\"]\n"
+                         "retention = [\"results-age=90d\", \"grace=2d\"]\n";
+  const ParsedOptions parsed = parse({"--data-dir", "here", "--config", file});
+  ASSERT_FALSE(parsed.exit_code);
+  EXPECT_EQ(parsed.options.owner_order, OwnerOrder::kRoundRobin);
+  const Policy& policy = parsed.options.policy;
+  EXPECT_EQ(policy.server.queued_jobs, 100'000);
+  EXPECT_EQ(policy.server.stored_bytes, std::int64_t{2} << 40);
+  EXPECT_EQ(policy.of("bob").quota.queued_jobs, 2000);
+  EXPECT_EQ(policy.of("ada").quota.stored_bytes, std::int64_t{500} << 30);
+  EXPECT_EQ(policy.of("ada").retention.results_age_ms, std::int64_t{90} * 24 * 3600 * 1000);
+  EXPECT_EQ(policy.grace_ms, std::int64_t{2} * 24 * 3600 * 1000);
+  EXPECT_EQ(parse({"--data-dir", "here", "--quota", "chords=1G"}).options.policy.of("x").quota.chords,
+            1'000'000'000);
+  EXPECT_EQ(parse({"--data-dir", "here", "--quota", "jobs=1"}).exit_code, 2);
+  EXPECT_EQ(parse({"--data-dir", "here", "--owner-order", "fair"}).exit_code, 2);
+}
+
 TEST(OptionsTest, AllGiven) {
   const ParsedOptions parsed = parse({"--data-dir", "here", "--listen", "unix:a", "--listen", "127.0.0.1:0",
                                       "--workers", "3", "--worker-threads", "2", "--idle-exit", "1.5",

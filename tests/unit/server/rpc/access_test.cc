@@ -117,6 +117,8 @@ all_calls(const std::string& job) {
        }},
       {"CancelJob", unary(&Client::Stub::CancelJob, about(v1::CancelJobRequest()), v1::Job(), client)},
       {"ResumeJob", unary(&Client::Stub::ResumeJob, about(v1::ResumeJobRequest()), v1::Job(), client)},
+      {"PinJob", unary(&Client::Stub::PinJob, about(v1::PinJobRequest()), v1::Job(), client)},
+      {"UnpinJob", unary(&Client::Stub::UnpinJob, about(v1::UnpinJobRequest()), v1::Job(), client)},
       {"DeleteJob",
        unary(&Client::Stub::DeleteJob, about(v1::DeleteJobRequest()), v1::DeleteJobResponse(), client)},
       {"FetchArtifact",
