@@ -12,7 +12,7 @@
 #include "database/database_file.h"
 #include "rpc/listen.h"
 #include "service_fixture.h"
-#include "test_certificates.h"
+#include "tools/test_authority.h"
 #include "wire/channel.h"
 
 namespace affskel::server {
@@ -353,7 +353,7 @@ class TlsTest : public AccessTest {
     options_.tls.certificate = authority_.certificate("server");
     options_.tls.key = authority_.key("server");
   }
-  wire::AccessFiles trusting(const TestAuthority& authority, const std::string& own = "") const {
+  wire::AccessFiles trusting(const tests::TestAuthority& authority, const std::string& own = "") const {
     wire::AccessFiles files;
     files.tls_ca = authority.file();
     if (!own.empty()) {
@@ -367,8 +367,8 @@ class TlsTest : public AccessTest {
     return info(*v1::ErosionService::NewStub(tcp(owner, files)), &response);
   }
 
-  TestAuthority authority_;
-  TestAuthority stranger_;
+  tests::TestAuthority authority_;
+  tests::TestAuthority stranger_;
 };
 
 TEST_F(TlsTest, OnlyWithTlsAndATrustedServer) {
