@@ -10,7 +10,6 @@
 #include "access/gate.h"
 #include "access/token.h"
 #include "database/database_file.h"
-#include "rpc/listen.h"
 #include "service_fixture.h"
 #include "tools/test_authority.h"
 #include "wire/channel.h"
@@ -450,28 +449,6 @@ TEST_F(TlsTest, FilesThatAreNoGoodAreNamed) {
   TlsOptions mixed = good;
   mixed.key = authority_.key("client");
   EXPECT_NE(error_with(mixed).find("not that of the certificate"), std::string::npos);
-}
-
-TEST(Protection, WhatOtherMachinesReachNeedsTlsAndTokens) {
-  const auto refused = [](const char* address, const Protection& protection) {
-    try {
-      require_protection({wire::parse_address(address)}, protection);
-      return false;
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(address), std::string::npos);
-      return true;
-    }
-  };
-  for (const char* local : {"127.0.0.1:1", "localhost:1", "[::1]:1", "unix:/tmp/s"}) {
-    EXPECT_FALSE(refused(local, {false, false, false})) << local;
-  }
-  for (const char* far : {"0.0.0.0:1", "[::]:1", "192.0.2.1:1", "lab.example.org:1"}) {
-    EXPECT_TRUE(refused(far, {false, false, false})) << far;
-    EXPECT_TRUE(refused(far, {true, false, false})) << far;
-    EXPECT_TRUE(refused(far, {false, true, false})) << far;
-    EXPECT_FALSE(refused(far, {true, true, false})) << far;
-    EXPECT_FALSE(refused(far, {false, false, true})) << far;
-  }
 }
 
 }  // namespace
