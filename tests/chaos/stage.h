@@ -44,7 +44,7 @@ class Stage {
   /// @param dir for sockets and logs.
   /// @param data_dir of the server.
   /// @param tls whether TCP speaks TLS.
-  Stage(const Programs& programs, const std::string& dir, const std::string& data_dir, bool tls);
+  Stage(const Programs& programs, const std::string& dir, const std::string& data_dir, bool tls = false);
 
   void start_server();
   void start_worker(std::size_t which);
