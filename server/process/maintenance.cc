@@ -86,7 +86,7 @@ class HeldSignals {
   }
 
  private:
-  // By nohup, say.  Held, it would wait to be taken all the same.
+  // A signal that is ignored (nohup) stays ignored: blocked, it would become pending.
   static bool is_ignored(int number) {
     struct sigaction now {};
     return sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;

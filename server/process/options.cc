@@ -304,7 +304,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_token_commands(app, options);
 }
 
-/// What would be ignored is a mistake.
+/// Refuses options that would be ignored.
 void refuse_server_options(const CLI::App& app) {
   if (app.get_subcommands().empty()) return;
   for (const CLI::Option* option : app.get_options()) {

@@ -161,7 +161,8 @@ void keep_memory_small() {
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 }
 
-/// Half alive it would keep everybody waiting; dead, it is started again and costs a second of work.
+/// A server that does not answer would keep everybody waiting; one that exits is restarted, at the cost of a
+/// second of work.
 void leave_if_deaf() {
   spdlog::critical("event=deaf message=\"no answer to its own calls; leaving, to be started again\"");
   spdlog::default_logger()->flush();

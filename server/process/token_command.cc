@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <ctime>
 #include <memory>
@@ -35,6 +36,7 @@ class TokenDatabase {
       return;
     }
     if (!make) existing_database_file(data_dir);
+    umask(0077);  // as the server itself
     held_.emplace(data_dir);
     db_ = std::make_unique<Database>(ready_database_file(database_file(held_->path())),
                                      Database::Mode::kReadWrite);

@@ -14,10 +14,10 @@ namespace {
 // Waiting for a turn costs little, but not nothing.
 constexpr std::size_t kWaitersPerPlace = 16;
 
-// A call that brings what it holds once more within this time is no hindrance.
+// A call that, at its present pace, could send all it holds again within this time is not ended for memory.
 constexpr double kRelieveSeconds = 60;
 
-// Calls that were ended are told of no more often than this, with their number.
+// How many calls were ended is logged at most this often.
 constexpr std::chrono::seconds kTellEvery{10};
 
 const auto by_peer = [](const Caller& caller) { return caller.peer; };

@@ -22,10 +22,10 @@ namespace affskel::server {
 
 /// Who makes a call.
 struct Caller {
-  std::uint64_t connection = 0;  ///< its number
-  std::string peer;              ///< whose connection it is: shares are counted by this
-  std::optional<uid_t> uid;      ///< of its process, on a Unix socket
-  Identity identity;             ///< as the gate has found
+  std::uint64_t connection = 0;   ///< its number
+  std::string peer;               ///< whose connection it is: shares are counted by this
+  std::optional<uid_t> uid = {};  ///< of its process, on a Unix socket
+  Identity identity = {};         ///< as the gate has found
 };
 
 /// A call that can be ended from outside.
@@ -46,8 +46,8 @@ struct CallLimitOptions {
   std::function<Pace::Time()> now = [] { return std::chrono::steady_clock::now(); };
 };
 
-/// Places for calls of one kind.  They are for whoever asks.  When all are taken, the next one gets the place
-/// of, in this order: a call whose peer is slower than the least rate; a call of the peer that holds more
+/// Bounds the calls of one kind.  Any call may take a free place.  When none is free, a new call takes the place
+/// of the first of these that there is: a call whose peer is slower than the least rate; a call of the peer that holds more
 /// than half of the places, if its own peer holds less; a call of the connection that holds more than an
 /// eighth, if its own holds less.  So neither one peer nor one connection keeps others out, and none is held
 /// back while there is room.  Thread-safe.

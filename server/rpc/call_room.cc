@@ -1,9 +1,12 @@
 #include "rpc/call_room.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
 
+#include "database/sqlite.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -112,11 +115,25 @@ Credentials credentials_of(const grpc::CallbackServerContext& context, const Cal
   return credentials;
 }
 
+/// Who calls cannot be known while the disk cannot be read: that says nothing about what the call is for.
+Admission admitted(Gate& gate, Method method, const Credentials& credentials) {
+  try {
+    return gate.admit(method, credentials);
+  } catch (const OutOfFiles&) {
+    throw;  // says what it is
+  } catch (const SqliteError& error) {
+    spdlog::error("event=database_error code={} message=\"{}\"", error.extended_code(), error.what());
+    return {{grpc::StatusCode::UNAVAILABLE,
+             "the server's disk cannot be read just now; its log says why, try again"},
+            {}};
+  }
+}
+
 }  // namespace
 
 CallScope::CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Method method)
     : use_(room.connections.begin(context.peer(), rule_of(method).side)) {
-  const Admission admission = room.gate->admit(method, credentials_of(context, use_.caller()));
+  const Admission admission = admitted(*room.gate, method, credentials_of(context, use_.caller()));
   if (!admission.status.ok()) throw CallEnded(admission.status);
   use_.identify(admission.identity);
   if (rule_of(method).side == Side::kClient) activity_ = std::make_unique<Activity::Call>(room.activity);

@@ -154,7 +154,7 @@ bool Connections::close_idle(const std::string* of_peer) {
 Connections::Use Connections::begin(const std::string& peer, Side side) {
   const base::MutexLock lock(mutex_);
   const auto found = find(peer);
-  if (found == entries_.end()) return {nullptr, {number_of_stranger(peer), peer, {}, {}}};
+  if (found == entries_.end()) return {nullptr, {number_of_stranger(peer), peer}};
   Entry& entry = found->second;
   const bool was_client = entry.for_client && !entry.for_worker;
   if (side == Side::kClient && !entry.for_client && !entry.for_worker) {

@@ -16,9 +16,10 @@ namespace affskel::server {
 
 /// Who is at the other end of a connection, as the system knows it.
 struct PeerIdentity {
-  std::string name;          ///< "uid:1000" on a Unix socket, "ip:127.0.0.1" on TCP; shares are counted by it
-  std::optional<uid_t> uid;  ///< of its process, on a Unix socket
-  std::string socket_name;   ///< "ipv4:127.0.0.1:4711", as gRPC names TCP connections that it handshakes with
+  std::string name;  ///< "uid:1000" on a Unix socket, "ip:127.0.0.1" on TCP; shares are counted by it
+  std::optional<uid_t> uid = {};  ///< of its process, on a Unix socket
+  std::string socket_name =
+      {};  ///< "ipv4:127.0.0.1:4711", as gRPC names TCP connections that it handshakes with
 };
 
 /// @param fd a connected socket.

@@ -15,8 +15,8 @@
 
 namespace affskel::server {
 
-/// Tells those who wait what the store has committed.  Changes of one job that come faster than they are
-/// told are told once, with the newest state.  Thread-safe.
+/// Notifies subscribers of what the store has committed.  Changes of a job that come faster than notifications
+/// are merged: subscribers get the newest state once.  Thread-safe.
 class EventHub final : public ChangeListener {
  public:
   /// The job as it is now; null when it was deleted.

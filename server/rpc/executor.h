@@ -16,8 +16,8 @@ struct ExecutorOptions {
   std::size_t threads = 4;
 };
 
-/// Runs the parts of calls that may block, on a fixed number of threads.  Callers take turns: who posts a
-/// thousand bodies waits for its own, not others for it.  Thread-safe.
+/// Runs the parts of calls that may block, on a fixed number of threads.  Callers take turns,
+/// so that one who posts a thousand bodies delays only himself.  Thread-safe.
 class Executor {
  public:
   explicit Executor(const ExecutorOptions& options = {});

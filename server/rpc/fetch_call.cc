@@ -74,7 +74,7 @@ StreamCall::After FetchCall::look(CallLimit::Place place) {
     return After::kWait;
   }
   wait_for(state.task);
-  // The last who waited for the task before may have taken it back before this call was counted.
+  // Between finding the task and being counted, the last earlier waiter may have withdrawn it.
   return ask();
 }
 

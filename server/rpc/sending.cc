@@ -6,7 +6,7 @@
 namespace affskel::server {
 namespace {
 
-// Pieces as they are stored are up to four times as large; many calls may each have one on its way.
+// A quarter of a stored piece, because many calls may each hold one.
 constexpr std::size_t kMessageBytes = std::size_t{256} << 10;
 
 }  // namespace

@@ -187,7 +187,7 @@ void Server::maintain() {
   }
 }
 
-/// Whoever waits for the store gets his turn between two steps: they take half of the time.
+/// Rests as long as each step took, so that others get the store in between.
 void Server::tidy() {
   const auto now = [] { return std::chrono::steady_clock::now(); };
   for (bool more = true; more;) {

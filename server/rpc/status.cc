@@ -93,7 +93,7 @@ grpc::Status full_status_of(const std::exception_ptr& error) {
       spdlog::error("event=internal_error message=\"{}\"", e.what());
     return {code_of(e.code()), e.what()};
   } catch (const SqliteError& e) {
-    // Of a full disk the store tells, once in a while, not every call that meets it.
+    // The store logs a full disk once in a while; the calls that fail for it do not.
     if (e.primary_code() != SQLITE_FULL)
       spdlog::error("event=database_error code={} message=\"{}\"", e.extended_code(), e.what());
     return {code_of(e), told_of(e)};

@@ -33,7 +33,7 @@ class Upload {
       throw CallEnded(
           {grpc::StatusCode::UNAVAILABLE, "the server is receiving as much as it can hold; try again"});
     }
-    // What is announced is believed when a part of it is there: then it needs no more room than it should.
+    // The announced size is reserved only once part of it has arrived.
     if (size > data_.capacity()) data_.reserve(std::min(announced_, std::max(kAtFirst, kGrowth * size)));
     data_ += bytes;
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kForgetMs = 60000;
 
-// An id costs nothing to make up.
+// Bounds the list: anybody can make up ids.
 constexpr std::size_t kMostWorkers = 4096;
 
 }  // namespace

@@ -87,7 +87,7 @@ struct ByChunk {
   bool operator()(std::int64_t index, const PointRecord& a) const { return index < a.point / kChunkPoints; }
 };
 
-// By counting: reports come sorted, so that only several together need this, and those are long.
+// Counting sort: single reports arrive sorted, so this runs only when several come together.
 void sort_by_chunk(std::vector<PointRecord>& records) {
   if (std::is_sorted(records.begin(), records.end(), ByChunk{})) return;
   std::vector<std::size_t> place;  // of the next record of a chunk, once summed up

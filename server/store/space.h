@@ -5,7 +5,7 @@
 
 namespace affskel::server {
 
-/// What everybody is told whose change a full disk has no room for.
+/// The error of a change that a full disk has no room for.
 SqliteError full_disk(const Database& db);
 
 /// Deletes a piece of what deleted jobs have left; false when nothing was left.

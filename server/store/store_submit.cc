@@ -108,7 +108,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
     std::string earlier = find_request(tx.db, submission);
     if (earlier.empty()) earlier = find_equal_job(tx.db, submission);
     if (!earlier.empty()) {
-      // The same work twice: done once, and as urgent as the more urgent of the two.
+      // The same work, submitted again: done once, with the higher of the two priorities.
       if (tx.db.run("UPDATE jobs SET priority = ?2 WHERE id = ?1 AND priority < ?2 AND state <> 'done'",
                     earlier, header.priority()) > 0) {
         tx.changes.jobs.insert(earlier);

@@ -225,7 +225,8 @@ std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kin
 
 std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
   if (task.kind != v1::TASK_KIND_ERODE) return tx.options.long_stall_ms;
-  // A direction of a huge scan takes minutes; how many, its job's reports have told, or its points.
+  // A direction of a huge scan takes minutes: the limit follows from the job's reports or, before these, from
+  // its points.
   const std::int64_t longest_gap =
       tx.db.integer("SELECT longest_gap_ms FROM jobs WHERE id = ?", task.job_id).value_or(0);
   const std::int64_t points =

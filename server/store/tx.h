@@ -42,7 +42,7 @@ struct Changes {
   bool work = false;             ///< a task became available
   bool dropped = false;          ///< something is left for Store::tidy
   bool grown = false;            ///< more than bookkeeping was written
-  bool eased = false;            ///< a job that may have needed more room than there was needs none now
+  bool eased = false;            ///< a job that was short of room no longer needs it
   std::vector<std::string> log;  ///< key=value lines
 };
 

@@ -61,6 +61,7 @@ bool worth_repeating(const grpc::Status& status) {
     case grpc::StatusCode::INTERNAL:
     case grpc::StatusCode::UNKNOWN:
     case grpc::StatusCode::ABORTED:
+    case grpc::StatusCode::UNAUTHENTICATED:
       return true;
     default:
       return false;
@@ -72,7 +73,7 @@ bool is_final(const v1::Job& job) {
          job.state() == v1::JOB_STATE_CANCELLED;
 }
 
-Api::Api(const std::string& address) {
+Api::Api(const std::string& address, const wire::AccessFiles& access) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 20);
@@ -80,7 +81,7 @@ Api::Api(const std::string& address) {
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 200);
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetMaxReceiveMessageSize(16 << 20);
-  const auto channel = grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  const auto channel = wire::make_channel(wire::parse_address(address), access, arguments);
   client_ = v1::ErosionService::NewStub(channel);
   worker_ = v1::WorkerService::NewStub(channel);
 }

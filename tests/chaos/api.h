@@ -10,6 +10,7 @@
 
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "affskel/v1/worker_service.grpc.pb.h"
+#include "wire/channel.h"
 
 namespace affskel::chaos {
 
@@ -35,7 +36,8 @@ struct Submission {
   std::size_t recipe = 0;  ///< what its field must equal
 };
 
-/// Whether a call may be made again: the server is away, closing, full or slow, and not of another opinion.
+/// Whether a call may be made again: the server is away, closing, full or slow, and not of another opinion;
+/// or the token was revoked, which a fault does, and then gives another.
 bool worth_repeating(const grpc::Status& status);
 
 bool is_final(const v1::Job& job);
@@ -43,8 +45,9 @@ bool is_final(const v1::Job& job);
 /// The service's calls with a time limit each.  Thread-safe.
 class Api {
  public:
-  /// @param address as gRPC takes it, `unix:PATH` or `HOST:PORT`.
-  explicit Api(const std::string& address);
+  /// @param address `unix:PATH` or `HOST:PORT`.
+  /// @param access what is shown to the server.
+  explicit Api(const std::string& address, const wire::AccessFiles& access = {});
 
   v1::ErosionService::Stub& client() const { return *client_; }
   v1::WorkerService::Stub& worker() const { return *worker_; }

@@ -61,6 +61,10 @@ const std::vector<Fault>& faults() {
       {"slow-uploads", "twenty uploads of a byte a second, while others submit", slow_uploads},
       {"half-report", "a worker's report with poisoned points breaks off half-way", half_report},
       {"late-report", "a worker reports poisoned points after it lost its lease", late_report},
+      {"revoke-worker", "a worker's token is revoked while it works; it gets another", revoke_worker,
+       kAWorker},
+      {"revoke-client", "a client's token is revoked while it watches, uploads and fetches; it gets another",
+       revoke_client},
   };
   return all;
 }

@@ -92,6 +92,9 @@ bool slow_uploads(Scene&);
 bool half_report(Scene&);
 bool late_report(Scene&);
 
+bool revoke_worker(Scene&);
+bool revoke_client(Scene&);
+
 bool poisoned_report(Scene&);
 bool job_deleted_in_secret(Scene&);
 

@@ -26,6 +26,7 @@ struct Options {
   Programs programs;
   std::string keep, table;
   bool list = false;
+  bool tls = false;
 };
 
 void describe(CLI::App& app, Options& options) {
@@ -42,6 +43,7 @@ void describe(CLI::App& app, Options& options) {
       ->check(CLI::ExistingFile);
   app.add_option("--keep", options.keep, "Keep logs and data of runs that failed here");
   app.add_option("--table", options.table, "Write the table here, too, after each run");
+  app.add_flag("--tls", options.tls, "TCP connections, the proxy's among them, speak TLS");
   app.add_flag("--list", options.list, "Say what the kinds are");
 }
 
@@ -114,7 +116,8 @@ bool run_once(const Options& options, const Catalogue& catalogue, const std::str
   const SmallDisk disk(dir + "/disk");
   bool good = false;
   {
-    Run run(options.programs, catalogue, {seed, schedule(kinds, number, seed), dir, dir + "/disk/data"});
+    Run run(options.programs, catalogue,
+            {seed, schedule(kinds, number, seed), dir, dir + "/disk/data", options.tls});
     good = run.go(tally);
   }
   if (!good) keep(dir, options.keep);

@@ -19,7 +19,7 @@ double share(const v1::Job& job) {
 Run::Run(const Programs& programs, const Catalogue& catalogue, RunOptions options)
     : catalogue_(catalogue),
       options_(std::move(options)),
-      stage_(programs, options_.dir, options_.data_dir),
+      stage_(programs, options_.dir, options_.data_dir, options_.tls),
       scene_(stage_, catalogue, ledger_, "s" + std::to_string(options_.seed) + "-", options_.seed),
       load_(scene_) {}
 

@@ -18,6 +18,7 @@ struct RunOptions {
   std::vector<const Fault*> faults;  ///< in the order of injection
   std::string dir;                   ///< for sockets and logs, there already
   std::string data_dir;              ///< of the server
+  bool tls = false;                  ///< TCP speaks TLS
 };
 
 /// One server's life under faults, from an empty data directory to the comparison of all that it holds.

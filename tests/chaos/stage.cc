@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -34,14 +35,52 @@ ControlFile::~ControlFile() {
   munmap(control_, sizeof(Control));
 }
 
-Stage::Stage(const Programs& programs, const std::string& dir, const std::string& data_dir)
+Stage::Stage(const Programs& programs, const std::string& dir, const std::string& data_dir, bool tls)
     : programs_(programs), dir_(dir), data_dir_(data_dir), api_("unix:" + dir + "/s.sock") {
   controls_[0] = std::make_unique<ControlFile>(path("server.control"));
   for (std::size_t i = 0; i < kWorkers; ++i) {
     controls_[i + 1] = std::make_unique<ControlFile>(path("worker" + std::to_string(i) + ".control"));
   }
+  if (tls) {
+    authority_ = std::make_unique<tests::TestAuthority>(dir_, "authority");
+    authority_->sign("server");
+  }
+  renew_token(kClientOwner);
+  renew_token(kWorkerOwner);
   proxy_ = std::make_unique<Proxy>([this] { return port(); });
-  proxied_ = std::make_unique<Api>("127.0.0.1:" + std::to_string(proxy_->port()));
+  proxied_ = std::make_unique<Api>("127.0.0.1:" + std::to_string(proxy_->port()), access_of(kClientOwner));
+}
+
+std::string Stage::token_command(std::vector<std::string> arguments) const {
+  const std::string out = path("token.out"), err = path("token.err");
+  for (const std::string& file : {out, err}) tests::write_file(file, "");
+  arguments.insert(arguments.begin(), {programs_.server, "token"});
+  arguments.insert(arguments.end(), {"--data-dir", data_dir_, "--json"});
+  if (run({std::move(arguments), out, err, {}}, kPatience) != 0) {
+    throw std::runtime_error("affskel-server token: " + tests::read_file(err));
+  }
+  return tests::read_file(out);
+}
+
+void Stage::renew_token(const std::string& owner) {
+  const std::string role = owner == kWorkerOwner ? "worker" : "user";
+  const auto made = nlohmann::json::parse(token_command({"add", "--owner", owner, "--role", role}));
+  token_ids_[owner] = std::to_string(made.at("id").get<int>());
+  // In one step: whoever reads it meanwhile finds the one or the other.
+  const std::string file = access_of(owner).token_file;
+  tests::write_file(file + ".new", made.at("token").get<std::string>() + "\n");
+  std::filesystem::rename(file + ".new", file);
+}
+
+void Stage::revoke_token(const std::string& owner) const {
+  token_command({"revoke", token_ids_.at(owner)});
+}
+
+wire::AccessFiles Stage::access_of(const std::string& owner) const {
+  wire::AccessFiles files;
+  files.token_file = path(owner + ".token");
+  if (authority_ != nullptr) files.tls_ca = authority_->file();
+  return files;
 }
 
 Process Stage::start(std::vector<std::string> arguments, const std::string& log, std::size_t control) const {
@@ -52,16 +91,35 @@ Process Stage::start(std::vector<std::string> arguments, const std::string& log,
 }
 
 void Stage::start_server() {
-  server_ = start({programs_.server, "--data-dir", data_dir_, "--listen", address(), "--listen",
-                   "127.0.0.1:0", "--lease-ms", std::to_string(kLease.count()), "--report-interval-ms", "50"},
-                  "server.log", 0);
+  std::vector<std::string> words = {programs_.server,
+                                    "--data-dir",
+                                    data_dir_,
+                                    "--listen",
+                                    address(),
+                                    "--listen",
+                                    "127.0.0.1:0",
+                                    "--lease-ms",
+                                    std::to_string(kLease.count()),
+                                    "--report-interval-ms",
+                                    "50"};
+  if (authority_ != nullptr) {
+    words.insert(words.end(),
+                 {"--tls-cert", authority_->certificate("server"), "--tls-key", authority_->key("server")});
+  }
+  server_ = start(std::move(words), "server.log", 0);
 }
 
 void Stage::start_worker(std::size_t which) {
-  const std::string behind_proxy = "127.0.0.1:" + std::to_string(proxy_->port());
-  workers_.at(which) =
-      start({programs_.worker, "--server", which == 0 ? behind_proxy : address(), "--patience", "600"},
-            "worker" + std::to_string(which) + ".log", which + 1);
+  std::vector<std::string> words = {programs_.worker, "--patience", "600", "--server"};
+  if (which == 0) {
+    const wire::AccessFiles files = access_of(kWorkerOwner);
+    words.insert(words.end(),
+                 {"127.0.0.1:" + std::to_string(proxy_->port()), "--token-file", files.token_file});
+    if (!files.tls_ca.empty()) words.insert(words.end(), {"--tls-ca", files.tls_ca});
+  } else {
+    words.push_back(address());
+  }
+  workers_.at(which) = start(std::move(words), "worker" + std::to_string(which) + ".log", which + 1);
 }
 
 void Stage::start_workers() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "control.h"
 #include "process.h"
 #include "proxy.h"
+#include "tools/test_authority.h"
 
 namespace affskel::chaos {
 
@@ -31,12 +33,18 @@ class ControlFile {
   Control* control_;
 };
 
-/// A server and two workers as processes, the first worker behind a proxy.  For the driver's main thread.
+/// Whoever comes by TCP shows a token of this owner: a client's, a user's; a worker's, a worker's.
+constexpr const char* kClientOwner = "chaos";
+constexpr const char* kWorkerOwner = "crew";
+
+/// A server and two workers as processes, the first worker behind a proxy.  TCP callers show tokens.  For the
+/// driver's main thread.
 class Stage {
  public:
   /// @param dir for sockets and logs.
   /// @param data_dir of the server.
-  Stage(const Programs& programs, const std::string& dir, const std::string& data_dir);
+  /// @param tls whether TCP speaks TLS.
+  Stage(const Programs& programs, const std::string& dir, const std::string& data_dir, bool tls = false);
 
   void start_server();
   void start_worker(std::size_t which);
@@ -45,6 +53,13 @@ class Stage {
   void wait_for_server();
   /// Waits until each worker was heard from within a lease.  @throws Hang.
   void wait_for_workers();
+
+  /// Makes a new token for an owner; whoever comes with his file shows it from now on.
+  void renew_token(const std::string& owner);
+  /// Revokes the one that he has.
+  void revoke_token(const std::string& owner) const;
+  /// What is shown to the server on TCP.
+  wire::AccessFiles access_of(const std::string& owner) const;
 
   /// Takes all troubles of clock, files and network away.
   void calm();
@@ -71,10 +86,13 @@ class Stage {
   std::string check(const std::string& data_dir) const;
 
  private:
+  std::string token_command(std::vector<std::string> arguments) const;
   Process start(std::vector<std::string> arguments, const std::string& log, std::size_t control) const;
 
   Programs programs_;
   std::string dir_, data_dir_;
+  std::unique_ptr<tests::TestAuthority> authority_;  // of TLS, if there is any
+  std::map<std::string, std::string> token_ids_;     // by owner
   std::array<std::unique_ptr<ControlFile>, kWorkers + 1> controls_;
   Process server_;
   std::array<Process, kWorkers> workers_;

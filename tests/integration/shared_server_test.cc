@@ -4,7 +4,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "../unit/server/test_certificates.h"
+#include "tools/test_authority.h"
 #include "lab.h"
 
 namespace affskel::integration {
@@ -51,7 +51,7 @@ class SharedServerTest : public testing::Test {
   }
 
   Lab lab_;
-  server::TestAuthority authority_;
+  tests::TestAuthority authority_;
   std::string address_;
 };
 

@@ -227,12 +227,25 @@ TEST(DataDirTest, PublishesItself) {
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "server.json"));
 }
 
-TEST(ListenTest, RefusesWhatIsNotLocal) {
-  for (const char* address : {"0.0.0.0:0", "[::]:0", "example.org:80", "192.168.1.1:7060"}) {
-    EXPECT_THROW(prepare_addresses({wire::parse_address(address)}), std::runtime_error) << address;
+TEST(ListenTest, WhatOtherMachinesReachNeedsTlsAndTokens) {
+  const auto refused = [](const char* address, const Protection& protection) {
+    try {
+      require_protection({wire::parse_address(address)}, protection);
+      return false;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(address), std::string::npos);
+      return true;
+    }
+  };
+  for (const char* local : {"127.0.0.1:1", "localhost:1", "[::1]:1", "unix:/tmp/s"}) {
+    EXPECT_FALSE(refused(local, {false, false, false})) << local;
   }
-  for (const char* address : {"localhost:0", "127.0.0.1:0", "[::1]:0"}) {
-    EXPECT_NO_THROW(prepare_addresses({wire::parse_address(address)})) << address;
+  for (const char* far : {"0.0.0.0:1", "[::]:1", "192.0.2.1:1", "lab.example.org:1"}) {
+    EXPECT_TRUE(refused(far, {false, false, false})) << far;
+    EXPECT_TRUE(refused(far, {true, false, false})) << far;
+    EXPECT_TRUE(refused(far, {false, true, false})) << far;
+    EXPECT_FALSE(refused(far, {true, true, false})) << far;
+    EXPECT_FALSE(refused(far, {false, false, true})) << far;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "process/token_command.h"
 
+#include <spdlog/spdlog.h>
+
 #include <nlohmann/json.hpp>
 
 #include "access/token.h"
@@ -29,11 +31,13 @@ class TokenCommandTest : public testing::Test {
     return result;
   }
   int run(const Options& options) {
+    spdlog::set_level(spdlog::level::off);  // as the program does for commands
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     const int code = run_maintenance(options);
     out_ = testing::internal::GetCapturedStdout();
     err_ = testing::internal::GetCapturedStderr();
+    spdlog::set_level(spdlog::level::info);
     return code;
   }
   std::optional<TokenRow> find(const std::string& token) const {

@@ -64,7 +64,7 @@ TEST_F(ConnectionsTest, KnowsWhoIsThere) {
   const Pair pair;
   const PeerIdentity peer = peer_of(pair.fd());
   EXPECT_EQ(peer.name, "uid:" + std::to_string(getuid()));
-  EXPECT_EQ(peer.pid, getpid());
+  EXPECT_EQ(peer.uid, getuid());
   const auto connections = table(4);
   ASSERT_TRUE(connections->admit(pair.fd(), peer));
   const Connections::Use first = connections->begin(pair.name(), Side::kClient);
@@ -122,16 +122,29 @@ ConnectionOptions of_most(std::size_t most, std::size_t for_workers) {
 TEST(ConnectionSharesTest, OnePeerLeavesAQuarterToOthers) {
   Connections connections(of_most(8, 0));
   int next = kNotOpen;
-  for (int i = 0; i < 7; ++i) EXPECT_TRUE(connections.admit(next++, {"a", 0})) << "nobody else is there";
-  EXPECT_TRUE(connections.admit(next++, {"b", 0}));
-  EXPECT_FALSE(connections.admit(next++, {"a", 0}));
-  EXPECT_TRUE(connections.admit(next++, {"b", 0}));
+  for (int i = 0; i < 7; ++i) EXPECT_TRUE(connections.admit(next++, {"a"})) << "nobody else is there";
+  EXPECT_TRUE(connections.admit(next++, {"b"}));
+  EXPECT_FALSE(connections.admit(next++, {"a"}));
+  EXPECT_TRUE(connections.admit(next++, {"b"}));
+}
+
+TEST(ConnectionSharesTest, AConnectionWithTlsIsFoundByItsSocket) {
+  Connections connections(of_most(3, 1));
+  ASSERT_TRUE(connections.admit(kNotOpen, {"ip:127.0.0.1", {}, "ipv4:127.0.0.1:4711"}));
+  const Connections::Use use = connections.begin("ipv4:127.0.0.1:4711", Side::kClient);
+  EXPECT_EQ(use.caller().peer, "ip:127.0.0.1");
+  EXPECT_EQ(connections.calls(), 1u);
+  EXPECT_EQ(connections.begin("ipv4:127.0.0.1:4712", Side::kClient).caller().peer, "ipv4:127.0.0.1:4712");
+  EXPECT_EQ(connections.calls(), 1u) << "a stranger is not in the table";
+  // The descriptor is another connection's by now, and so may the port be.
+  ASSERT_TRUE(connections.admit(kNotOpen, {"ip:127.0.0.2", {}, "ipv4:127.0.0.2:1"}));
+  EXPECT_NE(connections.begin("ipv4:127.0.0.1:4711", Side::kClient).caller().peer, "ip:127.0.0.1");
 }
 
 TEST(ConnectionSharesTest, WorkersHaveRoomOfTheirOwn) {
   Connections connections(of_most(3, 1));
   const auto name = [](int number) { return "fd:" + std::to_string(kNotOpen + number); };
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(connections.admit(kNotOpen + i, {"a", 0}));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(connections.admit(kNotOpen + i, {"a"}));
   const Connections::Use one = connections.begin(name(0), Side::kClient);
   const Connections::Use two = connections.begin(name(1), Side::kClient);
   const auto begin = [&](int number, Side side) {

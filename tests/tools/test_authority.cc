@@ -1,4 +1,4 @@
-#include "test_certificates.h"
+#include "test_authority.h"
 
 #include <openssl/evp.h>
 #include <openssl/pem.h>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace affskel::server {
+namespace affskel::tests {
 namespace {
 
 using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
@@ -88,4 +88,4 @@ void TestAuthority::sign(const std::string& name) const {
   pair.write(*this, name);
 }
 
-}  // namespace affskel::server
+}  // namespace affskel::tests

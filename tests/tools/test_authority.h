@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace affskel::server {
+namespace affskel::tests {
 
 /// An authority of the test's own, which signs certificates for this machine; files in PEM form.
 class TestAuthority {
@@ -31,4 +31,4 @@ class TestAuthority {
   Pair* own_;
 };
 
-}  // namespace affskel::server
+}  // namespace affskel::tests
