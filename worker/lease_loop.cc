@@ -23,6 +23,7 @@
 #include "failure.h"
 #include "job/prepared_job.h"
 #include "job/result_bytes.h"
+#include "job_shelf.h"
 #include "last_report.h"
 #include "lease_keeper.h"
 #include "server_link.h"
@@ -41,6 +42,8 @@ constexpr int kExitNotAllowed = 7;
 // the server counts a worker as silent.
 constexpr auto kFirstRest = std::chrono::milliseconds(250);
 constexpr auto kMaxRest = std::chrono::milliseconds(4000);
+// Jobs on the shelf take a quarter of the memory at most; the rest is for the job in hand.
+constexpr std::uint64_t kShelfShare = 4;
 
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads, std::uint64_t memory) {
   v1::WorkerIdentity identity;
@@ -87,14 +90,14 @@ class LeaseLoop {
  public:
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
       : options_(options),
+        memory_(options.memory != 0 ? options.memory : available_memory()),
         stop_(stop),
         id_(wire::random_id()),
         link_({options.server, options.patience, id_, options.access}, stop),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
         }) {
-    const std::uint64_t memory = options.memory != 0 ? options.memory : available_memory();
-    *request_.mutable_worker() = own_identity(id_, options.threads, memory);
+    *request_.mutable_worker() = own_identity(id_, options.threads, memory_);
   }
 
   int run() {
@@ -180,6 +183,7 @@ class LeaseLoop {
         drop(lease, context.why());
       } else {
         forget();
+        shelf_.clear();  // it may be memory that is short
         // At once, the task would most likely fail again, and a job has few attempts.
         if (tell_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
       }
@@ -309,7 +313,15 @@ class LeaseLoop {
   // The prepared job of the lease: the one in hand, or made from the mesh.
   PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
     if (job_ && job_id_ == lease.job().id() && database_ == lease.database()) return *job_;
-    forget();
+    shelve();
+    job_ = shelf_.take(lease.job().id(), lease.database());
+    if (job_ == nullptr) make(lease, context);
+    job_id_ = lease.job().id();
+    database_ = lease.database();
+    return *job_;
+  }
+
+  void make(const v1::Lease& lease, TaskContext& context) {
     const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
     // A prepared job has fitted into the memory of some worker: one that is short of it must not fail the job
     // for all.
@@ -318,16 +330,21 @@ class LeaseLoop {
         std::make_unique<PreparedJob>(mesh, prepared_params(lease.job()), options_.threads, &context,
                                       first ? std::function<std::uint64_t()>([this] { return memory_left(); })
                                             : std::function<std::uint64_t()>());
-    job_id_ = lease.job().id();
-    database_ = lease.database();
-    return *job_;
+  }
+
+  // Leaves the job in hand for another, with all of its field acknowledged.
+  void shelve() {
+    last_report_.drop();
+    if (job_) shelf_.put({job_id_, database_, std::move(job_)});
+    job_id_.clear();
   }
 
   // Bytes that may be taken now; 0 when nothing is known.
   std::uint64_t memory_left() const {
     const std::uint64_t left = available_memory();
     if (options_.memory == 0) return left;
-    return left == 0 ? options_.memory : std::min(left, options_.memory);
+    const std::uint64_t own = options_.memory - std::min(options_.memory, shelf_.bytes());
+    return left == 0 ? own : std::min(left, own);
   }
 
   void forget() {
@@ -337,17 +354,20 @@ class LeaseLoop {
   }
 
   LeaseLoopOptions options_;
+  const std::uint64_t memory_;  // bytes that it may take; 0 = unknown
   std::stop_token stop_;
   const std::string id_;
   ServerLink link_;
   v1::LeaseTaskRequest request_;
   std::set<std::string> jobs_;
-  // Kept between tasks of the same job.  Dropped whenever the erosion's field may hold work that the
-  // server did not acknowledge: such points would not be reported again.
+  // Kept between tasks of the same job, on the shelf while it is others' turn.  Dropped whenever the
+  // erosion's field may hold work that the server did not acknowledge: such points would not be reported
+  // again.
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
   std::string database_;  // that the field was fetched from
   Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
+  JobShelf shelf_{memory_ / kShelfShare};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead
 };
