@@ -17,6 +17,7 @@ constexpr MethodRule kMethods[] = {
     {Method::kCancelJob, "CancelJob", Side::kClient, true, false, true},
     {Method::kResumeJob, "ResumeJob", Side::kClient, true, false, true},
     {Method::kDeleteJob, "DeleteJob", Side::kClient, true, false, true},
+    {Method::kListJobEvents, "ListJobEvents", Side::kClient, true, false, true},
     {Method::kFetchArtifact, "FetchArtifact", Side::kClient, true, false, true},
     {Method::kGetServerInfo, "GetServerInfo", Side::kClient, true, false, true},
     {Method::kLeaseTask, "LeaseTask", Side::kWorker, false, true, true},

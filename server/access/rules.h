@@ -24,6 +24,7 @@ enum class Method {
   kCancelJob,
   kResumeJob,
   kDeleteJob,
+  kListJobEvents,
   kFetchArtifact,
   kGetServerInfo,
   kLeaseTask,

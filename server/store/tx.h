@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "database/sqlite.h"
 
 namespace affskel::server {
+
+class Metrics;
 
 struct StoreOptions {
   std::int64_t lease_ms = 5000;            ///< a lease ends when its worker is silent for this long
@@ -34,7 +37,9 @@ struct Changes {
   bool dropped = false;          ///< something is left for Store::tidy
   bool grown = false;            ///< more than bookkeeping was written
   bool eased = false;            ///< a job that was short of room no longer needs it
-  std::vector<std::string> log;  ///< key=value lines
+  std::vector<std::string> log;  ///< entries: base::logfmt
+  /// What the metrics are told.
+  std::vector<std::function<void(Metrics&)>> counts;
 };
 
 /// Hears of committed changes.  Called without the store's lock, on the thread that changed something;
