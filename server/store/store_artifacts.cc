@@ -83,8 +83,7 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   tx.require_room();
   const std::int64_t task =
       add_derive_task(tx, job.id, wanted.task, wanted.params, wanted.key.params_key, true);
-  add_event(tx, job.id,
-            {.event = "requested", .task = task, .kind = wanted.task, .message = wanted.key.params_key});
+  add_event(tx, job.id, {.event = "requested", .task = task, .kind = wanted.task});
   return task;
 }
 

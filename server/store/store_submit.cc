@@ -73,10 +73,10 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
       submission.skeleton_key, tx.wall_ms);
   tx.db.run("DELETE FROM server_state WHERE key IN ('repeated_job/', 'repeated_job/' || ?)", header.owner());
   tx.changes.jobs.insert(id);
-  add_event(tx, id,
-            {.event = "submitted",
-             .message = "mesh of " + base::counted(mesh.size(), "byte") + ", SHA-256 " +
-                        header.mesh_sha256() + "; " + submission.params_key});
+  add_event(
+      tx, id,
+      {.event = "submitted",
+       .message = "mesh of " + base::counted(mesh.size(), "byte") + ", SHA-256 " + header.mesh_sha256()});
   tx.changes.counts.push_back([](Metrics& metrics) { metrics.job_submitted(); });
   return id;
 }
