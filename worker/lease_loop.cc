@@ -138,7 +138,7 @@ class LeaseLoop {
       : options_(options),
         stop_(stop),
         id_(wire::random_id()),
-        link_({options.server, options.patience, options.access, id_}, stop),
+        link_({options.server, options.patience, id_, options.access}, stop),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
           tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
         }) {

@@ -105,6 +105,23 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
   }
 }
 
+namespace {
+
+/// Who asks for work has no lease that could be lost: an answer about stored bytes is then the trouble of a
+/// server whose disk cannot be read just now.
+grpc::Status without_lease(const grpc::Status& status) {
+  switch (status.error_code()) {
+    case grpc::StatusCode::DATA_LOSS:
+    case grpc::StatusCode::ABORTED:
+    case grpc::StatusCode::NOT_FOUND:
+      return {grpc::StatusCode::UNAVAILABLE, status.error_message()};
+    default:
+      return status;
+  }
+}
+
+}  // namespace
+
 std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) {
   v1::LeaseTaskResponse response;
   bool stopped = false;
@@ -113,7 +130,7 @@ std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) 
     const std::stop_callback cancel(stop_, [&context] { context.TryCancel(); });
     const grpc::Status status = stub_->LeaseTask(&context, request, &response);
     stopped = stop_.stop_requested() && status.error_code() == grpc::StatusCode::CANCELLED;
-    return stopped ? grpc::Status::OK : status;
+    return stopped ? grpc::Status::OK : without_lease(status);
   });
   if (stopped || !response.has_lease()) return std::nullopt;
   return response.lease();

@@ -51,8 +51,8 @@ class Interrupted : public std::runtime_error {
 struct ServerLinkOptions {
   std::string address;                ///< unix:PATH or HOST:PORT
   std::chrono::seconds patience{60};  ///< how long to wait for a server that does not answer
-  wire::AccessFiles access = {};      ///< what it shows to the server
   std::string worker = {};            ///< its id: reports ask for other workers' bounds; empty: they do not
+  wire::AccessFiles access = {};      ///< what it shows to the server
 };
 
 /// The worker's side of WorkerService.  All calls are safe to repeat: while the server is away, full or in

@@ -68,6 +68,16 @@ TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {
       ServerGone);
 }
 
+TEST_F(LinkTest, AsksForWorkAgainWhenTheServersDiskCannotBeRead) {
+  for (const auto code :
+       {grpc::StatusCode::DATA_LOSS, grpc::StatusCode::ABORTED, grpc::StatusCode::NOT_FOUND}) {
+    server_.fail_next("LeaseTask", {code, "its disk cannot be read"}, 2);
+    const int before = server_.calls("LeaseTask");
+    EXPECT_FALSE(link().lease({})) << "there is no work";
+    EXPECT_EQ(server_.calls("LeaseTask"), before + 3);
+  }
+}
+
 TEST_F(LinkTest, FetchesAgainWhatArrivedDamaged) {
   const std::string mesh = sample_mesh();
   server_.set_input(v1::ARTIFACT_KIND_MESH, mesh);
