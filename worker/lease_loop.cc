@@ -15,6 +15,7 @@
 
 #include "available_memory.h"
 #include "backoff.h"
+#include "base/logfmt.h"
 #include "base/mutex.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
@@ -30,6 +31,7 @@
 #include "task_context.h"
 #include "wire/direction_order.h"
 #include "wire/identity.h"
+#include "wire/words.h"
 
 namespace affskel::worker {
 namespace {
@@ -44,6 +46,11 @@ constexpr auto kFirstRest = std::chrono::milliseconds(250);
 constexpr auto kMaxRest = std::chrono::milliseconds(4000);
 // Jobs on the shelf take a quarter of the memory at most; the rest is for the job in hand.
 constexpr std::uint64_t kShelfShare = 4;
+
+/// Enough of a lease's token to find its lines; the whole would let others report.
+std::string short_token(const std::string& token) {
+  return token.substr(0, 8);
+}
 
 v1::WorkerIdentity own_identity(const std::string& id, unsigned threads, std::uint64_t memory) {
   v1::WorkerIdentity identity;
@@ -101,8 +108,10 @@ class LeaseLoop {
   }
 
   int run() {
-    spdlog::info("worker={} server={} threads={} memory={} msg=\"ready\"", request_.worker().id(),
-                 options_.server, options_.threads, request_.worker().memory());
+    spdlog::info(base::logfmt("ready", {{"worker", request_.worker().id()},
+                                        {"server", options_.server},
+                                        {"threads", options_.threads},
+                                        {"memory", request_.worker().memory()}}));
     Clock::time_point last_work = Clock::now();
     while (!stop_.stop_requested()) {
       const std::optional<v1::Lease> lease = next_lease();
@@ -114,7 +123,7 @@ class LeaseLoop {
       }
       settle_last_report();
       if (options_.idle_exit.count() > 0 && Clock::now() - last_work >= options_.idle_exit) {
-        spdlog::info("worker={} msg=\"idle, leaving\"", request_.worker().id());
+        spdlog::info(base::logfmt("leaving", {{"worker", request_.worker().id()}, {"reason", "idle"}}));
         break;
       }
     }
@@ -143,7 +152,7 @@ class LeaseLoop {
     try {
       last_report_.wait();
     } catch (const LeaseLost& lost) {
-      spdlog::warn("job={} msg=\"lease lost\" cause=\"{}\"", job_id_, lost.what());
+      spdlog::warn(base::logfmt("lease_lost", {{"job", job_id_}, {"message", lost.what()}}));
       forget();
     }
   }
@@ -163,8 +172,9 @@ class LeaseLoop {
   }
 
   void work_on(const v1::Lease& lease) {
-    spdlog::debug("job={} lease={} task={} msg=\"leased\"", lease.job().id(), lease.token(),
-                  v1::TaskKind_Name(lease.kind()));
+    spdlog::debug(base::logfmt("leased", {{"job", lease.job().id()},
+                                          {"kind", wire::word(lease.kind())},
+                                          {"lease", short_token(lease.token())}}));
     TaskContext context(stop_);
     try {
       dispatch(lease, context);
@@ -197,7 +207,9 @@ class LeaseLoop {
   }
 
   void lose(const v1::Lease& lease, const char* cause) {
-    spdlog::warn("job={} lease={} msg=\"lease lost\" cause=\"{}\"", lease.job().id(), lease.token(), cause);
+    spdlog::warn(
+        base::logfmt("lease_lost",
+                     {{"job", lease.job().id()}, {"lease", short_token(lease.token())}, {"message", cause}}));
     forget();
     // Perhaps only the block before lost its lease.  Not given back, this one would lie idle until its
     // deadline.
@@ -212,7 +224,9 @@ class LeaseLoop {
       case TaskContext::Why::kLeaseLost:
         return lose(lease, "it was not renewed in time, or its job is gone");
       default:
-        spdlog::info("job={} lease={} msg=\"cancelled, task dropped\"", lease.job().id(), lease.token());
+        spdlog::info(base::logfmt(
+            "task_dropped",
+            {{"job", lease.job().id()}, {"lease", short_token(lease.token())}, {"message", "cancelled"}}));
         if (next_ && next_->job().id() == lease.job().id()) give_back_next();
         forget();
     }
@@ -221,8 +235,10 @@ class LeaseLoop {
   // Whether the task will be tried again.
   bool tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
     const Failure failure = describe(problem, request_.worker());
-    spdlog::error("job={} lease={} msg=\"task failed\" code={} cause=\"{}\"", job, token,
-                  failure.error.code(), failure.error.message());
+    spdlog::error(base::logfmt("task_failed", {{"job", job},
+                                               {"lease", short_token(token)},
+                                               {"code", failure.error.code()},
+                                               {"message", failure.error.message()}}));
     v1::FailTaskRequest request;
     request.set_token(token);
     *request.mutable_error() = failure.error;
@@ -378,13 +394,11 @@ int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
   try {
     return LeaseLoop(options, stop).run();
   } catch (const NotAllowed& refused) {
-    spdlog::error("server={} msg=\"the server does not let this worker in, leaving\" cause=\"{}\"",
-                  options.server, refused.what());
+    spdlog::error(base::logfmt("not_allowed", {{"server", options.server}, {"message", refused.what()}}));
     return kExitNotAllowed;
   } catch (const ServerGone& gone) {
     if (stop.stop_requested()) return 0;
-    spdlog::error("server={} msg=\"the server does not answer, leaving\" cause=\"{}\"", options.server,
-                  gone.what());
+    spdlog::error(base::logfmt("server_gone", {{"server", options.server}, {"message", gone.what()}}));
     return kExitServerGone;
   }
 }

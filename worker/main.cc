@@ -9,11 +9,13 @@
 #include <thread>
 
 #include "affskel/v1/types.pb.h"
+#include "base/logfmt.h"
 #include "compute.h"
 #include "core/base/error.h"
 #include "lease_loop.h"
 #include "stop_signal.h"
 #include "wire/address.h"
+#include "wire/grpc_log.h"
 #include "wire/version.h"
 #include "wire/words.h"
 
@@ -85,7 +87,7 @@ int run_worker(const affskel::worker::LeaseLoopOptions& options) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return kUsage;
   } catch (const std::exception& error) {
-    spdlog::critical("msg=\"unexpected\" cause=\"{}\"", error.what());
+    spdlog::critical(affskel::base::logfmt("internal_error", {{"message", error.what()}}));
     return kInternal;
   }
 }
@@ -187,9 +189,12 @@ int main(int argc, char** argv) {
   if (*compute) return run_compute(flags.compute);
   const auto logger = spdlog::stderr_logger_mt("affskel-worker");
   // The format of the server's log, in which the lines of supervised workers appear.
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+  logger->set_pattern(affskel::base::kLogPattern, spdlog::pattern_time_type::utc);
   logger->set_level(spdlog::level::from_str(flags.log_level));
   spdlog::set_default_logger(logger);
+  const affskel::wire::GrpcLog grpc_log([](bool is_error, const std::string& entry) {
+    spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, entry);
+  });
   flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
   flags.loop.patience = std::chrono::seconds(flags.patience_s);
   return run_worker(flags.loop);

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <random>
 
+#include "base/logfmt.h"
 #include "base/mutex.h"
 #include "retry_policy.h"
 #include "wire/address.h"
@@ -52,10 +53,10 @@ void ServerLink::note_answer(const grpc::Status& status) {
                     status.error_code() == grpc::StatusCode::CANCELLED;
   if (away == away_.exchange(away)) return;
   if (away) {
-    spdlog::warn("server={} msg=\"does not answer, trying again\" cause=\"{}\"", options_.address,
-                 status.error_message());
+    spdlog::warn(
+        base::logfmt("server_away", {{"server", options_.address}, {"message", status.error_message()}}));
   } else {
-    spdlog::info("server={} msg=\"answers again\"", options_.address);
+    spdlog::info(base::logfmt("server_back", {{"server", options_.address}}));
   }
 }
 

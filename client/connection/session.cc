@@ -230,6 +230,12 @@ v1::Job Session::get_job(const std::string& job) {
   return unary(request, &Stub::GetJob);
 }
 
+v1::ListJobEventsResponse Session::job_events(const std::string& job) {
+  v1::ListJobEventsRequest request;
+  request.set_job(job);
+  return unary(request, &Stub::ListJobEvents);
+}
+
 std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t limit) {
   std::vector<v1::Job> jobs;
   while (jobs.size() < limit) {

@@ -56,6 +56,8 @@ class Session {
   v1::Job pin(const std::string& job);
   v1::Job unpin(const std::string& job);
   std::string delete_job(const std::string& job);
+  /// What happened to the job, oldest first.
+  v1::ListJobEventsResponse job_events(const std::string& job);
   v1::ServerInfo server_info();
   /// Checks size and SHA-256 of what arrives.
   v1::ArtifactHeader fetch(const v1::FetchArtifactRequest& request,

@@ -19,6 +19,7 @@ constexpr MethodRule kMethods[] = {
     {Method::kPinJob, "PinJob", Side::kClient, true, false, true},
     {Method::kUnpinJob, "UnpinJob", Side::kClient, true, false, true},
     {Method::kDeleteJob, "DeleteJob", Side::kClient, true, false, true},
+    {Method::kListJobEvents, "ListJobEvents", Side::kClient, true, false, true},
     {Method::kFetchArtifact, "FetchArtifact", Side::kClient, true, false, true},
     {Method::kGetServerInfo, "GetServerInfo", Side::kClient, true, false, true},
     {Method::kLeaseTask, "LeaseTask", Side::kWorker, false, true, true},

@@ -26,6 +26,7 @@ enum class Method {
   kPinJob,
   kUnpinJob,
   kDeleteJob,
+  kListJobEvents,
   kFetchArtifact,
   kGetServerInfo,
   kLeaseTask,

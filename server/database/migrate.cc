@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "base/logfmt.h"
 #include "database/errors.h"
 
 namespace affskel::server {
@@ -67,7 +68,7 @@ int migrate(Database& db, const std::vector<Migration>& migrations) {
     db.execute("PRAGMA user_version = " + std::to_string(step.number));
     keys.check();
     transaction.commit();
-    spdlog::info("event=migrated schema={} name={}", step.number, step.name);
+    spdlog::info(base::logfmt("migrated", {{"schema", step.number}, {"name", step.name}}));
   }
   return schema_version(db);
 }

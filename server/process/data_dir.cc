@@ -97,9 +97,11 @@ bool DataDir::lost() const {
   return held.st_dev != now.st_dev || held.st_ino != now.st_ino;
 }
 
-void DataDir::publish(const std::vector<std::string>& addresses, std::int64_t started_ms) const {
-  const nlohmann::json json = {
+void DataDir::publish(const std::vector<std::string>& addresses, const std::optional<std::string>& metrics,
+                      std::int64_t started_ms) const {
+  nlohmann::json json = {
       {"pid", getpid()}, {"version", wire::kVersion}, {"started_ms", started_ms}, {"addresses", addresses}};
+  if (metrics) json["metrics"] = *metrics;
   const std::string file = path_ + "/server.json";
   const std::string temporary = file + ".new";
   std::ofstream out(temporary, std::ios::trunc);

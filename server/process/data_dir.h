@@ -36,8 +36,10 @@ class DataDir {
   /// Whether the directory was deleted, moved or replaced by another one since it was locked.
   bool lost() const;
 
-  /// Writes server.json, atomically: {"pid", "version", "started_ms", "addresses"}.
-  void publish(const std::vector<std::string>& addresses, std::int64_t started_ms) const;
+  /// Writes server.json, atomically: {"pid", "version", "started_ms", "addresses"}, and "metrics" if they are
+  /// told.
+  void publish(const std::vector<std::string>& addresses, const std::optional<std::string>& metrics,
+               std::int64_t started_ms) const;
 
   /// Removes server.json.
   void withdraw() const;

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/logfmt.h"
+
 namespace affskel::server {
 
 void raise_file_limit() {
@@ -15,7 +17,7 @@ void raise_file_limit() {
     limit.rlim_cur = limit.rlim_max;
     if (setrlimit(RLIMIT_NOFILE, &limit) == 0) return;
   }
-  spdlog::warn("event=file_limit_kept message=\"{}\"", std::strerror(errno));
+  spdlog::warn(base::logfmt("file_limit_kept", {{"message", std::strerror(errno)}}));
 }
 
 }  // namespace affskel::server

@@ -27,6 +27,7 @@ Examples:
   affskel-server --data-dir /var/lib/affskel --workers auto
   affskel-server --data-dir data --listen 127.0.0.1:7060 --listen unix:/run/affskel.sock
   affskel-client --server unix:data/server.sock submit body.off --wait
+  affskel-server --data-dir data --metrics 127.0.0.1:9464
   affskel-server check --data-dir data
   affskel-server backup --data-dir data -o affskel-backup.db
   affskel-server migrate --data-dir data
@@ -34,7 +35,6 @@ Examples:
   affskel-server --data-dir data --listen 0.0.0.0:7060 --tls-cert server.pem --tls-key server.key
 
 SIGTERM and SIGINT drain: nothing more is leased, workers report and give their leases back, exit 0.
-DATA_DIR/server.json names process, version and the addresses actually bound while the server runs.
 
 Limits, quotas and retention are best kept in a file for --config:
   limit = ["queued-jobs=100K", "stored-bytes=2T"]
@@ -43,6 +43,8 @@ Limits, quotas and retention are best kept in a file for --config:
 What exceeds a limit is refused, with limit and use (exit code 8 of affskel-client); points x directions that only
 the mesh tells fail the job. Results go before jobs with their meshes; pinned and unfinished jobs stay.
 
+DATA_DIR/server.json names process, version and the addresses actually bound, that of the metrics too, while the
+server runs.
 DATA_DIR/reserve is room kept for a full disk: there jobs wait, and can still be cancelled and deleted.
 Exit codes: 0 stopped; 2 usage, address or data directory; 8 disk full; 70 internal error. Those of the commands
 are in their help: affskel-server check --help.)";
@@ -161,7 +163,13 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
                  "TCP callers must show a certificate that one of these has signed, PEM")
       ->needs(certificate)
       ->type_name("FILE");
-  app.add_flag("--insecure", options.insecure, "Listen for other machines without TLS or tokens, too");
+  app.add_flag("--insecure", options.insecure,
+               "Listen for other machines without TLS or tokens, too, and tell them the metrics");
+  app.add_option(
+         "--metrics", options.metrics,
+         "HOST:PORT that answers GET /metrics, for Prometheus, and GET /healthz; port 0 = any free one; "
+         "default: none. Nothing protects it")
+      ->type_name("ADDR");
   app.add_option("--workers", workers, "Local workers to start and keep running; auto = one per core")
       ->type_name("N|auto")
       ->capture_default_str();

@@ -24,6 +24,7 @@ struct Options {
   std::string tls_key;
   std::string tls_client_ca;
   bool insecure = false;
+  std::string metrics;  ///< where metrics are told; empty = nowhere
   unsigned workers = 0;
   std::string worker_binary;    ///< empty = next to this program, else on the PATH
   unsigned worker_threads = 0;  ///< 0 = the cores shared out among the workers

@@ -13,17 +13,19 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
 
+#include "base/logfmt.h"
 #include "database/errors.h"
 #include "process/data_dir.h"
 #include "process/exit_code.h"
 #include "process/file_limit.h"
-#include "process/log_format.h"
 #include "process/maintenance.h"
 #include "process/supervisor.h"
 #include "rpc/server.h"
 #include "rpc/watchdog.h"
+#include "wire/grpc_log.h"
 #include "wire/identity.h"
 #include "wire/version.h"
 
@@ -39,10 +41,14 @@ constexpr std::chrono::milliseconds kWorkerGrace{5000};
 // Calls that are under way by then.
 constexpr std::chrono::milliseconds kCallGrace{2000};
 
+void log_for_grpc(bool is_error, const std::string& entry) {
+  spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, entry);
+}
+
 void start_logging(const std::string& level) {
   const auto logger =
       std::make_shared<spdlog::logger>("affskel", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_formatter(log_formatter());
+  logger->set_pattern(base::kLogPattern, spdlog::pattern_time_type::utc);
   logger->set_level(spdlog::level::from_str(level));
   spdlog::set_default_logger(logger);
 }
@@ -118,8 +124,9 @@ SupervisorOptions supervisor_options(const Options& options, const Server& serve
 /// already live in a new directory of the same name: an orderly end would take its socket away.
 void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
   if (!data_dir.lost()) return;
-  spdlog::error("event=data_dir_lost data_dir={} message=\"deleted or moved while the server ran; leaving\"",
-                data_dir.path());
+  spdlog::error(base::logfmt(
+      "data_dir_lost",
+      {{"data_dir", data_dir.path()}, {"message", "deleted or moved while the server ran; leaving"}}));
   spdlog::default_logger()->flush();
   supervisor.terminate(std::chrono::milliseconds(0));
   std::_Exit(static_cast<int>(ExitCode::kUsage));
@@ -128,8 +135,9 @@ void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
 /// The database was removed or replaced under the server: what comes now could not be kept.
 void leave_if_database_lost(Server& server, Supervisor& supervisor) {
   if (!server.store().lost()) return;
-  spdlog::error("event=database_lost file={} message=\"removed or replaced while the server ran; leaving\"",
-                server.store().file());
+  spdlog::error(base::logfmt(
+      "database_lost",
+      {{"file", server.store().file()}, {"message", "removed or replaced while the server ran; leaving"}}));
   spdlog::default_logger()->flush();
   supervisor.terminate(std::chrono::milliseconds(0));
   std::_Exit(static_cast<int>(ExitCode::kUsage));
@@ -144,11 +152,11 @@ void serve(const Options& options, const DataDir& data_dir, const sigset_t& sign
     supervisor.tick();
     const int number = wait_for_signal(signals);
     if (number == SIGTERM || number == SIGINT) {
-      spdlog::info("event=stopping signal={}", number);
+      spdlog::info(base::logfmt("stopping", {{"signal", number}}));
       return;
     }
     if (options.idle_exit_s && server.idle_time() >= std::chrono::duration<double>(*options.idle_exit_s)) {
-      spdlog::info("event=stopping reason=idle");
+      spdlog::info(base::logfmt("stopping", {{"reason", "idle"}}));
       return;
     }
   }
@@ -164,7 +172,8 @@ void keep_memory_small() {
 /// A server that does not answer would keep everybody waiting; one that exits is restarted, at the cost of a
 /// second of work.
 void leave_if_deaf() {
-  spdlog::critical("event=deaf message=\"no answer to its own calls; leaving, to be started again\"");
+  spdlog::critical(
+      base::logfmt("deaf", {{"message", "no answer to its own calls; leaving, to be started again"}}));
   spdlog::default_logger()->flush();
   std::_Exit(static_cast<int>(ExitCode::kInternal));
 }
@@ -181,6 +190,7 @@ void run_server(const Options& options) {
   server_options.socket_mode = options.socket_mode;
   server_options.tls = {options.tls_cert, options.tls_key, options.tls_client_ca};
   server_options.insecure = options.insecure;
+  if (!options.metrics.empty()) server_options.metrics = wire::parse_address(options.metrics);
   server_options.store.lease_ms = options.lease_ms;
   server_options.store.report_interval_ms = options.report_interval_ms;
   server_options.store.max_mesh_bytes = options.max_mesh_mb << 20;
@@ -196,16 +206,22 @@ void run_server(const Options& options) {
           server.store().release_worker(wire::host_name(), pid);
         } catch (const std::exception& error) {
           // The leases end at their deadline instead.
-          spdlog::error("event=release_failed pid={} message=\"{}\"", pid, error.what());
+          spdlog::error(base::logfmt("release_failed", {{"pid", pid}, {"message", error.what()}}));
         }
       });
   std::vector<std::string> targets;
   for (const wire::Address& address : server.addresses()) {
     targets.push_back(address.target());
-    spdlog::info("event=listening address={} version={} data_dir={}", targets.back(), wire::kVersion,
-                 data_dir.path());
+    spdlog::info(base::logfmt(
+        "listening",
+        {{"address", targets.back()}, {"version", wire::kVersion}, {"data_dir", data_dir.path()}}));
   }
-  data_dir.publish(targets, SystemClock().wall_ms());
+  std::optional<std::string> metrics;
+  if (const auto address = server.metrics_address()) {
+    metrics = address->target();
+    spdlog::info(base::logfmt("metrics", {{"address", *metrics}}));
+  }
+  data_dir.publish(targets, metrics, SystemClock().wall_ms());
   const Watchdog watchdog(nearest(server).target(), WatchdogOptions(), leave_if_deaf);
   serve(options, data_dir, signals, server, supervisor);
   leave_if_lost(data_dir, supervisor);
@@ -216,7 +232,7 @@ void run_server(const Options& options) {
   bool hurried = false;
   supervisor.terminate(kWorkerGrace, [&] { return hurried = hurried || told_again(signals); });
   server.stop(hurried ? std::chrono::milliseconds(0) : kCallGrace);
-  spdlog::info("event=stopped");
+  spdlog::info(base::logfmt("stopped"));
 }
 
 ExitCode exit_code_of(const SqliteError& error) {
@@ -235,6 +251,7 @@ int fail(ExitCode code, const std::exception& error) {
 int run(const Options& options) {
   // Commands speak for themselves.
   start_logging(options.command == Command::kServe ? options.log_level : "off");
+  const wire::GrpcLog grpc_log(log_for_grpc);
   if (options.command != Command::kServe) return run_maintenance(options);
   try {
     run_server(options);

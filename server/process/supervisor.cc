@@ -17,6 +17,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/logfmt.h"
+
 namespace affskel::server {
 namespace {
 
@@ -39,9 +41,9 @@ constexpr std::chrono::milliseconds kReapPause{10};
   _exit(127);
 }
 
-std::string describe(int status) {
-  if (WIFEXITED(status)) return "exit=" + std::to_string(WEXITSTATUS(status));
-  return "signal=" + std::to_string(WTERMSIG(status));
+base::LogField describe(int status) {
+  if (WIFEXITED(status)) return {"exit", WEXITSTATUS(status)};
+  return {"signal", WTERMSIG(status)};
 }
 
 bool executable(const std::filesystem::path& file) {
@@ -87,11 +89,12 @@ void Supervisor::start(Slot& slot) {
   if (child < 0) {
     slot.delay = std::clamp(slot.delay * 2, options_.first_delay, options_.last_delay);
     slot.due = slot.started + slot.delay;
-    spdlog::error("event=worker_start_failed message=\"fork: {}\"", std::strerror(errno));
+    spdlog::error(
+        base::logfmt("worker_start_failed", {{"message", std::string("fork: ") + std::strerror(errno)}}));
     return;
   }
   slot.pid = child;
-  spdlog::info("event=worker_started pid={}", child);
+  spdlog::info(base::logfmt("worker_started", {{"pid", child}}));
   on_start_(child);
 }
 
@@ -105,12 +108,14 @@ void Supervisor::ended(Slot& slot, int status) {
   }
   slot.due = now + slot.delay;
   if (terminating_) {
-    spdlog::info("event=worker_ended pid={} {}", pid, describe(status));
+    spdlog::info(base::logfmt("worker_ended", {{"pid", pid}, describe(status)}));
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
-    spdlog::error("event=worker_ended pid={} message=\"cannot run {}\" restart_ms={}", pid,
-                  options_.command[0], slot.delay.count());
+    spdlog::error(base::logfmt("worker_ended", {{"pid", pid},
+                                                {"restart_ms", slot.delay.count()},
+                                                {"message", "cannot run " + options_.command[0]}}));
   } else {
-    spdlog::warn("event=worker_ended pid={} {} restart_ms={}", pid, describe(status), slot.delay.count());
+    spdlog::warn(
+        base::logfmt("worker_ended", {{"pid", pid}, describe(status), {"restart_ms", slot.delay.count()}}));
   }
   on_end_(pid);
 }
@@ -126,7 +131,9 @@ void Supervisor::terminate(std::chrono::milliseconds grace, const std::function<
   }
   for (Slot& slot : slots_) {
     if (slot.pid == 0) continue;
-    spdlog::warn("event=worker_killed pid={} message=\"did not end within {} ms\"", slot.pid, grace.count());
+    spdlog::warn(base::logfmt(
+        "worker_killed",
+        {{"pid", slot.pid}, {"message", "did not end within " + std::to_string(grace.count()) + " ms"}}));
     kill(slot.pid, SIGKILL);
     int status = 0;
     if (waitpid(slot.pid, &status, 0) == slot.pid) ended(slot, status);

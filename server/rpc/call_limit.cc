@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/logfmt.h"
 #include "base/mutex.h"
 #include "rpc/status.h"
 
@@ -171,8 +172,12 @@ void CallLimit::tell(const Holder& holder, const std::string& why) {
   ++ended_;
   const Pace::Time now = options_.now();
   if (told_ && now - *told_ < kTellEvery) return;
-  spdlog::warn("event=call_ended number={} kind=\"{}\" peer={} bytes={} message=\"{}\"", ended_,
-               options_.what, holder.caller.peer, holder.pace.total(), why);
+  spdlog::warn(base::logfmt("call_ended", {{"number", ended_},
+                                           {"kind", options_.what},
+                                           {"peer", holder.caller.peer},
+                                           {"owner", holder.caller.identity.owner},
+                                           {"bytes", holder.pace.total()},
+                                           {"message", why}}));
   told_ = now;
   ended_ = 0;
 }

@@ -105,8 +105,9 @@ class CallLimit {
   /// Ends those of this token's holder.
   void end_of_token(std::int64_t token, const grpc::Status& why);
 
-  /// Calls under way.
+  /// Calls under way, and as many as there may be.
   std::size_t used() const;
+  std::size_t most() const { return options_.most; }
 
  private:
   struct Holder {

@@ -1,7 +1,5 @@
 #include "rpc/call_room.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -122,7 +120,7 @@ Admission admitted(Gate& gate, Method method, const Credentials& credentials) {
   } catch (const OutOfFiles&) {
     throw;  // says what it is
   } catch (const SqliteError& error) {
-    spdlog::error("event=database_error code={} message=\"{}\"", error.extended_code(), error.what());
+    log_error(error);
     return {{grpc::StatusCode::UNAVAILABLE,
              "the server's disk cannot be read just now; its log says why, try again"},
             {}};

@@ -7,6 +7,7 @@
 
 #include "access/gate.h"
 #include "access/rules.h"
+#include "metrics/metrics.h"
 #include "rpc/activity.h"
 #include "rpc/call_limit.h"
 #include "rpc/connections.h"
@@ -38,6 +39,7 @@ struct CallRoom {
   void stop();
 
   const CallLimits limits;
+  Metrics metrics;           ///< of all that has happened
   std::optional<Gate> gate;  ///< set before any call comes
   Activity activity;         ///< of clients
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -103,7 +104,8 @@ void ErosionServiceImpl::list(const Identity& caller, const v1::ListJobsRequest&
   if (!owner) return;
   filter.owner = *owner;
   JobPage page = store_.list(filter);
-  for (v1::Job& job : page.jobs) *response.add_jobs() = jobs_.with_reason(std::move(job));
+  jobs_.add_reasons(page.jobs);
+  for (v1::Job& job : page.jobs) *response.add_jobs() = std::move(job);
   if (page.next != 0) response.set_next_page_token(token_of_number(page.next));
 }
 
@@ -148,6 +150,17 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerCont
                                                         v1::DeleteJobResponse* response) {
   return answer(Method::kDeleteJob, *context, [this, request, response](const Identity& caller) {
     response->set_id(store_.remove(job_ref(request->job(), caller)));
+  });
+}
+
+grpc::ServerUnaryReactor* ErosionServiceImpl::ListJobEvents(grpc::CallbackServerContext* context,
+                                                            const v1::ListJobEventsRequest* request,
+                                                            v1::ListJobEventsResponse* response) {
+  return answer(Method::kListJobEvents, *context, [this, request, response](const Identity& caller) {
+    // What is greater than every number has no events after it.
+    const auto after = static_cast<std::int64_t>(
+        std::min<std::uint64_t>(request->after(), std::numeric_limits<std::int64_t>::max()));
+    *response = store_.events(job_ref(request->job(), caller), after);
   });
 }
 

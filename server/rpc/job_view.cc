@@ -2,14 +2,46 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
-#include <vector>
 
 #include "database/errors.h"
 
 namespace affskel::server {
-
 namespace {
+
+constexpr const char* kDiskFull = "the server's disk is full; it goes on when there is room";
+
+/// Workers that are busy, seen from a job that waits for one of them.
+struct Rivals {
+  std::int64_t higher = 0;  ///< with jobs of a higher priority
+  std::int64_t own = 0;     ///< with jobs of its owner
+  std::int64_t others = 0;  ///< with jobs of other owners
+};
+
+Rivals rivals_of(const v1::Job& job, const std::vector<BusyWith>& busy) {
+  Rivals rivals;
+  for (const BusyWith& with : busy) {
+    const bool higher = with.priority > job.priority();
+    (higher ? rivals.higher : with.owner == job.owner() ? rivals.own : rivals.others) += with.workers;
+  }
+  return rivals;
+}
+
+/// Says nothing of other owners but how many workers they have.
+std::string busy_text(std::size_t workers, const Rivals& rivals) {
+  std::vector<std::pair<std::int64_t, const char*>> with = {{rivals.higher, "jobs of higher priority"},
+                                                            {rivals.own, "jobs of the same owner"},
+                                                            {rivals.others, "other owners' jobs"}};
+  std::erase_if(with, [](const auto& part) { return part.first == 0; });
+  std::string text =
+      workers == 1 ? "the only worker is busy" : "all " + std::to_string(workers) + " workers are busy";
+  if (with.size() == 1) return text + " with " + with.front().second;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    text += (i == 0 ? ": " : ", ") + std::to_string(with[i].first) + " with " + with[i].second;
+  }
+  return text;
+}
 
 std::string megabytes(std::uint64_t bytes) {
   return std::to_string((bytes + 999'999) / 1'000'000) + " MB";
@@ -30,6 +62,44 @@ std::string too_large_for(const std::vector<v1::WorkerInfo>& workers, std::uint6
 
 }  // namespace
 
+/// What decides why jobs wait, as it is now; read when the first of them asks.
+class JobView::Reasons {
+ public:
+  Reasons(Store& store, const WorkerRegistry& registry) : store_(store), registry_(registry) {}
+
+  void add_to(v1::Job& job) {
+    const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
+    if (active && store_.disk_full()) return job.set_waiting_reason(kDiskFull);
+    if (!active || !job.waiting_reason().empty()) return;
+    const std::vector<v1::WorkerInfo>& workers = connected();
+    if (const std::string why = too_large_for(workers, job.memory_needed()); !why.empty()) {
+      return job.set_waiting_reason(why);
+    }
+    if (job.state() != v1::JOB_STATE_QUEUED) return;
+    const auto idle = [](const v1::WorkerInfo& worker) { return worker.task().empty(); };
+    if (workers.empty()) {
+      job.set_waiting_reason("no worker is connected");
+    } else if (std::none_of(workers.begin(), workers.end(), idle)) {
+      if (!busy_) busy_ = store_.busy_with();
+      job.set_waiting_reason(busy_text(workers.size(), rivals_of(job, *busy_)));
+    }
+  }
+
+ private:
+  const std::vector<v1::WorkerInfo>& connected() {
+    if (!workers_) {
+      workers_ = registry_.list();
+      std::erase_if(*workers_, [](const v1::WorkerInfo& worker) { return worker.silent(); });
+    }
+    return *workers_;
+  }
+
+  Store& store_;
+  const WorkerRegistry& registry_;
+  std::optional<std::vector<v1::WorkerInfo>> workers_;
+  std::optional<std::vector<BusyWith>> busy_;
+};
+
 EventHub::JobPtr JobView::load(const std::string& job_id) const {
   try {
     return std::make_shared<const v1::Job>(with_reason(store_.job(job_id)));
@@ -40,26 +110,13 @@ EventHub::JobPtr JobView::load(const std::string& job_id) const {
 }
 
 v1::Job JobView::with_reason(v1::Job job) const {
-  const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
-  if (active && store_.disk_full()) {
-    job.set_waiting_reason("the server's disk is full; it goes on when there is room");
-    return job;
-  }
-  if (!active || !job.waiting_reason().empty()) return job;
-  std::vector<v1::WorkerInfo> workers = registry_.list();
-  std::erase_if(workers, [](const v1::WorkerInfo& worker) { return worker.silent(); });
-  if (const std::string why = too_large_for(workers, job.memory_needed()); !why.empty()) {
-    job.set_waiting_reason(why);
-    return job;
-  }
-  if (job.state() != v1::JOB_STATE_QUEUED) return job;
-  const auto idle = [](const v1::WorkerInfo& worker) { return worker.task().empty(); };
-  if (workers.empty()) {
-    job.set_waiting_reason("no worker is connected");
-  } else if (std::none_of(workers.begin(), workers.end(), idle)) {
-    job.set_waiting_reason("all workers are busy with jobs whose turn came before its");
-  }
+  Reasons(store_, registry_).add_to(job);
   return job;
+}
+
+void JobView::add_reasons(std::vector<v1::Job>& jobs) const {
+  Reasons reasons(store_, registry_);
+  for (v1::Job& job : jobs) reasons.add_to(job);
 }
 
 }  // namespace affskel::server

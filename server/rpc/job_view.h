@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "affskel/v1/types.pb.h"
 #include "rpc/event_hub.h"
@@ -19,8 +20,12 @@ class JobView {
 
   /// Adds the reason why it waits, if it does.
   v1::Job with_reason(v1::Job job) const;
+  /// The same for many.
+  void add_reasons(std::vector<v1::Job>& jobs) const;
 
  private:
+  class Reasons;
+
   Store& store_;
   const WorkerRegistry& registry_;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/mutex.h"
+#include "rpc/call_timer.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -29,6 +30,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
         context_(context),
         request_(request),
         response_(response),
+        timer_(queue.room_.metrics, Method::kLeaseTask),
         deadline_(std::chrono::steady_clock::now() +
                   std::chrono::milliseconds(std::min(request.wait_ms(), kMaxWaitMs))) {}
 
@@ -56,6 +58,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
       token_ = lease->token();
       *response_->mutable_lease() = *std::move(lease);
     }
+    timer_.ended(status);
     Finish(status);
     return true;
   }
@@ -83,6 +86,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
   grpc::CallbackServerContext* context_;
   const v1::LeaseTaskRequest request_;
   v1::LeaseTaskResponse* response_;
+  const CallTimer timer_;
   const Time deadline_;
   base::Mutex mutex_;
   bool ended_ = false;

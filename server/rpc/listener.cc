@@ -19,6 +19,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/logfmt.h"
+
 namespace affskel::server {
 namespace {
 
@@ -231,8 +233,8 @@ void Listener::tell(const std::string& why) {
   ++refused_;
   const std::int64_t now = steady_ms();
   if (told_ms_ != 0 && now - told_ms_ < kTellMs) return;
-  spdlog::warn("event=connections_refused number={} open={} message=\"{}\"", refused_, connections_.size(),
-               why);
+  spdlog::warn(base::logfmt("connections_refused",
+                            {{"number", refused_}, {"open", connections_.size()}, {"message", why}}));
   told_ms_ = now;
   refused_ = 0;
 }

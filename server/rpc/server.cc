@@ -14,6 +14,7 @@
 
 #include "base/mutex.h"
 #include "database/database_file.h"
+#include "rpc/figures.h"
 #include "rpc/listen.h"
 #include "rpc/status.h"
 #include "wire/channel.h"
@@ -92,8 +93,10 @@ void release_dead_workers(Store& store) {
 Server::Server(const ServerOptions& options)
     : registry_(clock_, options.store.lease_ms), room_(options.limits, upload_bytes(options)) {
   hold_grpc();
+  if (options.metrics) require_local_metrics(*options.metrics, options.insecure);
   prepare_addresses(options.listen);
-  store_ = std::make_unique<Store>(database_file(options.data_dir), options.store, clock_, &hub_);
+  store_ =
+      std::make_unique<Store>(database_file(options.data_dir), options.store, clock_, &hub_, &room_.metrics);
   release_dead_workers(*store_);
   if (!options.tls.certificate.empty()) wire::forbid_core_dumps();
   keep_secrets();
@@ -108,6 +111,7 @@ Server::Server(const ServerOptions& options)
       room_, *store_, registry_, *jobs_, hub_,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
   hub_.start([this](const std::string& id) { return jobs_->load(id); }, [this] { queue_->on_work(); });
+  if (options.metrics) tell_metrics(*options.metrics);
   serve(options);
   maintenance_ = std::thread([this] { maintain(); });
   ticker_ = std::thread([this] { tick(); });
@@ -136,6 +140,32 @@ void Server::serve(const ServerOptions& options) {
     grpc_->GetHealthCheckService()->SetServingStatus(service, true);
   }
   listener_->start([this](int connection, bool is_tcp) { take(connection, is_tcp); });
+}
+
+std::optional<wire::Address> Server::metrics_address() const {
+  return endpoint_ == nullptr ? std::nullopt : std::optional(endpoint_->address());
+}
+
+/// Each kind of figures from where it is: what has happened since the start, and what is there now.
+void Server::tell_metrics(const wire::Address& address) {
+  const auto started_ms = static_cast<std::uint64_t>(clock_.wall_ms());
+  const auto collect = [this, started_ms] {
+    std::vector<prometheus::MetricFamily> families = room_.metrics.collect();
+    for (prometheus::MetricFamily& family : figures_of(*store_, registry_, room_, started_ms)) {
+      families.push_back(std::move(family));
+    }
+    return families;
+  };
+  endpoint_ =
+      std::make_unique<MetricsEndpoint>(address, EndpointSources{collect, [this] { return trouble(); }});
+}
+
+/// Reads the database, as any call would.
+std::string Server::trouble() {
+  if (draining_) return "the server is shutting down";
+  if (store_->lost()) return "the database was removed or replaced";
+  store_->counts();
+  return {};
 }
 
 void Server::take(int connection, bool is_tcp) {
@@ -217,6 +247,7 @@ std::chrono::steady_clock::duration Server::idle_time() {
 }
 
 void Server::drain() {
+  draining_ = true;
   if (grpc_ != nullptr && grpc_->GetHealthCheckService() != nullptr) {
     grpc_->GetHealthCheckService()->SetServingStatus(false);
   }
@@ -240,6 +271,7 @@ void Server::stop(std::chrono::milliseconds grace) {
   stopped_.notify_all();
   if (maintenance_.joinable()) maintenance_.join();
   drain();
+  endpoint_.reset();
   if (listener_ != nullptr) listener_->stop();
   if (grpc_ != nullptr) {
     await_calls(grace);

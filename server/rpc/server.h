@@ -8,11 +8,13 @@
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "base/mutex.h"
+#include "metrics/endpoint.h"
 #include "rpc/call_room.h"
 #include "rpc/erosion_service.h"
 #include "rpc/event_hub.h"
@@ -35,6 +37,8 @@ struct ServerOptions {
   mode_t socket_mode = 0600;  ///< of Unix sockets: who may connect
   TlsOptions tls;             ///< of all TCP addresses
   bool insecure = false;      ///< addresses that other machines reach need neither TLS nor tokens
+  /// Where metrics are told to whoever asks; other machines only with `insecure`.
+  std::optional<wire::Address> metrics;
   StoreOptions store;
   /// Uploads in memory at once; at least one mesh of the greatest size always finds room.
   std::uint64_t upload_bytes = std::uint64_t{2} << 30;
@@ -58,6 +62,9 @@ class Server {
   /// Where it listens, with the ports actually bound.
   const std::vector<wire::Address>& addresses() const { return listener_->addresses(); }
 
+  /// Where it tells its metrics, if it does, with the port actually bound.
+  std::optional<wire::Address> metrics_address() const;
+
   Store& store() { return *store_; }
   WorkerRegistry& registry() { return registry_; }
   const CallRoom& room() const { return room_; }
@@ -75,6 +82,8 @@ class Server {
 
  private:
   void serve(const ServerOptions& options);
+  void tell_metrics(const wire::Address& address);
+  std::string trouble();
   void keep_secrets();
   void maintain();
   void tick();
@@ -94,6 +103,9 @@ class Server {
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> tls_;  // of connections with TLS
   std::unique_ptr<grpc::Server> grpc_;
   std::unique_ptr<Listener> listener_;
+
+  std::unique_ptr<MetricsEndpoint> endpoint_;
+  std::atomic<bool> draining_ = false;
 
   bool secretive_ = false;  // of the thread that maintains
   std::atomic<bool> tidying_ = false;

@@ -2,9 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cstddef>
+#include <iterator>
 #include <new>
 #include <string>
 
+#include "base/logfmt.h"
 #include "base/quoted.h"
 #include "database/errors.h"
 #include "database/sqlite.h"
@@ -83,30 +86,46 @@ std::string told_of(const SqliteError& error) {
 // gRPC drops an answer whose headers have more than 8 KiB, and the message is one of them, percent-encoded.
 constexpr std::size_t kMaxMessageBytes = 1500;
 
+void log_internal(const std::exception& error) {
+  spdlog::error(base::logfmt("internal_error", {{"message", error.what()}}));
+}
+
 grpc::Status full_status_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const CallEnded& ended) {
     return ended.status;
   } catch (const StoreError& e) {
-    if (e.code() == StoreError::Code::kUnusable)
-      spdlog::error("event=internal_error message=\"{}\"", e.what());
+    if (e.code() == StoreError::Code::kUnusable) log_internal(e);
     return {code_of(e.code()), e.what()};
   } catch (const SqliteError& e) {
     // The store logs a full disk once in a while; the calls that fail for it do not.
-    if (e.primary_code() != SQLITE_FULL)
-      spdlog::error("event=database_error code={} message=\"{}\"", e.extended_code(), e.what());
+    if (e.primary_code() != SQLITE_FULL) log_error(e);
     return {code_of(e), told_of(e)};
   } catch (const std::bad_alloc&) {
-    spdlog::error("event=out_of_memory");
+    spdlog::error(base::logfmt("out_of_memory"));
     return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
   } catch (const std::exception& e) {
-    spdlog::error("event=internal_error message=\"{}\"", e.what());
+    log_internal(e);
     return {grpc::StatusCode::INTERNAL, e.what()};
   }
 }
 
 }  // namespace
+
+void log_error(const SqliteError& error) {
+  spdlog::error(base::logfmt("database_error", {{"code", error.extended_code()}, {"message", error.what()}}));
+}
+
+const char* code_name(grpc::StatusCode code) {
+  static constexpr const char* kNames[] = {
+      "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+      "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+      "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+      "DATA_LOSS", "UNAUTHENTICATED"};
+  const auto number = static_cast<std::size_t>(code);
+  return number < std::size(kNames) ? kNames[number] : "UNKNOWN";
+}
 
 grpc::Status status_of(const std::exception_ptr& error) {
   const grpc::Status status = full_status_of(error);

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "database/sqlite.h"
+
 namespace affskel::server {
 
 /// Thrown to end a call with a status of its own.
@@ -15,6 +17,12 @@ struct CallEnded : std::exception {
 
 /// The one place where errors become gRPC statuses.  Internal errors are logged.
 grpc::Status status_of(const std::exception_ptr& error);
+
+/// Tells the log what the database did.
+void log_error(const SqliteError& error);
+
+/// Its name: "NOT_FOUND".
+const char* code_name(grpc::StatusCode code);
 
 /// Runs the body of a call; OK unless it throws.
 template <typename Body>

@@ -88,6 +88,7 @@ void StreamCall::finish_if_free() {
     return;
   }
   finished_ = true;
+  timer_.ended(*ending_);
   send_status(*ending_);
 }
 

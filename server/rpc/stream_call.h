@@ -8,6 +8,7 @@
 
 #include "base/mutex.h"
 #include "rpc/call_room.h"
+#include "rpc/call_timer.h"
 
 namespace affskel::server {
 
@@ -41,7 +42,7 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   using Body = std::function<After()>;
 
   StreamCall(CallRoom& room, Executor& executor, grpc::CallbackServerContext& context, Method method)
-      : room_(room), executor_(executor), context_(context), method_(method) {}
+      : room_(room), executor_(executor), context_(context), method_(method), timer_(room.metrics, method) {}
   ~StreamCall() override = default;
 
   CallRoom& room() { return room_; }
@@ -78,6 +79,7 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   Executor& executor_;
   grpc::CallbackServerContext& context_;
   const Method method_;
+  const CallTimer timer_;
   std::optional<CallScope> scope_;
 
   base::Mutex mutex_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rpc/call_room.h"
+#include "rpc/call_timer.h"
 #include "rpc/status.h"
 
 namespace affskel::server {
@@ -18,15 +19,15 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   static grpc::ServerUnaryReactor* start(CallRoom& room, Executor& executor, Method method,
                                          const grpc::CallbackServerContext& context,
                                          std::function<void(const Identity&)> body) {
-    auto* const call = new UnaryCall;
+    auto* const call = new UnaryCall(room.metrics, method);
     const grpc::Status status = guarded([&] { call->scope_.emplace(room, context, method); });
     if (!status.ok()) {
-      call->Finish(status);
+      call->end(status);
       return call;
     }
     executor.post(call->scope_->caller().connection, [call, &context, body = std::move(body)] {
       const Identity& identity = call->scope_->caller().identity;
-      call->Finish(context.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] { body(identity); }));
+      call->end(context.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] { body(identity); }));
     });
     return call;
   }
@@ -34,7 +35,14 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   void OnDone() override { delete this; }
 
  private:
-  UnaryCall() = default;
+  UnaryCall(Metrics& metrics, Method method) : timer_(metrics, method) {}
+
+  void end(const grpc::Status& status) {
+    timer_.ended(status);
+    Finish(status);
+  }
+
+  const CallTimer timer_;
   std::optional<CallScope> scope_;
 };
 

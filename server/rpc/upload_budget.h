@@ -12,6 +12,11 @@ class UploadBudget {
   explicit UploadBudget(std::uint64_t limit) : limit_(limit) {}
 
   std::uint64_t limit() const { return limit_; }
+  /// Bytes held by all calls.
+  std::uint64_t used() const {
+    const base::MutexLock lock(mutex_);
+    return used_;
+  }
 
   /// What one call holds, until it ends.  Used by one thread at a time.
   class Share {
@@ -56,7 +61,7 @@ class UploadBudget {
   }
 
   const std::uint64_t limit_;
-  base::Mutex mutex_;
+  mutable base::Mutex mutex_;
   std::uint64_t used_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 

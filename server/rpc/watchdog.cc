@@ -25,7 +25,7 @@ bool answers(v1::WorkerService::Stub& stub, std::chrono::milliseconds patience, 
   context.set_deadline(std::chrono::system_clock::now() + patience);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   v1::RenewLeaseRequest request;
-  request.set_token("watchdog");
+  request.set_token(kWatchdogToken);
   v1::ReportResponse response;
   return stub.RenewLease(&context, request, &response).error_code() != grpc::StatusCode::DEADLINE_EXCEEDED;
 }

@@ -8,6 +8,9 @@
 
 namespace affskel::server {
 
+/// The lease that it renews and nobody has.
+inline constexpr const char* kWatchdogToken = "watchdog";
+
 struct WatchdogOptions {
   std::chrono::milliseconds period{5000};     ///< between two calls
   std::chrono::milliseconds patience{10000};  ///< for an answer, whatever it is

@@ -38,7 +38,7 @@ void ReportCall::on_message(v1::ReportErosionRequest& message) {
   if (message.records().point_size() > wire::kRecordsPerMessage) {
     refuse("a message has at most 32768 records");
   }
-  with_lease(registry_, header_->token(), [&] {
+  with_lease(room(), registry_, header_->token(), [&] {
     take(message.records());
     return false;
   });
@@ -47,7 +47,7 @@ void ReportCall::on_message(v1::ReportErosionRequest& message) {
 void ReportCall::begin(const v1::ReportErosionHeader& header) {
   header_ = header;
   if (header.bounds_for().size() > kMaxWorkerIdBytes) refuse("a worker's id has at most 64 bytes");
-  with_lease(registry_, header.token(), [&] {
+  with_lease(room(), registry_, header.token(), [&] {
     const Store::ErodeLease lease = store_.erode_lease(header.token());
     job_ = lease.job;
     batch_.emplace(lease.points, lease.directions);
@@ -77,7 +77,7 @@ void ReportCall::merge() {
 
 void ReportCall::on_end() {
   if (!header_) refuse_without_header();
-  with_lease(registry_, header_->token(), [&] { return finish(); });
+  with_lease(room(), registry_, header_->token(), [&] { return finish(); });
 }
 
 bool ReportCall::finish() {
@@ -122,7 +122,7 @@ void ResultCall::on_message(v1::CompleteTaskRequest& message) {
 
 void ResultCall::on_end() {
   if (!header_) refuse_without_header();
-  with_lease(registry_, header_->token(), [&] {
+  with_lease(room(), registry_, header_->token(), [&] {
     response_ = store_.complete(*header_, data_->data());
     return true;
   });
@@ -151,7 +151,7 @@ StreamCall::After InputCall::open() {
 
 StreamCall::After InputCall::send_input(CallLimit::Place place) {
   std::unique_ptr<BlobReader> reader;
-  with_lease(registry_, request_.token(), [&] {
+  with_lease(room(), registry_, request_.token(), [&] {
     reader = store_.open_input(request_.token(), request_.kind());
     return false;
   });

@@ -10,19 +10,22 @@
 #include "rpc/sending.h"
 #include "rpc/status.h"
 #include "rpc/upload.h"
+#include "rpc/watchdog.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
 
 namespace affskel::server {
 
-/// Runs a body that uses a lease, and tells the registry.  The body returns whether the lease has ended by
-/// it; a fenced one has.
+/// Runs a body that uses a lease, and tells the registry and the metrics.  The body returns whether the lease
+/// has ended by it; a fenced one has.
 template <typename Body>
-void with_lease(WorkerRegistry& registry, const std::string& token, Body&& body) {
+void with_lease(CallRoom& room, WorkerRegistry& registry, const std::string& token, Body&& body) {
   registry.used(token);
   bool ended = false;
   const grpc::Status status = guarded([&] { ended = body(); });
-  if (ended || status.error_code() == grpc::StatusCode::ABORTED) registry.ended(token);
+  const bool fenced = status.error_code() == grpc::StatusCode::ABORTED;
+  if (ended || fenced) registry.ended(token);
+  if (fenced && token != kWatchdogToken) room.metrics.lease_fenced();
   if (!status.ok()) throw CallEnded(status);
 }
 

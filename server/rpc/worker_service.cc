@@ -11,8 +11,9 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::with_lease_of(Method method,
                                                            grpc::CallbackServerContext& context,
                                                            const std::string& token, Body body) {
   // The request, and so the token, lives as long as the call.
-  return UnaryCall::start(room_, room_.worker_calls, method, context,
-                          [this, &token, body](const Identity&) { with_lease(registry_, token, body); });
+  return UnaryCall::start(room_, room_.worker_calls, method, context, [this, &token, body](const Identity&) {
+    with_lease(room_, registry_, token, body);
+  });
 }
 
 grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerContext* context,

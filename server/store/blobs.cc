@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/logfmt.h"
 #include "database/errors.h"
 #include "store/field.h"
 #include "wire/field_record.h"
@@ -176,7 +177,7 @@ void heal_mesh(Tx& tx, const std::string& sha256, std::string_view bytes) {
   tx.require_room();
   tx.db.run("DELETE FROM mesh_chunks WHERE sha256 = ?", sha256);
   put_mesh_chunks(tx, sha256, bytes);
-  tx.changes.log.push_back("event=mesh_healed mesh=" + sha256);
+  tx.changes.log.push_back(base::logfmt("mesh_healed", {{"mesh", sha256}}));
 }
 
 void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items,

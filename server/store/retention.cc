@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "store/job_events.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
@@ -167,6 +168,11 @@ void remove_results(Tx& tx, const JobRow& job) {
   tx.db.run("UPDATE jobs SET removed_ms = ?, expires_ms = 0 WHERE id = ?", tx.wall_ms, job.id);
 }
 
+/// "the results, by results-age".
+std::string removed_text(bool with_mesh, const char* rule) {
+  return std::string(with_mesh ? "the job with its mesh" : "the results") + ", by " + rule;
+}
+
 }  // namespace
 
 std::vector<Removal> removals_to_plan(Database& db, const Policy& policy, std::int64_t now_ms,
@@ -182,9 +188,10 @@ void plan_removals(Tx& tx, const std::vector<Removal>& removals) {
         removal.job, removal.at_ms, removal.with_mesh);
     if (changed == 0) continue;
     tx.changes.jobs.insert(removal.job);
-    tx.changes.log.push_back("event=retention_planned job=" + removal.job +
-                             " what=" + (removal.with_mesh ? "job" : "results") + " rule=" + removal.rule +
-                             " in_s=" + std::to_string((removal.at_ms - tx.wall_ms) / 1000));
+    add_event(tx, removal.job,
+              {.event = "removal_planned",
+               .message = removed_text(removal.with_mesh, removal.rule) + ", in " +
+                          std::to_string((removal.at_ms - tx.wall_ms) / 1000) + " s"});
   }
 }
 
@@ -206,8 +213,7 @@ void carry_out_removal(Tx& tx, const std::string& job_id) {
     tx.changes.jobs.insert(job_id);
     return;
   }
-  tx.changes.log.push_back("event=retention job=" + job_id +
-                           " what=" + (job.removed_ms > 0 ? "job" : "results") + " rule=" + rule);
+  add_event(tx, job_id, {.event = "removed", .message = removed_text(job.removed_ms > 0, rule)});
   if (job.removed_ms > 0) return delete_job(tx, job);
   remove_results(tx, job);
   tx.changes.jobs.insert(job_id);

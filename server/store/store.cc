@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/logfmt.h"
 #include "database/errors.h"
 #include "database/migrate.h"
+#include "store/job_events.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
@@ -36,7 +38,7 @@ void recognise_file(Tx& tx, const std::string& identity) {
   if (known && row.text(0) == identity) return;
   if (known) {
     release_all_leases(tx);
-    tx.changes.log.push_back("event=database_restored");
+    tx.changes.log.push_back(base::logfmt("database_restored"));
   }
   put_state(tx, "file", identity);
   put_state(tx, "database", wire::random_id());
@@ -63,11 +65,13 @@ void renew_all(Tx& tx) {
 
 }  // namespace
 
-Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener)
+Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener,
+             Metrics* metrics)
     : file_(std::move(file)),
       options_(options),
       clock_(clock),
       listener_(listener),
+      metrics_(metrics),
       reserve_(directory_of(file_), options_.reserve_bytes, options_.free_bytes),
       db_(ready_database_file(file_), Database::Mode::kReadWrite),
       readers_(file_),
@@ -133,9 +137,10 @@ void drop_unused_erosion(Tx& tx, std::int64_t erosion_id) {
 void adopt_erosion(Tx& tx, const std::string& job_id, std::int64_t finished_erosion) {
   const std::int64_t own = get_job(tx.db, job_id).erosion_id;
   tx.db.run("DELETE FROM tasks WHERE job_id = ?", job_id);
+  end_stage(tx, job_id);
   tx.db.run("UPDATE jobs SET erosion_id = ?, stage = 'derive' WHERE id = ?", finished_erosion, job_id);
   if (own != finished_erosion) drop_unused_erosion(tx, own);
-  tx.changes.log.push_back("event=adopted job=" + job_id + " field=" + std::to_string(finished_erosion));
+  add_event(tx, job_id, {.event = "adopted", .message = "another job has computed this field already"});
   settle_job(tx, job_id);
 }
 

@@ -20,6 +20,7 @@
 #include "store/blobs.h"
 #include "store/clock.h"
 #include "store/field.h"
+#include "store/figures.h"
 #include "store/rows.h"
 #include "store/submission.h"
 #include "store/tx.h"
@@ -43,8 +44,9 @@ class Store final : public TokenSource {
  public:
   /// Opens or creates `file`, migrates it, and gives every lease that a predecessor left a new deadline:
   /// its worker could not report while no server was there.
-  /// @param listener may be null; must outlive the store.
-  Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener = nullptr);
+  /// @param listener, metrics may be null; must outlive the store.
+  Store(std::string file, StoreOptions options, const Clock& clock, ChangeListener* listener = nullptr,
+        Metrics* metrics = nullptr);
 
   const std::string& file() const { return file_; }
   const StoreOptions& options() const { return options_; }
@@ -70,6 +72,8 @@ class Store final : public TokenSource {
   v1::Job job(const JobRef& job_ref);
   std::string resolve(const JobRef& job_ref);
   JobPage list(const ListFilter& filter);
+  /// What happened to a job, oldest first; only events with a number greater than `after`.
+  v1::ListJobEventsResponse events(const JobRef& job_ref, std::int64_t after);
   /// A queued job is cancelled at once, a running one is marked.
   v1::Job cancel(const JobRef& job_ref);
   /// A failed or cancelled job goes on from where it was, and a done one whose results were removed begins
@@ -87,6 +91,12 @@ class Store final : public TokenSource {
     std::int64_t requests = 0;  ///< artefacts that somebody asked for and that are not there yet
   };
   Counts counts();
+
+  /// Whom the workers are busy with: who waits learns why from it.
+  std::vector<BusyWith> busy_with();
+
+  /// Everything that metrics tell of the database at the moment; takes no lock of writers: store_figures.cc.
+  StoreFigures figures();
 
   // Artefacts: store_artifacts.cc
 
@@ -199,6 +209,7 @@ class Store final : public TokenSource {
   const StoreOptions options_;
   const Clock& clock_;
   ChangeListener* const listener_;
+  Metrics* const metrics_;
 
   base::Mutex mutex_;
   DiskReserve reserve_ ABSL_GUARDED_BY(mutex_);

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/logfmt.h"
 #include "database/errors.h"
+#include "store/job_events.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
@@ -90,9 +92,10 @@ std::int64_t request_derived(Tx& tx, const JobRow& job, const Derived& wanted) {
   }
   require_stored_room(tx.db, tx.options.policy, job.owner, 0);
   tx.require_room();
-  tx.changes.log.push_back("event=requested job=" + job.id + " kind=" + wanted.key.kind + " " +
-                           wanted.key.params_key);
-  return add_derive_task(tx, job.id, wanted.task, wanted.params, wanted.key.params_key, true);
+  const std::int64_t task =
+      add_derive_task(tx, job.id, wanted.task, wanted.params, wanted.key.params_key, true);
+  add_event(tx, job.id, {.event = "requested", .task = task, .kind = wanted.task});
+  return task;
 }
 
 /// The same for lattice and directions, which are there unless check --repair had to delete them.
@@ -104,8 +107,9 @@ std::int64_t request_prepared(Tx& tx, const JobRow& job) {
     return *task;
   }
   tx.require_room();
-  tx.changes.log.push_back("event=requested job=" + job.id + " kind=prepare");
-  return add_prepare_request(tx, job.id);
+  const std::int64_t task = add_prepare_request(tx, job.id);
+  add_event(tx, job.id, {.event = "requested", .task = task, .kind = v1::TASK_KIND_PREPARE});
+  return task;
 }
 
 /// Error of a task that failed; nothing while it may still succeed or when it has.
@@ -186,8 +190,7 @@ void Store::withdraw(std::int64_t task) {
     if (!row || !row->on_request) return false;
     tx.db.run("DELETE FROM tasks WHERE id = ?", task);
     tx.changes.jobs.insert(row->job_id);
-    tx.changes.log.push_back("event=request_withdrawn job=" + row->job_id + " task=" + std::to_string(task) +
-                             " kind=" + wire::word(row->kind));
+    add_event(tx, row->job_id, task_event("request_withdrawn", *row, "nobody waits for it any more"));
     return true;
   });
 }
@@ -200,7 +203,7 @@ void Store::fail_damaged(const std::string& token, const std::string& why, bool 
     fail(token, error, retryable);
   } catch (const std::exception& failed) {
     // The lease has ended, or the disk takes nothing: the next one finds the damage again.
-    spdlog::warn("event=damage_not_told message=\"{}\"", failed.what());
+    spdlog::warn(base::logfmt("damage_not_told", {{"code", error.code()}, {"message", failed.what()}}));
   }
 }
 

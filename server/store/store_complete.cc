@@ -2,9 +2,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/number_text.h"
 #include "base/quoted.h"
 #include "database/errors.h"
 #include "store/blocks.h"
+#include "store/job_events.h"
 #include "store/memory_need.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
@@ -103,11 +105,14 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
       job.erosion_id);
   put_artifact(tx, {job.erosion_id, "lattice", ""}, parts.lattice, 0);
   put_artifact(tx, {job.erosion_id, "directions", ""}, parts.directions, 0);
+  end_stage(tx, job.id);
   tx.db.run("UPDATE jobs SET stage = 'erode' WHERE id = ?", job.id);
   cut_blocks(tx, job.id, static_cast<std::int64_t>(summary.directions()));
-  tx.changes.log.push_back(
-      "event=prepared job=" + job.id + " triangles=" + std::to_string(summary.triangles()) +
-      " points=" + std::to_string(summary.points()) + " directions=" + std::to_string(summary.directions()));
+  add_event(tx, job.id,
+            {.event = "prepared",
+             .message = base::counted(summary.triangles(), "triangle") + ", " +
+                        base::counted(summary.points(), "sample point") + ", " +
+                        base::counted(summary.directions(), "direction")});
 }
 
 /// Lattice and directions that a damaged disk has lost, made again for a field that is there.
@@ -203,9 +208,13 @@ v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& err
   return write([&](Tx& tx) {
     const TaskRow task = task_of_token(tx.db, token);
     if (task.state == "done") return reply(false);
-    tx.changes.log.push_back("event=task_failed job=" + task.job_id + " task=" + std::to_string(task.id) +
-                             " worker=" + task.worker + " code=" + known.code() + " retryable=" +
-                             (retryable ? "true" : "false") + " message=\"" + known.message() + "\"");
+    add_event(tx, task.job_id,
+              task_event("task_failed", task,
+                         known.code() +
+                             (memory_needed > 0 ? " (waits for a larger worker): "
+                              : retryable       ? " (to be tried again): "
+                                                : ": ") +
+                             known.message()));
     if (memory_needed > 0) {
       wait_for_larger(tx, task, memory_needed);
     } else if (retryable) {

@@ -4,14 +4,19 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+
 #include "base/mutex.h"
+#include "metrics/metrics.h"
 #include "store/store.h"
 
 namespace affskel::server {
 
 template <typename Body>
 auto Store::commit(Body&& body, Changes& changes, bool& room) {
+  const auto asked = std::chrono::steady_clock::now();
   const base::MutexLock lock(mutex_);
+  const auto begun = std::chrono::steady_clock::now();
   room = room && has_room();
   Transaction transaction(db_);
   Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes, room};
@@ -19,6 +24,8 @@ auto Store::commit(Body&& body, Changes& changes, bool& room) {
   db_.claim_pages();
   transaction.commit();
   require_not_lost();
+  const auto committed = std::chrono::steady_clock::now();
+  changes.counts.push_back([=](Metrics& metrics) { metrics.transaction(begun - asked, committed - begun); });
   if (changes.grown || changes.eased) reserve_.allow_retry();
   return value;
 }
@@ -42,7 +49,10 @@ auto Store::write(Body&& body) {
     return commit(body, changes, room);
   }();
   if (changes.dropped) untidy_ = true;
-  for (const std::string& line : changes.log) spdlog::info("{}", line);
+  for (const std::string& line : changes.log) spdlog::info(line);
+  if (metrics_ != nullptr) {
+    for (const auto& count : changes.counts) count(*metrics_);
+  }
   if (listener_ != nullptr) listener_->on_change(changes);
   return result;
 }

@@ -1,6 +1,8 @@
 #include <vector>
 
+#include "base/number_text.h"
 #include "database/errors.h"
+#include "store/job_events.h"
 #include "store/memory_need.h"
 #include "store/quota.h"
 #include "store/retention.h"
@@ -20,6 +22,10 @@ std::string Store::resolve(const JobRef& job_ref) {
 
 JobPage Store::list(const ListFilter& filter) {
   return read([&](Database& db) { return list_jobs(db, filter); });
+}
+
+v1::ListJobEventsResponse Store::events(const JobRef& job_ref, std::int64_t after) {
+  return read([&](Database& db) { return job_events(db, resolve_job(db, job_ref), after); });
 }
 
 Store::Counts Store::counts() {
@@ -48,8 +54,9 @@ v1::Job Store::cancel(const JobRef& job_ref) {
         "DELETE FROM tasks WHERE job_id = ? AND on_request = 1 AND state IN ('pending', 'leased')", job.id);
     if (requests > 0) {
       tx.changes.jobs.insert(job.id);
-      tx.changes.log.push_back("event=requests_cancelled job=" + job.id +
-                               " requests=" + std::to_string(requests));
+      add_event(
+          tx, job.id,
+          {.event = "requests_cancelled", .message = base::counted(requests, "request") + " for artefacts"});
     }
     if (!job.active()) {
       if (requests > 0 || job.state == v1::JOB_STATE_CANCELLED) return;
@@ -58,7 +65,7 @@ v1::Job Store::cancel(const JobRef& job_ref) {
     }
     tx.db.run("UPDATE jobs SET cancel_requested = 1 WHERE id = ?", job.id);
     tx.changes.eased = true;
-    tx.changes.log.push_back("event=cancel_requested job=" + job.id);
+    add_event(tx, job.id, {.event = "cancel_requested"});
     settle_job(tx, job.id);
   });
 }
@@ -71,12 +78,12 @@ void compute_again(Tx& tx, const JobRow& job) {
   tx.require_room();
   begin_erosion_anew(tx, job);
   tx.db.run(
-      "UPDATE jobs SET state = 'queued', stage = 'prepare', finished_ms = 0, skeleton_points = 0, quality = "
-      "NULL,"
-      " removed_ms = 0, expires_ms = 0 WHERE id = ?",
-      job.id);
+      "UPDATE jobs SET state = 'queued', stage = 'prepare', finished_ms = 0, queued_ms = ?, skeleton_points "
+      "= 0,"
+      " quality = NULL, removed_ms = 0, expires_ms = 0 WHERE id = ?",
+      tx.wall_ms, job.id);
   tx.changes.jobs.insert(job.id);
-  tx.changes.log.push_back("event=resumed job=" + job.id + " why=\"its results were removed\"");
+  add_event(tx, job.id, {.event = "resumed", .message = "its results were removed"});
   const std::optional<std::int64_t> finished =
       find_finished_erosion(tx.db, job.mesh_sha256, job.params_key, current_core_version(tx.db));
   if (finished) return adopt_erosion(tx, job.id, *finished);
@@ -109,13 +116,13 @@ v1::Job Store::resume(const JobRef& job_ref) {
     if (!job.active()) require_queue_room(tx.db, tx.options.policy, job.owner);
     tx.db.run(
         "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
-        " finished_ms = 0, error_code = NULL, error_message = '', error_line = 0, removed_ms = 0,"
-        " expires_ms = 0 WHERE id = ?",
-        job.id);
+        " finished_ms = 0, queued_ms = iif(cancel_requested, queued_ms, ?), error_code = NULL,"
+        " error_message = '', error_line = 0, removed_ms = 0, expires_ms = 0 WHERE id = ?",
+        tx.wall_ms, job.id);
     tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
     forget_memory_needs(tx, job.id);
     tx.changes.work = true;
-    tx.changes.log.push_back("event=resumed job=" + job.id);
+    add_event(tx, job.id, {.event = "resumed"});
     settle_job(tx, job.id);
   });
 }
@@ -127,8 +134,8 @@ std::string Store::remove(const JobRef& job_ref) {
       throw StoreError(StoreError::Code::kPrecondition,
                        "job " + job.id + " is " + wire::word(job.state) + ": cancel it first");
     }
+    add_event(tx, job.id, {.event = "deleted"});  // for the log: the job takes its events along
     delete_job(tx, job);
-    tx.changes.log.push_back("event=deleted job=" + job.id);
     return job.id;
   });
 }

@@ -1,6 +1,7 @@
 // How long what is finished is kept: pins, and the steps of retention.
 
 #include "database/errors.h"
+#include "store/job_events.h"
 #include "store/retention.h"
 #include "store/store_impl.h"
 
@@ -18,7 +19,7 @@ v1::Job Store::pin(const JobRef& job_ref, bool pinned) {
     if (job.pinned == pinned) return;
     tx.db.run("UPDATE jobs SET pinned = ?2, expires_ms = 0 WHERE id = ?1", job.id, pinned);
     tx.changes.jobs.insert(job.id);
-    tx.changes.log.push_back(std::string("event=") + (pinned ? "pinned" : "unpinned") + " job=" + job.id);
+    add_event(tx, job.id, {.event = pinned ? "pinned" : "unpinned"});
   });
 }
 

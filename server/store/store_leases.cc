@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "database/errors.h"
+#include "store/job_events.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "store/turn.h"
@@ -79,12 +80,19 @@ void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool s
       tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
   end_turn(tx, task);
   tx.db.run(
-      "UPDATE jobs SET leases_granted = leases_granted + 1, started_ms = iif(started_ms = 0, ?, started_ms),"
-      " state = iif(state = 'queued', 'running', state) WHERE id = ?",
+      "UPDATE jobs SET leases_granted = leases_granted + 1, started_ms = iif(started_ms = 0, ?1, started_ms),"
+      " stage_ms = iif(stage = 'prepare' AND state = 'queued', ?1, stage_ms),"
+      " state = iif(state = 'queued', 'running', state) WHERE id = ?2",
       tx.wall_ms, task.job_id);
   tx.changes.jobs.insert(task.job_id);
-  tx.changes.log.push_back("event=leased job=" + task.job_id + " task=" + std::to_string(task.id) + " kind=" +
-                           wire::word(task.kind) + " worker=" + worker.id() + " lease=" + token.substr(0, 8));
+  std::string message = "lease " + token.substr(0, 8);
+  if (task.kind == v1::TASK_KIND_ERODE) {
+    message +=
+        ", positions " + std::to_string(task.block.begin) + " .. " + std::to_string(task.block.end - 1);
+  }
+  add_event(tx, task.job_id, {"leased", task.id, task.kind, worker.id(), std::move(message)});
+  tx.changes.counts.push_back(
+      [kind = wire::word(task.kind)](Metrics& metrics) { metrics.lease_granted(kind); });
 }
 
 v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
@@ -135,10 +143,11 @@ int expire(Tx& tx) {
 /// Requests for artefacts that nobody waits for any more, or whose failure nobody asks for.
 void drop_old_requests(Tx& tx, const std::set<std::int64_t>& orphans) {
   for (const std::int64_t id : orphans) {
-    if (tx.db.run("DELETE FROM tasks WHERE id = ? AND on_request = 1 AND state IN ('pending', 'leased')",
-                  id) > 0) {
-      tx.changes.log.push_back("event=request_withdrawn task=" + std::to_string(id) + " why=restart");
-    }
+    const std::optional<TaskRow> task = find_task(tx.db, id);
+    if (!task || !task->on_request || task->state == "failed") continue;
+    tx.db.run("DELETE FROM tasks WHERE id = ?", id);
+    add_event(tx, task->job_id,
+              task_event("request_withdrawn", *task, "nobody has asked again since the restart"));
   }
   tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1 AND deadline_ms < ?", tx.lease_ms);
 }
@@ -203,8 +212,7 @@ v1::ReportResponse Store::give_back(const std::string& token) {
     const TaskRow task = task_of_token(tx.db, token);
     if (task.state == "done") return reply(false);
     release_task(tx, task);
-    tx.changes.log.push_back("event=returned job=" + task.job_id + " task=" + std::to_string(task.id) +
-                             " worker=" + task.worker);
+    add_event(tx, task.job_id, task_event("returned", task));
     settle_job(tx, task.job_id);
     return reply(false);
   });

@@ -60,10 +60,18 @@ Progress add_positions(Tx& tx, const JobRow& job, const std::vector<Range>& rang
 void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
   const std::int64_t gap =
       task.state == "leased" ? tx.lease_ms - task.reported_ms.value_or(task.granted_ms) : 0;
-  tx.db.run(
-      "UPDATE jobs SET reports = reports + 1, directions_reported = directions_reported + ?,"
-      " directions_repeated = directions_repeated + ?, longest_gap_ms = max(longest_gap_ms, ?) WHERE id = ?",
-      progress.reported, progress.reported - progress.added, gap, task.job_id);
+  std::string owner;
+  {
+    Statement row = tx.db.query(
+        "UPDATE jobs SET reports = reports + 1, directions_reported = directions_reported + ?,"
+        " directions_repeated = directions_repeated + ?, longest_gap_ms = max(longest_gap_ms, ?) WHERE id = ?"
+        " RETURNING owner",
+        progress.reported, progress.reported - progress.added, gap, task.job_id);
+    while (row.step()) owner = row.text(0);
+  }
+  tx.changes.counts.push_back([owner, progress](Metrics& metrics) {
+    metrics.directions(owner, progress.added, progress.reported - progress.added);
+  });
   tx.db.run(
       "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?,"
       " losses = iif(? > 0, 0, losses) WHERE id = ?",

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "base/logfmt.h"
 #include "base/mutex.h"
 #include "database/errors.h"
 #include "store/space.h"
@@ -99,10 +100,10 @@ void let_pages_go(Database& db, std::uint64_t free) {
   try {
     db.execute("PRAGMA auto_vacuum = INCREMENTAL; VACUUM");
     db.checkpoint();
-    spdlog::info("event=rewritten file={} bytes={}", db.file(), bytes);
+    spdlog::info(base::logfmt("rewritten", {{"file", db.file()}, {"bytes", bytes}}));
   } catch (const SqliteError& error) {
     // No room for the temporary copy, say; everything works without.
-    spdlog::warn("event=not_rewritten file={} message=\"{}\"", db.file(), error.what());
+    spdlog::warn(base::logfmt("not_rewritten", {{"file", db.file()}, {"message", error.what()}}));
   }
 }
 
@@ -115,7 +116,7 @@ bool Store::has_room() {
   db_.set_usual_log_limit();
   disk_full_ = false;
   room_again_ = true;
-  spdlog::info("event=disk_has_room file={}", file_);
+  spdlog::info(base::logfmt("disk_has_room", {{"file", file_}}));
   return true;
 }
 
@@ -130,7 +131,7 @@ void Store::make_room(const Changes& undone) {
   const std::int64_t now = clock_.lease_ms();
   std::int64_t told = full_disk_told_ms_;
   if ((told == 0 || now - told >= kTellFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
-    spdlog::error("event=disk_full file={}", file_);
+    spdlog::error(base::logfmt("disk_full", {{"file", file_}}));
   }
   {
     const base::MutexLock lock(mutex_);

@@ -1,5 +1,7 @@
+#include "base/number_text.h"
 #include "base/quoted.h"
 #include "database/errors.h"
+#include "store/job_events.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/submission.h"
@@ -67,14 +69,17 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
   std::string id = wire::random_id();
   tx.db.run(
       "INSERT INTO jobs"
-      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms)"
-      " VALUES (?, ?, ?, ?, 'queued', 'prepare', ?, ?, ?, ?)",
+      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms, queued_ms)"
+      " VALUES (?1, ?2, ?3, ?4, 'queued', 'prepare', ?5, ?6, ?7, ?8, ?8)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
       submission.skeleton_key, tx.wall_ms);
   tx.db.run("DELETE FROM server_state WHERE key IN ('repeated_job/', 'repeated_job/' || ?)", header.owner());
   tx.changes.jobs.insert(id);
-  tx.changes.log.push_back("event=submitted job=" + id + " mesh=" + header.mesh_sha256() +
-                           " bytes=" + std::to_string(mesh.size()) + " " + submission.params_key);
+  add_event(
+      tx, id,
+      {.event = "submitted",
+       .message = "mesh of " + base::counted(mesh.size(), "byte") + ", SHA-256 " + header.mesh_sha256()});
+  tx.changes.counts.push_back([](Metrics& metrics) { metrics.job_submitted(); });
   return id;
 }
 
@@ -115,6 +120,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
       }
       remember_request(tx, submission, earlier);
       remember_repeated(tx, header.owner(), earlier);
+      add_event(tx, earlier, {.event = "submitted_again"});
       return {job_message(tx.db, earlier), true};
     }
     require_quota(tx.db, options_.policy, submission);

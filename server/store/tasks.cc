@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
+#include "base/number_text.h"
 #include "database/errors.h"
+#include "metrics/metrics.h"
 #include "store/blobs.h"
 #include "store/field.h"
+#include "store/job_events.h"
 #include "store/memory_need.h"
 #include "wire/words.h"
 
@@ -87,10 +91,15 @@ double lost_directions(const Tx& tx, const TaskRow& task) {
   return rate_of(tx, task) * static_cast<double>(silence);
 }
 
-void log_state(Tx& tx, const JobRow& job, v1::JobState state, v1::JobStage stage,
-               const std::string& more = "") {
-  tx.changes.log.push_back("event=job job=" + job.id + " state=" + wire::word(state) +
-                           " stage=" + wire::word(stage) + more);
+/// The job has come to its end, or to a stop.
+void tell_end(Tx& tx, const JobRow& job, v1::JobState state, std::string message) {
+  const std::string word = wire::word(state);
+  add_event(tx, job.id, {.event = word, .message = std::move(message)});
+  tx.changes.counts.push_back([word](Metrics& metrics) { metrics.job_ended(word); });
+}
+
+std::string progress_text(const JobRow& job) {
+  return std::to_string(job.directions_done) + " of " + base::counted(job.directions, "direction");
 }
 
 /// Merges what is logged.  False when some of it is damaged: the job has failed, and what was merged so far
@@ -118,10 +127,11 @@ bool finish_erosion(Tx& tx, JobRow& job) {
   }
   if (!settle_or_fail(tx, job)) return false;
   tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
+  end_stage(tx, job.id);
   tx.db.run("UPDATE jobs SET stage = 'derive' WHERE id = ?", job.id);
   job.finished = true;
   job.stage = v1::JOB_STAGE_DERIVE;
-  log_state(tx, job, job.state, job.stage);
+  add_event(tx, job.id, {.event = "eroded", .message = progress_text(job)});
   return true;
 }
 
@@ -136,6 +146,7 @@ bool finish_derive(Tx& tx, const JobRow& job) {
     }
     return false;
   }
+  end_stage(tx, job.id);
   tx.db.run(
       "UPDATE jobs SET state = 'done', stage = 'complete', finished_ms = ?, cancel_requested = 0,"
       " (skeleton_points, quality) = (SELECT items, quality FROM artifacts WHERE id = ?) WHERE id = ?",
@@ -144,7 +155,7 @@ bool finish_derive(Tx& tx, const JobRow& job) {
   tx.db.run(
       "DELETE FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0 AND state = 'pending'",
       job.id);
-  log_state(tx, job, v1::JOB_STATE_DONE, v1::JOB_STAGE_COMPLETE);
+  tell_end(tx, job, v1::JOB_STATE_DONE, "");
   return true;
 }
 
@@ -245,6 +256,10 @@ void finish_task(Tx& tx, const TaskRow& task) {
   tx.db.run("UPDATE tasks SET state = 'done', losses = 0, deadline_ms = NULL, stalled_ms = NULL WHERE id = ?",
             task.id);
   tx.changes.jobs.insert(task.job_id);
+  add_event(tx, task.job_id, task_event("finished", task));
+  const std::chrono::milliseconds time(task.state == "leased" ? tx.lease_ms - task.granted_ms : 0);
+  tx.changes.counts.push_back(
+      [kind = wire::word(task.kind), time](Metrics& metrics) { metrics.task_finished(kind, time); });
 }
 
 void release_task(Tx& tx, const TaskRow& task) {
@@ -274,9 +289,8 @@ void lose_lease(Tx& tx, const TaskRow& task, const std::string& why) {
   tx.db.run(
       "UPDATE jobs SET leases_lost = leases_lost + 1, directions_lost = directions_lost + ? WHERE id = ?",
       lost_directions(tx, task), task.job_id);
-  tx.changes.log.push_back("event=lease_lost job=" + task.job_id + " task=" + std::to_string(task.id) +
-                           " kind=" + wire::word(task.kind) + " worker=" + task.worker + " why=\"" + why +
-                           "\"");
+  add_event(tx, task.job_id, task_event("lease_lost", task, why));
+  tx.changes.counts.push_back([kind = wire::word(task.kind)](Metrics& metrics) { metrics.lease_lost(kind); });
   v1::JobError error;
   error.set_code("WORKER_LOST");
   error.set_message("the " + wire::word(task.kind) + " task lost its worker " +
@@ -301,8 +315,7 @@ void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error) {
         "UPDATE tasks SET state = 'failed', error_code = ?, error_message = ?, deadline_ms = ?"
         " WHERE id = ?",
         error.code(), error.message(), tx.lease_ms + kFailedRequestMs, task.id);
-    tx.changes.log.push_back("event=request_failed job=" + task.job_id + " task=" + std::to_string(task.id) +
-                             " code=" + error.code() + " message=\"" + error.message() + "\"");
+    add_event(tx, task.job_id, task_event("request_failed", task, error.code() + ": " + error.message()));
     return;
   }
   fail_job(tx, task.job_id, error);
@@ -316,8 +329,20 @@ void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error) {
       " error_message = ?, error_line = ? WHERE id = ?",
       tx.wall_ms, error.code(), error.message(), error.line(), job_id);
   tx.changes.jobs.insert(job_id);
-  log_state(tx, job, v1::JOB_STATE_FAILED, job.stage,
-            " code=" + error.code() + " message=\"" + error.message() + "\"");
+  tell_end(tx, job, v1::JOB_STATE_FAILED, error.code() + ": " + error.message());
+}
+
+void end_stage(Tx& tx, const std::string& job_id) {
+  {
+    Statement row = tx.db.query("SELECT stage, stage_ms FROM jobs WHERE id = ?", job_id);
+    if (row.step() && row.integer(1) != 0) {
+      // The clock on the wall may have been put back.
+      const std::chrono::milliseconds time(std::max<std::int64_t>(0, tx.wall_ms - row.integer(1)));
+      tx.changes.counts.push_back(
+          [stage = row.text(0), time](Metrics& metrics) { metrics.stage_ended(stage, time); });
+    }
+  }
+  tx.db.run("UPDATE jobs SET stage_ms = ? WHERE id = ?", tx.wall_ms, job_id);
 }
 
 void settle_job(Tx& tx, const std::string& job_id) {
@@ -339,7 +364,7 @@ void settle_job(Tx& tx, const std::string& job_id) {
   }
   tx.db.run("UPDATE jobs SET state = 'cancelled', cancel_requested = 0, finished_ms = ? WHERE id = ?",
             tx.wall_ms, job_id);
-  log_state(tx, job, v1::JOB_STATE_CANCELLED, job.stage);
+  tell_end(tx, job, v1::JOB_STATE_CANCELLED, progress_text(job));
 }
 
 void settle_finished_blocks(Tx& tx) {

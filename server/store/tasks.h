@@ -67,6 +67,9 @@ void count_loss(Tx& tx, const TaskRow& task, const v1::JobError& error);
 /// Fails the task for good: the request for the artefact, or the whole job.
 void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error);
 
+/// A job's stage ends, and the next one, which the caller sets, begins: counts how long it took.
+void end_stage(Tx& tx, const std::string& job_id);
+
 /// Fails an active job.
 void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error);
 

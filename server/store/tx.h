@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ enum class OwnerOrder {
   kFirstCome,   ///< oldest first: they are done one after the other, each as early as it can be
   kRoundRobin,  ///< their blocks in turn: all go on at once, and none is done early
 };
+class Metrics;
 
 struct StoreOptions {
   OwnerOrder owner_order = OwnerOrder::kFirstCome;
@@ -43,7 +45,9 @@ struct Changes {
   bool dropped = false;          ///< something is left for Store::tidy
   bool grown = false;            ///< more than bookkeeping was written
   bool eased = false;            ///< a job that was short of room no longer needs it
-  std::vector<std::string> log;  ///< key=value lines
+  std::vector<std::string> log;  ///< entries: base::logfmt
+  /// What the metrics are told.
+  std::vector<std::function<void(Metrics&)>> counts;
 };
 
 /// Hears of committed changes.  Called without the store's lock, on the thread that changed something;

@@ -12,7 +12,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "tools/files.h"
@@ -129,6 +131,16 @@ Lab::~Lab() {
       if (std::filesystem::exists(path(log))) fprintf(stderr, "---- %s\n%s", log, read(log).c_str());
     }
   }
+}
+
+std::string Lab::metrics_address() const {
+  // The server answers a moment before it says where.
+  for (const auto give_up = std::chrono::steady_clock::now() + kPatience;
+       std::chrono::steady_clock::now() < give_up; std::this_thread::yield()) {
+    const auto told = nlohmann::json::parse(read("data/server.json"), nullptr, false);
+    if (told.is_object()) return told.at("metrics");
+  }
+  throw std::runtime_error("the server does not say where its metrics are");
 }
 
 std::string Lab::read(const std::string& name) const {

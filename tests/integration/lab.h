@@ -60,6 +60,8 @@ class Lab {
 
   std::string path(const std::string& name) const { return dir_ / name; }
   std::string address() const { return "unix:" + path("s.sock"); }
+  /// Where the server of path("data") tells its metrics.  @throws when it does not.
+  std::string metrics_address() const;
   std::string read(const std::string& name) const;
   void write(const std::string& name, const std::string& bytes) const;
 

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <stdexcept>
 #include <stop_token>
 #include <thread>
 
@@ -6,6 +7,8 @@
 #include "loads.h"
 #include "made_up_worker.h"
 #include "process_stats.h"
+#include "tools/exposition.h"
+#include "tools/http_get.h"
 #include "tools/let_pass.h"
 
 namespace affskel::load {
@@ -56,11 +59,29 @@ void run_client(const std::string& address, int number, const std::stop_token& s
   }
 }
 
+/// As often as a collector asks at most; what it gets must be well-formed.
+void run_scraper(const std::string& address, const std::stop_token& stop, Calls& calls) {
+  while (!stop.stop_requested()) {
+    calls.timed("scrape", [&]() -> grpc::Status {
+      try {
+        const tests::HttpAnswer answer = tests::http_get(address, "/metrics");
+        if (answer.code != 200) return {grpc::StatusCode::UNAVAILABLE, answer.body};
+        tests::read_exposition(answer.body);
+        return grpc::Status::OK;
+      } catch (const std::runtime_error& error) {
+        return {grpc::StatusCode::INTERNAL, error.what()};
+      }
+    });
+    tests::let_pass(std::chrono::seconds(1), stop);
+  }
+}
+
 }  // namespace
 
 bool run_crowd(const LoadOptions& options) {
   const integration::Lab lab;
-  const integration::Process server = lab.server();
+  const integration::Process server = lab.server(
+      options.metrics ? std::vector<std::string>{"--metrics", "127.0.0.1:0"} : std::vector<std::string>());
   Calls calls;
   std::stop_source stop;
   std::vector<std::thread> threads;
@@ -72,6 +93,9 @@ bool run_crowd(const LoadOptions& options) {
   }
   for (int i = 0; i < options.clients; ++i) {
     threads.emplace_back([&, i] { run_client(lab.address(), i, stop.get_token(), calls); });
+  }
+  if (options.metrics) {
+    threads.emplace_back([&] { run_scraper(lab.metrics_address(), stop.get_token(), calls); });
   }
   tests::let_pass(std::chrono::seconds(options.seconds));
   const ProcessStats stats = stats_of(server.pid());

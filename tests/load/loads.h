@@ -9,10 +9,11 @@ struct LoadOptions {
   int jobs = 10000;
   int megabytes = 1000;
   int kills = 20;
+  bool metrics = false;  ///< crowd: the server tells metrics, and they are asked for all the time
 };
 
 /// Clients that submit, follow, ask and list at once, while made-up workers report.  Prints the times of the
-/// calls and what the server held.  @returns whether nothing failed.
+/// calls and what the server held; with metrics, scrapes count as calls.  @returns whether nothing failed.
 bool run_crowd(const LoadOptions& options);
 
 /// A long queue: submits the jobs, then leases and lists.

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   app.add_option("--kills", options.kills, "kills: how many")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--metrics", options.metrics, "crowd: scrape the server's metrics once a second meanwhile");
   app.fallthrough();
   app.require_subcommand(1);
   bool good = true;

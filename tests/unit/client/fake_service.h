@@ -18,11 +18,12 @@ namespace affskel::client {
 /// A server in this process that answers as it is told.  What a test sets before the calls needs no lock.
 class FakeService final : public v1::ErosionService::Service {
  public:
-  v1::Job job;                    ///< answers every question about a job
-  std::vector<v1::Job> watch;     ///< what WatchJob sends, one after the other
-  int watch_breaks_after = -1;    ///< ends the first watch UNAVAILABLE after this many
-  int watch_ends_after = -1;      ///< the same, ending it in order
-  bool watch_stays_away = false;  ///< all further watches are UNAVAILABLE
+  v1::Job job;                       ///< answers every question about a job
+  v1::ListJobEventsResponse events;  ///< of every job
+  std::vector<v1::Job> watch;        ///< what WatchJob sends, one after the other
+  int watch_breaks_after = -1;       ///< ends the first watch UNAVAILABLE after this many
+  int watch_ends_after = -1;         ///< the same, ending it in order
+  bool watch_stays_away = false;     ///< all further watches are UNAVAILABLE
   std::map<v1::ArtifactKind, std::string> artifacts;
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
   int busy = 0;                           ///< so many questions about a job get busy_status first
@@ -95,6 +96,11 @@ class FakeService final : public v1::ErosionService::Service {
   grpc::Status UnpinJob(grpc::ServerContext*, const v1::UnpinJobRequest*, v1::Job* response) override {
     job.set_pinned(false);
     *response = job;
+    return fails;
+  }
+  grpc::Status ListJobEvents(grpc::ServerContext*, const v1::ListJobEventsRequest*,
+                             v1::ListJobEventsResponse* response) override {
+    *response = events;
     return fails;
   }
   grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest*,

@@ -16,7 +16,6 @@
 #include <set>
 
 #include "process/data_dir.h"
-#include "process/log_format.h"
 #include "process/options.h"
 #include "process/run.h"
 #include "process/supervisor.h"
@@ -141,14 +140,6 @@ TEST(RunTest, DamagedDatabaseIsNoInternalError) {
   EXPECT_EXIT(std::_Exit(run(options)), testing::ExitedWithCode(2), "affskel.db.*not a database");
 }
 
-TEST(LogFormatTest, EveryEntryIsOneLine) {
-  spdlog::memory_buf_t line;
-  log_formatter()->format({"affskel", spdlog::level::warn, "event=failed message=\"a\nevent=done\x1b[31m\""},
-                          line);
-  const std::string text(line.data(), line.size());
-  EXPECT_TRUE(text.ends_with(" level=warning event=failed message=\"a?event=done?[31m\"\n")) << text;
-}
-
 TEST(DataDirTest, IsHeldByOneServer) {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "new" / "data").string();
@@ -217,7 +208,7 @@ TEST(DataDirTest, RefusesAFile) {
 TEST(DataDirTest, PublishesItself) {
   const TemporaryDirectory directory;
   const DataDir held(directory.path().string());
-  held.publish({"unix:a", "127.0.0.1:5"}, 42);
+  held.publish({"unix:a", "127.0.0.1:5"}, "127.0.0.1:6", 42);
   std::ifstream in(directory.path() / "server.json");
   const nlohmann::json json = nlohmann::json::parse(in);
   EXPECT_EQ(json["pid"], getpid());

@@ -120,6 +120,8 @@ all_calls(const std::string& job) {
       {"UnpinJob", unary(&Client::Stub::UnpinJob, about(v1::UnpinJobRequest()), v1::Job(), client)},
       {"DeleteJob",
        unary(&Client::Stub::DeleteJob, about(v1::DeleteJobRequest()), v1::DeleteJobResponse(), client)},
+      {"ListJobEvents", unary(&Client::Stub::ListJobEvents, about(v1::ListJobEventsRequest()),
+                              v1::ListJobEventsResponse(), client)},
       {"FetchArtifact",
        [=](const std::shared_ptr<grpc::Channel>& channel) {
          v1::FetchArtifactRequest request = about(v1::FetchArtifactRequest());
@@ -221,7 +223,7 @@ TEST_F(AccessTest, AnothersJobAndNoJobLookAlike) {
   const auto others = all_calls(job), nobodys = all_calls(nothing);
   for (std::size_t i = 0; i < others.size(); ++i) {
     const std::string& name = others[i].first;
-    const bool about_a_job = name.ends_with("Job") || name == "FetchArtifact";
+    const bool about_a_job = name.ends_with("Job") || name == "FetchArtifact" || name == "ListJobEvents";
     if (!about_a_job || name == "SubmitJob") continue;
     const grpc::Status other = others[i].second(channel), nobody = nobodys[i].second(channel);
     EXPECT_EQ(other.error_code(), grpc::NOT_FOUND) << name;

@@ -103,7 +103,7 @@ TEST_F(ClientServiceTest, AJobThatAnIdleWorkerIsAboutToTakeDoesNotWaitForBusyOne
   EXPECT_EQ(job(id).waiting_reason(), "");
   ASSERT_TRUE(poll(0, "worker-a").has_lease());
   const std::string other = submit("OFF 2", "other");
-  EXPECT_EQ(job(other).waiting_reason(), "all workers are busy with jobs whose turn came before its");
+  EXPECT_EQ(job(other).waiting_reason(), "the only worker is busy with jobs of the same owner");
 }
 
 TEST_F(ClientServiceTest, WholePathWithTwoWorkers) {

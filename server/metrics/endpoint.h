@@ -1,0 +1,54 @@
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wire/address.h"
+
+namespace affskel::server {
+
+/// What an endpoint tells.  Both are called by its threads.
+struct EndpointSources {
+  std::function<std::vector<prometheus::MetricFamily>()> metrics;
+  /// Why the server is of no use at the moment, or is about to close; empty when it is well.
+  std::function<std::string()> trouble;
+};
+
+struct EndpointOptions {
+  /// Requests answered at once; others wait.
+  unsigned threads = 2;
+  /// A peer that neither sends nor takes anything for so long is given up.
+  std::chrono::milliseconds patience{5000};
+};
+
+/// Serves GET /metrics, in the text format of Prometheus, and GET /healthz, 200 or 503, over HTTP, without
+/// asking who comes.  Has threads of its own: whoever is slow holds up at most others who ask the same.
+class MetricsEndpoint {
+ public:
+  /// Listens and answers until destroyed.
+  /// @param address HOST:PORT; port 0 takes any free one.
+  /// @throws std::runtime_error naming address and cause.
+  MetricsEndpoint(const wire::Address& address, EndpointSources sources, const EndpointOptions& options = {});
+  ~MetricsEndpoint();
+  MetricsEndpoint(const MetricsEndpoint&) = delete;
+  MetricsEndpoint& operator=(const MetricsEndpoint&) = delete;
+
+  /// Where it listens, with the port that it got.
+  const wire::Address& address() const;
+
+ private:
+  class Service;
+  std::unique_ptr<Service> service_;
+};
+
+/// Refuses an address that other machines reach, for metrics are shown to everybody, unless that is wanted,
+/// and a Unix socket, for collectors know none.
+/// @throws std::runtime_error naming the address and the cause.
+void require_local_metrics(const wire::Address& address, bool insecure);
+
+}  // namespace affskel::server
