@@ -9,7 +9,7 @@ namespace affskel::client {
 HttpResponse answer_session(WebCall& call);  ///< who is signed in, and what the page offers
 HttpResponse begin_session(WebCall& call);   ///< by a key or a token
 HttpResponse end_session(WebCall& call);
-HttpResponse answer_server(WebCall& call);  ///< workers, queue and storage
+HttpResponse answer_server(WebCall& call);  ///< workers and queue
 
 HttpResponse list_jobs(WebCall& call);
 HttpResponse show_job(WebCall& call);

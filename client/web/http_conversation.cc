@@ -12,6 +12,7 @@
 #include <boost/beast/http/write.hpp>
 #include <cctype>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace affskel::client {
@@ -107,8 +108,8 @@ std::string head_text(const HttpResponse& response, std::uint64_t bytes, bool ke
   return text.str();
 }
 
-// One connection.  Every co_await is a statement of its own: GCC 12 miscompiles some that stand in
-// conditions.
+// One connection.  Every co_await is a statement of its own, without temporaries that have destructors: GCC
+// 12 miscompiles co_await in conditions, and destroys such temporaries twice.
 class Conversation {
  public:
   Conversation(HttpTransport& transport, const Conversations& shared)
@@ -140,7 +141,8 @@ class Conversation {
     }
     HeadParser head;
     head.header_limit(limits_.header_bytes);
-    head.body_limit(boost::none);  // see receive
+    // None at all would refuse every body in Beast 1.74; see read_body.
+    head.body_limit(std::numeric_limits<std::uint64_t>::max());
     transport_.allow(limits_.header);
     error_code error;
     while (!head.is_header_done()) {
@@ -151,8 +153,9 @@ class Conversation {
       if (got == 0) co_return false;
     }
     if (error && error != http::error::need_more) {
-      co_await refuse(error == http::error::header_limit ? plain(431, "the headers are too long")
-                                                         : plain(400, "no HTTP request: " + error.message()));
+      HttpResponse refusal = plain(400, "no HTTP request: " + error.message());
+      if (error == http::error::header_limit) refusal = plain(431, "the headers are too long");
+      co_await refuse(refusal);
       co_return false;
     }
     const bool goes_on = co_await answer(head);
@@ -162,7 +165,8 @@ class Conversation {
   asio::awaitable<bool> answer(HeadParser& head) {
     auto request = request_of(head, transport_.is_secure());
     if (!request) {
-      co_await refuse(plain(400, "the request's target is malformed"));
+      const HttpResponse refusal = plain(400, "the request's target is malformed");
+      co_await refuse(refusal);
       co_return false;
     }
     const bool bodiless = !head.chunked() && head.content_length().value_or(0) == 0;
@@ -170,23 +174,24 @@ class Conversation {
     auto admitted = shared_.admit(*request);
     if (auto* refusal = std::get_if<HttpResponse>(&admitted)) {
       if (bodiless) {
-        co_await send(std::move(*refusal), keep_alive);
+        co_await send(*refusal, keep_alive);
         co_return keep_alive;
       }
-      co_await refuse(std::move(*refusal));
+      co_await refuse(*refusal);
       co_return false;
     }
     Reception& reception = std::get<Reception>(admitted);
     if (head.content_length() && *head.content_length() > reception.max_bytes) {
-      co_await refuse(too_long(std::to_string(*head.content_length()), reception.max_bytes));
+      const HttpResponse refusal = too_long(std::to_string(*head.content_length()), reception.max_bytes);
+      co_await refuse(refusal);
       co_return false;
     }
     if (!bodiless) {
       const bool whole = co_await receive(head, *request, reception);
       if (!whole) co_return false;
     }
-    HttpResponse response = co_await respond(*request, reception);
-    co_await send(std::move(response), keep_alive);
+    const HttpResponse response = co_await respond(*request, reception);
+    co_await send(response, keep_alive);
     co_return keep_alive;
   }
 
@@ -206,12 +211,15 @@ class Conversation {
       parser.get().body().open(reception.file.c_str(), beast::file_mode::write, error);
       if (!error) whole = co_await read_body(parser, reception.max_bytes, error);
       if (error) {
-        co_await refuse(plain(507, "there is no room for the file: " + error.message()));
+        const HttpResponse refusal = plain(507, "there is no room for the file: " + error.message());
+        co_await refuse(refusal);
         co_return false;
       }
     }
-    if (!whole) co_await refuse(too_long("more", reception.max_bytes));
-    co_return whole;
+    if (whole) co_return true;
+    const HttpResponse refusal = too_long("more", reception.max_bytes);
+    co_await refuse(refusal);
+    co_return false;
   }
 
   template <typename Parser>
@@ -256,8 +264,8 @@ class Conversation {
     }
     transport_.allow_any_time();
     ++threads.answers;
-    HttpResponse response =
-        co_await asio::co_spawn(threads.pool, on_thread(request, reception), use_awaitable);
+    asio::awaitable<HttpResponse> answer_of = on_thread(request, reception);
+    HttpResponse response = co_await asio::co_spawn(threads.pool, std::move(answer_of), use_awaitable);
     --threads.answers;
     co_return response;
   }
@@ -267,8 +275,8 @@ class Conversation {
   }
 
   // Ends the connection: what the peer still sends is passed over for a moment, so that it reads the answer.
-  asio::awaitable<void> refuse(HttpResponse response) {
-    co_await send(std::move(response), false);
+  asio::awaitable<void> refuse(const HttpResponse& response) {
+    co_await send(response, false);
     transport_.allow(std::min(limits_.stretch, kPassingTime));
     std::size_t got = 1;
     for (std::uint64_t passed = 0; got > 0 && passed < kPassedOver; passed += got) {
@@ -277,7 +285,7 @@ class Conversation {
     }
   }
 
-  asio::awaitable<void> send(HttpResponse response, bool keep_alive) {
+  asio::awaitable<void> send(const HttpResponse& response, bool keep_alive) {
     if (response.file.empty()) {
       const std::string head = head_text(response, response.body.size(), keep_alive);
       co_await write(head);
@@ -286,7 +294,8 @@ class Conversation {
     }
     std::ifstream file(response.file, std::ios::binary | std::ios::ate);
     if (!file) {
-      co_await send(plain(410, "the file is not kept any more"), keep_alive);
+      const HttpResponse gone = plain(410, "the file is not kept any more");
+      co_await send(gone, keep_alive);
       co_return;
     }
     auto left = static_cast<std::uint64_t>(file.tellg());
@@ -297,7 +306,8 @@ class Conversation {
     while (left > 0) {
       const auto some = static_cast<std::streamsize>(std::min<std::uint64_t>(left, kReadBytes));
       if (!file.read(piece.data(), some)) throw system_error(asio::error::eof);
-      co_await write(std::string_view(piece.data(), static_cast<std::size_t>(some)));
+      const std::string_view bytes(piece.data(), static_cast<std::size_t>(some));
+      co_await write(bytes);
       left -= static_cast<std::uint64_t>(some);
     }
   }

@@ -86,9 +86,16 @@ Submission submission_of(const nlohmann::json& body) {
 
 }  // namespace
 
+// That a file is no mesh is an answer, too.
 HttpResponse take_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
-  InputFile input = read_input(call.upload->path().string());
+  InputFile input;
+  try {
+    input = read_input(call.upload->path().string());
+  } catch (const ClientError& error) {
+    if (error.exit_code() != ExitCode::kBadInput) throw;
+    return api_answer({{"name", name}, {"error", error.what()}, {"line", error.line()}});
+  }
   Inspection inspection = inspect(input);
   inspection.facts["file"] = name;
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
@@ -99,9 +106,9 @@ HttpResponse take_mesh(WebCall& call) {
     return api_answer(answer);
   }
   const std::uint64_t bytes = call.upload->bytes();
-  answer["mesh"] = call.web.meshes.put(
-      call.session.id,
-      std::make_shared<UploadedMesh>(std::move(call.upload), name, *std::move(inspection.solid)), bytes);
+  UploadedMesh mesh{std::move(call.upload), name, *std::move(inspection.solid)};
+  answer["mesh"] =
+      call.web.meshes.put(call.session.id, std::make_shared<UploadedMesh>(std::move(mesh)), bytes);
   return api_answer(answer);
 }
 

@@ -1,4 +1,5 @@
 """The page of affskel-client web: its service, and a browser in which people use it."""
+import base64
 import contextlib
 import json
 import os
@@ -7,7 +8,7 @@ import subprocess
 import tempfile
 import urllib.parse
 
-from selenium.common.exceptions import StaleElementReferenceException
+from selenium.common.exceptions import StaleElementReferenceException, TimeoutException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
@@ -31,7 +32,7 @@ class Service:
     def close(self):
         """Its exit code, after SIGTERM."""
         self.process.send_signal(signal.SIGTERM)
-        self.process.communicate(timeout=PATIENCE)
+        self.process.communicate(timeout=PATIENCE)  # closes the pipes
         return self.process.returncode
 
 
@@ -121,7 +122,11 @@ class Visitor:
     def downloaded(self, name):
         """The bytes of a file once it is there."""
         path = os.path.join(self.downloads, name)
-        self.wait(lambda: os.path.isfile(path), name)
+        try:
+            self.wait(lambda: os.path.isfile(path))
+        except TimeoutException as ended:
+            raise AssertionError(f"{name}: there are {os.listdir(self.downloads)}, the page says:\n"
+                                 + self.text()) from ended
         with open(path, "rb") as file:
             return file.read()
 
@@ -129,10 +134,11 @@ class Visitor:
         return [e["message"] for e in self.driver.get_log("browser") if e["level"] in ("SEVERE", "WARNING")]
 
     def asked(self):
-        """Addresses of all requests over a network."""
+        """Addresses of all that pages of a service asked for; the browser has pages of its own."""
         messages = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
-        urls = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
-        return [url for url in urls if not url.startswith(("data:", "about:", "blob:"))]
+        sent = [m["params"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+        return [s["request"]["url"] for s in sent
+                if s["documentURL"].startswith("http") and not s["request"]["url"].startswith("data:")]
 
     def screenshot(self, name):
         """For people: into $AFFSKEL_SCREENSHOTS, where that is set."""
@@ -143,7 +149,6 @@ class Visitor:
             clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
             shot = self.driver.execute_cdp_cmd("Page.captureScreenshot",
                                                {"clip": clip, "captureBeyondViewport": True})
-            import base64
             with open(os.path.join(folder, name + ".png"), "wb") as file:
                 file.write(base64.b64decode(shot["data"]))
 

@@ -1,13 +1,11 @@
 """Uses the page of affskel-client web in Chromium, on a real server with its worker.
 
-Usage: web_test.py AFFSKEL-CLIENT
+Usage: web_test.py AFFSKEL-CLIENT AFFSKEL-SERVER
 """
 import json
 import os
-import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
 if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
@@ -17,43 +15,16 @@ if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM
 from selenium.webdriver.common.keys import Keys
 
 from web_page import Service, visitor
+from web_servers import Bench, Lab
 
-CLIENT = sys.argv[1]
+CLIENT, SERVER = sys.argv[1:3]
 DESKTOP = dict(width=1200, height=900)
 PHONE = dict(width=390, height=780, phone=True)
 
 
-class Bench:
-    """A private server's home, meshes, and the client beside the page."""
-
-    def __init__(self):
-        self.directory = tempfile.TemporaryDirectory(prefix="affskel-web-", ignore_cleanup_errors=True)
-        self.environment = dict(os.environ, AFFSKEL_HOME=self.path("home"), AFFSKEL_SERVER="",
-                                XDG_CONFIG_HOME=self.path("config"))
-        self.run("make", "body", "--triangles", "5000", "-o", self.path("body.off"))
-        self.run("make", "box", "--size", "100,200,300", "-o", self.path("box.off"))
-        with open(self.path("box.off"), encoding="ascii") as whole, \
-             open(self.path("open.off"), "w", encoding="ascii") as broken:
-            lines = whole.read().splitlines()
-            lines[1] = lines[1].replace("12", "11", 1)
-            broken.write("\n".join(lines[:-1]) + "\n")
-
-    def path(self, name):
-        return os.path.join(self.directory.name, name)
-
-    def run(self, *arguments):
-        return subprocess.run([CLIENT, "--quiet", *arguments], env=self.environment, check=True,
-                              stdout=subprocess.PIPE, text=True).stdout
-
-    def close(self):
-        pid = json.loads(self.run("--json", "server-info"))["pid"]
-        os.kill(pid, signal.SIGTERM)
-        self.directory.cleanup()
-
-
 def setUpModule():
     global bench
-    bench = Bench()
+    bench = Bench(CLIENT)
 
 
 def tearDownModule():
@@ -240,6 +211,96 @@ class Desktop(OnThePage):
         self.assertEqual(refused, [])
 
 
+class SigningIn(unittest.TestCase):
+    def setUp(self):
+        self.lab = Lab(CLIENT, SERVER, bench.environment)
+        self.addCleanup(lambda: self.assertEqual(self.lab.close(), 0))
+
+    def visit(self, **window):
+        page = self.enterContext(visitor(**(window or DESKTOP)))
+        page.open(self.lab.service.address)
+        page.heading("Sign in")
+        return page
+
+    def sign_in(self, page, who):
+        page.type("#token", self.lab.tokens[who])
+        page.driver.switch_to.active_element.send_keys(Keys.ENTER)
+        page.heading("Jobs")
+
+    def errors(self, page, expected=()):
+        return [error for error in page.errors() if not any(part in error for part in expected)]
+
+    def test_from_sign_in_to_the_skeleton(self):
+        self.assertEqual(self.lab.service.mode, "sign-in")
+        page = self.visit()
+        page.screenshot("lab-1-sign-in")
+        self.sign_in(page, "ada")
+        self.assertFalse(page.find("#server-link").is_displayed())
+        page.shown("main a[href='#new']").click()
+        page.heading("New job")
+        page.find("#file").send_keys(bench.path("body.off"))
+        page.picture_is_drawn("#found img")
+        page.type("#points", 20000)
+        page.type("#name", "body of ada")
+        page.shown("#submit").click()
+        page.heading("body of ada")
+        page.wait(lambda: page.shown(".badge").text == "done")
+        page.picture_is_drawn()
+        page.shown("#interactive").click()
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().pointsHere > 0"))
+        page.driver.switch_to.default_content()
+        page.shown("#close-interactive").click()
+        page.wait(lambda: not page.all("dialog"))
+        # By key: Chromium may still send the mouse to the frame that has just gone.
+        page.find("button[data-file='mesh.off']").send_keys(Keys.ENTER)
+        with open(bench.path("body.off"), "rb") as file:
+            self.assertEqual(page.downloaded("body of ada.mesh.off"), file.read())
+        self.assertEqual(page.errors(), [])
+        self.assertEqual(page.script("return document.cookie"), "", "no script sees the session")
+        self.assertEqual(page.script("return JSON.stringify([localStorage, sessionStorage])"), "[{},{}]")
+        job = page.driver.current_url.split("/")[-1]
+
+        # Another user sees nothing of it, an administrator all.
+        other = self.visit()
+        self.sign_in(other, "bob")
+        other.shown(".empty")
+        other.open(f"{self.lab.service.address}#job/{job}")
+        other.wait(lambda: "no job" in other.text())
+        self.assertNotIn("ada", other.text())
+        other.find("#sign-out").click()
+        other.heading("Sign in")
+        self.sign_in(other, "root")
+        other.shown("#everybody").click()
+        other.wait(lambda: other.all(f"#job-{job}"))
+        self.assertIn("ada", other.find(f"#job-{job}").text)
+        other.shown("#server-link").click()
+        other.wait(lambda: other.all("tbody th"))
+        self.assertEqual(self.errors(other, [job]), [])
+
+        # Signed out is signed out, also for whoever kept an address.
+        page.find("#sign-out").click()
+        page.heading("Sign in")
+        page.open(f"{self.lab.service.address}#job/{job}")
+        page.heading("Sign in")
+
+    def test_wrong_and_revoked_tokens(self):
+        page = self.visit(**PHONE)
+        page.type("#token", "this is no token")
+        page.shown("form button").click()
+        page.wait(lambda: "That did not work" in page.text())
+        page.screenshot("lab-2-refused-phone")
+        self.sign_in(page, "ada")
+        ada = next(line.split()[0] for line in self.lab.token("list").splitlines() if "ada" in line)
+        self.lab.token("revoke", ada)
+        page.wait(lambda: "The session has ended" in page.text())
+        page.heading("Sign in")
+        page.type("#token", self.lab.tokens["ada"])
+        page.shown("form button").click()
+        page.wait(lambda: "That did not work" in page.text())
+        self.assertEqual(self.errors(page, ["/api/session", "/api/jobs"]), [])
+
+
 class ByKeyboardAlone(OnThePage):
     def test_from_a_mesh_to_its_files(self):
         page = self.page
@@ -319,4 +380,4 @@ class Phone(OnThePage):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

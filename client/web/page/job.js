@@ -60,7 +60,8 @@ export class JobView {
     );
   }
 
-  refresh() {} // the page's poll puts itself here
+  refresh() {} // the page's poll puts itself here,
+  pause() {} // and here
 
   async ask() {
     this.show(await call('GET', jobPath(this.id)));
@@ -114,14 +115,16 @@ export class JobView {
   async act(method, rest) {
     this.problem.hidden = true;
     try {
-      const answer = await call(method, jobPath(this.id, rest));
+      await call(method, jobPath(this.id, rest));
       this.refresh();
-      return answer;
     } catch (error) {
-      this.problem.textContent = error.message;
-      this.problem.hidden = false;
-      return null;
+      this.complain(error);
     }
+  }
+
+  complain(error) {
+    this.problem.textContent = error.message;
+    this.problem.hidden = false;
   }
 
   async cancel() {
@@ -131,7 +134,15 @@ export class JobView {
 
   async remove() {
     const wanted = await confirmed(`Delete ${this.job.name}?`, 'Its mesh, field and skeleton are removed for good.', 'Delete the job');
-    if (wanted && (await this.act('DELETE', ''))) location.hash = '#jobs';
+    if (!wanted) return;
+    this.pause(); // nobody asks for a job that is gone
+    try {
+      await call('DELETE', jobPath(this.id));
+      location.hash = '#jobs';
+    } catch (error) {
+      this.complain(error);
+      this.refresh();
+    }
   }
 
   showResults(job) {

@@ -54,6 +54,7 @@ function showView(moved) {
       (error) => error?.status !== 401 && showProblem(error && `${error.message} Trying again …`),
     );
     view.refresh = () => poll.now();
+    view.pause = () => poll.stop();
     poll.now();
   }
   if (moved) view.element.querySelector('h1').focus();
@@ -73,6 +74,7 @@ async function leave() {
   } catch {
     forget(); // it has ended already, or nobody answers
   }
+  history.replaceState(null, '', location.pathname); // where this person was is not for the next
   showSignIn();
 }
 

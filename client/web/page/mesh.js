@@ -85,7 +85,8 @@ export class NewJob {
         if (share === 1) setText(this.status, 'Looking at the mesh …');
       });
       this.status.textContent = '';
-      this.show(mesh);
+      if (mesh.facts) this.show(mesh);
+      else this.complain(`${file.name} cannot be read: ${mesh.error}`);
     } catch (error) {
       this.status.textContent = '';
       this.complain(`${file.name} cannot be read: ${error.message}`);

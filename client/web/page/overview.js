@@ -1,7 +1,7 @@
-// The server, for administrators: workers, queue, throughput and disk.
+// The server, for administrators: workers, queue and throughput.
 import { call } from './api.js';
 import { facts, h } from './elements.js';
-import { ago, bytes, count, counted, moment } from './numbers.js';
+import { ago, count, counted, moment } from './numbers.js';
 import { isActive } from './text.js';
 
 const WATCHED = 200; // running jobs whose progress is added up
@@ -16,15 +16,6 @@ function workerRow(worker) {
     h('td', {}, doing),
     h('td', {}, ago(worker.last_seen_ms)),
   );
-}
-
-function storage({ storage: s }) {
-  if (!s) return [];
-  return [
-    ['Database', bytes(s.database_bytes || 0)],
-    ['Its log', bytes(s.log_bytes || 0)],
-    ['Free on the disk', bytes(s.free_bytes || 0)],
-  ];
 }
 
 export class Overview {
@@ -71,7 +62,6 @@ export class Overview {
         ['All', counted(info.jobs_total || 0, 'job')],
         ['Throughput', `${count(this.throughput(jobs))} directions per second`],
         ['Workers', counted(awake.length, 'worker')],
-        ...storage(info),
         ['Running since', moment(info.started_ms)],
         ['Version', info.version],
       ]),

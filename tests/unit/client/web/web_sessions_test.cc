@@ -5,6 +5,7 @@
 #include "client/web/cookie.h"
 #include "client/web/http_message.h"
 #include "client/web/shelf.h"
+#include "tools/files.h"
 
 namespace affskel::client {
 namespace {
@@ -13,7 +14,7 @@ using namespace std::chrono_literals;
 using Clock = WebSessions::Clock;
 
 WebUser user(const std::string& owner) {
-  return {"token of " + owner, owner, false, 1000};
+  return {std::make_shared<const SecretFile>("token of " + owner), owner, false, 1000};
 }
 
 struct Sessions {
@@ -27,7 +28,7 @@ TEST(WebSessions, AreFoundByTheirSecretAlone) {
   ASSERT_TRUE(ada && bob);
   EXPECT_NE(*ada, *bob);
   EXPECT_EQ(s.sessions.find(*ada)->user.owner, "ada");
-  EXPECT_EQ(s.sessions.find(*bob)->user.token, "token of bob");
+  EXPECT_EQ(tests::read_file(s.sessions.find(*bob)->user.token->path()), "token of bob");
   EXPECT_FALSE(s.sessions.find(""));
   EXPECT_FALSE(s.sessions.find(s.sessions.find(*ada)->id)) << "the name of a session is no secret";
   s.sessions.end(s.sessions.find(*ada)->id);
