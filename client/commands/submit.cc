@@ -3,18 +3,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "base/utf8.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/follow.h"
 #include "client/commands/shared/skeleton_options.h"
+#include "client/commands/shared/submission.h"
 #include "client/commands/shared/transfer.h"
 #include "client/files/read/input_file.h"
 #include "client/text/message_json.h"
 #include "client/text/words.h"
-#include "core/erosion/directions.h"
-#include "core/lattice/lattice.h"
-#include "wire/sha256.h"
 
 namespace affskel::client {
 namespace {
@@ -23,55 +20,11 @@ struct SubmitOptions {
   std::string file;
   bool wait = false;
   std::string output_dir;  // empty = fetch nothing; otherwise implies wait
-  double spacing = 0;      // mesh units; 0 = by points
-  std::uint64_t points = 100000;
-  std::string directions = "triangles";
-  std::string frame = "axis";
-  SkeletonOptions skeleton{"zucker-hummel"};
-  std::string name;  // empty = the file's stem
-  unsigned priority = 5;
-  std::string request_id;
+  Submission asked;
   std::string repair = "auto";
 };
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // bytes, by the protocol
-
-// As the protocol takes it.
-std::string protocol_text(const std::string& text, std::size_t max_bytes) {
-  return std::string(base::truncate_utf8(base::to_utf8(text), max_bytes));
-}
-
-void require_short(const std::string& text, std::size_t bytes, const std::string& option) {
-  if (text.size() > bytes) {
-    throw ClientError(ExitCode::kUsage, option + " has " + std::to_string(text.size()) + " bytes; at most " +
-                                            std::to_string(bytes) + " are possible");
-  }
-}
-
-v1::SubmitJobHeader header_for(const SubmitOptions& options, const InputFile& input) {
-  require_short(options.name, kMaxName, "--name");
-  require_short(options.request_id, kMaxRequestId, "--request-id");
-  v1::SubmitJobHeader header;
-  header.set_name(options.name.empty() ? protocol_text(fs::path(input.path).stem().string(), kMaxName)
-                                       : options.name);
-  header.set_priority(options.priority);
-  v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
-  if (options.spacing > 0) {
-    sampling.set_spacing(options.spacing);
-  } else {
-    sampling.set_target_points(options.points);
-  }
-  header.mutable_params()->set_directions(options.directions);
-  header.mutable_params()->set_frame(frame_named(options.frame));
-  header.mutable_params()->set_repair(options.repair == "auto");
-  *header.mutable_skeleton() = skeleton_params(options.skeleton);
-  header.set_request_id(options.request_id);
-  header.set_mesh_sha256(wire::sha256_hex(input.bytes));
-  header.set_mesh_bytes(input.bytes.size());
-  return header;
-}
 
 // Before hours of computing, not after.
 void prepare_output_dir(const std::string& directory) {
@@ -93,43 +46,22 @@ std::vector<Written> fetch_results(Context& context, const v1::Job& job, const S
   return written;
 }
 
-void check_size(const v1::ServerInfo& server, const InputFile& input) {
-  const std::uint64_t most = server.max_mesh_bytes();
-  if (most > 0 && input.bytes.size() > most) {
-    throw ClientError(ExitCode::kLimit,
-                      "has " + std::to_string(input.bytes.size()) + " bytes; the server takes at most " +
-                          std::to_string(most),
-                      input.path);
-  }
-}
-
 // What a worker would refuse, before anything is sent.
-void check_mesh(const InputFile& input, const SubmitOptions& options, Console& console) {
-  const core::Solid solid = check_solid(input, options.repair == "auto");
+void check_mesh(const InputFile& input, const Submission& submission, Console& console) {
+  const core::Solid solid = check_solid(input, submission.repair);
   tell_notes(solid, input, console);
-  try {
-    core::LatticeOptions lattice;
-    lattice.spacing = options.spacing;
-    lattice.target_points = options.points;
-    core::check_lattice(solid, core::parse_frame(options.frame), lattice);
-    core::check_directions(solid, options.directions);
-  } catch (const core::CoreError& error) {
-    throw error_from_core(error, input.path);
-  }
+  check_submission(solid, input, submission);
 }
 
 void run(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const InputFile input = read_input(options.file);
   tell_conversion(input, console);
-  check_mesh(input, options, console);
-  v1::SubmitJobHeader header = header_for(options, input);
+  Submission asked = options.asked;
+  asked.repair = options.repair == "auto";
+  check_mesh(input, asked, console);
   prepare_output_dir(options.output_dir);
-  const v1::ServerInfo server = context.session().server_info();
-  check_size(server, input);
-  // A server that does not know who calls is told.
-  if (server.caller().owner().empty())
-    header.set_owner(protocol_text(user_name(context.environment()), kMaxOwner));
+  const v1::SubmitJobHeader header = submission_header(context, input, asked);
   bool existed = false;
   v1::Job job = context.session().submit(header, input.bytes, existed);
   console.result(job.id() + "\n");
@@ -158,20 +90,20 @@ void add_following_options(CLI::App* command, SubmitOptions& o) {
 }
 
 void add_field_options(CLI::App* command, SubmitOptions& o) {
-  CLI::Option* spacing = command->add_option("--spacing", o.spacing, "Lattice spacing in mesh units")
+  CLI::Option* spacing = command->add_option("--spacing", o.asked.spacing, "Lattice spacing in mesh units")
                              ->check(positive_number())
                              ->type_name("DT");
-  command->add_option("--points", o.points, "Aim at this many sample points")
+  command->add_option("--points", o.asked.points, "Aim at this many sample points")
       ->check(whole_number(1, std::uint64_t{1} << 31))
       ->capture_default_str()
       ->type_name("R")
       ->excludes(spacing);
-  command->add_option("--directions", o.directions, "triangles, sphere:N, random:N:SEED, joined by +")
+  command->add_option("--directions", o.asked.directions, "triangles, sphere:N, random:N:SEED, joined by +")
       ->check(direction_set())
       ->capture_default_str()
       ->type_name("SET");
   command
-      ->add_option("--frame", o.frame,
+      ->add_option("--frame", o.asked.frame,
                    "Axes of the lattice: the mesh's, the principal ones, the least box's, or those that make "
                    "the result affinely invariant")
       ->check(CLI::IsMember(frame_words()))
@@ -180,15 +112,15 @@ void add_field_options(CLI::App* command, SubmitOptions& o) {
 }
 
 void add_queue_options(CLI::App* command, SubmitOptions& o) {
-  command->add_option("--name", o.name, "Name for people (default: the file's)")
+  command->add_option("--name", o.asked.name, "Name for people (default: the file's)")
       ->check(utf8_text())
       ->type_name("NAME");
-  command->add_option("--priority", o.priority, "0 .. 9, higher first")
+  command->add_option("--priority", o.asked.priority, "0 .. 9, higher first")
       ->check(whole_number(0, 9))
       ->capture_default_str()
       ->type_name("P");
   command
-      ->add_option("--request-id", o.request_id,
+      ->add_option("--request-id", o.asked.request_id,
                    "Submitting again with the same key and content gives the same job")
       ->check(utf8_text())
       ->type_name("KEY");
@@ -217,7 +149,7 @@ void add_submit(CommandLine& line) {
       ->type_name("");
   add_following_options(command, o);
   add_field_options(command, o);
-  add_skeleton_options(command, o.skeleton);
+  add_skeleton_options(command, o.asked.skeleton);
   add_queue_options(command, o);
 }
 

@@ -42,6 +42,16 @@ std::shared_ptr<grpc::Channel> channel_to(const wire::Address& address, const wi
   }
 }
 
+// Cancels a call when its caller stops.
+class CancelOnStop {
+ public:
+  CancelOnStop(grpc::ClientContext& context, const std::stop_token& stop)
+      : on_stop_(stop, [&context] { context.TryCancel(); }) {}
+
+ private:
+  std::stop_callback<std::function<void()>> on_stop_;
+};
+
 // Counts and hashes what passes through.
 class CheckedTransfer {
  public:
@@ -91,8 +101,11 @@ class MemorySink : public ArtifactSink {
 };
 
 grpc::Status fetch_once(v1::ErosionService::Stub& stub, const v1::FetchArtifactRequest& request,
-                        ArtifactSink& sink, v1::ArtifactHeader& header) {
+                        ArtifactSink& sink, v1::ArtifactHeader& header, const RetryPolicy& policy) {
   grpc::ClientContext context;
+  const CancelOnStop cancel(context, policy.stop);
+  if (policy.artifact_patience.count() > 0)
+    context.set_deadline(std::chrono::system_clock::now() + policy.artifact_patience);
   const auto reader = stub.FetchArtifact(&context, request);
   std::optional<CheckedTransfer> transfer;
   v1::FetchArtifactResponse message;
@@ -120,8 +133,10 @@ grpc::Status fetch_once(v1::ErosionService::Stub& stub, const v1::FetchArtifactR
 }
 
 grpc::Status submit_once(v1::ErosionService::Stub& stub, const v1::SubmitJobHeader& header,
-                         std::string_view mesh, v1::SubmitJobResponse& response) {
+                         std::string_view mesh, v1::SubmitJobResponse& response,
+                         const std::stop_token& stop) {
   grpc::ClientContext context;
+  const CancelOnStop cancel(context, stop);
   const auto bytes_per_second = std::size_t{1} << 20;
   context.set_deadline(std::chrono::system_clock::now() +
                        std::chrono::seconds(120 + mesh.size() / bytes_per_second));
@@ -174,7 +189,8 @@ void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode no
     // An idle embedded server may leave at this very moment: another is started.
     const bool retries = proven_ || choice_.embedded;
     const auto patience = proven_ ? policy_.patience : std::min(policy_.patience, kStartPatience);
-    if (!away || !retries || Clock::now() >= *failing + patience) fail(status, not_yet);
+    const bool waits = away && retries && !policy_.stop.stop_requested();
+    if (!waits || Clock::now() >= *failing + patience) fail(status, not_yet);
     if (busy) {
       tell_busy(status.error_message());
     } else {
@@ -210,6 +226,7 @@ Response Session::unary(const Request& request,
   Response response;
   run([&](Stub& stub) {
     grpc::ClientContext context;
+    const CancelOnStop cancel(context, policy_.stop);
     context.set_deadline(std::chrono::system_clock::now() + kUnaryDeadline);
     response.Clear();
     return (stub.*method)(&context, request, &response);
@@ -219,7 +236,7 @@ Response Session::unary(const Request& request,
 
 v1::Job Session::submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed) {
   v1::SubmitJobResponse response;
-  run([&](Stub& stub) { return submit_once(stub, header, mesh, response); });
+  run([&](Stub& stub) { return submit_once(stub, header, mesh, response, policy_.stop); });
   existed = response.existed();
   return response.job();
 }
@@ -252,6 +269,7 @@ std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t
 grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
                                  const std::function<void(const v1::Job&)>& seen) {
   grpc::ClientContext context;
+  const CancelOnStop cancel(context, policy_.stop);
   const auto reader = stub.WatchJob(&context, request);
   bool any = false;
   for (v1::Job now; reader->Read(&now);) {
@@ -323,7 +341,7 @@ v1::ArtifactHeader Session::fetch(const v1::FetchArtifactRequest& request,
   run(
       [&](Stub& stub) {
         const std::unique_ptr<ArtifactSink> sink = make_sink();
-        return fetch_once(stub, request, *sink, header);
+        return fetch_once(stub, request, *sink, header, policy_);
       },
       ExitCode::kNotFound);
   return header;

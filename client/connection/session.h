@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ struct RetryPolicy {
   std::chrono::milliseconds first_pause{100};
   std::chrono::milliseconds longest_pause{2000};
   std::chrono::milliseconds patience{5 * 60 * 1000};  ///< without any success
+  /// Longest that a fetch waits for a worker and for all bytes; 0 = as long as it takes.
+  std::chrono::milliseconds artifact_patience{0};
+  std::stop_token stop = {};  ///< ends the calls and the pauses between them
 };
 
 /// Receives one artefact.  A transfer that breaks off starts again with a new sink.

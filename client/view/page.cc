@@ -14,6 +14,7 @@
 #include "client/text/words.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
+#include "wire/sha256.h"
 #include "wire/version.h"
 
 namespace affskel::client {
@@ -202,7 +203,24 @@ std::string fill(std::string_view text, const std::map<std::string_view, std::st
   }
 }
 
+// As a policy names an inline script or style (CSP Level 3, section 2.3.1).
+std::string policy_hash(std::string_view text) {
+  const std::string digits = wire::sha256_hex(text);
+  std::string bytes;
+  for (std::size_t i = 0; i < digits.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+  return "'sha256-" + base64(bytes) + "'";
+}
+
 }  // namespace
+
+std::string view_page_policy() {
+  const std::string style = std::string(page_overlay_style()) + std::string(page_style());
+  return "default-src 'none'; script-src " + policy_hash(page_script()) + "; style-src " +
+         policy_hash(style) +
+         "; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'; sandbox "
+         "allow-scripts";
+}
 
 char up_axis(const Vec3& box_size) {
   return box_size.y > kClearlyLonger * std::max(box_size.x, box_size.z) ? 'y' : 'z';

@@ -31,4 +31,8 @@ char up_axis(const core::Vec3& box_size);
 /// @throws ClientError kBadInput when the mesh is empty.
 std::string view_page(const ViewInput& input);
 
+/// The Content-Security-Policy for sending such a page over HTTP, into a frame of the same origin: it runs in
+/// a sandbox and may do no more than its own script and style, which the policy names by their hashes.
+std::string view_page_policy();
+
 }  // namespace affskel::client

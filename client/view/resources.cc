@@ -1,19 +1,6 @@
 #include "client/view/resources.h"
 
-// The assembler copies the files: as string literals they would cost the compiler seconds.
-#define AFFSKEL_EMBED(symbol, file)                       \
-  __asm__(                                                \
-      ".pushsection .rodata\n"                            \
-      ".global affskel_" #symbol "\naffskel_" #symbol     \
-      ":\n"                                               \
-      ".incbin \"" file                                   \
-      "\"\n"                                              \
-      ".global affskel_" #symbol "_end\naffskel_" #symbol \
-      "_end:\n"                                           \
-      ".byte 0\n"                                         \
-      ".popsection\n");                                   \
-  extern "C" const char affskel_##symbol[];               \
-  extern "C" const char affskel_##symbol##_end[]
+#include "client/base/embedded_file.h"
 
 AFFSKEL_EMBED(page_template, AFFSKEL_PAGE_TEMPLATE);
 AFFSKEL_EMBED(page_style, AFFSKEL_PAGE_STYLE);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class FakeService final : public v1::ErosionService::Service {
   bool damage = false;  ///< flip a byte of every artefact
   bool existed = false;
   std::uint64_t max_mesh_bytes = 1 << 30;
+  v1::Caller caller;                         ///< who calls without a token, as the server tells
+  std::map<std::string, v1::Caller> tokens;  ///< when there are any, questions need one of them, "Bearer ..."
 
   v1::SubmitJobHeader submitted;  ///< as it arrived
   std::string mesh;
@@ -58,8 +61,9 @@ class FakeService final : public v1::ErosionService::Service {
     *response = job;
     return fails;
   }
-  grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
+  grpc::Status ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* response) override {
+    if (!caller_of(*context)) return kNoToken;
     listed = *request;
     lists.push_back(*request);
     for (std::uint32_t i = 0; i < std::min(jobs, request->limit()); ++i) *response->add_jobs() = job;
@@ -127,12 +131,26 @@ class FakeService final : public v1::ErosionService::Service {
     }
     return grpc::Status::OK;
   }
-  grpc::Status GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
+  grpc::Status GetServerInfo(grpc::ServerContext* context, const v1::GetServerInfoRequest*,
                              v1::ServerInfo* response) override {
+    const auto who = caller_of(*context);
+    if (!who) return kNoToken;
+    *response->mutable_caller() = *who;
     response->set_version("9.8.7");
     response->set_max_mesh_bytes(max_mesh_bytes);
     response->add_workers()->set_id("0123456789abcdef");
     return fails;
+  }
+
+ private:
+  inline static const grpc::Status kNoToken{grpc::StatusCode::UNAUTHENTICATED, "no such token"};
+
+  std::optional<v1::Caller> caller_of(const grpc::ServerContext& context) const {
+    if (tokens.empty()) return caller;
+    const auto shown = context.client_metadata().find("authorization");
+    if (shown == context.client_metadata().end()) return std::nullopt;
+    const auto found = tokens.find(std::string(shown->second.data(), shown->second.size()));
+    return found == tokens.end() ? std::nullopt : std::optional(found->second);
   }
 };
 

@@ -1,0 +1,96 @@
+#include "client/commands/shared/inspection.h"
+
+#include "client/files/read/mesh_defects.h"
+#include "wire/sha256.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json vec(const core::Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+ordered_json file_facts(const InputFile& input) {
+  ordered_json facts = {{"file", input.path},
+                        {"format", input.format},
+                        {"bytes", input.file_bytes},
+                        {"sha256", input.file_sha256}};
+  if (input.converted()) {
+    facts["submitted_bytes"] = input.bytes.size();
+    facts["submitted_sha256"] = wire::sha256_hex(input.bytes);
+  }
+  facts["vertices"] = input.off.mesh.points.size();
+  facts["polygons"] = input.off.polygons;
+  facts["polygons_cut"] = input.off.polygons_cut;
+  facts["triangles"] = input.off.mesh.triangles.size();
+  return facts;
+}
+
+void add_solid_facts(ordered_json& facts, const core::Solid& solid) {
+  std::uint64_t cavities = 0;
+  std::int64_t genus = 0;
+  ordered_json surfaces = ordered_json::array();
+  for (const core::Shell& shell : solid.shells) {
+    cavities += shell.cavity ? 1 : 0;
+    genus += shell.genus;
+    surfaces.push_back({{"triangles", shell.triangles},
+                        {"vertices", shell.vertices},
+                        {"genus", shell.genus},
+                        {"volume", shell.volume},
+                        {"solid", shell.solid},
+                        {"cavity", shell.cavity}});
+  }
+  facts["components"] = solid.shells.size();
+  facts["solids"] = solid.solid_volume.size();
+  facts["cavities"] = cavities;
+  facts["genus"] = genus;
+  facts["volume"] = solid.volume;
+  facts["bbox_min"] = vec(solid.bbox_min);
+  facts["bbox_max"] = vec(solid.bbox_max);
+  facts["bbox_size"] = vec(solid.bbox_max - solid.bbox_min);
+  facts["self_intersecting"] = solid.self_intersecting;
+  facts["surfaces"] = surfaces;
+}
+
+ordered_json notes_json(const core::Solid& solid) {
+  ordered_json notes = ordered_json::array();
+  for (const core::MeshNote& note : solid.notes) {
+    const bool repaired = note.severity == core::MeshNote::Severity::kRepaired;
+    notes.push_back(
+        {{"severity", repaired ? "repaired" : "warning"}, {"code", note.code}, {"message", note.message}});
+  }
+  return notes;
+}
+
+ordered_json defects_json(const std::vector<MeshDefect>& defects) {
+  ordered_json list = ordered_json::array();
+  for (const MeshDefect& defect : defects) {
+    list.push_back({{"code", defect.code},
+                    {"count", defect.count},
+                    {"message", defect.message},
+                    {"lines", defect.lines}});
+  }
+  return list;
+}
+
+}  // namespace
+
+Inspection inspect(const InputFile& input) {
+  Inspection inspection;
+  inspection.facts = file_facts(input);
+  try {
+    inspection.solid = check_solid(input, true);
+    add_solid_facts(inspection.facts, *inspection.solid);
+    inspection.facts["computable"] = true;
+    inspection.facts["notes"] = notes_json(*inspection.solid);
+  } catch (const ClientError& error) {
+    inspection.facts["computable"] = false;
+    inspection.facts["defects"] = defects_json(find_defects(input.off));
+    inspection.error = error;
+  }
+  return inspection;
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "client/base/error.h"
+#include "client/files/read/input_file.h"
+
+namespace affskel::client {
+
+/// What a mesh file is.
+struct Inspection {
+  /// Counts, and of a solid its volume, box, surfaces and notes; of any other mesh every defect.
+  nlohmann::ordered_json facts;
+  std::optional<core::Solid> solid;  ///< after the repair; none when the mesh bounds no solid
+  std::optional<ClientError> error;  ///< then: why
+};
+
+/// Counts what is in the file, mends the mesh as `submit` does and looks for every defect.
+Inspection inspect(const InputFile& input);
+
+}  // namespace affskel::client

@@ -1,0 +1,74 @@
+#include "client/commands/shared/picture.h"
+
+#include "base/number_text.h"
+#include "client/artifacts/skeleton_points.h"
+#include "client/commands/shared/fetch_artifact.h"
+#include "client/commands/shared/follow.h"
+#include "client/render/scene.h"
+#include "client/text/skeleton_text.h"
+
+namespace affskel::client {
+namespace {
+
+// The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
+std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
+  std::array<core::Vec3, 3> cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (int a = 0; a < 3; ++a) {
+    core::Vec3& axis = cell[static_cast<std::size_t>(a)];
+    if (prepared.frame_size() == 9)
+      axis = {prepared.frame(3 * a), prepared.frame(3 * a + 1), prepared.frame(3 * a + 2)};
+    axis = prepared.spacing() * axis;
+  }
+  return cell;
+}
+
+std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
+  const std::string skeleton = params.operator_() == v1::OPERATOR_CHORDS
+                                   ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle")
+                                   : base::counted(input.skeleton.point_size(), "skeleton point");
+  return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
+         base::counted(job.prepared().points(), "sample point") + " at spacing " +
+         base::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
+         ")";
+}
+
+// @param own whether the parameters are the job's, whose skeleton is stored.
+v1::SkeletonPoints fetch_points(Context& context, const v1::Job& job, const v1::SkeletonParams& params,
+                                bool own) {
+  v1::FetchArtifactRequest request = request_for(job.id(), v1::ARTIFACT_KIND_SKELETON);
+  if (!own) *request.mutable_skeleton() = params;
+  v1::ArtifactHeader header;
+  return parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
+}
+
+// The skeleton as its operator gives it: points, or the sheet of chords.  Tells when there is none.
+// Returns the threshold that was applied, 0 when the server does not say.
+double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonParams& params, bool own,
+                      RenderInput& input) {
+  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
+  if (sheet) {
+    input.sheet = fetch_sheet(context, job.id(), params);
+  } else {
+    input.skeleton = fetch_points(context, job, params, own);
+  }
+  const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
+  const int items = sheet ? input.sheet.corners_size() / 3 : input.skeleton.point_size();
+  warn_about_skeleton(context.console(), static_cast<std::uint64_t>(items), quality, job);
+  return quality.threshold();
+}
+
+}  // namespace
+
+std::string job_picture(Context& context, const v1::Job& job, const SkeletonOptions& skeleton, int width) {
+  v1::SkeletonParams params = skeleton_params(skeleton, job);
+  RenderInput input;
+  const double applied = fetch_skeleton(context, job, params, !skeleton.given(), input);
+  if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
+  input.mesh = fetch_mesh(context, job.id());
+  input.cell = lattice_cell(job.prepared());
+  input.volume = job.prepared().volume();
+  input.title = title_of(input, job, params);
+  return encode_png(render_scene(input, {width}));
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,88 @@
+#include "client/commands/shared/submission.h"
+
+#include <filesystem>
+
+#include "base/utf8.h"
+#include "client/text/words.h"
+#include "core/erosion/directions.h"
+#include "core/lattice/lattice.h"
+#include "wire/sha256.h"
+
+namespace affskel::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // bytes, by the protocol
+
+// As the protocol takes it.
+std::string protocol_text(const std::string& text, std::size_t max_bytes) {
+  return std::string(base::truncate_utf8(base::to_utf8(text), max_bytes));
+}
+
+void require_short(const std::string& text, std::size_t bytes, const std::string& option) {
+  if (text.size() > bytes) {
+    throw ClientError(ExitCode::kUsage, option + " has " + std::to_string(text.size()) + " bytes; at most " +
+                                            std::to_string(bytes) + " are possible");
+  }
+}
+
+v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& input) {
+  require_short(submission.name, kMaxName, "--name");
+  require_short(submission.request_id, kMaxRequestId, "--request-id");
+  v1::SubmitJobHeader header;
+  header.set_name(submission.name.empty() ? protocol_text(fs::path(input.path).stem().string(), kMaxName)
+                                          : submission.name);
+  header.set_priority(submission.priority);
+  v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
+  if (submission.spacing > 0) {
+    sampling.set_spacing(submission.spacing);
+  } else {
+    sampling.set_target_points(submission.points);
+  }
+  header.mutable_params()->set_directions(submission.directions);
+  header.mutable_params()->set_frame(frame_named(submission.frame));
+  header.mutable_params()->set_repair(submission.repair);
+  *header.mutable_skeleton() = skeleton_params(submission.skeleton);
+  header.set_request_id(submission.request_id);
+  header.set_mesh_sha256(wire::sha256_hex(input.bytes));
+  header.set_mesh_bytes(input.bytes.size());
+  return header;
+}
+
+void check_size(const v1::ServerInfo& server, const InputFile& input) {
+  const std::uint64_t most = server.max_mesh_bytes();
+  if (most > 0 && input.bytes.size() > most) {
+    throw ClientError(ExitCode::kLimit,
+                      "has " + std::to_string(input.bytes.size()) + " bytes; the server takes at most " +
+                          std::to_string(most),
+                      input.path);
+  }
+}
+
+}  // namespace
+
+void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission) {
+  try {
+    core::LatticeOptions lattice;
+    lattice.spacing = submission.spacing;
+    lattice.target_points = submission.points;
+    core::check_lattice(solid, core::parse_frame(submission.frame), lattice);
+    core::check_directions(solid, submission.directions);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, input.path);
+  }
+}
+
+v1::SubmitJobHeader submission_header(Context& context, const InputFile& input,
+                                      const Submission& submission) {
+  v1::SubmitJobHeader header = header_for(submission, input);
+  const v1::ServerInfo server = context.session().server_info();
+  check_size(server, input);
+  // A server that does not know who calls is told.
+  if (server.caller().owner().empty())
+    header.set_owner(protocol_text(user_name(context.environment()), kMaxOwner));
+  return header;
+}
+
+}  // namespace affskel::client

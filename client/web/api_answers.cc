@@ -1,0 +1,81 @@
+#include "client/web/api_answers.h"
+
+#include <cmath>
+
+#include "base/utf8.h"
+
+namespace affskel::client {
+namespace {
+
+int status_of(ExitCode code) {
+  switch (code) {
+    case ExitCode::kDone:
+      return 200;
+    case ExitCode::kUsage:
+      return 400;
+    case ExitCode::kBadInput:
+      return 422;
+    case ExitCode::kNotFound:
+      return 404;
+    case ExitCode::kJobFailed:
+    case ExitCode::kCancelled:
+      return 409;
+    case ExitCode::kNotAllowed:
+      return 403;
+    case ExitCode::kUnreachable:
+      return 503;
+    case ExitCode::kLimit:
+      return 507;
+    case ExitCode::kInternal:
+      return 500;
+  }
+  return 500;
+}
+
+[[noreturn]] void wrong_type(const char* name, const char* wanted) {
+  throw ClientError(ExitCode::kUsage, std::string("'") + name + "' must be " + wanted);
+}
+
+}  // namespace
+
+HttpResponse api_answer(const nlohmann::ordered_json& value, int status) {
+  HttpResponse response;
+  response.status = status;
+  response.headers = {{"Content-Type", "application/json"}};
+  response.body = value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return response;
+}
+
+HttpResponse api_error(int status, const std::string& code, const std::string& message) {
+  return api_answer({{"error", {{"code", code}, {"message", message}}}}, status);
+}
+
+HttpResponse api_error(const ClientError& error) {
+  nlohmann::ordered_json body = {{"code", exit_code_name(error.exit_code())}, {"message", error.what()}};
+  if (error.line() > 0) body["line"] = error.line();
+  return api_answer({{"error", body}}, status_of(error.exit_code()));
+}
+
+nlohmann::json json_body(const HttpRequest& request) {
+  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
+  if (!body.is_object()) throw ClientError(ExitCode::kUsage, "the request is no JSON object");
+  return body;
+}
+
+std::string text_member(const nlohmann::json& object, const char* name, const std::string& fallback) {
+  const auto found = object.find(name);
+  if (found == object.end() || found->is_null()) return fallback;
+  if (!found->is_string()) wrong_type(name, "a text");
+  std::string text = found->get<std::string>();
+  if (!base::is_utf8(text)) wrong_type(name, "UTF-8");
+  return text;
+}
+
+double number_member(const nlohmann::json& object, const char* name, double fallback) {
+  const auto found = object.find(name);
+  if (found == object.end() || found->is_null()) return fallback;
+  if (!found->is_number() || !std::isfinite(found->get<double>())) wrong_type(name, "a number");
+  return found->get<double>();
+}
+
+}  // namespace affskel::client

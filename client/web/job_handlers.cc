@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <charconv>
+
+#include "client/text/message_json.h"
+#include "client/web/api_answers.h"
+#include "client/web/handlers.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr std::uint32_t kListed = 50, kMostListed = 1000;
+
+// Without what only programs read, which may be long.
+nlohmann::ordered_json job_json(v1::Job job) {
+  job.clear_done_positions();
+  job.clear_counters();
+  return to_json(job);
+}
+
+std::uint32_t limit_of(const HttpRequest& request) {
+  const std::string text = request.parameter("limit");
+  if (text.empty()) return kListed;
+  std::uint32_t limit = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
+  if (error != std::errc{} || end != text.data() + text.size() || limit < 1 || limit > kMostListed)
+    throw ClientError(ExitCode::kUsage, "'limit' must be from 1 to " + std::to_string(kMostListed));
+  return limit;
+}
+
+}  // namespace
+
+HttpResponse list_jobs(WebCall& call) {
+  const std::uint32_t limit = limit_of(call.request);
+  v1::ListJobsRequest asked;
+  if (call.request.parameter("everybody") != "1") asked.set_owner(call.session.user.owner);
+  // One more than is shown tells whether there are more.
+  const std::vector<v1::Job> jobs = call.server()->session().list_jobs(asked, limit + 1);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(limit, jobs.size()); ++i)
+    list.push_back(job_json(jobs[i]));
+  return api_answer({{"jobs", list}, {"more", jobs.size() > limit}});
+}
+
+HttpResponse show_job(WebCall& call) {
+  return api_answer(job_json(call.server()->session().get_job(call.argument)));
+}
+
+HttpResponse cancel_job(WebCall& call) {
+  return api_answer(job_json(call.server()->session().cancel(call.argument)));
+}
+
+HttpResponse resume_job(WebCall& call) {
+  return api_answer(job_json(call.server()->session().resume(call.argument)));
+}
+
+HttpResponse delete_job(WebCall& call) {
+  return api_answer({{"id", call.server()->session().delete_job(call.argument)}});
+}
+
+}  // namespace affskel::client

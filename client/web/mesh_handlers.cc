@@ -1,0 +1,147 @@
+#include <cmath>
+#include <filesystem>
+
+#include "base/atomic_file.h"
+#include "base/utf8.h"
+#include "client/commands/shared/inspection.h"
+#include "client/commands/shared/submission.h"
+#include "client/files/read/input_file.h"
+#include "client/render/scene.h"
+#include "client/web/api_answers.h"
+#include "client/web/handlers.h"
+#include "core/lattice/lattice.h"
+#include "core/solid/solid_frame.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr int kPictureWidth = 1200;
+constexpr std::uint64_t kMaxDrawn = 4'000'000;  // triangles
+// Up to so many points the lattice is laid to count them.
+constexpr double kMaxCounted = 4e6;
+
+// What was asked of the lattice.  @throws ClientError kUsage unless it is a spacing or a number of points.
+void read_sampling(double spacing, double points, Submission& submission) {
+  if (spacing > 0) {
+    submission.spacing = spacing;
+  } else if (points >= 1 && points <= double(std::uint64_t{1} << 31)) {
+    submission.points = static_cast<std::uint64_t>(std::llround(points));
+  } else {
+    throw ClientError(ExitCode::kUsage, "a spacing above 0 is needed, or a number of points from 1 to 2^31");
+  }
+}
+
+double number_of(const HttpRequest& request, const std::string& name) {
+  const std::string text = request.parameter(name);
+  if (text.empty()) return 0;
+  try {
+    std::size_t end = 0;
+    const double value = std::stod(text, &end);
+    if (end == text.size() && std::isfinite(value)) return value;
+  } catch (const std::exception&) {  // no number, or beyond a double
+  }
+  throw ClientError(ExitCode::kUsage, "'" + name + "' must be a number");
+}
+
+std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::string& name) {
+  RenderInput input;
+  input.mesh = mesh;
+  input.cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  input.title = name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
+  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".png"));
+  base::AtomicFile out(file->path());
+  out.write(encode_png(render_scene(input, {kPictureWidth})));
+  out.commit();
+  return call.keep({std::move(file), "mesh.png", "image/png", true, {}});
+}
+
+std::string upload_name(const HttpRequest& request) {
+  const std::string name = std::filesystem::path(request.parameter("name")).filename().string();
+  return name.empty() ? "mesh.off" : std::string(base::truncate_utf8(base::to_utf8(name), 200));
+}
+
+std::shared_ptr<UploadedMesh> mesh_of(const WebCall& call, const std::string& key) {
+  auto mesh = call.web.meshes.find(call.session.id, key);
+  if (!mesh)
+    throw ClientError(ExitCode::kNotFound, "the mesh is not kept here any more; choose the file again");
+  return mesh;
+}
+
+Submission submission_of(const nlohmann::json& body) {
+  Submission submission;
+  read_sampling(number_member(body, "spacing"), number_member(body, "points"), submission);
+  submission.directions = text_member(body, "directions", "triangles");
+  submission.frame = text_member(body, "frame", "axis");
+  submission.skeleton.operator_name = text_member(body, "operator", "zucker-hummel");
+  submission.skeleton.threshold = number_member(body, "threshold");
+  submission.name = text_member(body, "name");
+  submission.request_id = text_member(body, "request_id");
+  const double priority = number_member(body, "priority", submission.priority);
+  if (!(priority >= 0 && priority <= 9) || priority != std::floor(priority) ||
+      submission.skeleton.threshold < 0)
+    throw ClientError(ExitCode::kUsage, "'priority' must be 0 to 9, 'threshold' not below 0");
+  submission.priority = static_cast<unsigned>(priority);
+  return submission;
+}
+
+}  // namespace
+
+// That a file is no mesh is an answer, too.
+HttpResponse take_mesh(WebCall& call) {
+  const std::string name = upload_name(call.request);
+  InputFile input;
+  try {
+    input = read_input(call.upload->path().string());
+  } catch (const ClientError& error) {
+    if (error.exit_code() != ExitCode::kBadInput) throw;
+    return api_answer({{"name", name}, {"error", error.what()}, {"line", error.line()}});
+  }
+  Inspection inspection = inspect(input);
+  inspection.facts["file"] = name;
+  nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
+  if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
+    answer["picture"] = picture_of(call, input.off.mesh, name);
+  if (inspection.error) {
+    answer["error"] = inspection.error->what();
+    return api_answer(answer);
+  }
+  const std::uint64_t bytes = call.upload->bytes();
+  UploadedMesh mesh{std::move(call.upload), name, *std::move(inspection.solid)};
+  answer["mesh"] =
+      call.web.meshes.put(call.session.id, std::make_shared<UploadedMesh>(std::move(mesh)), bytes);
+  return api_answer(answer);
+}
+
+HttpResponse lay_lattice(WebCall& call) {
+  const auto mesh = mesh_of(call, call.argument);
+  Submission asked;
+  read_sampling(number_of(call.request, "spacing"), number_of(call.request, "points"), asked);
+  core::LatticeOptions options;
+  options.spacing = asked.spacing;
+  options.target_points = asked.points;
+  const double v0 = mesh->solid.volume;
+  const double spacing = asked.spacing > 0 ? asked.spacing : std::cbrt(v0 / double(asked.points));
+  const double points = v0 / (spacing * spacing * spacing);
+  if (points > kMaxCounted)
+    return api_answer({{"spacing", spacing}, {"points", std::round(points)}, {"counted", false}});
+  const std::string frame = call.request.parameter("frame");
+  options.frame = core::solid_frame(mesh->solid, core::parse_frame(frame.empty() ? "axis" : frame));
+  const core::Lattice lattice = core::make_lattice(mesh->solid, options);
+  return api_answer({{"spacing", lattice.spacing}, {"points", lattice.points}, {"counted", true}});
+}
+
+HttpResponse submit_mesh(WebCall& call) {
+  const nlohmann::json body = json_body(call.request);
+  const auto mesh = mesh_of(call, text_member(body, "mesh"));
+  Submission submission = submission_of(body);
+  if (submission.name.empty()) submission.name = std::filesystem::path(mesh->name).stem().string();
+  const InputFile input = read_input(mesh->file->path().string());
+  check_submission(mesh->solid, input, submission);
+  const auto server = call.server();
+  const v1::SubmitJobHeader header = submission_header(server->context(), input, submission);
+  bool existed = false;
+  const v1::Job job = server->session().submit(header, input.bytes, existed);
+  return api_answer({{"id", job.id()}, {"name", job.name()}, {"existed", existed}}, existed ? 200 : 201);
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,67 @@
+// Calls of the page's own service.
+
+// What went wrong, in words for people; `code` as on the command line.
+export class ApiError extends Error {
+  constructor(status, code, message, line) {
+    super(message);
+    this.status = status;
+    this.code = code;
+    this.line = line;
+  }
+}
+
+const NO_ANSWER = 'The page gets no answer. Has affskel-client web been ended, or is the network down?';
+
+function errorOf(status, text) {
+  try {
+    const { code, message, line } = JSON.parse(text).error;
+    return new ApiError(status, code, message, line);
+  } catch {
+    return new ApiError(status, 'INTERNAL', text.trim() || `the answer was status ${status}`);
+  }
+}
+
+// The session has ended: whoever shows the sign-in listens.
+function tellSignedOut() {
+  document.dispatchEvent(new Event('signed-out'));
+}
+
+// @param method GET, POST or DELETE; @param body becomes JSON.  Throws ApiError.
+export async function call(method, path, body, signal) {
+  let response;
+  let text;
+  try {
+    response = await fetch(path, {
+      method,
+      signal,
+      headers: body === undefined ? {} : { 'Content-Type': 'application/json' },
+      body: body === undefined ? undefined : JSON.stringify(body),
+    });
+    text = await response.text();
+  } catch (error) {
+    if (error.name === 'AbortError') throw error;
+    throw new ApiError(0, 'UNREACHABLE', NO_ANSWER);
+  }
+  if (response.ok) return JSON.parse(text);
+  const error = errorOf(response.status, text);
+  if (error.status === 401 && path !== '/api/session') tellSignedOut();
+  throw error;
+}
+
+export const jobPath = (id, rest = '') => `/api/jobs/${encodeURIComponent(id)}${rest}`;
+
+// Sends a file; `progress` gets the share sent.  Throws ApiError.
+export function upload(file, progress) {
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    request.open('POST', `/api/meshes?name=${encodeURIComponent(file.name)}`);
+    request.upload.onprogress = (event) => progress(event.lengthComputable ? event.loaded / event.total : 0);
+    request.onerror = () => reject(new ApiError(0, 'UNREACHABLE', NO_ANSWER));
+    request.onload = () => {
+      if (request.status >= 200 && request.status < 300) return resolve(JSON.parse(request.responseText));
+      if (request.status === 401) tellSignedOut();
+      return reject(errorOf(request.status, request.responseText));
+    };
+    request.send(file);
+  });
+}

@@ -1,0 +1,52 @@
+// Questions, and the interactive page of a job.
+import { byId, h } from './elements.js';
+
+// Asks before something that cannot be taken back.  Resolves to whether it is wanted.
+export function confirmed(question, detail, yes) {
+  return new Promise((resolve) => {
+    const dialog = h(
+      'dialog',
+      { 'aria-labelledby': 'question', 'aria-describedby': 'question-detail' },
+      h('h2', { id: 'question' }, question),
+      h('p', { id: 'question-detail' }, detail),
+      h(
+        'div',
+        { class: 'row end' },
+        h('button', { type: 'button', onclick: () => dialog.close('no'), autofocus: true }, 'Keep it'),
+        h('button', { type: 'button', class: 'danger', onclick: () => dialog.close('yes') }, yes),
+      ),
+    );
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      resolve(dialog.returnValue === 'yes');
+    });
+    document.body.append(dialog);
+    dialog.showModal();
+  });
+}
+
+// Shows the interactive page over everything.  It runs in a sandbox of its own.
+export function showInteractive(href, name) {
+  const dialog = h(
+    'dialog',
+    { class: 'full', 'aria-label': `${name}, to turn` },
+    h(
+      'div',
+      { class: 'bar' },
+      h('strong', {}, name),
+      h('a', { href, target: '_blank', rel: 'noopener' }, 'Open in a tab of its own'),
+      h('button', { type: 'button', id: 'close-interactive', onclick: () => dialog.close(), autofocus: true }, 'Close'),
+    ),
+    h('iframe', { src: href, sandbox: 'allow-scripts', title: `${name}: body and skeleton` }),
+  );
+  dialog.addEventListener('close', () => dialog.remove());
+  document.body.append(dialog);
+  dialog.showModal();
+}
+
+// A problem that is not about one field; null takes it away.
+export function showProblem(message) {
+  const place = byId('problem');
+  if (place.textContent !== (message || '')) place.textContent = message || '';
+  place.hidden = !message;
+}

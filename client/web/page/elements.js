@@ -1,0 +1,45 @@
+// Elements made by script, never from text with markup.
+
+// An element with attributes (on... are listeners; false and null leave one out) and children.
+export function h(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false || value === null || value === undefined) continue;
+    if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
+    else element.setAttribute(name, value === true ? '' : String(value));
+  }
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+export const byId = (id) => document.getElementById(id);
+
+// Sets the text only when it changes, so that screen readers hear no repetition.
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+// Says something to screen readers that is seen anyway.
+export function announce(text) {
+  byId('announcement').textContent = text;
+}
+
+// A button that cannot be pressed twice while its action runs.
+export function button(label, action, attributes = {}) {
+  const element = h('button', { type: 'button', ...attributes }, label);
+  element.addEventListener('click', async () => {
+    if (element.getAttribute('aria-disabled') === 'true') return;
+    element.setAttribute('aria-disabled', 'true');
+    try {
+      await action(element);
+    } finally {
+      element.removeAttribute('aria-disabled');
+    }
+  });
+  return element;
+}
+
+// Pairs of a term and what it is.
+export function facts(pairs) {
+  return h('dl', { class: 'facts' }, pairs.map(([term, value]) => h('div', {}, h('dt', {}, term), h('dd', {}, value))));
+}

@@ -1,0 +1,185 @@
+// One job: its progress, what it is, its picture and its files.
+import { call, jobPath } from './api.js';
+import { confirmed, showInteractive } from './dialogs.js';
+import { Downloads } from './downloads.js';
+import { announce, button, facts, h, setText } from './elements.js';
+import { showProgress } from './jobs.js';
+import { count, counted, duration, measure, moment } from './numbers.js';
+import { FRAMES, OPERATORS, STATES, activity, isActive, named, progress } from './text.js';
+
+function asked(job) {
+  const { sampling, directions, frame } = job.params;
+  const lattice = sampling?.spacing ? `spacing ${measure(sampling.spacing)}` : `about ${counted(sampling?.target_points || 0, 'point')}`;
+  return [
+    ['Lattice asked for', lattice],
+    ['Directions', directions || 'triangles'],
+    ['Lattice along', named(FRAMES, frame || 'axis')],
+    ['Shocks by', named(OPERATORS, job.skeleton.operator || 'zucker-hummel')],
+    ['Priority', String(job.priority || 0)],
+    ['Owner', job.owner],
+    ['Submitted', moment(job.created_ms)],
+    ...(job.finished_ms > 0 && job.started_ms > 0 ? [['Took', duration((job.finished_ms - job.started_ms) / 1000)]] : []),
+    ['Job', job.id],
+  ];
+}
+
+function prepared({ prepared: p }) {
+  if (!p) return [];
+  return [
+    ['Triangles', count(p.triangles)],
+    ['Sample points', count(p.points)],
+    ['Spacing', measure(p.spacing)],
+    ['Volume', measure(p.volume)],
+    ['Solids', count(p.solids)],
+  ];
+}
+
+export class JobView {
+  constructor(id, rates) {
+    this.id = id;
+    this.rates = rates;
+    this.title = 'Job';
+    this.heading = h('h1', { tabindex: -1 }, 'Job');
+    this.badge = h('span', { class: 'badge' });
+    this.bar = h('progress', { max: 1, hidden: true });
+    this.numbers = h('p', { class: 'numbers' });
+    this.what = h('p', { class: 'what' });
+    this.notes = h('ul', { class: 'notes' });
+    this.facts = h('div', {});
+    this.actions = h('div', { class: 'row wrap actions' });
+    this.results = h('div', { class: 'results' });
+    this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
+    this.element = h(
+      'section',
+      {},
+      h('p', {}, h('a', { href: '#jobs' }, '← All jobs')),
+      h('div', { class: 'row head' }, this.heading, this.badge),
+      h('div', { class: 'card' }, this.bar, this.numbers, this.what, this.notes, this.actions, this.problem),
+      this.results,
+      h('section', { class: 'card' }, h('h2', {}, 'About this job'), this.facts),
+    );
+  }
+
+  refresh() {} // the page's poll puts itself here,
+  pause() {} // and here
+
+  async ask() {
+    this.show(await call('GET', jobPath(this.id)));
+    return isActive(this.job);
+  }
+
+  show(job) {
+    const before = this.job;
+    this.job = job;
+    this.title = job.name;
+    document.title = `${job.name} – affskel`;
+    setText(this.heading, job.name || 'Job');
+    this.badge.className = `badge ${job.state}`;
+    setText(this.badge, named(STATES, job.state));
+    showProgress(this.bar, job);
+    setText(this.numbers, progress(job, this.rates.update(job)));
+    setText(this.what, activity(job));
+    this.what.classList.toggle('error', job.state === 'failed');
+    if (before && before.state !== job.state) announce(`${job.name}: ${named(STATES, job.state)}`);
+    const same = before && JSON.stringify([before.state, before.prepared, before.quality, before.cancel_requested]) ===
+      JSON.stringify([job.state, job.prepared, job.quality, job.cancel_requested]);
+    if (!same) this.showFacts(job);
+    if (!same) this.showActions(job);
+    if (job.state === 'done' && (!before || before.state !== 'done')) this.showResults(job);
+    if (job.state !== 'done') this.results.replaceChildren();
+  }
+
+  showFacts(job) {
+    const advice = job.quality?.advice;
+    this.notes.replaceChildren(
+      ...(job.prepared?.notes || []).map((note) => h('li', { class: note.severity }, note.message)),
+      ...(advice ? [h('li', { class: 'warning' }, advice)] : []),
+    );
+    this.facts.replaceChildren(facts([...prepared(job), ...asked(job)]));
+  }
+
+  showActions(job) {
+    const held = document.activeElement?.closest('.actions') ? document.activeElement.id : null;
+    const ended = !isActive(job);
+    this.actions.replaceChildren(
+      ...[
+        !ended && !job.cancel_requested && button('Cancel', () => this.cancel(), { id: 'cancel' }),
+        (job.state === 'cancelled' || job.state === 'failed') && button('Resume', () => this.act('POST', '/resume'), { id: 'resume', class: 'primary' }),
+        ended && button('Delete', () => this.remove(), { id: 'delete', class: 'danger' }),
+      ].filter(Boolean),
+    );
+    // The button that was pressed may be another now.
+    if (held !== null) (this.actions.querySelector('button') || this.heading).focus();
+  }
+
+  async act(method, rest) {
+    this.problem.hidden = true;
+    try {
+      await call(method, jobPath(this.id, rest));
+      this.refresh();
+    } catch (error) {
+      this.complain(error);
+    }
+  }
+
+  complain(error) {
+    this.problem.textContent = error.message;
+    this.problem.hidden = false;
+  }
+
+  async cancel() {
+    const wanted = await confirmed(`Cancel ${this.job.name}?`, 'It stops within seconds. Its progress is kept, and it can be resumed.', 'Cancel the job');
+    if (wanted) await this.act('POST', '/cancel');
+  }
+
+  async remove() {
+    const wanted = await confirmed(`Delete ${this.job.name}?`, 'Its mesh, field and skeleton are removed for good.', 'Delete the job');
+    if (!wanted) return;
+    this.pause(); // nobody asks for a job that is gone
+    try {
+      await call('DELETE', jobPath(this.id));
+      location.hash = '#jobs';
+    } catch (error) {
+      this.complain(error);
+      this.refresh();
+    }
+  }
+
+  showResults(job) {
+    const downloads = new Downloads(this.id);
+    const picture = h('img', { class: 'picture', alt: `${job.name}: the body and its skeleton from the front, the side and above`, hidden: true });
+    const waiting = h('p', { class: 'small', role: 'status' }, 'The picture is being drawn …');
+    const interactive = button('Turn it', () => this.openInteractive(downloads, waiting), { id: 'interactive', class: 'primary' });
+    this.results.replaceChildren(
+      h('section', { class: 'card' }, h('div', { class: 'row head' }, h('h2', {}, 'Skeleton'), interactive), waiting, picture),
+      downloads.element,
+    );
+    this.drawPicture(downloads, picture, waiting);
+  }
+
+  async drawPicture(downloads, picture, waiting) {
+    try {
+      const result = await downloads.made('picture');
+      picture.onload = () => {
+        picture.hidden = false;
+        waiting.textContent = result.warnings.join('; ');
+      };
+      picture.src = result.href;
+    } catch (error) {
+      waiting.textContent = `There is no picture: ${error.message}`;
+    }
+  }
+
+  async openInteractive(downloads, status) {
+    const before = status.textContent;
+    status.textContent = 'A moment …';
+    try {
+      const result = await downloads.made('view');
+      status.textContent = before;
+      showInteractive(result.href, this.job.name);
+    } catch (error) {
+      status.textContent = error.message;
+    }
+  }
+}
+

@@ -1,0 +1,102 @@
+// The page: what is shown follows the address behind '#'.
+import { showProblem } from './dialogs.js';
+import { byId, button } from './elements.js';
+import { JobView } from './job.js';
+import { JobList } from './jobs.js';
+import { NewJob } from './mesh.js';
+import { Overview } from './overview.js';
+import { Poll } from './poll.js';
+import { Rates } from './rate.js';
+import { forget, openSession, session, signOut } from './session.js';
+import { signInView } from './sign_in.js';
+
+let poll = null;
+
+function viewOfAddress() {
+  const [view, id] = location.hash.slice(1).split('/');
+  if (view === 'new') return new NewJob();
+  if (view === 'job' && id) return new JobView(decodeURIComponent(id), new Rates());
+  if (view === 'server' && session.admin) return new Overview(new Rates());
+  return new JobList(new Rates());
+}
+
+function markPlace() {
+  for (const link of document.querySelectorAll('header nav a')) {
+    const here = link.getAttribute('href') === (location.hash || '#jobs');
+    if (here) link.setAttribute('aria-current', 'page');
+    else link.removeAttribute('aria-current');
+  }
+}
+
+function present(element, title) {
+  byId('view').replaceChildren(element);
+  document.title = `${title} – affskel`;
+}
+
+function showSignIn(message = '') {
+  poll?.stop();
+  document.body.classList.remove('signed-in');
+  showProblem(null);
+  present(signInView(enter, message), 'Sign in');
+  (byId('token') || byId('view').querySelector('h1')).focus();
+}
+
+// @param moved whether the user went there: then the heading takes the focus, so that it is read.
+function showView(moved) {
+  poll?.stop();
+  showProblem(null);
+  const view = viewOfAddress();
+  present(view.element, view.title);
+  markPlace();
+  if (view.ask) {
+    poll = new Poll(
+      () => view.ask(),
+      (error) => error?.status !== 401 && showProblem(error && `${error.message} Trying again …`),
+    );
+    view.refresh = () => poll.now();
+    view.pause = () => poll.stop();
+    poll.now();
+  }
+  if (moved) view.element.querySelector('h1').focus();
+}
+
+function enter() {
+  document.body.classList.add('signed-in');
+  byId('who').textContent = session.owner;
+  byId('server-link').hidden = !session.admin;
+  byId('sign-out').hidden = session.mode === 'personal';
+  showView(true);
+}
+
+async function leave() {
+  try {
+    await signOut();
+  } catch {
+    forget(); // it has ended already, or nobody answers
+  }
+  history.replaceState(null, '', location.pathname); // where this person was is not for the next
+  showSignIn();
+}
+
+async function begin() {
+  byId('account').append(button('Sign out', leave, { id: 'sign-out' }));
+  byId('skip').addEventListener('click', (event) => {
+    event.preventDefault(); // what is behind '#' names a view
+    byId('view').focus();
+  });
+  window.addEventListener('hashchange', () => session.signed_in && showView(true));
+  document.addEventListener('signed-out', () => {
+    if (!session.signed_in) return;
+    forget();
+    showSignIn('The session has ended.');
+  });
+  try {
+    await openSession();
+  } catch (error) {
+    if (error.status !== 401) showProblem(error.message);
+    return showSignIn(error.status === 401 ? 'The address has been used before.' : '');
+  }
+  return session.signed_in ? enter() : showSignIn();
+}
+
+begin();

@@ -1,0 +1,264 @@
+// A new job: a mesh, what it is, and what is asked of it.
+import { call, upload } from './api.js';
+import { announce, byId, facts, h, setText } from './elements.js';
+import { bytes, count, counted, editable, measure } from './numbers.js';
+import { session } from './session.js';
+import { FRAMES, OPERATORS, named } from './text.js';
+
+const TYPES = ['.off', '.ply', '.obj', '.stl', '.vtp'];
+const USUAL_POINTS = 100000;
+const TYPING = 300; // milliseconds after a key until the lattice is counted
+
+function meshFacts(f) {
+  const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
+  const solid = f.computable
+    ? [['Volume', measure(f.volume)], ['Solids', count(f.solids)], ['Cavities', count(f.cavities)], ['Handles', count(f.genus)]]
+    : [];
+  return facts([
+    ['File', `${f.file}, ${bytes(f.bytes)}`],
+    ['Triangles', count(f.triangles)],
+    ['Vertices', count(f.vertices)],
+    ...solid,
+    ...size,
+  ]);
+}
+
+export class NewJob {
+  constructor() {
+    this.title = 'New job';
+    this.file = h('input', { id: 'file', type: 'file', accept: TYPES.join(','), class: 'visually-hidden' });
+    this.drop = h(
+      'label',
+      { class: 'drop', for: 'file' },
+      h('strong', {}, 'Drop a mesh here, or choose a file'),
+      h('span', { class: 'small' }, `A closed surface as ${TYPES.join(', ')}, at most ${bytes(session.max_mesh_bytes)}`),
+    );
+    this.sent = h('progress', { max: 1, value: 0, hidden: true, 'aria-label': 'Upload' });
+    this.status = h('p', { class: 'small', role: 'status' });
+    this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
+    this.found = h('div', {});
+    this.form = h('div', {});
+    this.element = h(
+      'section',
+      {},
+      h('p', {}, h('a', { href: '#jobs' }, '← All jobs')),
+      h('h1', { tabindex: -1 }, 'New job'),
+      h('div', { class: 'card' }, this.file, this.drop, this.sent, this.status, this.problem),
+      this.found,
+      this.form,
+    );
+    this.file.addEventListener('change', () => this.file.files[0] && this.take(this.file.files[0]));
+    this.listenForDrops();
+  }
+
+  listenForDrops() {
+    const over = (on) => (event) => {
+      event.preventDefault();
+      this.drop.classList.toggle('over', on);
+    };
+    this.drop.addEventListener('dragenter', over(true));
+    this.drop.addEventListener('dragover', over(true));
+    this.drop.addEventListener('dragleave', over(false));
+    this.drop.addEventListener('drop', (event) => {
+      over(false)(event);
+      const [file] = event.dataTransfer.files;
+      if (file) this.take(file);
+    });
+  }
+
+  complain(message) {
+    this.problem.textContent = message || '';
+    this.problem.hidden = !message;
+  }
+
+  async take(file) {
+    this.complain('');
+    this.found.replaceChildren();
+    this.form.replaceChildren();
+    if (file.size > session.max_mesh_bytes)
+      return this.complain(`${file.name} has ${bytes(file.size)}; the server takes at most ${bytes(session.max_mesh_bytes)}.`);
+    this.sent.hidden = false;
+    this.status.textContent = `Sending ${file.name} …`;
+    try {
+      const mesh = await upload(file, (share) => {
+        this.sent.value = share;
+        if (share === 1) setText(this.status, 'Looking at the mesh …');
+      });
+      this.status.textContent = '';
+      if (mesh.facts) this.show(mesh);
+      else this.complain(`${file.name} cannot be read: ${mesh.error}`);
+    } catch (error) {
+      this.status.textContent = '';
+      this.complain(`${file.name} cannot be read: ${error.message}`);
+    } finally {
+      this.sent.hidden = true;
+      this.file.value = ''; // the same file may be chosen again
+    }
+    return undefined;
+  }
+
+  show(mesh) {
+    const { facts: f } = mesh;
+    const defects = (f.defects || []).map((defect) => h('li', { class: 'defect' }, defect.message));
+    const notes = (f.notes || []).map((note) => h('li', { class: note.severity }, note.message));
+    this.found.replaceChildren(
+      h(
+        'section',
+        { class: 'card', id: 'found' },
+        h('h2', { tabindex: -1, id: 'found-heading' }, mesh.mesh ? 'This is the mesh' : 'This mesh bounds no solid'),
+        mesh.error && h('p', { class: 'error' }, mesh.error),
+        h('ul', { class: 'notes' }, defects, notes),
+        mesh.picture && h('img', { class: 'picture', src: mesh.picture, alt: `${mesh.name} from the front, the side and above` }),
+        meshFacts(f),
+      ),
+    );
+    if (mesh.mesh) this.form.replaceChildren(new SubmitForm(mesh).element);
+    byId('found-heading').focus();
+  }
+}
+
+const field = (id, label, control, help) =>
+  h('div', {}, h('label', { for: id }, label), control, help && h('p', { class: 'small', id: `${id}-help` }, help));
+
+const choice = (id, words, table) =>
+  h('select', { id }, words.map((word) => h('option', { value: word }, named(table, word))));
+
+const numberField = (id, attributes) =>
+  h('input', { id, type: 'number', min: 0, step: 'any', inputmode: 'decimal', ...attributes });
+
+// What is asked of a mesh.
+class SubmitForm {
+  constructor(mesh) {
+    this.mesh = mesh;
+    this.requestId = crypto.getRandomValues(new Uint32Array(4)).join('-');
+    this.given = 'points'; // which of the two was typed
+    this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: mesh.name.replace(/\.[^.]*$/, '') });
+    this.points = numberField('points', { step: 1, value: USUAL_POINTS });
+    this.spacing = numberField('spacing', {});
+    this.lattice = h('p', { id: 'lattice', role: 'status' });
+    this.directions = choice('directions', ['triangles', 'sphere', 'triangles+sphere', 'random'], {
+      triangles: 'the mesh’s own normals',
+      sphere: 'evenly from all sides',
+      'triangles+sphere': 'both of these',
+      random: 'at random',
+    });
+    this.howMany = numberField('how-many', { min: 1, step: 1, value: 5000 });
+    this.howManyField = field('how-many', 'How many', this.howMany);
+    this.howManyField.hidden = true;
+    this.frame = choice('frame', session.frames, FRAMES);
+    this.operator = choice('operator', session.operators, OPERATORS);
+    this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
+    this.submit = h('button', { type: 'submit', class: 'primary', id: 'submit' }, 'Compute the skeleton');
+    this.element = this.build();
+    this.listen();
+    this.typed('points');
+  }
+
+  build() {
+    return h(
+      'form',
+      { class: 'card', novalidate: true },
+      h('h2', {}, 'What to compute'),
+      h(
+        'div',
+        { class: 'fields' },
+        field('name', 'Name', this.name),
+        field('points', 'Sample points', this.points, 'More are finer, and take longer.'),
+        field('spacing', 'or their spacing', this.spacing, 'In units of the mesh.'),
+      ),
+      this.lattice,
+      h(
+        'details',
+        {},
+        h('summary', {}, 'Directions, lattice and operator'),
+        h(
+          'div',
+          { class: 'fields' },
+          field('directions', 'Directions of the planes', this.directions, 'Cubes and other shapes with few normals need some from all sides.'),
+          this.howManyField,
+          field('frame', 'Lattice along', this.frame),
+          field('operator', 'Shocks found by', this.operator),
+        ),
+      ),
+      this.problem,
+      h('div', { class: 'row end' }, this.submit),
+    );
+  }
+
+  listen() {
+    this.points.addEventListener('input', () => this.typed('points'));
+    this.spacing.addEventListener('input', () => this.typed('spacing'));
+    this.frame.addEventListener('change', () => this.typed(this.given));
+    this.directions.addEventListener('change', () => {
+      this.howManyField.hidden = this.directions.value === 'triangles';
+    });
+    this.element.addEventListener('submit', (event) => {
+      event.preventDefault();
+      this.send();
+    });
+  }
+
+  // The other of the two follows at once by the volume, and then as the lattice counts.
+  typed(which) {
+    this.given = which;
+    const value = parseFloat(this[which].value);
+    clearTimeout(this.timer);
+    this.counting?.abort();
+    if (!(value > 0)) {
+      setText(this.lattice, 'Give a number above 0.');
+      return;
+    }
+    const { volume } = this.mesh.facts;
+    if (which === 'points') this.spacing.value = editable(Math.cbrt(volume / value));
+    else this.points.value = String(Math.max(0, Math.round(volume / value ** 3)));
+    this.timer = setTimeout(() => this.count(which, value), TYPING);
+  }
+
+  async count(which, value) {
+    this.counting = new AbortController();
+    const query = new URLSearchParams({ [which]: value, frame: this.frame.value });
+    try {
+      const found = await call('GET', `/api/meshes/${this.mesh.mesh}/lattice?${query}`, undefined, this.counting.signal);
+      if (which === 'points') this.spacing.value = editable(found.spacing);
+      else this.points.value = String(found.points);
+      const about = found.counted ? '' : 'about ';
+      setText(this.lattice, `${about}${counted(found.points, 'sample point')} at spacing ${measure(found.spacing)}`);
+    } catch (error) {
+      if (error.name !== 'AbortError') setText(this.lattice, error.message);
+    }
+  }
+
+  directionSet() {
+    const many = Math.max(1, Math.round(parseFloat(this.howMany.value) || 0));
+    const sets = {
+      triangles: 'triangles',
+      sphere: `sphere:${many}`,
+      'triangles+sphere': `triangles+sphere:${many}`,
+      random: `random:${many}:1`,
+    };
+    return sets[this.directions.value];
+  }
+
+  async send() {
+    this.problem.hidden = true;
+    this.submit.disabled = true;
+    try {
+      const answer = await call('POST', '/api/jobs', {
+        mesh: this.mesh.mesh,
+        [this.given]: parseFloat(this[this.given].value) || 0,
+        directions: this.directionSet(),
+        frame: this.frame.value,
+        operator: this.operator.value,
+        name: this.name.value.trim(),
+        request_id: this.requestId,
+      });
+      announce(answer.existed ? 'The same was submitted before; this is that job.' : `${answer.name} was submitted.`);
+      location.hash = `#job/${answer.id}`;
+    } catch (error) {
+      this.problem.textContent = error.message;
+      this.problem.hidden = false;
+    } finally {
+      this.submit.disabled = false;
+    }
+  }
+}

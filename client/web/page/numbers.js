@@ -1,0 +1,41 @@
+// Numbers and times for people.
+
+const whole = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
+const four = new Intl.NumberFormat('en', { maximumSignificantDigits: 4 });
+
+export const count = (n) => whole.format(n);
+
+// One or many of a thing.
+export const counted = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
+
+// A length, an area or a volume, to four digits.
+export function measure(value) {
+  const size = Math.abs(value);
+  return size !== 0 && (size >= 1e9 || size < 1e-3) ? value.toExponential(3).replace('e+', 'e') : four.format(value);
+}
+
+// For a field that is edited: six digits, without separators.
+export const editable = (value) => String(Number(value.toPrecision(6)));
+
+export function bytes(n) {
+  const units = ['bytes', 'KiB', 'MiB', 'GiB', 'TiB'];
+  let unit = 0;
+  while (n >= 1024 && unit + 1 < units.length) {
+    n /= 1024;
+    ++unit;
+  }
+  return `${unit === 0 ? count(n) : n.toPrecision(3)} ${units[unit]}`;
+}
+
+export function duration(seconds) {
+  const s = Math.max(0, Math.round(seconds));
+  const two = (n) => String(n).padStart(2, '0');
+  if (s < 60) return `${s} s`;
+  if (s < 3600) return `${Math.floor(s / 60)} min ${two(s % 60)} s`;
+  if (s < 86400) return `${Math.floor(s / 3600)} h ${two(Math.floor((s % 3600) / 60))} min`;
+  return `${Math.floor(s / 86400)} d ${Math.floor((s % 86400) / 3600)} h`;
+}
+
+export const ago = (unixMs) => `${duration((Date.now() - unixMs) / 1000)} ago`;
+
+export const moment = (unixMs) => (unixMs > 0 ? new Date(unixMs).toLocaleString() : 'not yet');

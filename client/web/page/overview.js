@@ -1,0 +1,73 @@
+// The server, for administrators: workers, queue and throughput.
+import { call } from './api.js';
+import { facts, h } from './elements.js';
+import { ago, count, counted, moment } from './numbers.js';
+import { isActive } from './text.js';
+
+const WATCHED = 200; // running jobs whose progress is added up
+
+function workerRow(worker) {
+  const doing = worker.silent ? 'silent: dead, stopped or cut off' : worker.task || 'idle';
+  return h(
+    'tr',
+    { class: worker.silent ? 'silent' : null },
+    h('th', { scope: 'row' }, worker.host || worker.id.slice(0, 12)),
+    h('td', {}, count(worker.threads || 0)),
+    h('td', {}, doing),
+    h('td', {}, ago(worker.last_seen_ms)),
+  );
+}
+
+export class Overview {
+  constructor(rates) {
+    this.rates = rates;
+    this.title = 'Server';
+    this.facts = h('div', {});
+    this.workers = h('tbody', {});
+    this.element = h(
+      'section',
+      {},
+      h('h1', { tabindex: -1 }, 'Server'),
+      h('div', { class: 'card' }, this.facts),
+      h(
+        'div',
+        { class: 'card scroll', tabindex: 0, role: 'region', 'aria-label': 'Workers' },
+        h('h2', {}, 'Workers'),
+        h(
+          'table',
+          {},
+          h('thead', {}, h('tr', {}, ['Host', 'Threads', 'Works on', 'Heard from'].map((name) => h('th', { scope: 'col' }, name)))),
+          this.workers,
+        ),
+      ),
+    );
+  }
+
+  // Directions per second of all running jobs that are seen.
+  throughput(jobs) {
+    let sum = 0;
+    for (const job of jobs.filter(isActive)) sum += this.rates.update(job)?.perSecond || 0;
+    this.rates.keep(new Set(jobs.map((job) => job.id)));
+    return sum;
+  }
+
+  async ask() {
+    const [info, { jobs }] = await Promise.all([call('GET', '/api/server'), call('GET', `/api/jobs?everybody=1&limit=${WATCHED}`)]);
+    const workers = info.workers || [];
+    const awake = workers.filter((worker) => !worker.silent);
+    this.facts.replaceChildren(
+      facts([
+        ['Waiting', counted(info.jobs_queued || 0, 'job')],
+        ['Running', counted(info.jobs_running || 0, 'job')],
+        ['All', counted(info.jobs_total || 0, 'job')],
+        ['Throughput', `${count(this.throughput(jobs))} directions per second`],
+        ['Workers', counted(awake.length, 'worker')],
+        ['Running since', moment(info.started_ms)],
+        ['Version', info.version],
+      ]),
+    );
+    this.workers.replaceChildren(...workers.map(workerRow));
+    if (workers.length === 0) this.workers.append(h('tr', {}, h('td', { colspan: 4 }, 'no worker has called in the last minute')));
+    return jobs.some(isActive);
+  }
+}

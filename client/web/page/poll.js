@@ -1,0 +1,46 @@
+// Asks again and again: soon while something happens, seldom while nobody looks, ever more seldom after errors.
+
+const SOON = 1000;
+const IDLE = 5000;
+const HIDDEN = 20000; // a private server leaves after a minute without calls
+const LONGEST = 30000;
+
+export class Poll {
+  // `ask` returns whether something happens; it throws when there is no answer, which `failed` is told.
+  constructor(ask, failed) {
+    this.ask = ask;
+    this.failed = failed;
+    this.failures = 0;
+    this.timer = 0;
+    this.round = 0;
+    document.addEventListener('visibilitychange', () => {
+      if (this.timer !== 0 && !document.hidden) this.now();
+    });
+  }
+
+  // Asks at once, and from then on.
+  async now() {
+    const round = ++this.round;
+    clearTimeout(this.timer);
+    this.timer = -1;
+    let busy = false;
+    try {
+      busy = await this.ask();
+      if (this.failures > 0) this.failed(null);
+      this.failures = 0;
+    } catch (error) {
+      if (round !== this.round) return;
+      ++this.failures;
+      this.failed(error);
+    }
+    if (round !== this.round) return; // stopped, or asked anew meanwhile
+    const pause = this.failures > 0 ? Math.min(LONGEST, SOON * 2 ** this.failures) : busy ? SOON : IDLE;
+    this.timer = setTimeout(() => this.now(), document.hidden ? Math.max(pause, HIDDEN) : pause);
+  }
+
+  stop() {
+    ++this.round;
+    clearTimeout(this.timer);
+    this.timer = 0;
+  }
+}

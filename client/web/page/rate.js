@@ -1,0 +1,37 @@
+// How fast jobs get on, smoothed over a few seconds; a page knows no more than it saw.
+
+const FORGETS = 3; // seconds
+
+export class Rates {
+  constructor() {
+    this.jobs = new Map();
+  }
+
+  // What the job's progress is worth by now: directions per second and the seconds that are left; null while
+  // nothing is known.
+  update(job, now = performance.now() / 1000) {
+    const last = this.jobs.get(job.id);
+    const done = job.directions_done || 0;
+    const entry = { time: now, done, perSecond: last ? last.perSecond : 0 };
+    if (last && done >= last.done && now > last.time) {
+      const seconds = now - last.time;
+      const weight = last.perSecond > 0 ? 1 - Math.exp(-seconds / FORGETS) : 1;
+      entry.perSecond += weight * ((done - last.done) / seconds - entry.perSecond);
+    } else if (last && done < last.done) {
+      entry.perSecond = 0;
+    }
+    this.jobs.set(job.id, entry);
+    return this.of(job);
+  }
+
+  of(job) {
+    const entry = this.jobs.get(job.id);
+    if (!entry || !(entry.perSecond > 1e-6)) return null;
+    return { perSecond: entry.perSecond, left: (job.directions_total - entry.done) / entry.perSecond };
+  }
+
+  // Forgets all jobs but these.
+  keep(ids) {
+    for (const id of this.jobs.keys()) if (!ids.has(id)) this.jobs.delete(id);
+  }
+}

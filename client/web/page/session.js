@@ -1,0 +1,39 @@
+// Who is signed in, and what the service offers them.
+import { call } from './api.js';
+
+export const session = { mode: 'personal', signed_in: false };
+
+function take(answer) {
+  for (const key of Object.keys(session)) delete session[key];
+  Object.assign(session, answer);
+  return session;
+}
+
+// The key of the address, which opens the page once; it leaves the address at once.
+function keyOfAddress() {
+  const key = new URLSearchParams(location.hash.slice(1)).get('key');
+  if (key) history.replaceState(null, '', location.pathname);
+  return key;
+}
+
+// Begins a session by the address, or finds the one that the browser has.
+export async function openSession() {
+  const key = keyOfAddress();
+  const found = take(await call('GET', '/api/session'));
+  if (found.signed_in || !key) return session;
+  return take(await call('POST', '/api/session', { key }));
+}
+
+export async function signIn(token) {
+  return take(await call('POST', '/api/session', { token }));
+}
+
+export async function signOut() {
+  const { mode } = session;
+  await call('DELETE', '/api/session');
+  return take({ mode, signed_in: false });
+}
+
+export function forget() {
+  take({ mode: session.mode, signed_in: false });
+}

@@ -1,0 +1,72 @@
+// What words of the protocol mean to people.
+import { count, counted, duration } from './numbers.js';
+
+export const STATES = {
+  queued: 'waiting',
+  running: 'running',
+  done: 'done',
+  failed: 'failed',
+  cancelled: 'cancelled',
+};
+
+const STAGES = {
+  prepare: 'checking the mesh and laying the lattice',
+  erode: 'eroding',
+  derive: 'finding the skeleton',
+  complete: 'complete',
+};
+
+export const OPERATORS = {
+  'zucker-hummel': 'Zucker–Hummel, as published',
+  intermediate: 'intermediate differences',
+  central: 'central differences',
+  sobel: 'Sobel',
+  flux: 'average outward flux',
+  chords: 'equal chords, joined into a sheet',
+};
+
+export const FRAMES = {
+  axis: 'the axes of the mesh',
+  pca: 'the principal axes of the solid',
+  obb: 'the axes of its smallest box',
+  affine: 'axes that follow affine maps',
+};
+
+export const ARTEFACTS = {
+  field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
+  divergence: ['Divergence', 'H, which the threshold is applied to'],
+  skeleton: ['Skeleton', 'its points'],
+  surface: ['Surface', 'the skeleton as triangles'],
+  eroded: ['Eroded solid', 'where E is at least a share of the volume'],
+  mesh: ['Mesh', 'the file as it was submitted'],
+};
+
+// What is shown under other names than the protocol's, or is of a later version.
+export const named = (table, word) => table[word] || word;
+
+export const isActive = (job) => job.state === 'queued' || job.state === 'running';
+
+// What a job is doing, or why it does not.
+export function activity(job) {
+  if (job.state === 'failed') {
+    const line = job.error?.line > 0 ? ` (line ${count(job.error.line)} of the file)` : '';
+    return (job.error?.message || 'no reason was given') + line;
+  }
+  if (job.cancel_requested && isActive(job)) return 'being cancelled';
+  if (job.waiting_reason) return `waits: ${job.waiting_reason}`;
+  if (job.state === 'queued') return 'waits for a worker';
+  if (job.state === 'running') return named(STAGES, job.stage);
+  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')}`;
+  return 'progress is kept; resume goes on from here';
+}
+
+// Directions done of all, with the pace and the time left.
+export function progress(job, rate) {
+  if (!(job.directions_total > 0) || job.state === 'done') return '';
+  let text = `${count(job.directions_done)} of ${counted(job.directions_total, 'direction')}`;
+  if (rate && job.state === 'running' && job.stage === 'erode') {
+    text += `, ${rate.perSecond < 10 ? rate.perSecond.toPrecision(2) : count(rate.perSecond)} per second`;
+    text += `, ${duration(rate.left)} left`;
+  }
+  return text;
+}

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <array>
+
+#include "base/atomic_file.h"
+#include "base/utf8.h"
+#include "client/commands/shared/artifact_choice.h"
+#include "client/commands/shared/fetch_view.h"
+#include "client/commands/shared/follow.h"
+#include "client/commands/shared/picture.h"
+#include "client/view/page.h"
+#include "client/web/api_answers.h"
+#include "client/web/handlers.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr int kPictureWidth = 1600;
+
+// As browsers name them; what has none is bytes.
+std::string type_of(const std::string& extension) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTypes = {{
+      {".csv", "text/csv; charset=utf-8"},
+      {".dat", "text/plain; charset=utf-8"},
+      {".xyz", "text/plain; charset=utf-8"},
+      {".off", "model/vnd.geomview.off"},
+      {".obj", "model/obj"},
+      {".stl", "model/stl"},
+      {".png", "image/png"},
+      {".html", "text/html; charset=utf-8"},
+  }};
+  for (const auto& [known, type] : kTypes) {
+    if (extension == known) return std::string(type);
+  }
+  return "application/octet-stream";
+}
+
+// Names under which every system can save a file.
+std::string file_name(const std::string& job, const std::string& what, const std::string& extension) {
+  constexpr std::size_t kMaxBytes = 100;
+  std::string stem(base::truncate_utf8(base::to_utf8(job), kMaxBytes));
+  for (char& c : stem) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
+        std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos)
+      c = '_';
+  }
+  if (stem.empty() || stem.front() == '.') stem.insert(0, "job");
+  return stem + "." + what + extension;
+}
+
+// RFC 6266: for old programs without what is not ASCII.
+std::string disposition(const ResultFile& result) {
+  std::string plain, encoded;
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  for (const char c : result.name) {
+    const auto byte = static_cast<unsigned char>(c);
+    plain += byte < 0x80 && c != '"' && c != '\\' ? c : '_';
+    if (std::isalnum(byte) != 0 || c == '.' || c == '-' || c == '_') {
+      encoded += c;
+    } else {
+      encoded += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+  }
+  return std::string(result.shown ? "inline" : "attachment") + "; filename=\"" + plain +
+         "\"; filename*=UTF-8''" + encoded;
+}
+
+SkeletonOptions skeleton_of(const nlohmann::json& body) {
+  SkeletonOptions skeleton{text_member(body, "operator"), number_member(body, "threshold")};
+  if (skeleton.threshold < 0) throw ClientError(ExitCode::kUsage, "'threshold' must not be below 0");
+  return skeleton;
+}
+
+ArtifactChoice choice_of(const nlohmann::json& body, const std::string& job, const std::string& name) {
+  ArtifactChoice choice{job, name, skeleton_of(body), {}};
+  if (const double fraction = number_member(body, "fraction"); fraction != 0) {
+    if (!(fraction > 0 && fraction < 1))
+      throw ClientError(ExitCode::kUsage, "'fraction' must be above 0 and below 1");
+    choice.eroded.set_fraction(fraction);
+  }
+  return choice;
+}
+
+void write_whole(const std::filesystem::path& path, const std::string& bytes) {
+  base::AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+// What was made, and how its file is named.
+struct Made {
+  v1::Job job;
+  nlohmann::ordered_json facts = nlohmann::ordered_json::object();
+};
+
+Made make_picture(Backend::Call& server, const nlohmann::json& body, const std::string& job,
+                  const std::filesystem::path& path) {
+  Made made{finished_job(server.context(), job)};
+  write_whole(path, job_picture(server.context(), made.job, skeleton_of(body), kPictureWidth));
+  return made;
+}
+
+Made make_view(Backend::Call& server, const nlohmann::json& body, const std::string& job,
+               const std::filesystem::path& path) {
+  Made made{finished_job(server.context(), job)};
+  const v1::SkeletonParams params = skeleton_params(skeleton_of(body), made.job);
+  write_whole(path, view_page(fetch_view(server.context(), made.job, params)));
+  return made;
+}
+
+Made make_artifact(Backend::Call& server, const nlohmann::json& body, const std::string& job,
+                   const std::string& name, const std::filesystem::path& path) {
+  const Written written = transfer_artifact(server.context(), choice_of(body, job, name), {path});
+  Made made{written.job};
+  made.facts[written.unit + "s"] = written.items;
+  if (written.volume) made.facts["volume"] = *written.volume;
+  if (!written.advice.empty()) made.facts["advice"] = written.advice;
+  return made;
+}
+
+// The extension of what is asked for.
+// @throws ClientError kUsage when there is no such artefact or format.
+std::string extension_for(const std::string& artifact, const std::string& format) {
+  if (artifact == "picture") return ".png";
+  if (artifact == "view") return ".html";
+  const std::vector<std::string> possible = artifact_extensions(artifact);
+  if (format.empty()) return possible.front();
+  if (std::find(possible.begin(), possible.end(), format) == possible.end())
+    throw ClientError(ExitCode::kUsage, "'" + artifact + "' is not written as '" + format + "'");
+  return format;
+}
+
+}  // namespace
+
+std::string WebCall::keep(ResultFile result) const {
+  const std::uint64_t bytes = result.file->bytes();
+  return "/results/" + web.results.put(session.id, std::make_shared<ResultFile>(std::move(result)), bytes);
+}
+
+HttpResponse make_result(WebCall& call) {
+  const nlohmann::json body = json_body(call.request);
+  const std::string artifact = text_member(body, "artefact");
+  const std::string extension = extension_for(artifact, text_member(body, "format"));
+  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(extension));
+  const auto server = call.server();
+  Made made = artifact == "picture" ? make_picture(*server, body, call.argument, file->path())
+              : artifact == "view"  ? make_view(*server, body, call.argument, file->path())
+                                    : make_artifact(*server, body, call.argument, artifact, file->path());
+  nlohmann::ordered_json answer = std::move(made.facts);
+  const bool shown = artifact == "picture" || artifact == "view";
+  answer["name"] = file_name(made.job.name(), artifact, extension);
+  answer["size"] = file->bytes();
+  answer["warnings"] = server->warnings();
+  answer["href"] = call.keep({std::move(file), answer["name"].get<std::string>(), type_of(extension), shown,
+                              artifact == "view" ? view_page_policy() : std::string()});
+  return api_answer(answer, 201);
+}
+
+HttpResponse send_result(WebCall& call) {
+  const auto result = call.web.results.find(call.session.id, call.argument);
+  if (!result) throw ClientError(ExitCode::kNotFound, "the file is not kept here any more; make it again");
+  HttpResponse response;
+  response.headers = {{"Content-Type", result->type}, {"Content-Disposition", disposition(*result)}};
+  if (!result->policy.empty()) response.headers.emplace_back("Content-Security-Policy", result->policy);
+  response.file = result->file->path();
+  response.held = result;
+  return response;
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,98 @@
+#include <algorithm>
+
+#include "client/commands/shared/artifact_choice.h"
+#include "client/text/message_json.h"
+#include "client/text/words.h"
+#include "client/web/api_answers.h"
+#include "client/web/cookie.h"
+#include "client/web/handlers.h"
+#include "wire/version.h"
+
+namespace affskel::client {
+namespace {
+
+using nlohmann::ordered_json;
+
+// What metadata of gRPC can hold; the server knows what is a token.
+bool may_be_token(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7f; });
+}
+
+WebUser user_of(Backend::Call& server, std::shared_ptr<const SecretFile> token) {
+  const v1::ServerInfo info = server.session().server_info();
+  return {std::move(token), info.caller().owner(), info.caller().role() == v1::ROLE_ADMIN,
+          info.max_mesh_bytes()};
+}
+
+// By the token that they show.  A server that takes any token would let everybody do everything.
+// @throws ClientError kNotAllowed when the server refuses it, or would refuse none.
+WebUser signed_in_user(const WebState& web, const std::string& text) {
+  if (!may_be_token(text)) throw ClientError(ExitCode::kNotAllowed, "this is no token");
+  if (!web.backend.refuses_strangers()) {
+    throw ClientError(
+        ExitCode::kNotAllowed,
+        "the server asks nobody for a token, so that nobody can sign in here; see affskel-server "
+        "token --help");
+  }
+  auto token = std::make_shared<const SecretFile>(text);
+  const auto server = web.backend.call(*token);
+  return user_of(*server, std::move(token));
+}
+
+ordered_json offered_artifacts() {
+  ordered_json artifacts = ordered_json::array();
+  for (const std::string& name : artifact_names())
+    artifacts.push_back({{"name", name}, {"formats", artifact_extensions(name)}});
+  return artifacts;
+}
+
+ordered_json session_json(const WebState& web, const WebUser& user) {
+  return {{"mode", web.options.personal ? "personal" : "sign-in"},
+          {"signed_in", true},
+          {"version", wire::kVersion},
+          {"owner", user.owner.empty() ? web.backend.own_user() : user.owner},
+          {"admin", user.admin},
+          {"max_mesh_bytes", user.max_mesh_bytes},
+          {"operators", operator_words()},
+          {"frames", frame_words()},
+          {"artefacts", offered_artifacts()}};
+}
+
+}  // namespace
+
+HttpResponse answer_session(WebCall& call) {
+  if (!call.session.id.empty()) return api_answer(session_json(call.web, call.session.user));
+  return api_answer({{"mode", call.web.options.personal ? "personal" : "sign-in"}, {"signed_in", false}});
+}
+
+HttpResponse begin_session(WebCall& call) {
+  WebState& web = call.web;
+  const nlohmann::json body = json_body(call.request);
+  WebUser user;
+  if (!web.options.personal) {
+    user = signed_in_user(web, text_member(body, "token"));
+  } else if (web.sessions.use_key(text_member(body, "key"))) {
+    user = user_of(*web.backend.call(), nullptr);
+  } else {
+    return api_error(401, "NOT_ALLOWED", "this address has been used before, or is not of this service");
+  }
+  const auto secret = web.sessions.begin(user);
+  if (!secret) return api_error(503, "LIMIT", "too many people are signed in; try again later");
+  HttpResponse response = api_answer(session_json(web, user));
+  response.headers.emplace_back("Set-Cookie", session_cookie(web.options.port, web.options.secure, *secret));
+  return response;
+}
+
+HttpResponse end_session(WebCall& call) {
+  call.web.end_session(call.session.id);
+  HttpResponse response = api_answer({{"signed_in", false}});
+  response.headers.emplace_back("Set-Cookie", ended_cookie(call.web.options.port, call.web.options.secure));
+  return response;
+}
+
+HttpResponse answer_server(WebCall& call) {
+  const v1::ServerInfo info = call.server()->session().server_info();
+  return api_answer(to_json(info));
+}
+
+}  // namespace affskel::client

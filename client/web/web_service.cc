@@ -1,0 +1,203 @@
+#include "client/web/web_service.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "base/utf8.h"
+#include "client/files/format.h"
+#include "client/web/api_answers.h"
+#include "client/web/cookie.h"
+#include "client/web/handlers.h"
+#include "client/web/page_files.h"
+
+namespace affskel::client {
+namespace {
+
+// Who may call.
+enum class Access { kEverybody, kSignedIn, kAdmin };
+
+// What a request may carry.
+enum class Body { kNone, kObject, kMesh };
+
+struct Route {
+  const char* method;
+  const char* path;  // '*' stands for one part
+  Access access;
+  Body body;
+  AnswerKind kind;
+  HttpResponse (*respond)(WebCall& call);
+};
+
+constexpr std::array<Route, 18> kRoutes = {{
+    {"GET", "/", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
+    {"GET", "/page.js", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
+    {"GET", "/page.css", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
+    {"GET", "/icon.svg", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
+    {"GET", "/api/session", Access::kEverybody, Body::kNone, AnswerKind::kQuick, answer_session},
+    {"POST", "/api/session", Access::kEverybody, Body::kObject, AnswerKind::kQuick, begin_session},
+    {"DELETE", "/api/session", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, end_session},
+    {"GET", "/api/server", Access::kAdmin, Body::kNone, AnswerKind::kQuick, answer_server},
+    {"GET", "/api/jobs", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, list_jobs},
+    {"POST", "/api/jobs", Access::kSignedIn, Body::kObject, AnswerKind::kComputed, submit_mesh},
+    {"GET", "/api/jobs/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, show_job},
+    {"DELETE", "/api/jobs/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, delete_job},
+    {"POST", "/api/jobs/*/cancel", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, cancel_job},
+    {"POST", "/api/jobs/*/resume", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, resume_job},
+    {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, AnswerKind::kAwaited, make_result},
+    {"POST", "/api/meshes", Access::kSignedIn, Body::kMesh, AnswerKind::kComputed, take_mesh},
+    {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, AnswerKind::kComputed, lay_lattice},
+    {"GET", "/results/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, send_result},
+}};
+
+constexpr std::uint64_t kMaxObjectBytes = 64 * 1024;
+// One session's of the threads that wait for workers: others find some, too.
+constexpr unsigned kMostAwaited = 4;
+
+// What '*' stands for, empty without one; nothing when the path is another.
+std::optional<std::string> match(std::string_view pattern, std::string_view path) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return pattern == path ? std::optional<std::string>("") : std::nullopt;
+  const std::string_view before = pattern.substr(0, star), after = pattern.substr(star + 1);
+  if (path.size() <= before.size() + after.size() || !path.starts_with(before) || !path.ends_with(after))
+    return std::nullopt;
+  const std::string_view part = path.substr(before.size(), path.size() - before.size() - after.size());
+  return part.find('/') == std::string_view::npos ? std::optional<std::string>(part) : std::nullopt;
+}
+
+struct Chosen {
+  const Route* route = nullptr;
+  std::string argument;
+  std::string methods;  // of the path
+};
+
+Chosen choose_route(const HttpRequest& head) {
+  Chosen chosen;
+  for (const Route& route : kRoutes) {
+    const auto argument = match(route.path, head.path);
+    if (!argument) continue;
+    chosen.methods += (chosen.methods.empty() ? "" : ", ") + std::string(route.method);
+    if (head.method != route.method) continue;
+    chosen.route = &route;
+    chosen.argument = *argument;
+  }
+  return chosen;
+}
+
+HttpResponse no_such_route(const Chosen& chosen) {
+  if (chosen.methods.empty()) return api_error(404, "NOT_FOUND", "there is nothing at this address");
+  HttpResponse refusal = api_error(405, "USAGE", "this address takes " + chosen.methods);
+  refusal.headers.emplace_back("Allow", chosen.methods);
+  return refusal;
+}
+
+HttpResponse sign_in_first() {
+  return api_error(401, "NOT_ALLOWED", "nobody is signed in, or the session has ended: sign in again");
+}
+
+// Whether the server still takes the token of a session.
+bool is_still_known(const WebCall& call) {
+  try {
+    call.server()->session().server_info();
+  } catch (const ClientError& error) {
+    return error.exit_code() != ExitCode::kNotAllowed;
+  }
+  return true;
+}
+
+HttpResponse answer_error(const WebCall& call, const ClientError& error) {
+  const bool may_have_ended =
+      error.exit_code() == ExitCode::kNotAllowed && call.session.user.token != nullptr;
+  if (!may_have_ended || is_still_known(call)) return api_error(error);
+  call.web.end_session(call.session.id);
+  return sign_in_first();
+}
+
+HttpResponse answer(WebCall& call, const Route& route) {
+  try {
+    return route.respond(call);
+  } catch (const ClientError& error) {
+    return answer_error(call, error);
+  } catch (const base::FileError& error) {
+    return api_error(error_from_file(error));
+  } catch (const core::CoreError& error) {
+    return api_error(error_from_core(error, ""));
+  } catch (const std::bad_alloc&) {
+    return api_error(ClientError(ExitCode::kLimit, "there is not enough memory for this"));
+  } catch (const std::exception& error) {
+    return api_error(ClientError(ExitCode::kInternal, std::string("internal error: ") + error.what()));
+  }
+}
+
+// The reader goes by the extension.
+std::string upload_extension(const HttpRequest& head) {
+  const std::string extension = lower_extension(head.parameter("name"));
+  for (const FileFormat format : surface_formats()) {
+    if (extension == extension_of(format)) return extension;
+  }
+  return ".off";
+}
+
+}  // namespace
+
+// One share of the threads that wait for workers, given back when it is destroyed.
+class WebService::Share {
+ public:
+  Share(WebService& service, std::string session) : service_(service), session_(std::move(session)) {}
+  ~Share() {
+    const base::MutexLock lock(service_.mutex_);
+    const auto own = service_.awaited_.find(session_);
+    if (--own->second == 0) service_.awaited_.erase(own);
+  }
+  Share(const Share&) = delete;
+  Share& operator=(const Share&) = delete;
+
+ private:
+  WebService& service_;
+  const std::string session_;
+};
+
+std::shared_ptr<WebService::Share> WebService::take_share(const std::string& session) {
+  const base::MutexLock lock(mutex_);
+  unsigned& own = awaited_[session];
+  if (own == kMostAwaited) return nullptr;
+  ++own;
+  return std::make_shared<Share>(*this, session);
+}
+
+std::variant<HttpResponse, Reception> WebService::admit(const HttpRequest& head) {
+  if (auto refusal = refuse_foreign(head, state_.options.hosts)) return *refusal;
+  const Chosen chosen = choose_route(head);
+  if (chosen.route == nullptr) return no_such_route(chosen);
+  const Route& route = *chosen.route;
+  if (!base::is_utf8(chosen.argument)) return api_error(400, "USAGE", "the address is not UTF-8");
+  const auto secret = session_secret(head, state_.options.port, state_.options.secure);
+  const auto found = secret ? state_.sessions.find(*secret) : std::nullopt;
+  if (route.access != Access::kEverybody && !found) return sign_in_first();
+  const WebSessions::Found session = found.value_or(WebSessions::Found());
+  if (route.access == Access::kAdmin && !session.user.admin)
+    return api_error(403, "NOT_ALLOWED", "this is for administrators");
+
+  Reception reception;
+  reception.kind = route.kind;
+  auto upload = std::make_shared<std::unique_ptr<OwnedFile>>();
+  if (route.body == Body::kObject) reception.max_bytes = kMaxObjectBytes;
+  if (route.body == Body::kMesh) {
+    reception.max_bytes = session.user.max_mesh_bytes;
+    reception.file = state_.folder.new_path(upload_extension(head));
+    *upload = std::make_unique<OwnedFile>(reception.file);
+  }
+  std::shared_ptr<Share> share;
+  if (route.kind == AnswerKind::kAwaited && !(share = take_share(session.id)))
+    return api_error(429, "LIMIT",
+                     "wait for the files that are being made for you; " + std::to_string(kMostAwaited) +
+                         " are made at a time");
+  reception.respond = [this, &route, argument = chosen.argument, session, upload,
+                       share](const HttpRequest& request) {
+    WebCall call{state_, request, session, argument, std::move(*upload)};
+    return answer(call, route);
+  };
+  return reception;
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "base/mutex.h"
+#include "client/web/web_state.h"
+
+namespace affskel::client {
+
+/// Answers the requests of the page: its files, and the interface that its script calls, in JSON.
+/// Thread-safe.
+class WebService {
+ public:
+  WebService(Backend backend, WebOptions options) : state_(std::move(backend), std::move(options)) {}
+
+  /// See AdmitRequest.  Refuses other origins, what is not offered, and who is not signed in.
+  std::variant<HttpResponse, Reception> admit(const HttpRequest& head);
+
+  /// See WebSessions::new_key.
+  std::string new_key() { return state_.sessions.new_key(); }
+
+  /// A new path in a folder that nobody else can enter.
+  std::filesystem::path new_private_path(const std::string& extension) {
+    return state_.folder.new_path(extension);
+  }
+
+ private:
+  class Share;
+  // Null when the session has its part already.
+  std::shared_ptr<Share> take_share(const std::string& session);
+
+  WebState state_;
+  base::Mutex mutex_;
+  std::map<std::string, unsigned> awaited_ ABSL_GUARDED_BY(mutex_);  // answers under way, by session
+};
+
+}  // namespace affskel::client

@@ -1,0 +1,383 @@
+"""Uses the page of affskel-client web in Chromium, on a real server with its worker.
+
+Usage: web_test.py AFFSKEL-CLIENT AFFSKEL-SERVER
+"""
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
+    print("no chromium or chromedriver: skipped")
+    sys.exit(77)
+
+from selenium.webdriver.common.keys import Keys
+
+from web_page import Service, visitor
+from web_servers import Bench, Lab
+
+CLIENT, SERVER = sys.argv[1:3]
+DESKTOP = dict(width=1200, height=900)
+PHONE = dict(width=390, height=780, phone=True)
+
+
+def setUpModule():
+    global bench
+    bench = Bench(CLIENT)
+
+
+def tearDownModule():
+    bench.close()
+
+
+class OnThePage(unittest.TestCase):
+    window = DESKTOP
+    dark = False
+
+    def setUp(self):
+        self.service = Service(CLIENT, bench.environment)
+        self.addCleanup(self.stop)
+        self.page = self.enterContext(visitor(dark=self.dark, **self.window))
+        self.page.open(self.service.address)
+        self.page.heading("Jobs")
+
+    def stop(self):
+        self.assertEqual(self.service.close(), 0)
+
+    def tearDown(self):
+        self.assertEqual(self.page.errors(), [])
+        asked = self.page.asked()
+        self.assertTrue(asked)
+        self.assertEqual([url for url in asked if not url.startswith(self.service.origin + "/")], [])
+
+    def choose(self, name):
+        self.page.find("#file").send_keys(bench.path(name))
+
+    def submit_body(self, points, name):
+        """From the list of jobs to the finished skeleton."""
+        self.page.shown("a.button[href='#new']").click()
+        self.page.heading("New job")
+        self.choose("body.off")
+        self.page.picture_is_drawn("#found img")
+        self.page.type("#points", points)
+        self.page.type("#name", name)
+        self.page.shown("#submit").click()
+        self.page.heading(name)
+        self.page.wait(lambda: self.page.shown(".badge").text == "done")
+        self.page.picture_is_drawn()
+
+
+class Desktop(OnThePage):
+    def test_from_a_mesh_to_its_skeleton(self):
+        page = self.page
+        page.screenshot("desktop-1-jobs")
+        page.shown("a.button[href='#new']").click()
+        page.heading("New job")
+        self.choose("body.off")
+        page.picture_is_drawn("#found img")
+        found = page.shown("#found").text
+        self.assertIn("5,000", found)
+        # The number of points follows the spacing, and the spacing the points.
+        page.type("#points", 20000)
+        page.wait(lambda: "sample points at spacing" in page.find("#lattice").text)
+        spacing = float(page.find("#spacing").get_attribute("value"))
+        volume = json.loads(bench.run("--json", "inspect", bench.path("body.off")))["volume"]
+        self.assertAlmostEqual(volume / spacing ** 3 / 20000, 1, delta=0.1)
+        page.screenshot("desktop-2-new")
+        page.type("#spacing", 2 * spacing)
+        page.wait(lambda: 2000 < float(page.find("#points").get_attribute("value")) < 3000)
+        page.type("#points", 100000)
+        page.type("#name", "Subject <b>7</b> ü")
+        page.shown("#submit").click()
+        page.heading("Subject <b>7</b> ü")
+        page.wait(lambda: page.shown(".badge").text == "done")
+        self.assertNotIn("key=", page.driver.current_url)
+        job = page.driver.current_url.split("/")[-1]
+        status = json.loads(bench.run("--json", "status", job))
+        self.assertEqual(status["state"], "done")
+        self.assertIn(f"{status['skeleton_points']:,} skeleton points", page.text())
+        page.picture_is_drawn()
+        page.screenshot("desktop-3-done")
+
+    def test_downloads_what_the_command_line_writes(self):
+        self.submit_body(3000, "files")
+        job = self.page.driver.current_url.split("/")[-1]
+        buttons = [b.get_attribute("data-file") for b in self.page.all("button[data-file]")]
+        self.assertEqual(len(buttons), 24)
+        for name in buttons:
+            artefact, extension = name.split(".")
+            self.page.find(f"button[data-file='{name}']").click()
+            here = self.page.downloaded(f"files.{name}")
+            bench.run("fetch", job, artefact, "-o", bench.path(name))
+            with open(bench.path(name), "rb") as file:
+                self.assertEqual(here, file.read(), name)
+
+    def test_other_parameters(self):
+        self.submit_body(3000, "parameters")
+        job = self.page.driver.current_url.split("/")[-1]
+        self.page.shown("summary").click()
+        self.page.type("#download-threshold", 3)
+        self.page.find("button[data-file='skeleton.csv']").click()
+        here = self.page.downloaded("parameters.skeleton.csv")
+        bench.run("skeleton", job, "--threshold", "3", "-o", bench.path("t.csv"))
+        with open(bench.path("t.csv"), "rb") as file:
+            self.assertEqual(here, file.read())
+        # What cannot be made is said beside the buttons.
+        self.page.type("#download-level", 99.9)
+        self.page.find("button[data-file='eroded.stl']").click()
+        self.page.wait(lambda: "eroded" in self.page.shown(".card [role=status]").text or
+                       self.page.all(".card .error:not([hidden])"))
+
+    def test_turns_the_skeleton(self):
+        self.submit_body(8000, "turned")
+        self.page.shown("#interactive").click()
+        frame = self.page.shown("dialog iframe")
+        self.page.driver.switch_to.frame(frame)
+        state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
+        self.assertGreater(state["pointsHere"], 4000)
+        self.page.find("#view-front").click()
+        front = self.page.script("return affskel.state().camera.position")
+        self.page.find("#canvas").send_keys(Keys.ARROW_LEFT)
+        self.page.wait(lambda: self.page.script("return affskel.state().camera.position") != front)
+        self.assertEqual(self.page.script("return window.origin"), "null", "in a sandbox of its own")
+        self.page.driver.switch_to.default_content()
+        self.page.screenshot("desktop-4-turned")
+        self.page.shown("#close-interactive").click()
+        self.page.wait(lambda: not self.page.all("dialog"))
+        self.assertEqual(self.page.script("return document.activeElement.id"), "interactive")
+
+    def test_says_what_is_wrong_with_a_mesh(self):
+        self.page.shown("a.button[href='#new']").click()
+        self.choose("open.off")
+        self.page.wait(lambda: "bounds no solid" in self.page.shown("#found").text)
+        found = self.page.find("#found").text
+        self.assertIn("edges", found)
+        self.assertIn("line", found)
+        self.page.picture_is_drawn("#found img")
+        self.assertEqual(self.page.all("#submit"), [])
+        self.page.screenshot("desktop-5-defects")
+        with open(bench.path("text.off"), "w", encoding="ascii") as file:
+            file.write("this is no mesh\n")
+        self.choose("text.off")
+        self.page.wait(lambda: "text.off cannot be read: " in self.page.text())
+        self.assertNotIn("/tmp", self.page.text())
+
+    def test_deletes_only_what_is_confirmed(self):
+        self.submit_body(2000, "unloved")
+        job = self.page.driver.current_url.split("/")[-1]
+        self.page.shown("#delete").click()
+        self.page.shown("dialog button").click()  # keep it
+        self.page.wait(lambda: not self.page.all("dialog"))
+        bench.run("status", job)
+        self.page.shown("#delete").click()
+        self.page.shown("dialog .danger").click()
+        self.page.heading("Jobs")
+        self.page.wait(lambda: not self.page.all(f"#job-{job}"))
+        gone = subprocess.run([CLIENT, "--quiet", "status", job], env=bench.environment, check=False,
+                              stderr=subprocess.DEVNULL)
+        self.assertEqual(gone.returncode, 4)
+
+    def test_cancels_and_resumes(self):
+        # A job that no worker gets to the end of by itself.
+        job = bench.run("submit", bench.path("body.off"), "--points", "3000000", "--name", "long").strip()
+        self.page.shown(f"#job-{job} a").click()
+        self.page.heading("long")
+        self.page.wait(lambda: self.page.shown(".badge").text == "running")
+        self.page.wait(lambda: "directions" in self.page.text())
+        self.page.screenshot("desktop-6-running")
+        self.page.shown("#cancel").click()
+        self.page.shown("dialog .danger").click()
+        self.page.wait(lambda: self.page.shown(".badge").text == "cancelled")
+        self.page.shown("#resume").click()
+        self.page.wait(lambda: self.page.shown(".badge").text in ("waiting", "running"))
+        bench.run("cancel", job)
+        self.page.wait(lambda: self.page.shown(".badge").text == "cancelled")
+        bench.run("delete", job)
+
+    def test_administrators_see_the_server(self):
+        self.page.shown("#server-link").click()
+        self.page.heading("Server")
+        self.page.wait(lambda: "Throughput" in self.page.text() and self.page.all("tbody th"))
+        self.page.screenshot("desktop-7-server")
+
+    def test_the_address_opens_the_page_once(self):
+        other = self.enterContext(visitor(**DESKTOP))
+        other.open(self.service.address)
+        other.heading("This page is locked")
+        self.assertIn("has been used before", other.text())
+        other.screenshot("desktop-8-locked")
+        refused = [message for message in other.errors() if "401" not in message]
+        self.assertEqual(refused, [])
+
+
+class SigningIn(unittest.TestCase):
+    def setUp(self):
+        self.lab = Lab(CLIENT, SERVER, bench.environment)
+        self.addCleanup(lambda: self.assertEqual(self.lab.close(), 0))
+
+    def visit(self, **window):
+        page = self.enterContext(visitor(**(window or DESKTOP)))
+        page.open(self.lab.service.address)
+        page.heading("Sign in")
+        return page
+
+    def sign_in(self, page, who):
+        page.type("#token", self.lab.tokens[who])
+        page.driver.switch_to.active_element.send_keys(Keys.ENTER)
+        page.heading("Jobs")
+
+    def errors(self, page, expected=()):
+        return [error for error in page.errors() if not any(part in error for part in expected)]
+
+    def test_from_sign_in_to_the_skeleton(self):
+        self.assertEqual(self.lab.service.mode, "sign-in")
+        page = self.visit()
+        page.screenshot("lab-1-sign-in")
+        self.sign_in(page, "ada")
+        self.assertFalse(page.find("#server-link").is_displayed())
+        page.shown("main a[href='#new']").click()
+        page.heading("New job")
+        page.find("#file").send_keys(bench.path("body.off"))
+        page.picture_is_drawn("#found img")
+        page.type("#points", 20000)
+        page.type("#name", "body of ada")
+        page.shown("#submit").click()
+        page.heading("body of ada")
+        page.wait(lambda: page.shown(".badge").text == "done")
+        page.picture_is_drawn()
+        page.shown("#interactive").click()
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().pointsHere > 0"))
+        page.driver.switch_to.default_content()
+        page.shown("#close-interactive").click()
+        page.wait(lambda: not page.all("dialog"))
+        # By key: Chromium may still send the mouse to the frame that has just gone.
+        page.find("button[data-file='mesh.off']").send_keys(Keys.ENTER)
+        with open(bench.path("body.off"), "rb") as file:
+            self.assertEqual(page.downloaded("body of ada.mesh.off"), file.read())
+        self.assertEqual(page.errors(), [])
+        self.assertEqual(page.script("return document.cookie"), "", "no script sees the session")
+        self.assertEqual(page.script("return JSON.stringify([localStorage, sessionStorage])"), "[{},{}]")
+        job = page.driver.current_url.split("/")[-1]
+
+        # Another user sees nothing of it, an administrator all.
+        other = self.visit()
+        self.sign_in(other, "bob")
+        other.shown(".empty")
+        other.open(f"{self.lab.service.address}#job/{job}")
+        other.wait(lambda: "no job" in other.text())
+        self.assertNotIn("ada", other.text())
+        other.find("#sign-out").click()
+        other.heading("Sign in")
+        self.sign_in(other, "root")
+        other.shown("#everybody").click()
+        other.wait(lambda: other.all(f"#job-{job}"))
+        self.assertIn("ada", other.find(f"#job-{job}").text)
+        other.shown("#server-link").click()
+        other.wait(lambda: other.all("tbody th"))
+        self.assertEqual(self.errors(other, [job]), [])
+
+        # Signed out is signed out, also for whoever kept an address.
+        page.find("#sign-out").click()
+        page.heading("Sign in")
+        page.open(f"{self.lab.service.address}#job/{job}")
+        page.heading("Sign in")
+
+    def test_wrong_and_revoked_tokens(self):
+        page = self.visit(**PHONE)
+        page.type("#token", "this is no token")
+        page.shown("form button").click()
+        page.wait(lambda: "That did not work" in page.text())
+        page.screenshot("lab-2-refused-phone")
+        self.sign_in(page, "ada")
+        ada = next(line.split()[0] for line in self.lab.token("list").splitlines() if "ada" in line)
+        self.lab.token("revoke", ada)
+        page.wait(lambda: "The session has ended" in page.text())
+        page.heading("Sign in")
+        page.type("#token", self.lab.tokens["ada"])
+        page.shown("form button").click()
+        page.wait(lambda: "That did not work" in page.text())
+        self.assertEqual(self.errors(page, ["/api/session", "/api/jobs"]), [])
+
+
+class ByKeyboardAlone(OnThePage):
+    def test_from_a_mesh_to_its_files(self):
+        page = self.page
+        page.press("main a[href='#new']")
+        page.heading("New job")
+        page.tab_to("#file")
+        self.choose("box.off")
+        page.wait(lambda: page.script("return document.activeElement.id") == "found-heading")
+        name = page.tab_to("#name")
+        name.send_keys(Keys.CONTROL, "a")
+        name.send_keys("by keyboard")
+        points = page.tab_to("#points")
+        points.send_keys(Keys.CONTROL, "a")
+        points.send_keys("2000")
+        page.press("summary")
+        page.tab_to("#directions").send_keys("e")  # evenly from all sides
+        page.wait(lambda: page.find("#how-many").is_displayed())
+        page.press("#submit")
+        page.heading("by keyboard")
+        self.assertEqual(page.script("return document.activeElement.tagName"), "H1")
+        page.wait(lambda: page.shown(".badge").text == "done")
+        page.wait(lambda: page.find("#announcement").text or page.script(
+            "return document.getElementById('announcement').textContent"))
+        page.press("button[data-file='skeleton.ply']")
+        self.assertTrue(page.downloaded("by keyboard.skeleton.ply").startswith(b"ply"))
+        page.script("document.querySelector('h1').focus()")
+        page.press("#delete")
+        self.assertTrue(page.script("return document.activeElement.closest('dialog') !== null"))
+        page.driver.switch_to.active_element.send_keys(Keys.ESCAPE)
+        page.wait(lambda: not page.all("dialog"))
+        self.assertEqual(page.script("return document.activeElement.id"), "delete")
+
+
+class Phone(OnThePage):
+    window = PHONE
+    dark = True
+
+    def assert_fits(self):
+        self.assertEqual(self.page.script("return innerWidth"), 390)
+        self.assertLessEqual(self.page.width(), 390)
+        self.assertEqual(self.page.small_targets(), [])
+        self.assertEqual(self.page.unnamed(), [])
+
+    def test_everything_fits(self):
+        page = self.page
+        self.assert_fits()
+        page.shown("main a.button[href='#new']").click()
+        page.heading("New job")
+        self.assert_fits()
+        self.choose("body.off")
+        page.picture_is_drawn("#found img")
+        page.shown("summary").click()
+        self.assert_fits()
+        page.screenshot("phone-1-new")
+        page.type("#points", 5000)
+        page.shown("#submit").click()
+        page.wait(lambda: page.shown(".badge").text == "done")
+        page.picture_is_drawn()
+        self.assert_fits()
+        page.screenshot("phone-2-done")
+        page.shown("#interactive").click()
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().pointsHere > 0"))
+        page.driver.switch_to.default_content()
+        page.screenshot("phone-3-turned")
+        page.shown("#close-interactive").click()
+        page.shown("nav a[href='#jobs']").click()
+        page.heading("Jobs")
+        page.shown(".job")
+        self.assert_fits()
+        page.screenshot("phone-4-jobs")
+        page.shown("#server-link").click()
+        page.heading("Server")
+        page.wait(lambda: page.all("tbody th"))
+        self.assert_fits()
+        page.screenshot("phone-5-server")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -1,0 +1,220 @@
+#include "client/web/web_service.h"
+
+#include <filesystem>
+#include <regex>
+
+#include "client/view/page.h"
+#include "web/web_service_fixture.h"
+
+namespace affskel::client {
+namespace {
+
+TEST_F(WebServiceTest, ThePageIsForEverybodyAndRunsItsOwnScriptAlone) {
+  const Answer page = ask("GET", "/");
+  EXPECT_EQ(page.status, 200);
+  const std::string policy = page.header("Content-Security-Policy");
+  EXPECT_NE(policy.find("default-src 'none'; script-src 'self';"), std::string::npos) << policy;
+  EXPECT_EQ(policy.find("unsafe"), std::string::npos) << policy;
+  EXPECT_EQ(page.body.find(" style="), std::string::npos);
+  EXPECT_FALSE(std::regex_search(page.body, std::regex("<script>|<script [^>]*>[^<]|<style| on[a-z]+=")))
+      << "nothing inline";
+  // All that it asks for is there.
+  std::smatch match;
+  int files = 0;
+  for (std::string rest = page.body; std::regex_search(rest, match, std::regex("(?:src|href)=\"(/[^\"]+)\""));
+       rest = match.suffix()) {
+    EXPECT_EQ(ask("GET", match[1]).status, 200) << match[1];
+    ++files;
+  }
+  EXPECT_GE(files, 3);
+  EXPECT_EQ(ask("GET", "/page.js").body.find("http://"), std::string::npos);
+}
+
+TEST_F(WebServiceTest, SaysWhatIsNotOffered) {
+  sign_in();
+  EXPECT_EQ(ask("GET", "/api/nothing").status, 404);
+  EXPECT_EQ(ask("GET", "/api/jobs/a/b/cancel").status, 404);
+  EXPECT_EQ(ask("GET", "/page.html").status, 404);
+  const Answer put = ask("PUT", "/api/jobs");
+  EXPECT_EQ(put.status, 405);
+  EXPECT_EQ(put.header("Allow"), "GET, POST");
+  EXPECT_EQ(ask("GET", "/api/jobs/%FF").status, 400);
+}
+
+TEST_F(WebServiceTest, ListsJobsAndSaysWhetherThereAreMore) {
+  sign_in();
+  service_.jobs = 3;
+  service_.job.add_done_positions()->set_end(12);
+  json listed = ask("GET", "/api/jobs?limit=2").object();
+  EXPECT_EQ(listed["jobs"].size(), 2u);
+  EXPECT_TRUE(listed["more"]);
+  EXPECT_EQ(listed["jobs"][0]["state"], "done");
+  EXPECT_EQ(listed["jobs"][0]["directions_total"], 12);
+  EXPECT_TRUE(listed["jobs"][0]["done_positions"].empty()) << "may be long";
+  EXPECT_EQ(service_.listed.owner(), "me");
+  service_.jobs = 2;
+  listed = ask("GET", "/api/jobs?limit=2&everybody=1").object();
+  EXPECT_FALSE(listed["more"]);
+  EXPECT_EQ(service_.listed.owner(), "");
+  for (const char* limit : {"0", "1001", "-1", "x", "1e2"})
+    EXPECT_EQ(ask("GET", std::string("/api/jobs?limit=") + limit).status, 400) << limit;
+}
+
+TEST_F(WebServiceTest, PassesOnWhatTheServerSays) {
+  sign_in();
+  EXPECT_EQ(ask("GET", "/api/jobs/000000").status, 404);
+  EXPECT_EQ(ask("GET", "/api/jobs/000000").error(), "no job begins with 000000");
+  service_.fails = {grpc::StatusCode::RESOURCE_EXHAUSTED, "1000 jobs of 1000 are queued"};
+  const Answer refused = ask("POST", "/api/jobs/" + service_.job.id() + "/resume");
+  EXPECT_EQ(refused.status, 507);
+  EXPECT_EQ(refused.object()["error"]["code"], "LIMIT");
+  EXPECT_EQ(refused.error(), "1000 jobs of 1000 are queued");
+}
+
+TEST_F(WebServiceTest, TellsWhatAMeshIs) {
+  sign_in();
+  const json mesh = uploaded("my%20cube.off", mesh_);
+  EXPECT_EQ(mesh["name"], "my cube.off");
+  EXPECT_EQ(mesh["facts"]["file"], "my cube.off");
+  EXPECT_EQ(mesh["facts"]["triangles"], 12);
+  EXPECT_DOUBLE_EQ(mesh["facts"]["volume"], 8e9);
+  const Answer picture = ask("GET", mesh["picture"]);
+  EXPECT_EQ(picture.header("Content-Type"), "image/png");
+  EXPECT_TRUE(picture.body.starts_with("\x89PNG"));
+}
+
+TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
+  sign_in();
+  const json open = uploaded("open.off", tests::read_file(dir_ / "open.off"));
+  EXPECT_FALSE(open.contains("mesh"));
+  EXPECT_FALSE(open["facts"]["computable"]);
+  EXPECT_EQ(open["facts"]["defects"][0]["code"], "open-edges");
+  EXPECT_TRUE(open.contains("picture"));
+  const json bad = uploaded("bad.off", tests::read_file(dir_ / "bad.off"));
+  EXPECT_EQ(bad["line"], 5);
+  EXPECT_FALSE(bad.contains("facts"));
+  EXPECT_EQ(bad.dump().find(std::filesystem::temp_directory_path().string()), std::string::npos)
+      << "no paths of the service: " << bad;
+  service_.max_mesh_bytes = 10;
+  sign_in();
+  EXPECT_EQ(ask("POST", "/api/meshes?name=a.off", mesh_).status, 413);
+}
+
+// A cube of edge 2000: 20^3 points lie at a spacing of 100.
+TEST_F(WebServiceTest, CountsPointsForASpacingAndBack) {
+  sign_in();
+  const std::string lattice =
+      "/api/meshes/" + uploaded("c.off", mesh_)["mesh"].get<std::string>() + "/lattice";
+  const json by_spacing = ask("GET", lattice + "?spacing=100").object();
+  EXPECT_EQ(by_spacing["points"], 8000);
+  EXPECT_EQ(by_spacing["counted"], true);
+  const json by_points = ask("GET", lattice + "?points=8000").object();
+  EXPECT_DOUBLE_EQ(by_points["spacing"], 100);
+  EXPECT_EQ(by_points["points"], 8000);
+  const json many = ask("GET", lattice + "?points=1000000000").object();
+  EXPECT_EQ(many["counted"], false);
+  EXPECT_DOUBLE_EQ(many["spacing"], 2);
+  for (const char* wrong : {"", "?spacing=0", "?spacing=x", "?points=-5", "?points=1e10", "?spacing=1e999"})
+    EXPECT_EQ(ask("GET", lattice + wrong).status, 400) << wrong;
+  EXPECT_EQ(ask("GET", lattice + "?spacing=100&frame=sideways").status, 400);
+  EXPECT_EQ(ask("GET", "/api/meshes/unknown/lattice?points=5").status, 404);
+}
+
+TEST_F(WebServiceTest, SubmitsTheMeshAsItWasSent) {
+  sign_in();
+  const std::string mesh = uploaded("cube.off", mesh_)["mesh"];
+  json asked = {{"mesh", mesh},   {"spacing", 100},       {"directions", "sphere:100"},
+                {"frame", "pca"}, {"operator", "chords"}, {"request_id", "r1"}};
+  const Answer answer = ask("POST", "/api/jobs", asked.dump());
+  EXPECT_EQ(answer.status, 201) << answer.body;
+  EXPECT_EQ(answer.object()["id"], service_.job.id());
+  EXPECT_EQ(service_.mesh, mesh_);
+  EXPECT_EQ(service_.submitted.name(), "cube");
+  EXPECT_EQ(service_.submitted.params().sampling().spacing(), 100);
+  EXPECT_EQ(service_.submitted.params().directions(), "sphere:100");
+  EXPECT_EQ(service_.submitted.params().frame(), v1::FRAME_PCA);
+  EXPECT_EQ(service_.submitted.skeleton().operator_(), v1::OPERATOR_CHORDS);
+  EXPECT_EQ(service_.submitted.request_id(), "r1");
+  EXPECT_TRUE(service_.submitted.params().repair());
+  service_.mesh.clear();
+  for (const auto& [member, value] : std::vector<std::pair<std::string, json>>{{"spacing", -1},
+                                                                               {"spacing", "wide"},
+                                                                               {"spacing", 1e-9},
+                                                                               {"directions", "cube:5"},
+                                                                               {"frame", "x"},
+                                                                               {"operator", "x"},
+                                                                               {"priority", 10},
+                                                                               {"threshold", -1},
+                                                                               {"mesh", "unknown"},
+                                                                               {"name", 5}}) {
+    json wrong = asked;
+    wrong[member] = value;
+    const int status = ask("POST", "/api/jobs", wrong.dump()).status;
+    EXPECT_TRUE(status >= 400 && status != 500) << member << " " << value << ": " << status;
+  }
+  EXPECT_EQ(service_.mesh, "");
+}
+
+TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
+  sign_in();
+  int files = 0;
+  const json offered = ask("GET", "/api/session").object();
+  for (const json& artifact : offered["artefacts"]) {
+    for (const std::string format : artifact["formats"]) {
+      const Answer answer = made({{"artefact", artifact["name"]}, {"format", format}});
+      EXPECT_EQ(answer.status, 200) << artifact["name"] << format << answer.body;
+      EXPECT_FALSE(answer.body.empty());
+      EXPECT_NE(answer.header("Content-Disposition").find("attachment; filename=\"cube."), std::string::npos);
+      ++files;
+    }
+  }
+  EXPECT_EQ(files, 3 + 3 + 5 + 5 + 7 + 1);
+  EXPECT_EQ(made({{"artefact", "mesh"}, {"format", ".off"}}).body, mesh_);
+  EXPECT_EQ(made({{"artefact", "field"}, {"format", ".stl"}}).status, 400);
+  EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);
+}
+
+TEST_F(WebServiceTest, PassesParametersOn) {
+  sign_in();
+  made({{"artefact", "skeleton"}, {"format", ".csv"}, {"operator", "sobel"}, {"threshold", 5}});
+  EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
+  EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 5);
+  made({{"artefact", "eroded"}, {"format", ".stl"}, {"fraction", 0.25}});
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
+  EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.25);
+  EXPECT_EQ(made({{"artefact", "eroded"}, {"fraction", 2}}).status, 400);
+}
+
+TEST_F(WebServiceTest, FileNamesAreHarmless) {
+  sign_in();
+  service_.job.set_name("../a\"b\r\n/\xC3\xBC");
+  const Answer answer = made({{"artefact", "mesh"}});
+  const std::string header = answer.header("Content-Disposition");
+  EXPECT_EQ(header,
+            "attachment; filename=\"job.._a_b___"
+            "__.mesh.off\"; "
+            "filename*=UTF-8''job.._a_b___%C3%BC.mesh.off");
+}
+
+TEST_F(WebServiceTest, TheInteractivePageRunsInASandboxOfItsOwn) {
+  sign_in();
+  const Answer answer = made({{"artefact", "view"}});
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  EXPECT_EQ(answer.header("Content-Security-Policy"), view_page_policy());
+  const std::string policy = view_page_policy();
+  EXPECT_EQ(policy.find("unsafe"), std::string::npos);
+  EXPECT_NE(policy.find("sandbox allow-scripts"), std::string::npos);
+  EXPECT_TRUE(answer.header("Content-Disposition").starts_with("inline"));
+  EXPECT_NE(answer.body.find("<canvas"), std::string::npos);
+}
+
+TEST_F(WebServiceTest, AJobThatIsNotDoneHasNothingToShow) {
+  sign_in();
+  service_.job = sample_job(v1::JOB_STATE_RUNNING);
+  const Answer answer = made({{"artefact", "picture"}});
+  EXPECT_EQ(answer.status, 404);
+  EXPECT_NE(answer.error().find("5 of 12 directions"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace affskel::client
