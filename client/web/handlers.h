@@ -16,6 +16,9 @@ HttpResponse show_job(WebCall& call);
 HttpResponse cancel_job(WebCall& call);
 HttpResponse resume_job(WebCall& call);
 HttpResponse delete_job(WebCall& call);
+HttpResponse pin_job(WebCall& call);
+HttpResponse unpin_job(WebCall& call);
+HttpResponse list_events(WebCall& call);  ///< what happened to a job
 
 HttpResponse take_mesh(WebCall& call);    ///< inspects an upload
 HttpResponse lay_lattice(WebCall& call);  ///< points for a spacing, or a spacing for points

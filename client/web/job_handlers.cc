@@ -57,4 +57,19 @@ HttpResponse delete_job(WebCall& call) {
   return api_answer({{"id", call.server()->session().delete_job(call.argument)}});
 }
 
+HttpResponse pin_job(WebCall& call) {
+  return api_answer(job_json(call.server()->session().pin(call.argument)));
+}
+
+HttpResponse unpin_job(WebCall& call) {
+  return api_answer(job_json(call.server()->session().unpin(call.argument)));
+}
+
+HttpResponse list_events(WebCall& call) {
+  const v1::ListJobEventsResponse response = call.server()->session().job_events(call.argument);
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (const v1::JobEvent& event : response.events()) events.push_back(to_json(event));
+  return api_answer({{"events", events}});
+}
+
 }  // namespace affskel::client

@@ -29,7 +29,7 @@ struct Route {
   HttpResponse (*respond)(WebCall& call);
 };
 
-constexpr std::array<Route, 18> kRoutes = {{
+constexpr std::array<Route, 21> kRoutes = {{
     {"GET", "/", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
     {"GET", "/page.js", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
     {"GET", "/page.css", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
@@ -44,6 +44,9 @@ constexpr std::array<Route, 18> kRoutes = {{
     {"DELETE", "/api/jobs/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, delete_job},
     {"POST", "/api/jobs/*/cancel", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, cancel_job},
     {"POST", "/api/jobs/*/resume", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, resume_job},
+    {"POST", "/api/jobs/*/pin", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, pin_job},
+    {"POST", "/api/jobs/*/unpin", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, unpin_job},
+    {"GET", "/api/jobs/*/events", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, list_events},
     {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, AnswerKind::kAwaited, make_result},
     {"POST", "/api/meshes", Access::kSignedIn, Body::kMesh, AnswerKind::kComputed, take_mesh},
     {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, AnswerKind::kComputed, lay_lattice},

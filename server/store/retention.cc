@@ -169,8 +169,8 @@ void remove_results(Tx& tx, const JobRow& job) {
 }
 
 /// "the results, by results-age".
-std::string removed_text(bool with_mesh, const char* rule) {
-  return std::string(with_mesh ? "the job with its mesh" : "the results") + ", by " + rule;
+std::string removed_text(bool with_mesh, const std::string& rule) {
+  return (with_mesh ? "the job with its mesh, by " : "the results, by ") + rule;
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ class Lab:
         self.data = os.path.join(self.directory.name, "data")
         self.tokens = {"ada": self.token("add", "--owner", "ada"), "bob": self.token("add", "--owner", "bob"),
                        "root": self.token("add", "--owner", "root", "--role", "admin")}
-        self.server = subprocess.Popen([server, "--data-dir", self.data, "--listen", "127.0.0.1:0", "--workers", "1"],
-                                       stderr=subprocess.PIPE, text=True)
+        self.server = subprocess.Popen([server, "--data-dir", self.data, "--listen", "127.0.0.1:0", "--workers", "1",
+                                        "--retention", "bob:results-age=1d"], stderr=subprocess.PIPE, text=True)
         described = os.path.join(self.data, "server.json")
         for _ in self.server.stderr:
             if os.path.exists(described):

@@ -98,6 +98,10 @@ class Desktop(OnThePage):
         self.assertEqual(status["state"], "done")
         self.assertIn(f"{status['skeleton_points']:,} skeleton points", page.text())
         page.picture_is_drawn()
+        page.shown("#history summary").click()
+        happened = page.wait(lambda: [line.text for line in page.all(".history li")])
+        self.assertIn("submitted", happened[0])
+        self.assertIn("done", happened[-1])
         page.screenshot("desktop-3-done")
 
     def test_downloads_what_the_command_line_writes(self):
@@ -283,6 +287,24 @@ class SigningIn(unittest.TestCase):
         page.heading("Sign in")
         page.open(f"{self.lab.service.address}#job/{job}")
         page.heading("Sign in")
+
+    def test_keeps_what_would_be_removed(self):
+        page = self.visit()
+        self.sign_in(page, "bob")
+        page.shown("main a[href='#new']").click()
+        page.heading("New job")
+        page.find("#file").send_keys(bench.path("box.off"))
+        page.picture_is_drawn("#found img")
+        page.type("#points", 1000)
+        page.type("#name", "box of bob")
+        page.shown("#submit").click()
+        page.heading("box of bob")
+        page.wait(lambda: "Its results will be removed on" in page.find(".notes").text)
+        page.screenshot("lab-3-removal")
+        page.shown("#pin").click()
+        page.shown("#unpin")
+        page.wait(lambda: "removed" not in page.find(".notes").text)
+        self.assertEqual(self.errors(page), [])
 
     def test_wrong_and_revoked_tokens(self):
         page = self.visit(**PHONE)

@@ -29,6 +29,10 @@ bool run_kills(const LoadOptions& options);
 /// the idle server.
 bool run_turns(const LoadOptions& options);
 
+/// Finished jobs, one in a hundred pinned, under a server that keeps results for a second: when they are
+/// gone, and what is left of the database's file.
+bool run_retention(const LoadOptions& options);
+
 /// Many small jobs with real workers, one after the other; prints what server and workers hold meanwhile.
 bool run_soak(const LoadOptions& options);
 

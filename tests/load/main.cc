@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
   app.add_option("--workers", options.workers, "crowd: made-up workers; soak, turns: real ones, at most 2")
       ->capture_default_str();
   app.add_option("--seconds", options.seconds, "crowd: how long")->capture_default_str();
-  app.add_option("--jobs", options.jobs, "queue, soak, turns: number of jobs")->capture_default_str();
+  app.add_option("--jobs", options.jobs, "queue, soak, turns, retention: number of jobs")
+      ->capture_default_str();
   app.add_option("--megabytes", options.megabytes, "restart: size of the database")->capture_default_str();
   app.add_option("--kills", options.kills, "kills: how many")
       ->check(CLI::PositiveNumber)
@@ -33,8 +34,10 @@ int main(int argc, char** argv) {
   app.add_subcommand("kills", "The only worker is killed at random moments")->callback(run(run_kills));
   app.add_subcommand("soak", "Many small jobs, one after the other")->callback(run(run_soak));
   app.add_subcommand("turns", "One owner's long queue and another's single job")->callback(run(run_turns));
+  app.add_subcommand("retention", "Many finished jobs are removed by age")->callback(run(run_retention));
   app.add_subcommand("all", "All of them")->callback([&] {
-    for (auto* load : {run_crowd, run_queue, run_restart, run_kills, run_turns, run_soak}) run(load)();
+    for (auto* load : {run_crowd, run_queue, run_restart, run_kills, run_turns, run_soak, run_retention})
+      run(load)();
   });
   try {
     app.parse(argc, argv);

@@ -5,7 +5,12 @@ import { Downloads } from './downloads.js';
 import { announce, button, facts, h, setText } from './elements.js';
 import { showProgress } from './jobs.js';
 import { count, counted, duration, measure, moment } from './numbers.js';
-import { FRAMES, OPERATORS, STATES, activity, isActive, named, progress } from './text.js';
+import { History } from './history.js';
+import { FRAMES, OPERATORS, STATES, activity, expiry, isActive, isRemoved, named, progress } from './text.js';
+
+// What of a job decides which facts, notes and buttons there are.
+const shown = (job) => job && JSON.stringify([job.state, job.prepared, job.quality, job.cancel_requested, job.pinned, job.expires_ms, job.removed_ms]);
+const hasResults = (job) => job?.state === 'done' && !isRemoved(job);
 
 function asked(job) {
   const { sampling, directions, frame } = job.params;
@@ -49,6 +54,7 @@ export class JobView {
     this.actions = h('div', { class: 'row wrap actions' });
     this.results = h('div', { class: 'results' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
+    this.history = new History(id);
     this.element = h(
       'section',
       {},
@@ -56,7 +62,7 @@ export class JobView {
       h('div', { class: 'row head' }, this.heading, this.badge),
       h('div', { class: 'card' }, this.bar, this.numbers, this.what, this.notes, this.actions, this.problem),
       this.results,
-      h('section', { class: 'card' }, h('h2', {}, 'About this job'), this.facts),
+      h('section', { class: 'card' }, h('h2', {}, 'About this job'), this.facts, this.history.element),
     );
   }
 
@@ -81,19 +87,22 @@ export class JobView {
     setText(this.what, activity(job));
     this.what.classList.toggle('error', job.state === 'failed');
     if (before && before.state !== job.state) announce(`${job.name}: ${named(STATES, job.state)}`);
-    const same = before && JSON.stringify([before.state, before.prepared, before.quality, before.cancel_requested]) ===
-      JSON.stringify([job.state, job.prepared, job.quality, job.cancel_requested]);
-    if (!same) this.showFacts(job);
-    if (!same) this.showActions(job);
-    if (job.state === 'done' && (!before || before.state !== 'done')) this.showResults(job);
-    if (job.state !== 'done') this.results.replaceChildren();
+    if (shown(before) !== shown(job)) {
+      this.showFacts(job);
+      this.showActions(job);
+      this.history.refresh();
+    }
+    if (hasResults(job) && !hasResults(before)) this.showResults(job);
+    if (!hasResults(job)) this.results.replaceChildren();
   }
 
   showFacts(job) {
     const advice = job.quality?.advice;
+    const removal = expiry(job);
     this.notes.replaceChildren(
       ...(job.prepared?.notes || []).map((note) => h('li', { class: note.severity }, note.message)),
       ...(advice ? [h('li', { class: 'warning' }, advice)] : []),
+      ...(removal ? [h('li', { class: 'warning' }, removal)] : []),
     );
     this.facts.replaceChildren(facts([...prepared(job), ...asked(job)]));
   }
@@ -104,7 +113,9 @@ export class JobView {
     this.actions.replaceChildren(
       ...[
         !ended && !job.cancel_requested && button('Cancel', () => this.cancel(), { id: 'cancel' }),
-        (job.state === 'cancelled' || job.state === 'failed') && button('Resume', () => this.act('POST', '/resume'), { id: 'resume', class: 'primary' }),
+        (job.state === 'cancelled' || job.state === 'failed' || isRemoved(job)) && button('Resume', () => this.act('POST', '/resume'), { id: 'resume', class: 'primary' }),
+        !job.pinned && job.expires_ms > 0 && button('Keep', () => this.act('POST', '/pin'), { id: 'pin' }),
+        job.pinned && button('Keep no longer', () => this.act('POST', '/unpin'), { id: 'unpin' }),
         ended && button('Delete', () => this.remove(), { id: 'delete', class: 'danger' }),
       ].filter(Boolean),
     );

@@ -1,5 +1,5 @@
 // What words of the protocol mean to people.
-import { count, counted, duration } from './numbers.js';
+import { count, counted, duration, moment } from './numbers.js';
 
 export const STATES = {
   queued: 'waiting',
@@ -41,10 +41,31 @@ export const ARTEFACTS = {
   mesh: ['Mesh', 'the file as it was submitted'],
 };
 
+export const EVENTS = {
+  submitted_again: 'submitted again',
+  cancel_requested: 'asked to cancel',
+  removal_planned: 'to be removed',
+  task_failed: 'a task failed',
+  lease_lost: 'a worker was lost',
+  leased: 'given to a worker',
+  returned: 'given back by a worker',
+  adopted: 'took over what was computed before',
+  requested: 'a file was asked for',
+  request_failed: 'a file could not be made',
+  request_withdrawn: 'a file is no longer wanted',
+  requests_cancelled: 'files are no longer wanted',
+};
+
 // What is shown under other names than the protocol's, or is of a later version.
 export const named = (table, word) => table[word] || word;
 
 export const isActive = (job) => job.state === 'queued' || job.state === 'running';
+
+// Whether retention has taken the results of a finished job.
+export const isRemoved = (job) => job.state === 'done' && job.removed_ms > 0;
+
+// When retention will take what is left of a job; "" when it will not.
+export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
 
 // What a job is doing, or why it does not.
 export function activity(job) {
@@ -56,6 +77,7 @@ export function activity(job) {
   if (job.waiting_reason) return `waits: ${job.waiting_reason}`;
   if (job.state === 'queued') return 'waits for a worker';
   if (job.state === 'running') return named(STAGES, job.stage);
+  if (isRemoved(job)) return 'its results were removed by the server’s retention; resume computes them again';
   if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')}`;
   return 'progress is kept; resume goes on from here';
 }

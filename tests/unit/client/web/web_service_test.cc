@@ -71,6 +71,24 @@ TEST_F(WebServiceTest, PassesOnWhatTheServerSays) {
   EXPECT_EQ(refused.error(), "1000 jobs of 1000 are queued");
 }
 
+TEST_F(WebServiceTest, KeepsAJobAndTellsWhatHappenedToIt) {
+  sign_in();
+  const std::string job = "/api/jobs/" + service_.job.id();
+  EXPECT_EQ(ask("POST", job + "/pin").object()["pinned"], true);
+  EXPECT_TRUE(service_.job.pinned());
+  EXPECT_EQ(ask("POST", job + "/unpin").object()["pinned"], false);
+  EXPECT_FALSE(service_.job.pinned());
+  v1::JobEvent& event = *service_.events.add_events();
+  event.set_number(7);
+  event.set_event("lease_lost");
+  event.set_worker("w1");
+  const json events = ask("GET", job + "/events").object()["events"];
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0]["number"], 7);
+  EXPECT_EQ(events[0]["event"], "lease_lost");
+  EXPECT_EQ(events[0]["worker"], "w1");
+}
+
 TEST_F(WebServiceTest, TellsWhatAMeshIs) {
   sign_in();
   const json mesh = uploaded("my%20cube.off", mesh_);
