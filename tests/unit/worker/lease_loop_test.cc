@@ -202,7 +202,7 @@ TEST_F(LoopTest, DropsATaskWhoseLeaseIsLost) {
   EXPECT_EQ(run(), 0);
   EXPECT_TRUE(server_.completions().empty());
   EXPECT_TRUE(server_.failures().empty());
-  EXPECT_NE(log.text().find("lease lost"), std::string::npos) << log.text();
+  EXPECT_NE(log.text().find("event=lease_lost "), std::string::npos) << log.text();
 }
 
 TEST_F(LoopTest, GivesAPreparationBackWhenItIsToStop) {

@@ -4,6 +4,7 @@
 #include <openssl/ssl.h>
 
 #include <algorithm>
+#include <csignal>
 #include <stdexcept>
 
 namespace affskel::client {
@@ -18,6 +19,7 @@ struct HttpPeer::Connection {
 };
 
 HttpPeer::HttpPeer(int port, bool tls) : connection_(std::make_unique<Connection>()) {
+  std::signal(SIGPIPE, SIG_IGN);  // the service may close while it is written to
   const std::string place = "127.0.0.1:" + std::to_string(port);
   if (tls) {
     connection_->context = SSL_CTX_new(TLS_client_method());
