@@ -43,9 +43,7 @@ std::string busy_text(std::size_t workers, const Rivals& rivals) {
   return text;
 }
 
-std::string megabytes(std::uint64_t bytes) {
-  return std::to_string((bytes + 999'999) / 1'000'000) + " MB";
-}
+constexpr std::uint64_t kMegabyte = 1'000'000;
 
 /// Why none of the workers is offered a task that needs so much memory; "" when one is, or there are none.
 std::string too_large_for(const std::vector<v1::WorkerInfo>& workers, std::uint64_t need) {
@@ -55,9 +53,9 @@ std::string too_large_for(const std::vector<v1::WorkerInfo>& workers, std::uint6
     most = std::max(most, worker.memory());
   }
   if (workers.empty()) return {};
-  return "needs a worker with about " + megabytes(need) + " of memory, and the largest of " +
-         std::to_string(workers.size()) + " has " + megabytes(most) +
-         "; start one with more, or cancel it and take a wider spacing";
+  return "needs a worker with about " + std::to_string((need + kMegabyte - 1) / kMegabyte) +
+         " MB of memory, and the largest of " + std::to_string(workers.size()) + " has " +
+         std::to_string(most / kMegabyte) + " MB; start one with more, or cancel it and take a wider spacing";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   app.add_option("--clients", options.clients, "crowd: clients at once")->capture_default_str();
   app.add_option("--workers", options.workers, "crowd: made-up workers; soak, turns: real ones, at most 2")
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "crowd: how long")->capture_default_str();
+  app.add_option("--seconds", options.seconds, "crowd: how long; turns: roughly, alone on one worker")->capture_default_str();
   app.add_option("--jobs", options.jobs, "queue, soak, turns, retention: number of jobs")
       ->capture_default_str();
   app.add_option("--megabytes", options.megabytes, "restart: size of the database")->capture_default_str();
