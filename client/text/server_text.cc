@@ -25,6 +25,8 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
   text += key_line("jobs_queued", std::to_string(info.jobs_queued()));
   text += key_line("jobs_running", std::to_string(info.jobs_running()));
   text += key_line("jobs_total", std::to_string(info.jobs_total()));
+  if (info.database_bytes() > 0) text += key_line("database_bytes", std::to_string(info.database_bytes()));
+  if (info.has_disk_free_bytes()) text += key_line("disk_free_bytes", std::to_string(info.disk_free_bytes()));
   const auto silent = std::count_if(info.workers().begin(), info.workers().end(),
                                     [](const v1::WorkerInfo& w) { return w.silent(); });
   text += key_line("workers", std::to_string(info.workers_size() - silent) +

@@ -183,7 +183,12 @@ void ErosionServiceImpl::tell_about_itself(const Identity& caller, v1::ServerInf
   response.set_version(wire::kVersion);
   response.set_started_ms(facts_.started_ms);
   response.set_pid(static_cast<std::uint32_t>(getpid()));
-  if (sees_all) response.set_data_dir(facts_.data_dir);
+  if (sees_all) {
+    const DiskFigures disk = store_.disk_figures();
+    response.set_data_dir(facts_.data_dir);
+    response.set_database_bytes(static_cast<std::uint64_t>(disk.database_bytes + disk.log_bytes));
+    if (disk.free_bytes) response.set_disk_free_bytes(*disk.free_bytes);
+  }
   for (v1::WorkerInfo& worker : registry_.list()) {
     if (!sees_all) worker.clear_task();
     *response.add_workers() = std::move(worker);

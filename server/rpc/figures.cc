@@ -96,16 +96,17 @@ void add_calls(Gauges& gauges, const CallRoom& room) {
 }
 
 void add_disk(Gauges& gauges, const StoreFigures& figures) {
-  gauges.metric("affskel_database_bytes", "Size of the database file").value(number(figures.database_bytes));
+  gauges.metric("affskel_database_bytes", "Size of the database file")
+      .value(number(figures.disk.database_bytes));
   gauges.metric("affskel_database_log_bytes", "Size of the database's write-ahead log")
-      .value(number(figures.log_bytes));
+      .value(number(figures.disk.log_bytes));
   gauges.metric("affskel_database_unused_bytes", "Part of the database file that nothing is in")
       .value(number(figures.unused_bytes));
   gauges.metric("affskel_disk_reserve_bytes", "Room kept back for a full disk; 0 while the disk is full")
-      .value(number(figures.reserve_bytes));
-  if (!figures.disk_free_bytes) return;
+      .value(number(figures.disk.reserve_bytes));
+  if (!figures.disk.free_bytes) return;
   gauges.metric("affskel_disk_free_bytes", "Free space where the database lies")
-      .value(number(*figures.disk_free_bytes));
+      .value(number(*figures.disk.free_bytes));
 }
 
 }  // namespace

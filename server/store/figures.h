@@ -25,18 +25,23 @@ struct OwnerFigures {
   std::int64_t result_bytes = 0;  ///< fields and artefacts
 };
 
+/// What the database takes of the disk, and what is left.
+struct DiskFigures {
+  std::int64_t database_bytes = 0;          ///< of the file
+  std::int64_t log_bytes = 0;               ///< of its write-ahead log
+  std::int64_t reserve_bytes = 0;           ///< kept back; 0 while it is given away
+  std::optional<std::uint64_t> free_bytes;  ///< where the database lies, if that is known
+};
+
 /// What the database holds at a moment.
 struct StoreFigures {
-  std::vector<QueueFigures> queue;               ///< by priority, all ten
-  std::map<std::string, std::int64_t> jobs;      ///< by state; every state
-  std::map<std::string, std::int64_t> leases;    ///< by kind of task
-  std::int64_t requests = 0;                     ///< for artefacts that are not there yet
-  std::vector<OwnerFigures> owners;              ///< those with most jobs first
-  std::int64_t database_bytes = 0;               ///< of the file
-  std::int64_t log_bytes = 0;                    ///< of its write-ahead log
-  std::int64_t unused_bytes = 0;                 ///< of the file, to be given back or used again
-  std::int64_t reserve_bytes = 0;                ///< kept back on the disk; 0 while it is given away
-  std::optional<std::uint64_t> disk_free_bytes;  ///< where the database lies, if that is known
+  std::vector<QueueFigures> queue;             ///< by priority, all ten
+  std::map<std::string, std::int64_t> jobs;    ///< by state; every state
+  std::map<std::string, std::int64_t> leases;  ///< by kind of task
+  std::int64_t requests = 0;                   ///< for artefacts that are not there yet
+  std::vector<OwnerFigures> owners;            ///< those with most jobs first
+  std::int64_t unused_bytes = 0;               ///< of the file, to be given back or used again
+  DiskFigures disk;
 };
 
 /// Workers that hold leases for jobs of one owner and priority.

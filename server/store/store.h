@@ -97,6 +97,7 @@ class Store final : public TokenSource {
 
   /// Everything that metrics tell of the database at the moment; takes no lock of writers: store_figures.cc.
   StoreFigures figures();
+  DiskFigures disk_figures();
 
   // Artefacts: store_artifacts.cc
 

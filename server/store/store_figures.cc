@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "store/store_impl.h"
-#include "wire/field_record.h"
 #include "wire/words.h"
 
 namespace affskel::server {
@@ -42,33 +41,16 @@ std::map<std::string, std::int64_t> lease_figures(Database& db) {
   return leases;
 }
 
-/// Jobs of one mesh or one field use it together.
 std::vector<OwnerFigures> owner_figures(Database& db) {
-  std::map<std::string, OwnerFigures> owners;
-  Statement jobs =
-      db.query("SELECT owner, count(*), total(state IN ('queued', 'running')) FROM jobs GROUP BY owner");
-  while (jobs.step()) {
-    OwnerFigures& of = owners[jobs.text(0)];
-    of.owner = jobs.text(0);
-    of.jobs = jobs.integer(1);
-    of.active_jobs = static_cast<std::int64_t>(jobs.real(2));
+  std::vector<OwnerFigures> owners;
+  Statement row = db.query(
+      "SELECT owner, jobs, queued_jobs, mesh_bytes, stored_bytes - mesh_bytes"
+      " FROM (SELECT owner, count(*) AS jobs FROM jobs GROUP BY owner) JOIN owner_use USING (owner)"
+      " ORDER BY jobs DESC, owner");
+  while (row.step()) {
+    owners.push_back({row.text(0), row.integer(1), row.integer(2), row.integer(3), row.integer(4)});
   }
-  Statement meshes = db.query(
-      "SELECT owner, sum(bytes) FROM (SELECT DISTINCT j.owner, m.sha256, m.bytes FROM jobs j"
-      " JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256) GROUP BY owner");
-  while (meshes.step()) owners[meshes.text(0)].mesh_bytes = meshes.integer(1);
-  Statement results = db.query(
-      "SELECT k.owner, sum(iif(e.directions_done > 0, e.points * ?, 0)"
-      " + (SELECT ifnull(sum(bytes), 0) FROM artifacts WHERE erosion_id = e.id))"
-      " FROM (SELECT DISTINCT owner, erosion_id FROM jobs) k JOIN erosions e ON e.id = k.erosion_id"
-      " GROUP BY k.owner",
-      wire::kFieldRecordBytes);
-  while (results.step()) owners[results.text(0)].result_bytes = results.integer(1);
-  std::vector<OwnerFigures> sorted;
-  for (auto& [name, owner] : owners) sorted.push_back(std::move(owner));
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.jobs > b.jobs; });
-  return sorted;
+  return owners;
 }
 
 /// 0 when it is not there.
@@ -94,12 +76,18 @@ StoreFigures Store::figures() {
         db.integer("PRAGMA freelist_count").value_or(0) * db.integer("PRAGMA page_size").value_or(0);
     return read;
   });
-  figures.database_bytes = size_of(file_);
-  figures.log_bytes = size_of(file_ + "-wal");
-  figures.reserve_bytes = disk_full_ ? 0 : static_cast<std::int64_t>(options_.reserve_bytes);
-  const std::uint64_t free = options_.free_bytes(std::filesystem::path(file_).parent_path().string());
-  if (free != std::numeric_limits<std::uint64_t>::max()) figures.disk_free_bytes = free;
+  figures.disk = disk_figures();
   return figures;
+}
+
+DiskFigures Store::disk_figures() {
+  DiskFigures disk;
+  disk.database_bytes = size_of(file_);
+  disk.log_bytes = size_of(file_ + "-wal");
+  disk.reserve_bytes = disk_full_ ? 0 : static_cast<std::int64_t>(options_.reserve_bytes);
+  const std::uint64_t free = options_.free_bytes(std::filesystem::path(file_).parent_path().string());
+  if (free != std::numeric_limits<std::uint64_t>::max()) disk.free_bytes = free;
+  return disk;
 }
 
 std::vector<BusyWith> Store::busy_with() {

@@ -52,7 +52,7 @@ class OnThePage(unittest.TestCase):
         self.assertEqual([url for url in asked if not url.startswith(self.service.origin + "/")], [])
 
     def choose(self, name):
-        self.page.find("#file").send_keys(bench.path(name))
+        self.page.wait(lambda: self.page.all("#file"))[0].send_keys(bench.path(name))
 
     def submit_body(self, points, name):
         """From the list of jobs to the finished skeleton."""
@@ -203,6 +203,7 @@ class Desktop(OnThePage):
         self.page.shown("#server-link").click()
         self.page.heading("Server")
         self.page.wait(lambda: "Throughput" in self.page.text() and self.page.all("tbody th"))
+        self.assertIn("Free on its disk", self.page.text())
         self.page.screenshot("desktop-7-server")
 
     def test_the_address_opens_the_page_once(self):

@@ -18,7 +18,7 @@ function line(event) {
 export class History {
   constructor(job) {
     this.job = job;
-    this.list = h('ol', { class: 'history' });
+    this.list = h('ol', { class: 'history', tabindex: 0, 'aria-label': 'Events, oldest first' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.element = h('details', { id: 'history' }, h('summary', {}, 'What happened'), this.list, this.problem);
     this.element.addEventListener('toggle', () => this.refresh());

@@ -1,7 +1,7 @@
-// The server, for administrators: workers, queue and throughput.
+// The server, for administrators: workers, queue, throughput and disk.
 import { call } from './api.js';
 import { facts, h } from './elements.js';
-import { ago, count, counted, moment } from './numbers.js';
+import { ago, bytes, count, counted, moment } from './numbers.js';
 import { isActive } from './text.js';
 
 const WATCHED = 200; // running jobs whose progress is added up
@@ -13,6 +13,7 @@ function workerRow(worker) {
     { class: worker.silent ? 'silent' : null },
     h('th', { scope: 'row' }, worker.host || worker.id.slice(0, 12)),
     h('td', {}, count(worker.threads || 0)),
+    h('td', {}, worker.memory > 0 ? bytes(worker.memory) : 'not told'),
     h('td', {}, doing),
     h('td', {}, ago(worker.last_seen_ms)),
   );
@@ -36,7 +37,7 @@ export class Overview {
         h(
           'table',
           {},
-          h('thead', {}, h('tr', {}, ['Host', 'Threads', 'Works on', 'Heard from'].map((name) => h('th', { scope: 'col' }, name)))),
+          h('thead', {}, h('tr', {}, ['Host', 'Threads', 'Memory', 'Works on', 'Heard from'].map((name) => h('th', { scope: 'col' }, name)))),
           this.workers,
         ),
       ),
@@ -62,12 +63,14 @@ export class Overview {
         ['All', counted(info.jobs_total || 0, 'job')],
         ['Throughput', `${count(this.throughput(jobs))} directions per second`],
         ['Workers', counted(awake.length, 'worker')],
+        ['Database', bytes(info.database_bytes || 0)],
+        ...(info.disk_free_bytes === undefined ? [] : [['Free on its disk', bytes(info.disk_free_bytes)]]),
         ['Running since', moment(info.started_ms)],
         ['Version', info.version],
       ]),
     );
     this.workers.replaceChildren(...workers.map(workerRow));
-    if (workers.length === 0) this.workers.append(h('tr', {}, h('td', { colspan: 4 }, 'no worker has called in the last minute')));
+    if (workers.length === 0) this.workers.append(h('tr', {}, h('td', { colspan: 5 }, 'no worker has called in the last minute')));
     return jobs.some(isActive);
   }
 }

@@ -291,8 +291,12 @@ TEST_F(AccessTest, WhoAsksIsToldAndSeesNoMoreThanHisOwn) {
   EXPECT_EQ(response.caller().owner(), "ada");
   EXPECT_EQ(response.caller().role(), v1::ROLE_USER);
   EXPECT_EQ(response.data_dir(), "");
+  EXPECT_EQ(response.database_bytes(), 0U);
+  EXPECT_FALSE(response.has_disk_free_bytes());
   ASSERT_TRUE(info(*client("root"), &response).ok());
   EXPECT_EQ(response.data_dir(), options_.data_dir);
+  EXPECT_GE(response.database_bytes(), std::filesystem::file_size(options_.data_dir + "/affskel.db"));
+  EXPECT_GT(response.disk_free_bytes(), 0U);
   ASSERT_TRUE(info(*client_, &response).ok()) << "by the Unix socket";
   EXPECT_EQ(response.caller().role(), v1::ROLE_ADMIN);
   EXPECT_EQ(response.caller().owner(), user_name(geteuid()));
