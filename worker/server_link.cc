@@ -19,12 +19,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kCallTimeout = std::chrono::seconds(120);
 constexpr auto kLookAtStop = std::chrono::milliseconds(100);
+// A connection that no longer carries anything, though nobody has closed it, is replaced after the sum.
+constexpr int kKeepaliveMs = 10000;
+constexpr int kKeepaliveTimeoutMs = 10000;
 
 std::shared_ptr<grpc::Channel> connect(const ServerLinkOptions& options) {
   const wire::Address address = wire::parse_address(options.address);
   grpc::ChannelArguments arguments;
   // A proxy elsewhere cannot reach this machine's own addresses.
   if (address.is_local()) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   // Come back quickly after a server restart.  The second is how long one attempt may take.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);

@@ -34,6 +34,8 @@ constexpr int kReflectionThreads = 8;
 // A peer that does not even answer a ping, stopped or cut off, is given up after the sum of these.
 constexpr int kKeepaliveMs = 30000;
 constexpr int kKeepaliveTimeoutMs = 20000;
+// Workers ask whether a connection still lives, see worker/server_link.cc.
+constexpr int kLeastPingPauseMs = 5000;
 
 // Between looks at calls that are too slow.
 constexpr std::chrono::milliseconds kTick{200};
@@ -58,6 +60,7 @@ void set_limits(grpc::ServerBuilder& builder, const CallLimits& limits) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kLeastPingPauseMs);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, static_cast<int>(limits.idle.count()));
   grpc::ResourceQuota quota("affskel-server");
   quota.Resize(static_cast<std::size_t>(limits.grpc_bytes));
