@@ -2,6 +2,10 @@
 
 #include <prometheus/family.h>
 
+#include "affskel/v1/types.pb.h"
+#include "affskel/v1/worker_service.pb.h"
+#include "wire/words.h"
+
 namespace affskel::server {
 namespace {
 
@@ -63,7 +67,16 @@ Metrics::Metrics()
       worked_(
           histograms("affskel_transaction_duration_seconds",
                      "Time that writing transactions took from their turn on, commit to the disk included")
-              .Add({}, kCallSeconds)) {}
+              .Add({}, kCallSeconds)) {
+  // From 0 on: what appears with its first event shows no rate for it.
+  submitted_.Add({});
+  for (const std::string& kind : wire::words(*v1::TaskKind_descriptor())) {
+    granted_.Add({{"kind", kind}});
+    lost_.Add({{"kind", kind}});
+  }
+  for (const v1::JobState state : {v1::JOB_STATE_DONE, v1::JOB_STATE_FAILED, v1::JOB_STATE_CANCELLED})
+    ended_.Add({{"state", wire::word(state)}});
+}
 
 void Metrics::call_ended(const std::string& method, const std::string& code, Duration time) {
   calls_.Add({{"method", method}, {"code", code}}).Increment();

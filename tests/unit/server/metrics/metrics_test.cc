@@ -47,6 +47,17 @@ TEST(MetricsTest, CountWhatTheyAreTold) {
   EXPECT_EQ(value_of(seen, "affskel_transaction_duration_seconds_count"), 1);
 }
 
+TEST(MetricsTest, WhatHasNotHappenedYetIsZero) {
+  const auto seen = read(Metrics());
+  for (const char* kind : {"prepare", "erode", "skeleton", "eroded-surface"}) {
+    EXPECT_EQ(value_of(seen, "affskel_leases_granted_total", {{"kind", kind}}), 0) << kind;
+    EXPECT_EQ(value_of(seen, "affskel_leases_expired_total", {{"kind", kind}}), 0) << kind;
+  }
+  for (const char* state : {"done", "failed", "cancelled"})
+    EXPECT_EQ(value_of(seen, "affskel_jobs_ended_total", {{"state", state}}), 0) << state;
+  EXPECT_EQ(value_of(seen, "affskel_jobs_submitted_total"), 0);
+}
+
 TEST(MetricsTest, ManyOwnersDoNotFillTheMemoryOfWhoeverCollects) {
   Metrics metrics;
   for (std::size_t i = 0; i < 3 * kMostOwners; ++i) metrics.directions("owner " + std::to_string(i), 1, 0);
