@@ -21,11 +21,11 @@ void JobShelf::put(ShelvedJob job) {
   while (!jobs_.empty() && bytes() > budget_) jobs_.pop_back();
 }
 
-std::unique_ptr<PreparedJob> JobShelf::take(const std::string& id, const std::string& database) {
+std::unique_ptr<PreparedJob> JobShelf::take(const std::string& id, const std::string& field) {
   const auto found =
       std::find_if(jobs_.begin(), jobs_.end(), [&](const ShelvedJob& shelved) { return shelved.id == id; });
   if (found == jobs_.end()) return nullptr;
-  std::unique_ptr<PreparedJob> job = found->database == database ? std::move(found->job) : nullptr;
+  std::unique_ptr<PreparedJob> job = found->field == field ? std::move(found->job) : nullptr;
   jobs_.erase(found);
   return job;
 }

@@ -12,7 +12,7 @@ namespace affskel::worker {
 /// A job made ready, with the field as far as the server has acknowledged it.
 struct ShelvedJob {
   std::string id;
-  std::string database;  ///< that the field was fetched from
+  std::string field;  ///< which one it is, see Lease.field
   std::unique_ptr<PreparedJob> job;
 };
 
@@ -27,8 +27,8 @@ class JobShelf {
   explicit JobShelf(std::uint64_t budget) : budget_(budget) {}
 
   void put(ShelvedJob job);
-  /// The job when it is there, and its field from this database; otherwise null.
-  std::unique_ptr<PreparedJob> take(const std::string& id, const std::string& database);
+  /// The job when it is there, and its field is this one; otherwise null.
+  std::unique_ptr<PreparedJob> take(const std::string& id, const std::string& field);
   void clear() { jobs_.clear(); }
   /// That the jobs take.
   std::uint64_t bytes() const;

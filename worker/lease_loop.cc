@@ -328,12 +328,12 @@ class LeaseLoop {
 
   // The prepared job of the lease: the one in hand, or made from the mesh.
   PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
-    if (job_ && job_id_ == lease.job().id() && database_ == lease.database()) return *job_;
+    if (job_ && job_id_ == lease.job().id() && field_ == lease.field()) return *job_;
     shelve();
-    job_ = shelf_.take(lease.job().id(), lease.database());
+    job_ = shelf_.take(lease.job().id(), lease.field());
     if (job_ == nullptr) make(lease, context);
     job_id_ = lease.job().id();
-    database_ = lease.database();
+    field_ = lease.field();
     return *job_;
   }
 
@@ -351,7 +351,7 @@ class LeaseLoop {
   // Leaves the job in hand for another, with all of its field acknowledged.
   void shelve() {
     last_report_.drop();
-    if (job_) shelf_.put({job_id_, database_, std::move(job_)});
+    if (job_) shelf_.put({job_id_, field_, std::move(job_)});
     job_id_.clear();
   }
 
@@ -381,7 +381,7 @@ class LeaseLoop {
   // again.
   std::unique_ptr<PreparedJob> job_;
   std::string job_id_;
-  std::string database_;  // that the field was fetched from
+  std::string field_;  // of Lease.field
   Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
   JobShelf shelf_{memory_ / kShelfShare};
   LastReport last_report_;         // uses job_

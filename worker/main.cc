@@ -116,6 +116,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
          "bytes that the worker may take, with K, M or G for powers of 1024: tasks that need more go to "
          "others; default: what is available of machine, control group and ulimit when it starts")
       ->transform(CLI::AsSizeValue(false).description(""))
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 60).description(""))
       ->type_name("BYTES");
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
       ->check(CLI::NonNegativeNumber)

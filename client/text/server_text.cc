@@ -11,15 +11,20 @@ namespace {
 
 constexpr std::size_t kShortId = 12;
 
+/// Told to admins alone.
+std::string place_of(const v1::WorkerInfo& worker) {
+  return worker.host().empty() ? "somewhere" : worker.host() + ":" + std::to_string(worker.pid());
+}
+
 }  // namespace
 
 std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
   std::string text;
   text += key_line("version", info.version());
-  text += key_line("pid", std::to_string(info.pid()));
+  if (info.pid() > 0) text += key_line("pid", std::to_string(info.pid()));
   text += key_line("started", utc_time(info.started_ms()));
   text += key_line("up", age_text(info.started_ms(), now_ms));
-  text += key_line("data_dir", info.data_dir());
+  if (!info.data_dir().empty()) text += key_line("data_dir", info.data_dir());
   text += key_line("schema_version", std::to_string(info.schema_version()));
   text += key_line("max_mesh_bytes", std::to_string(info.max_mesh_bytes()));
   text += key_line("jobs_queued", std::to_string(info.jobs_queued()));
@@ -33,14 +38,14 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
                                   (silent == 0 ? "" : " and " + std::to_string(silent) + " silent"));
   for (const v1::WorkerInfo& w : info.workers()) {
     const std::string threads = base::counted(w.threads(), "thread");
-    text += key_line(
-        "worker", w.id().substr(0, kShortId) + " " + w.host() + ":" + std::to_string(w.pid()) + ", " +
-                      threads + (w.memory() > 0 ? ", " + std::to_string(w.memory() / 1000000) + " MB" : "") +
-                      (w.supervised() ? ", supervised" : "") + ", core " + w.core_version() + ", seen " +
-                      age_text(w.last_seen_ms(), now_ms) + " ago, " +
-                      (w.silent()         ? "silent: dead, stopped or cut off"
-                       : w.task().empty() ? "idle"
-                                          : w.task()));
+    text +=
+        key_line("worker", w.id().substr(0, kShortId) + " " + place_of(w) + ", " + threads +
+                               (w.memory() > 0 ? ", " + std::to_string(w.memory() / 1000000) + " MB" : "") +
+                               (w.supervised() ? ", supervised" : "") + ", core " + w.core_version() +
+                               ", seen " + age_text(w.last_seen_ms(), now_ms) + " ago, " +
+                               (w.silent()         ? "silent: dead, stopped or cut off"
+                                : w.task().empty() ? "idle"
+                                                   : w.task()));
   }
   return text;
 }

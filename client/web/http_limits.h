@@ -11,7 +11,7 @@ namespace affskel::client {
 struct HttpLimits {
   std::size_t connections = 256;  ///< at a time; of one address off this machine half as many
   /// Threads for answers that are quick, that compute here, and that wait for a worker; see AnswerKind.
-  std::array<std::size_t, 3> threads = {8, 2, 24};
+  std::array<std::size_t, 3> threads = {8, 3, 24};
   std::size_t waiting = 64;  ///< answers of one kind under way or waiting; more get status 503
   std::uint32_t header_bytes = 16 * 1024;
   std::chrono::milliseconds header{

@@ -122,12 +122,22 @@ HttpResponse lay_lattice(WebCall& call) {
   const double v0 = mesh->solid.volume;
   const double spacing = asked.spacing > 0 ? asked.spacing : std::cbrt(v0 / double(asked.points));
   const double points = v0 / (spacing * spacing * spacing);
-  if (points > kMaxCounted)
+  const auto uncounted = [&] {
     return api_answer({{"spacing", spacing}, {"points", std::round(points)}, {"counted", false}});
+  };
+  if (points > kMaxCounted) return uncounted();
   const std::string frame = call.request.parameter("frame");
   options.frame = core::solid_frame(mesh->solid, core::parse_frame(frame.empty() ? "axis" : frame));
-  const core::Lattice lattice = core::make_lattice(mesh->solid, options);
-  return api_answer({{"spacing", lattice.spacing}, {"points", lattice.points}, {"counted", true}});
+  // A thin solid has few points and many lines, which take the memory and the time.
+  options.max_points = static_cast<std::uint64_t>(2 * kMaxCounted);
+  options.max_lines = static_cast<std::uint64_t>(kMaxCounted);
+  try {
+    const core::Lattice lattice = core::make_lattice(mesh->solid, options);
+    return api_answer({{"spacing", lattice.spacing}, {"points", lattice.points}, {"counted", true}});
+  } catch (const core::CoreError& error) {
+    if (error.code() != core::CoreError::Code::kLimit) throw;
+    return uncounted();
+  }
 }
 
 HttpResponse submit_mesh(WebCall& call) {

@@ -54,8 +54,10 @@ constexpr std::array<Route, 21> kRoutes = {{
 }};
 
 constexpr std::uint64_t kMaxObjectBytes = 64 * 1024;
-// One session's of the threads that wait for workers: others find some, too.
+// Of one session at a time, of answers that wait for workers: others find threads, too.
 constexpr unsigned kMostAwaited = 4;
+// The same of those that compute here.
+constexpr unsigned kMostComputed = 2;
 
 // What '*' stands for, empty without one; nothing when the path is another.
 std::optional<std::string> match(std::string_view pattern, std::string_view path) {
@@ -143,29 +145,29 @@ std::string upload_extension(const HttpRequest& head) {
 
 }  // namespace
 
-// One share of the threads that wait for workers, given back when it is destroyed.
+// One share of the threads that compute or wait for workers, given back when it is destroyed.
 class WebService::Share {
  public:
-  Share(WebService& service, std::string session) : service_(service), session_(std::move(session)) {}
+  Share(WebService& service, Whose whose) : service_(service), whose_(std::move(whose)) {}
   ~Share() {
     const base::MutexLock lock(service_.mutex_);
-    const auto own = service_.awaited_.find(session_);
-    if (--own->second == 0) service_.awaited_.erase(own);
+    const auto own = service_.shares_.find(whose_);
+    if (--own->second == 0) service_.shares_.erase(own);
   }
   Share(const Share&) = delete;
   Share& operator=(const Share&) = delete;
 
  private:
   WebService& service_;
-  const std::string session_;
+  const Whose whose_;
 };
 
-std::shared_ptr<WebService::Share> WebService::take_share(const std::string& session) {
+std::shared_ptr<WebService::Share> WebService::take_share(const Whose& whose) {
   const base::MutexLock lock(mutex_);
-  unsigned& own = awaited_[session];
-  if (own == kMostAwaited) return nullptr;
+  unsigned& own = shares_[whose];
+  if (own == (whose.first == AnswerKind::kAwaited ? kMostAwaited : kMostComputed)) return nullptr;
   ++own;
-  return std::make_shared<Share>(*this, session);
+  return std::make_shared<Share>(*this, whose);
 }
 
 std::variant<HttpResponse, Reception> WebService::admit(const HttpRequest& head) {
@@ -191,10 +193,13 @@ std::variant<HttpResponse, Reception> WebService::admit(const HttpRequest& head)
     *upload = std::make_unique<OwnedFile>(reception.file);
   }
   std::shared_ptr<Share> share;
-  if (route.kind == AnswerKind::kAwaited && !(share = take_share(session.id)))
+  if (route.kind != AnswerKind::kQuick && !(share = take_share({route.kind, session.id})))
     return api_error(429, "LIMIT",
-                     "wait for the files that are being made for you; " + std::to_string(kMostAwaited) +
-                         " are made at a time");
+                     route.kind == AnswerKind::kAwaited
+                         ? "wait for the files that are being made for you; " + std::to_string(kMostAwaited) +
+                               " are made at a time"
+                         : "wait for the meshes that are being looked at for you; " +
+                               std::to_string(kMostComputed) + " are looked at at a time");
   reception.respond = [this, &route, argument = chosen.argument, session, upload,
                        share](const HttpRequest& request) {
     WebCall call{state_, request, session, argument, std::move(*upload)};

@@ -29,12 +29,13 @@ class WebService {
 
  private:
   class Share;
+  using Whose = std::pair<AnswerKind, std::string>;  // a kind of answer, and a session
   // Null when the session has its part already.
-  std::shared_ptr<Share> take_share(const std::string& session);
+  std::shared_ptr<Share> take_share(const Whose& whose);
 
   WebState state_;
   base::Mutex mutex_;
-  std::map<std::string, unsigned> awaited_ ABSL_GUARDED_BY(mutex_);  // answers under way, by session
+  std::map<Whose, unsigned> shares_ ABSL_GUARDED_BY(mutex_);  // answers under way
 };
 
 }  // namespace affskel::client

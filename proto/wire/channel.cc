@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,9 @@ namespace {
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
 
 std::string read_file(const std::string& path, const char* what) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw std::invalid_argument(path + ": a directory, not a file with a " + what);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::invalid_argument(path + ": cannot read the " + what + ": " + std::strerror(errno));
   std::string text;

@@ -2,9 +2,10 @@
 
 #include <openssl/rand.h>
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "base/quoted.h"
 #include "base/utf8.h"
@@ -48,15 +49,43 @@ std::string base64url(const unsigned char* bytes, std::size_t size) {
   return text;
 }
 
+/// Characters that nobody sees: control and format characters, separators of lines, the byte order mark. With
+/// them two owners' names could look alike.
+constexpr std::pair<char32_t, char32_t> kUnseen[] = {
+    {0, 0x1F},        {0x7F, 0xA0},     {0xAD, 0xAD},      {0x61C, 0x61C},   {0x180E, 0x180E},
+    {0x2000, 0x200F}, {0x2028, 0x202F}, {0x205F, 0x206F},  {0x3000, 0x3000}, {0xFE00, 0xFE0F},
+    {0xFEFF, 0xFEFF}, {0xFFF0, 0xFFFB}, {0xE0000, 0xE0FFF}};
+
+/// The first character of well-formed UTF-8, taken off it.
+char32_t take_character(std::string_view& text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t size = byte(0) < 0x80 ? 1 : byte(0) < 0xE0 ? 2 : byte(0) < 0xF0 ? 3 : 4;
+  char32_t character = size == 1 ? byte(0) : byte(0) & (0x7F >> size);
+  for (std::size_t i = 1; i < size; ++i) character = (character << 6) | (byte(i) & 0x3F);
+  text.remove_prefix(size);
+  return character;
+}
+
+bool can_be_seen(std::string_view text) {
+  while (!text.empty()) {
+    const char32_t character = take_character(text);
+    for (const auto& [first, last] : kUnseen) {
+      if (character >= first && character <= last) return false;
+    }
+  }
+  return true;
+}
+
 void check_owner(const std::string& owner) {
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  if (!owner.empty() && owner.size() <= kMaxOwnerBytes && base::is_utf8(owner) &&
-      std::none_of(owner.begin(), owner.end(), is_control)) {
+  if (!owner.empty() && owner.size() <= kMaxOwnerBytes && base::is_utf8(owner) && can_be_seen(owner) &&
+      owner.front() != ' ' && owner.back() != ' ') {
     return;
   }
-  throw StoreError(StoreError::Code::kInvalid,
-                   "the owner " + base::quoted(owner) +
-                       " is no name: expected 1 .. 100 bytes of UTF-8 without control characters");
+  throw StoreError(
+      StoreError::Code::kInvalid,
+      "the owner " + base::quoted(owner) +
+          " is no name: expected 1 .. 100 bytes of UTF-8 without characters that nobody sees, and "
+          "no blank at either end");
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ std::string new_token();
 
 /// Enters a token; only its SHA-256 is stored.  A token has 256 random bits, so that neither salt nor a slow
 /// hash would make it harder to guess.
-/// @param owner 1 .. 100 bytes of UTF-8 without control characters.  @param role USER, WORKER or ADMIN.
+/// @param owner 1 .. 100 bytes of UTF-8 without invisible characters and blanks at the ends.  @param role
+/// USER, WORKER or ADMIN.
 /// @throws StoreError kInvalid for another owner or role.
 /// @return its id.
 std::int64_t add_token(Database& db, const std::string& token, const std::string& owner, v1::Role role,

@@ -41,7 +41,8 @@ Limits, quotas and retention are best kept in a file for --config:
   quota = ["queued-jobs=2K", "stored-bytes=200G", "chords=1T", "ada:stored-bytes=500G"]
   retention = ["results-age=90d", "jobs-age=365d", "ada:results-age=0", "total-bytes=1T", "grace=7d"]
 What exceeds a limit is refused, with limit and use (exit code 8 of affskel-client); points x directions that only
-the mesh tells fail the job. Results go before jobs with their meshes; pinned and unfinished jobs stay.
+the mesh tells fail the job. Results go before jobs with their meshes; pinned and unfinished jobs stay. 0 is no limit,
+for an owner who is to have none where the others have one.
 
 DATA_DIR/server.json names process, version and the addresses actually bound, that of the metrics too, while the
 server runs.
@@ -210,6 +211,7 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
       ->capture_default_str();
   app.set_config("--config", "", "Read options from a TOML or INI file, named as here without the dashes")
       ->type_name("FILE");
+  app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt limit would be none
 }
 
 /// What owners may use, and what is kept.

@@ -176,21 +176,25 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::GetServerInfo(grpc::CallbackServer
                 [this, response](const Identity& caller) { tell_about_itself(caller, *response); });
 }
 
-/// Where its files are, and whose job a worker has, is for admins.
+/// Its own place, and the workers', are for admins, and so is what others have.
 void ErosionServiceImpl::tell_about_itself(const Identity& caller, v1::ServerInfo& response) {
   const bool sees_all = jobs_of(caller.role) == Jobs::kAll;
-  const Store::Counts counts = store_.counts();
+  const Store::Counts counts = sees_all ? store_.counts() : store_.counts_of(caller.owner);
   response.set_version(wire::kVersion);
   response.set_started_ms(facts_.started_ms);
-  response.set_pid(static_cast<std::uint32_t>(getpid()));
   if (sees_all) {
     const DiskFigures disk = store_.disk_figures();
+    response.set_pid(static_cast<std::uint32_t>(getpid()));
     response.set_data_dir(facts_.data_dir);
     response.set_database_bytes(static_cast<std::uint64_t>(disk.database_bytes + disk.log_bytes));
     if (disk.free_bytes) response.set_disk_free_bytes(*disk.free_bytes);
   }
   for (v1::WorkerInfo& worker : registry_.list()) {
-    if (!sees_all) worker.clear_task();
+    if (!sees_all) {
+      worker.clear_task();
+      worker.clear_host();
+      worker.clear_pid();
+    }
     *response.add_workers() = std::move(worker);
   }
   response.mutable_caller()->set_owner(caller.owner);

@@ -119,13 +119,15 @@ v1::ReportResponse Store::reply(bool cancelled) const {
   return response;
 }
 
-std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& mesh_sha256,
+std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& owner,
+                                                  const std::string& mesh_sha256,
                                                   const std::string& params_key,
                                                   const std::string& core_version) {
   return db.integer(
       "SELECT id FROM erosions WHERE mesh_sha256 = ? AND params_key = ? AND core_version = ? AND finished = 1"
-      " AND dropped = 0 ORDER BY id LIMIT 1",
-      mesh_sha256, params_key, core_version);
+      " AND dropped = 0 AND id IN (SELECT erosion_id FROM owner_erosions WHERE owner = ?) ORDER BY id LIMIT "
+      "1",
+      mesh_sha256, params_key, core_version, owner);
 }
 
 void drop_unused_erosion(Tx& tx, std::int64_t erosion_id) {

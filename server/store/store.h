@@ -91,6 +91,8 @@ class Store final : public TokenSource {
     std::int64_t requests = 0;  ///< artefacts that somebody asked for and that are not there yet
   };
   Counts counts();
+  /// The same for the jobs of one owner.
+  Counts counts_of(const std::string& owner);
 
   /// Whom the workers are busy with: who waits learns why from it.
   std::vector<BusyWith> busy_with();

@@ -65,8 +65,10 @@ auto Store::read(Body&& body) {
 /// Points a job at another, finished erosion and drops its own; the job goes on in the derive stage.
 void adopt_erosion(Tx& tx, const std::string& job_id, std::int64_t finished_erosion);
 
-/// A finished erosion of this content, if there is one.
-std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& mesh_sha256,
+/// A finished erosion of this content that the owner has already, if there is one.  What others have computed
+/// is computed again: a job that is done at once would tell that they have.
+std::optional<std::int64_t> find_finished_erosion(Database& db, const std::string& owner,
+                                                  const std::string& mesh_sha256,
                                                   const std::string& params_key,
                                                   const std::string& core_version);
 

@@ -40,6 +40,19 @@ Store::Counts Store::counts() {
   });
 }
 
+Store::Counts Store::counts_of(const std::string& owner) {
+  return read([&owner](Database& db) {
+    Statement row = db.query(
+        "SELECT total(state = 'queued'), total(state = 'running'), count(*),"
+        " (SELECT count(*) FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE j.owner = ?1"
+        "   AND t.on_request = 1 AND t.state IN ('pending', 'leased')) FROM jobs WHERE owner = ?1",
+        owner);
+    row.step();
+    return Counts{static_cast<std::int64_t>(row.real(0)), static_cast<std::int64_t>(row.real(1)),
+                  row.integer(2), row.integer(3)};
+  });
+}
+
 v1::Job Store::write_job(const JobRef& job_ref, const std::function<void(Tx&, const JobRow&)>& change) {
   return write([&](Tx& tx) {
     const std::string id = resolve_job(tx.db, job_ref);
@@ -85,7 +98,7 @@ void compute_again(Tx& tx, const JobRow& job) {
   tx.changes.jobs.insert(job.id);
   add_event(tx, job.id, {.event = "resumed", .message = "its results were removed"});
   const std::optional<std::int64_t> finished =
-      find_finished_erosion(tx.db, job.mesh_sha256, job.params_key, current_core_version(tx.db));
+      find_finished_erosion(tx.db, job.owner, job.mesh_sha256, job.params_key, current_core_version(tx.db));
   if (finished) return adopt_erosion(tx, job.id, *finished);
   add_task(tx, job.id, v1::TASK_KIND_PREPARE);
 }

@@ -64,7 +64,7 @@ bool adopt_instead(Tx& tx, const TaskRow& task, const std::string& core_version)
   if (task.kind != v1::TASK_KIND_PREPARE || task.on_request) return false;
   const JobRow job = get_job(tx.db, task.job_id);
   const std::optional<std::int64_t> finished =
-      find_finished_erosion(tx.db, job.mesh_sha256, job.params_key, core_version);
+      find_finished_erosion(tx.db, job.owner, job.mesh_sha256, job.params_key, core_version);
   if (!finished) return false;
   adopt_erosion(tx, job.id, *finished);
   return true;
@@ -100,11 +100,11 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
   lease.set_token(token);
   lease.set_kind(task.kind);
   *lease.mutable_job() = job_message(tx.db, task.job_id);
-  lease.set_database(database_id(tx.db));
+  const JobRow job = get_job(tx.db, task.job_id);
+  lease.set_field(database_id(tx.db) + "/" + std::to_string(job.erosion_id));
   lease.set_lease_ms(static_cast<std::uint32_t>(tx.options.lease_ms));
   lease.set_report_interval_ms(static_cast<std::uint32_t>(tx.options.report_interval_ms));
   if (task.kind == v1::TASK_KIND_ERODE) {
-    const JobRow job = get_job(tx.db, task.job_id);
     for (const Range& range : remaining_ranges(tx.db, job.erosion_id, task.block)) {
       v1::PositionRange* positions = lease.add_positions();
       positions->set_begin(static_cast<std::uint64_t>(range.begin));

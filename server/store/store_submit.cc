@@ -128,7 +128,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
     const std::string id = insert_job(tx, submission, mesh);
     remember_request(tx, submission, id);
     const std::optional<std::int64_t> finished = find_finished_erosion(
-        tx.db, header.mesh_sha256(), submission.params_key, current_core_version(tx.db));
+        tx.db, header.owner(), header.mesh_sha256(), submission.params_key, current_core_version(tx.db));
     if (finished) {
       adopt_erosion(tx, id, *finished);
     } else {

@@ -113,7 +113,14 @@ void Run::make_sure_of_a_running_job() {
 void Run::recover(const Fault& fault, Outcome& outcome) {
   const Clock::time_point begun = Clock::now();
   bring_up(fault.may_end, outcome);
-  canary();
+  try {
+    canary();
+  } catch (const Hang&) {
+    // A server that has become deaf leaves after a while, and somebody has to start it again.
+    if (stage_.server().alive()) throw;
+    bring_up(fault.may_end, outcome);
+    canary();
+  }
   stage_.wait_for_workers();
   outcome.recovery += std::chrono::duration_cast<Milliseconds>(Clock::now() - begun);
   ++outcome.recoveries;

@@ -136,6 +136,16 @@ TEST_F(WebServiceTest, CountsPointsForASpacingAndBack) {
     EXPECT_EQ(ask("GET", lattice + wrong).status, 400) << wrong;
   EXPECT_EQ(ask("GET", lattice + "?spacing=100&frame=sideways").status, 400);
   EXPECT_EQ(ask("GET", "/api/meshes/unknown/lattice?points=5").status, 404);
+  // A plate: few points on many lines, of which one request could take all memory.
+  const std::string plate =
+      "OFF 8 12 0\n0 0 0\n1000 0 0\n0 1000 0\n1000 1000 0\n0 0 1e-6\n1000 0 1e-6\n0 1000 1e-6\n1000 1000 "
+      "1e-6\n"
+      "3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 "
+      "3 7 5\n";
+  const json lines = ask("GET", "/api/meshes/" + uploaded("plate.off", plate)["mesh"].get<std::string>() +
+                                    "/lattice?spacing=0.3")
+                         .object();
+  EXPECT_EQ(lines["counted"], false);
 }
 
 TEST_F(WebServiceTest, SubmitsTheMeshAsItWasSent) {

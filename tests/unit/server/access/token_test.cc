@@ -86,11 +86,14 @@ TEST_F(TokenTest, RevokedForEverAndStillListed) {
 }
 
 TEST_F(TokenTest, RefusesNamesThatCannotBeShown) {
-  for (const char* owner : {"", "a\nb", "\xff", "\x7f"}) {
+  for (const char* owner : {"", "a\nb", "\xff", "\x7f", " ", "ada ", " ada", "a\u200Bda", "ada\u202E",
+                            "a\u2028b", "ada\uFEFF", "a\u00A0b"}) {
     EXPECT_STORE_ERROR(add_token(db_, "t", owner, v1::ROLE_USER, 0, std::nullopt), kInvalid);
   }
   EXPECT_STORE_ERROR(add_token(db_, "t", std::string(101, 'a'), v1::ROLE_USER, 0, std::nullopt), kInvalid);
   EXPECT_FALSE(has_tokens(db_));
+  for (const char* owner : {"ada lovelace", "Zo\u00EB", "\u5F20\u4E09", "a=\"b\""})
+    EXPECT_NO_THROW(add_token(db_, owner, owner, v1::ROLE_USER, 0, std::nullopt)) << owner;
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ TEST_F(RepairTest, LeasesAndHeldFieldsEndWithARepairAndWithACopyPutBack) {
   EXPECT_STORE_ERROR(store_->renew(before.token()), kFenced);
   const v1::Lease after = lease();
   EXPECT_EQ(after.positions(0).begin(), before.positions(0).begin());
-  EXPECT_NE(after.database(), before.database());
+  EXPECT_NE(after.field(), before.field());
 }
 
 // The database file itself

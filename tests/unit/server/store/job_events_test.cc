@@ -124,6 +124,11 @@ TEST_F(JobEventsTest, AFieldOfAnotherJobIsTakenOver) {
   complete_job(4, 16);
   const v1::Job same = submit("OFF 1", "another name");
   EXPECT_EQ(names(same.id()), (Names{"submitted", "adopted", "done"}));
+  v1::SubmitJobHeader header = submit_header("OFF 1", "bob's");
+  header.set_owner("bob");
+  const v1::Job bobs = store_->submit(header, "OFF 1").job;
+  EXPECT_EQ(bobs.state(), v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(names(bobs.id()), Names{"submitted"}) << "nothing of the others'";
 }
 
 }  // namespace

@@ -160,8 +160,8 @@ TEST_F(RetentionTest, AFetchSaysWhatHappenedAndResumeComputesAgain) {
   expect_sound();
 }
 
-// Another job may still have the field.
-TEST_F(RetentionTest, ResultsThatOthersKeepAreTakenOverByResume) {
+// Another job of the owner may still have the field; of other owners' nothing is learnt.
+TEST_F(RetentionTest, ResultsThatTheOwnerKeepsAreTakenOverByResume) {
   keep([](Policy& policy) {
     policy.everyone.retention.results_age_ms = kDay;
     policy.owners["bob"];
@@ -169,6 +169,12 @@ TEST_F(RetentionTest, ResultsThatOthersKeepAreTakenOverByResume) {
   });
   const std::string job = done("OFF 1");
   const std::string bobs = done("OFF 1", "bob");
+  v1::SubmitJobHeader again = submit_header("OFF 1", "again");
+  again.set_owner("ada");
+  const v1::Job kept = store_->submit(again, "OFF 1").job;
+  ASSERT_NE(kept.id(), job);
+  ASSERT_EQ(kept.state(), v1::JOB_STATE_DONE) << "it shares the field";
+  store_->pin(kept.id(), true);
   clock_.advance(2 * kDay);
   retain();
   tidy();
@@ -176,7 +182,35 @@ TEST_F(RetentionTest, ResultsThatOthersKeepAreTakenOverByResume) {
   EXPECT_EQ(field(bobs), expected_field(10, 20));
   EXPECT_EQ(store_->resume(job).state(), v1::JOB_STATE_DONE);
   EXPECT_EQ(field(job), expected_field(10, 20));
+  store_->remove(kept.id());
+  clock_.advance(2 * kDay);
+  retain();
+  EXPECT_TRUE(removed(job));
+  EXPECT_EQ(store_->resume(job).state(), v1::JOB_STATE_QUEUED) << "bob's is there, but is bob's";
   expect_sound();
+}
+
+// A worker that has held the job's field knows more than the server then does.
+TEST_F(RetentionTest, TheFieldThatIsComputedAgainIsAnotherOne) {
+  keep([](Policy& policy) {
+    policy.everyone.retention.results_age_ms = kDay;
+    policy.grace_ms = 0;
+  });
+  const std::string job = submit("OFF 1").id();
+  prepare(100, 16);
+  const v1::Lease before = lease();
+  report(before, 0, 10);
+  store_->cancel(job);
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  clock_.advance(2 * kDay);
+  retain();
+  tidy();
+  ASSERT_TRUE(removed(job));
+  store_->resume(job);
+  const v1::Lease again = lease();
+  EXPECT_EQ(again.job().id(), job);
+  EXPECT_NE(again.field(), before.field());
 }
 
 TEST_F(RetentionTest, SubmittingTheSameAgainMakesANewJob) {
