@@ -17,6 +17,7 @@ RidgeVertex between(const RidgeVertex& a, const RidgeVertex& b, double t) {
   const bool turned = dot(a.normal_a - a.normal_b, b.normal_a - b.normal_b) < 0;
   RidgeVertex v;
   v.position = mean(a.position, b.position);
+  v.point = a.point;
   v.erosion = mean(a.erosion, b.erosion);
   v.strength = mean(a.strength, b.strength);
   v.ratio = mean(a.ratio, b.ratio);

@@ -10,6 +10,7 @@ namespace affskel::core {
 
 struct RidgeVertex {
   Vec3 position;            ///< frame coordinates
+  std::uint32_t point = 0;  ///< rank of a sample point next to it
   double erosion = 0;       ///< E, volume
   double strength = 0;      ///< s, radians, see ridge_crossings()
   double ratio = 0;         ///< lambda_2 / lambda_1, see ridge_crossings()

@@ -18,8 +18,8 @@ RidgeVertex vertex_at(const Vec3& position, std::span<const RidgeCrossing> cross
   RidgeVertex vertex;
   for (std::size_t n = 0; n < members.size(); ++n) {
     const RidgeCrossing& c = crossings[members[n]];
-    const RidgeVertex here{c.position,  c.erosion, c.strength, c.ratio,
-                           c.roundness, c.area,    c.normal_a, c.normal_b};
+    const RidgeVertex here{c.position,  c.edge.point, c.erosion,  c.strength, c.ratio,
+                           c.roundness, c.area,       c.normal_a, c.normal_b};
     vertex = n == 0 ? here : between(vertex, here, 1 / static_cast<double>(n + 1));
   }
   vertex.position = position;
@@ -64,6 +64,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   throw_if_stopped(options.context);
   RidgeSheet sheet;
   sheet.pieces = cut_rims(mesh, options.rims);
+  sheet.flaps_cut = cut_flaps(mesh, options.flaps);
   const SolidMembership membership(solid.mesh);
   const auto inside = [&](const Vec3& u) {
     return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * u));

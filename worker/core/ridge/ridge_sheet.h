@@ -8,6 +8,7 @@
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
 #include "core/ridge/ridge_crossings.h"
+#include "core/ridge/ridge_flaps.h"
 #include "core/ridge/ridge_holes.h"
 #include "core/ridge/ridge_mesh.h"
 #include "core/ridge/ridge_rims.h"
@@ -19,6 +20,7 @@ namespace affskel::core {
 struct RidgeSheetOptions {
   SmoothedDerivativesOptions derivatives;
   RidgeRimOptions rims;  ///< its `low` is the threshold of `ridge`
+  RidgeFlapOptions flaps;
   RidgeHoleOptions holes;
   /// Least strength of the sheet before it is cut, as a share of rims.low, 0 .. 1: what may join its pieces.
   double weak_share = 0.125;
@@ -31,7 +33,8 @@ struct RidgeSheet {
   std::vector<RidgeVertex> vertices;
   std::vector<Triangle> triangles;
   RidgePieces pieces;
-  std::uint32_t holes_closed = 0;
+  std::uint32_t flaps_cut = 0;     ///< see cut_flaps()
+  std::uint32_t holes_closed = 0;  ///< see close_holes()
 };
 
 /// The skeleton as a ridge: the surface where E is greatest across the direction in which it bends most, a

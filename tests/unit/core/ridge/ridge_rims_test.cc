@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/quality/sheet_topology.h"
+#include "core/ridge/ridge_flaps.h"
 #include "core/ridge/ridge_holes.h"
 
 namespace affskel::core {
@@ -194,6 +195,46 @@ TEST(RidgeHoles, StayWhenLargeOrOutsideOfTheSolid) {
   EXPECT_EQ(topology(large).betti.holes, 1U);
   RidgeMesh outside = with_hole(6, 6, 8, 8);
   EXPECT_EQ(close_holes(outside, [](const Vec3& u) { return norm(u - Vec3{6, 8, 0}) > 0.7; }, {0.02}), 0U);
+}
+
+// The square with a strip of `width` cells standing on its line y = 10, from x = 5 to x = 5 + length.
+RidgeMesh with_flap(std::uint32_t length, std::uint32_t width) {
+  RidgeMesh mesh = square(20, [](double, double) { return 9; });
+  std::vector<std::uint32_t> below;
+  for (std::uint32_t n = 0; n <= length; ++n) below.push_back(10 * 21 + 5 + n);
+  for (std::uint32_t up = 1; up <= width; ++up) {
+    std::vector<std::uint32_t> above;
+    for (const std::uint32_t v : below) {
+      RidgeVertex vertex = mesh.vertices[v];
+      vertex.position.z = up;
+      above.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(vertex);
+      mesh.part.push_back(0);
+    }
+    for (std::size_t n = 0; n < length; ++n) {
+      mesh.triangles.push_back({below[n], below[n + 1], above[n]});
+      mesh.triangles.push_back({below[n + 1], above[n + 1], above[n]});
+    }
+    below = above;
+  }
+  return mesh;
+}
+
+TEST(RidgeFlaps, AreCutOffWhenSmall) {
+  RidgeMesh mesh = with_flap(3, 1);
+  ASSERT_EQ(topology(mesh).branch_edges, 3U);
+  EXPECT_EQ(cut_flaps(mesh, {0.01}), 1U);
+  EXPECT_EQ(topology(mesh).branch_edges, 0U);
+  EXPECT_NEAR(area(mesh), 400, 1e-9);
+  EXPECT_EQ(mesh.vertices.size(), 441U);
+  EXPECT_EQ(mesh.part.size(), 441U);
+}
+
+TEST(RidgeFlaps, StayWhenTheyAreBranches) {
+  RidgeMesh mesh = with_flap(10, 8);
+  EXPECT_EQ(cut_flaps(mesh, {0.01}), 0U);
+  EXPECT_EQ(topology(mesh).branch_edges, 10U);
+  EXPECT_NEAR(area(mesh), 480, 1e-9);
 }
 
 }  // namespace
