@@ -119,6 +119,33 @@ TEST(RidgeSheet, OfAnEllipticCylinderIsAStripRoundItsAxis) {
   EXPECT_GT(z.high, 5.2);
 }
 
+// E is greatest on a sphere, whose normals have all directions: eigenvectors of any sign make one closed
+// sheet.
+TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
+  const BoxLattice box(19, 19, 19);
+  const Vec3 centre{9.1, 8.9, 9.05};
+  const double radius = 5.5;
+  const Branch shell{[&](const Vec3& u) {
+                       const double off = norm(u - centre) - radius;
+                       return 100 - off * off;
+                     },
+                     [&](const Vec3& u) {
+                       const double r = norm(u - centre);
+                       return (-2 * (r - radius) / r) * (u - centre);
+                     }};
+  RidgeSheetOptions options;
+  options.derivatives.min_width = options.derivatives.max_width = 1;
+  const RidgeSheet sheet =
+      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), options);
+  const SheetTopology found = topology(sheet);
+  EXPECT_EQ(found.betti, (BettiNumbers{1, 0, 1}));
+  EXPECT_EQ(found.boundary_loops, 0U);
+  EXPECT_EQ(found.branch_edges, 0U);
+  EXPECT_EQ(sheet.holes_closed, 0U);
+  // Smoothing a curved crest draws it in by about width^2 / radius.
+  for (const RidgeVertex& v : sheet.vertices) EXPECT_NEAR(norm(v.position - centre), radius, 0.3);
+}
+
 // Strengths are angles and widths go with the depth: a mesh twice as large with twice the spacing is the
 // same.
 TEST(RidgeSheet, HasNoUnitOfLength) {
