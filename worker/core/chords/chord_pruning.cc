@@ -18,8 +18,9 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
-#include "core/chords/chord_cells.h"
+#include "core/chords/chord_edge.h"
 #include "core/chords/chord_squares.h"
+#include "core/contour/edge_cells.h"
 
 namespace affskel::core {
 namespace {
@@ -44,7 +45,7 @@ class Paths {
   };
 
   // piece: per cell, kNone where there is none.
-  Paths(const std::vector<ChordShock>& shocks, const ChordCells& cells, std::vector<std::uint32_t> piece)
+  Paths(const std::vector<ChordShock>& shocks, const EdgeCells& cells, std::vector<std::uint32_t> piece)
       : shocks_(shocks),
         cells_(cells),
         piece_(std::move(piece)),
@@ -94,7 +95,7 @@ class Paths {
       const auto [distance, cell] = front.top();
       front.pop();
       if (distance > distance_[cell]) continue;
-      for (std::uint32_t s : cells_.shocks_of(cell)) {
+      for (std::uint32_t s : cells_.edges_of(cell)) {
         const double there = distance + cost(shocks_[s]);
         for (std::uint32_t next : cells_.ring[s]) {
           if (!(there < distance_[next])) continue;
@@ -109,7 +110,7 @@ class Paths {
   }
 
   const std::vector<ChordShock>& shocks_;
-  const ChordCells& cells_;
+  const EdgeCells& cells_;
   std::vector<std::uint32_t> piece_, through_, from_;
   std::vector<double> distance_;
 };
@@ -121,7 +122,7 @@ class Pruning {
       : parts_(parts),
         shocks_(shocks),
         options_(options),
-        cells_(chord_cells(lattice, parts, shocks)),
+        cells_(edge_cells(lattice, parts, lattice_edges(shocks))),
         pieces_(shocks.size()),
         owner_(shocks.size(), kNone) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
@@ -163,7 +164,7 @@ class Pruning {
   void join_touching() {
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
       std::uint32_t first = kNone;
-      for (std::uint32_t s : cells_.shocks_of(cell)) {
+      for (std::uint32_t s : cells_.edges_of(cell)) {
         if (!strong(s)) continue;
         if (first == kNone) first = s;
         pieces_.unite(first, s);
@@ -266,7 +267,7 @@ class Pruning {
   const SolidParts& parts_;
   const std::vector<ChordShock>& shocks_;
   const ChordPruningOptions& options_;
-  const ChordCells cells_;
+  const EdgeCells cells_;
   DisjointSets pieces_;               // of shocks; the least member stands for its piece
   std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNone if dropped
   std::vector<double> min_erosion_;   // per part

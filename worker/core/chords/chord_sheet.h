@@ -43,7 +43,7 @@ struct ChordSheet {
   std::uint32_t bridges = 0;               ///< see SignificantShocks
   double strong_turn = 0;                  ///< the one applied, see ChordSheetOptions::strong_share
   ShockCensus census;                      ///< see SignificantShocks
-  std::vector<ChordSheetVertex> vertices;  ///< in lattice order of their cells (see ChordCells)
+  std::vector<ChordSheetVertex> vertices;  ///< in lattice order of their cells (see EdgeCells)
   std::vector<Triangle> triangles;         ///< two per shock, in the order of the shocks
 };
 

@@ -33,8 +33,8 @@
 #include "core/base/error.h"
 #include "core/base/require.h"
 #include "core/base/scaled_to_unit.h"
-#include "core/chords/chord_cells.h"
 #include "core/chords/chord_edge.h"
+#include "core/contour/edge_cells.h"
 
 namespace affskel::core {
 namespace {
@@ -50,7 +50,7 @@ constexpr double kMaxGain = 2;
 
 class TurnGauge {
  public:
-  TurnGauge(const Lattice& lattice, const FrameField& field, const ChordCells& cells,
+  TurnGauge(const Lattice& lattice, const FrameField& field, const EdgeCells& cells,
             std::vector<ChordShock>& shocks, const ChordTurnOptions& options)
       : lattice_(lattice),
         field_(field),
@@ -73,7 +73,7 @@ class TurnGauge {
     std::vector<double> mean(cells_.size(), 0);
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
       double sum = 0, whole = 0;
-      for (std::uint32_t s : cells_.shocks_of(cell)) {
+      for (std::uint32_t s : cells_.edges_of(cell)) {
         const double share = squares_of(shocks_[s]) * shocks_[s].turn;
         sum += share * shocks_[s].turn;
         whole += share;
@@ -204,7 +204,7 @@ class TurnGauge {
 
   const Lattice& lattice_;
   const FrameField& field_;
-  const ChordCells& cells_;
+  const EdgeCells& cells_;
   std::vector<ChordShock>& shocks_;
   const ChordTurnOptions& options_;
   std::vector<bool> is_peak_;                  // per shock
@@ -225,7 +225,7 @@ void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameF
   require_within(options.min_share, 0, 1, "the least share of the jump must lie between 0 and 1");
   require_within(options.min_concentration, 0, 1, "the least concentration must lie between 0 and 1");
   require_within(options.min_strength, 0, 1, "the least strength must lie between 0 and 1");
-  const ChordCells cells = chord_cells(lattice, parts, shocks);
+  const EdgeCells cells = edge_cells(lattice, parts, lattice_edges(shocks));
   TurnGauge gauge(lattice, field, cells, shocks, options);
   gauge.measure();
   for (std::uint32_t round = 0; round < options.rounds; ++round) gauge.average();

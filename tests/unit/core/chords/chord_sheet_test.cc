@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/chords/chord_cells.h"
 #include "core/chords/chord_fields.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/perturb.h"
@@ -75,35 +74,6 @@ double area(const ChordSheet& sheet) {
     sum += 0.5 * norm(cross(sheet.vertices[t[1]].position - a, sheet.vertices[t[2]].position - a));
   }
   return sum;
-}
-
-TEST(ChordCells, AnEdgeHasFourCellsOnceRound) {
-  const BoxLattice box(3, 3, 3);
-  ChordShock shock;
-  shock.place = {0, 2, 1};
-  shock.axis = 1;
-  const std::vector<ChordShock> shocks{shock};
-  const ChordCells cells = chord_cells(box.lattice, SolidParts(box.solid, box.lattice), shocks);
-  ASSERT_EQ(cells.size(), 4U);
-  EXPECT_EQ(cells.place[0], (CellPlace{-1, 2, 0}));
-  EXPECT_EQ(cells.place[3], (CellPlace{0, 2, 1}));
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    const CellPlace &a = cells.place[cells.ring[0][corner]],
-                    &b = cells.place[cells.ring[0][(corner + 1) % 4]];
-    EXPECT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 1);
-  }
-}
-
-TEST(ChordCells, RefusesMoreShocksThanCanBeNumbered) {
-  const BoxLattice box(3, 3, 3);
-  const ChordShock shock;
-  const std::span<const ChordShock> many(&shock, std::size_t{1} << 30);
-  try {
-    chord_cells(box.lattice, SolidParts(box.solid, box.lattice), many);
-    FAIL() << "not refused";
-  } catch (const CoreError& error) {
-    EXPECT_EQ(error.code(), CoreError::Code::kLimit);
-  }
 }
 
 // E = min(1 + z, 8.6 - z) in a cube: the square z = 3.8 between the outermost points.

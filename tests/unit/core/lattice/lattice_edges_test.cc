@@ -1,4 +1,4 @@
-#include "core/chords/chord_edge.h"
+#include "core/lattice/lattice_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -41,17 +41,17 @@ void expect_the_walks_edges(const Lattice& lattice) {
   EXPECT_EQ(found, walked.size());
 }
 
-TEST(ChordEdge, IsFoundWhereTheWalkComesBy) {
+TEST(LatticeEdges, IsFoundWhereTheWalkComesBy) {
   expect_the_walks_edges(BoxLattice(3, 4, 5).lattice);
 }
 
-TEST(ChordEdge, IsFoundAcrossGapsAndHoles) {
+TEST(LatticeEdges, IsFoundAcrossGapsAndHoles) {
   const double h = 0.23;
   const ErodedSolid torus(make_torus(3, 1, 256), {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}}, "triangles");
   expect_the_walks_edges(torus.lattice);
 }
 
-TEST(ChordEdge, IsFoundAcrossSurfacesInsideTheSolid) {
+TEST(LatticeEdges, IsFoundAcrossSurfacesInsideTheSolid) {
   const BoxLattice box(overlapping_boxes(5, 5, 9));
   ASSERT_GT(box.lattice.axis[2].runs.size(), 25U);
   expect_the_walks_edges(box.lattice);

@@ -1,0 +1,189 @@
+#include "core/ridge/ridge_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/chords/chord_fields.h"
+#include "core/quality/sheet_topology.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+std::array<Vec3, 3> axes(double h, double x = 1, double y = 1, double z = 1) {
+  return {Vec3{h * x, 0, 0}, Vec3{0, h * y, 0}, Vec3{0, 0, h * z}};
+}
+
+SheetTopology topology(const RidgeSheet& sheet) {
+  Mesh mesh;
+  for (const RidgeVertex& v : sheet.vertices) mesh.points.push_back(v.position);
+  mesh.triangles = sheet.triangles;
+  return sheet_topology(mesh);
+}
+
+struct Range {
+  double low = 1e300, high = -1e300;
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// The torus of the published experiments, finer: its skeleton is the annulus in its middle plane, from the
+// inner surface (where E is not 0) outwards.
+TEST(RidgeSheet, OfATorusIsAnAnnulusFromTheInnerSurfaceOutwards) {
+  const double h = 2.0 / 12;
+  const ErodedSolid torus(make_torus(3, 1, 1024), axes(h), "triangles");
+  const RidgeSheet sheet = ridge_sheet(torus.solid, torus.lattice, torus.field);
+  const SheetTopology found = topology(sheet);
+  EXPECT_EQ(found.betti, (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(found.boundary_loops, 2U);
+  EXPECT_EQ(found.branch_edges, 0U);
+  Range r;
+  for (const RidgeVertex& v : sheet.vertices) {
+    const Vec3 x = torus.place(v.position);
+    EXPECT_NEAR(x.z, 0, 0.05 * h);
+    r.take(std::hypot(x.x, x.y));
+    EXPECT_GE(v.strength, 5);
+    // The level surfaces are mirror images of each other in the plane, and lean to its two sides.
+    EXPECT_NEAR(std::abs(v.normal_a.z), std::abs(v.normal_b.z), 0.02);
+    EXPECT_LT(v.normal_a.z * v.normal_b.z, 0);
+    EXPECT_NEAR(norm(v.normal_a), 1, 1e-12);
+  }
+  EXPECT_NEAR(r.low, 2, h);
+  EXPECT_GT(r.high, 2.5);
+  EXPECT_LT(r.high, 3);
+}
+
+// In the middle of a flat box two opposite chords are equal.
+TEST(RidgeSheet, OfAFlatBoxIsTheMiddleRectangleAtEverySpacing) {
+  for (const double h : {6.0 / 20, 6.0 / 45}) {
+    const ErodedSolid box(make_box(6, 3, 1, 1), axes(h), "sphere:1280");
+    const RidgeSheet sheet = ridge_sheet(box.solid, box.lattice, box.field);
+    EXPECT_EQ(topology(sheet).betti, (BettiNumbers{1, 0, 0})) << h;
+    Range x, y;
+    for (const RidgeVertex& v : sheet.vertices) {
+      const Vec3 at = box.place(v.position);
+      x.take(at.x);
+      y.take(at.y);
+      EXPECT_NEAR(at.z, 0.5, 0.02 * h);
+      EXPECT_NEAR(v.normal_a.z, -v.normal_b.z, 0.05);
+    }
+    EXPECT_NEAR(x.low, 0.6, 0.25) << h;
+    EXPECT_NEAR(x.high, 5.4, 0.25) << h;
+    EXPECT_NEAR(y.low, 0.6, 0.25) << h;
+    EXPECT_NEAR(y.high, 2.4, 0.25) << h;
+  }
+}
+
+// The level sets of E are balls about one centre: no sheet, but that point.
+TEST(RidgeSheet, OfABallIsItsCentre) {
+  const double h = 0.125;
+  const ErodedSolid ball(make_sphere(1, 320), axes(h), "triangles");
+  const RidgeSheet sheet = ridge_sheet(ball.solid, ball.lattice, ball.field);
+  ASSERT_FALSE(sheet.vertices.empty());
+  EXPECT_EQ(topology(sheet).betti.components, 1U);
+  Range across[3];
+  for (const RidgeVertex& v : sheet.vertices) {
+    const Vec3 x = ball.place(v.position);
+    for (int k = 0; k < 3; ++k) across[k].take(x[k]);
+  }
+  for (const Range& range : across) {
+    EXPECT_LE(range.high - range.low, 2 * h);
+    EXPECT_LE(std::abs(range.high + range.low), h);
+  }
+}
+
+// Elliptic sections 1 x 0.5: a strip in the plane of the long axis, round the cylinder's own axis.
+TEST(RidgeSheet, OfAnEllipticCylinderIsAStripRoundItsAxis) {
+  const double h = 0.1;
+  Mesh cylinder = make_cylinder(1, 6, 32);
+  for (Vec3& p : cylinder.points) p.y *= 0.5;
+  const ErodedSolid solid(cylinder, axes(h), "triangles+sphere:1280");
+  const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+  EXPECT_EQ(topology(sheet).betti, (BettiNumbers{1, 0, 0}));
+  Range x, z;
+  for (const RidgeVertex& v : sheet.vertices) {
+    const Vec3 at = solid.place(v.position);
+    EXPECT_NEAR(at.y, 0, 0.05 * h);
+    x.take(at.x);
+    z.take(at.z);
+  }
+  EXPECT_NEAR(x.low, -x.high, 0.5 * h);
+  EXPECT_LT(x.high, 0.5);
+  EXPECT_LT(z.low, 0.8);
+  EXPECT_GT(z.high, 5.2);
+}
+
+// E is greatest on a sphere, whose normals have all directions: eigenvectors of any sign make one closed
+// sheet.
+TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
+  const BoxLattice box(19, 19, 19);
+  const Vec3 centre{9.1, 8.9, 9.05};
+  const double radius = 5.5;
+  const Branch shell{[&](const Vec3& u) {
+                       const double off = norm(u - centre) - radius;
+                       return 100 - off * off;
+                     },
+                     [&](const Vec3& u) {
+                       const double r = norm(u - centre);
+                       return (-2 * (r - radius) / r) * (u - centre);
+                     }};
+  RidgeSheetOptions options;
+  options.derivatives.min_width = options.derivatives.max_width = 1;
+  const RidgeSheet sheet =
+      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), options);
+  const SheetTopology found = topology(sheet);
+  EXPECT_EQ(found.betti, (BettiNumbers{1, 0, 1}));
+  EXPECT_EQ(found.boundary_loops, 0U);
+  EXPECT_EQ(found.branch_edges, 0U);
+  EXPECT_EQ(sheet.holes_closed, 0U);
+  // Smoothing a curved crest draws it in by about width^2 / radius.
+  for (const RidgeVertex& v : sheet.vertices) EXPECT_NEAR(norm(v.position - centre), radius, 0.3);
+}
+
+// Strengths are angles and widths go with the depth: a mesh twice as large with twice the spacing is the
+// same.
+TEST(RidgeSheet, HasNoUnitOfLength) {
+  const Mesh box = make_box(4, 2, 1, 1);
+  const ErodedSolid one(box, axes(0.2), "sphere:320"),
+      eight(moved(box, {0, 0, 0}, 8), axes(1.6), "sphere:320");
+  const RidgeSheet small = ridge_sheet(one.solid, one.lattice, one.field),
+                   large = ridge_sheet(eight.solid, eight.lattice, eight.field);
+  ASSERT_EQ(small.triangles, large.triangles);
+  for (std::size_t v = 0; v < small.vertices.size(); ++v) {
+    EXPECT_NEAR(norm(8 * small.vertices[v].position - large.vertices[v].position), 0, 1e-4);
+    EXPECT_NEAR(small.vertices[v].strength, large.vertices[v].strength, 1e-3 * large.vertices[v].strength);
+  }
+}
+
+// Two solids beside each other have the sheets that they would have alone.
+TEST(RidgeSheet, OfTwoSolidsIsThatOfEach) {
+  const Mesh box = make_box(4, 2, 1, 1);
+  const ErodedSolid both(joined(box, moved(box, {0, 0, 1.4})), axes(0.2), "sphere:320");
+  const RidgeSheet sheet = ridge_sheet(both.solid, both.lattice, both.field);
+  EXPECT_EQ(topology(sheet).betti, (BettiNumbers{2, 0, 0}));
+  EXPECT_EQ(sheet.pieces.shares.size(), 2U);
+}
+
+TEST(RidgeSheet, StopsWhenItsContextAsks) {
+  const ErodedSolid box(make_box(4, 2, 1, 1), axes(0.25), "sphere:80");
+  struct Stopped : ExecutionContext {
+    bool stop_requested() override { return true; }
+  } context;
+  RidgeSheetOptions options;
+  options.context = &context;
+  try {
+    ridge_sheet(box.solid, box.lattice, box.field, options);
+    FAIL() << "not stopped";
+  } catch (const CoreError& error) {
+    EXPECT_EQ(error.code(), CoreError::Code::kCancelled);
+  }
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,177 @@
+#include "core/ridge/smoothed_derivatives.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/chords/chord_fields.h"
+#include "core/ridge/continued_field.h"
+#include "core/ridge/local_depth.h"
+#include "core/ridge/row_band.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+// sqrt(E) = q: E = q^2, grad E = 2 q grad q.
+struct Quadratic {
+  double at(const Vec3& u) const {
+    return 900 + 2 * u.x - u.y + 3 * u.z - u.x * u.x + 0.5 * u.y * u.y - 0.25 * u.z * u.z + 0.5 * u.x * u.y -
+           0.75 * u.x * u.z + 0.2 * u.y * u.z;
+  }
+  Vec3 gradient(const Vec3& u) const {
+    return {2 - 2 * u.x + 0.5 * u.y - 0.75 * u.z, -1 + u.y + 0.5 * u.x + 0.2 * u.z,
+            3 - 0.5 * u.z - 0.75 * u.x + 0.2 * u.y};
+  }
+  Branch branch() const {
+    return {[*this](const Vec3& u) { return at(u) * at(u); },
+            [*this](const Vec3& u) { return 2 * at(u) * gradient(u); }};
+  }
+};
+
+double highest(const FrameField& field) {
+  return std::sqrt(*std::max_element(field.erosion.begin(), field.erosion.end()));
+}
+
+TEST(SmoothedDerivatives, OfAQuadraticAreItsOwnAtAnyWidth) {
+  const BoxLattice box(25, 25, 25);
+  const Quadratic q;
+  const FrameField field = field_of_branches(box.lattice, {q.branch()});
+  for (const double width : {1.0, 2.0, 3.3}) {
+    SmoothedDerivativesOptions options;
+    options.min_width = options.max_width = width;
+    const auto found = smoothed_derivatives(box.lattice, field, options);
+    for_each_point(box.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      // Where the kernel does not reach outside.
+      if (std::min({i, j, k}) < 9 || std::max({i, j, k}) > 15) return;
+      const Vec3 g = q.gradient({double(i), double(j), double(k)});
+      const double unit = 1 / highest(field);
+      EXPECT_NEAR(found[rank].gradient[0], unit * g.x, 2e-5);
+      EXPECT_NEAR(found[rank].gradient[1], unit * g.y, 2e-5);
+      EXPECT_NEAR(found[rank].gradient[2], unit * g.z, 2e-5);
+      const double hessian[] = {-2, 0.5, -0.75, 1, 0.2, -0.5};
+      for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(found[rank].hessian[n], unit * hessian[n], 2e-5) << n;
+    });
+  }
+}
+
+TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
+  const BoxLattice box(17, 17, 17);
+  // E grows along x, its depth too: widths from the least to the largest.
+  const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {1, 0, 0})});
+  SmoothedDerivativesOptions options;
+  options.min_width = 1;
+  options.max_width = 3;
+  const auto found = smoothed_derivatives(box.lattice, field, options);
+  const std::vector<float> depth = local_depth(box.lattice, field);
+  float least = 100, most = 0;
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    EXPECT_FLOAT_EQ(found[p].width, static_cast<float>(std::clamp(0.35 * double(depth[p]), 1.0, 3.0)));
+    least = std::min(least, found[p].width);
+    most = std::max(most, found[p].width);
+  }
+  EXPECT_EQ(least, 1.0F);
+  EXPECT_EQ(most, 3.0F);
+}
+
+// The same field in numbers near the end of the range of a double.
+TEST(SmoothedDerivatives, DoNotDependOnTheUnitOfE) {
+  const BoxLattice box(9, 9, 9);
+  const FrameField field = field_of_branches(box.lattice, {Quadratic().branch()});
+  FrameField huge = field;
+  for (double& e : huge.erosion) e = std::ldexp(e, 800);
+  for (Vec3& g : huge.gradient) g = std::ldexp(1.0, 800) * g;
+  const auto found = smoothed_derivatives(box.lattice, field), same = smoothed_derivatives(box.lattice, huge);
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    EXPECT_EQ(found[p].gradient, same[p].gradient);
+    EXPECT_EQ(found[p].hessian, same[p].hessian);
+  }
+}
+
+TEST(SmoothedDerivatives, RefusesWidthsOutOfRange) {
+  const BoxLattice box(3, 3, 3);
+  const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
+  const auto refused = [&](double width, double least, double most) {
+    SmoothedDerivativesOptions options;
+    options.width = width;
+    options.min_width = least;
+    options.max_width = most;
+    try {
+      smoothed_derivatives(box.lattice, field, options);
+    } catch (const CoreError& error) {
+      return error.code() == CoreError::Code::kBadInput;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused(0, 2, 9));
+  EXPECT_TRUE(refused(0.3, 0.5, 9));
+  EXPECT_TRUE(refused(0.3, 2, 1.5));
+  EXPECT_TRUE(refused(0.3, 2, 33));
+  EXPECT_TRUE(refused(std::numeric_limits<double>::quiet_NaN(), 2, 9));
+  EXPECT_FALSE(refused(0.3, 2, 2));
+}
+
+TEST(ContinuedField, GoesOnLinearlyButNeitherBelowZeroNorUp) {
+  const BoxLattice box(4, 4, 4);
+  const RowBand band(box.lattice, 3);
+  // 5 at z = 3, falling outwards by 2 a step there; rising by 1 a step towards z = 0 and beyond.
+  std::vector<double> value(64);
+  std::vector<Vec3> gradient(64, Vec3{0, 0, -2});
+  for_each_point(box.lattice, [&](std::int32_t, std::int32_t, std::int32_t k, std::uint32_t rank) {
+    value[rank] = 11 - 2 * k;
+  });
+  const std::vector<float> found = continued_field(box.lattice, band, value, gradient);
+  const auto at = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    return found[static_cast<std::size_t>(band.at(i, j, k))];
+  };
+  EXPECT_EQ(at(1, 2, 2), 7);
+  EXPECT_EQ(at(1, 2, 4), 3);
+  EXPECT_EQ(at(1, 2, 5), 1);
+  EXPECT_EQ(at(1, 2, 6), 0);    // not -1
+  EXPECT_EQ(at(1, 2, -1), 11);  // not 13
+  EXPECT_EQ(at(-2, 2, 1), 9);   // the nearest point's, the gradient being across
+  EXPECT_EQ(at(-2, -2, 5), 1);
+}
+
+TEST(ContinuedField, TakesTheMeanOfPointsEquallyNear) {
+  // Two boxes with a gap between them that holds one layer of places, k = 3.
+  const Mesh box = make_box(3, 3, 3);
+  const BoxLattice boxes(joined(box, moved(box, {0, 0, 4})));
+  const RowBand band(boxes.lattice, 2);
+  std::vector<double> value(54, 8);
+  for_each_point(boxes.lattice, [&](std::int32_t, std::int32_t, std::int32_t k, std::uint32_t rank) {
+    if (k > 3) value[rank] = 2;
+  });
+  const std::vector<float> found =
+      continued_field(boxes.lattice, band, value, std::vector<Vec3>(value.size()));
+  ASSERT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 2))], 8);
+  ASSERT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 4))], 2);
+  EXPECT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 3))], 5);
+  EXPECT_EQ(found[static_cast<std::size_t>(band.at(-1, 1, 3))], 5);
+  EXPECT_EQ(found[static_cast<std::size_t>(band.at(-1, 1, 2))], 8);
+}
+
+TEST(LocalDepth, IsTheWayToWhatIsShallow) {
+  const BoxLattice box(7, 7, 7);
+  FrameField field = field_of_branches(box.lattice, {linear_branch(1000, {0, 0, 1})});
+  std::uint32_t centre = 0;
+  for_each_point(box.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    if (i == 3 && j == 3 && k == 3) centre = rank;
+  });
+  field.erosion[centre] = 2;  // depth 2, all others about 1000
+  const std::vector<float> depth = local_depth(box.lattice, field);
+  for_each_point(box.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    // A way over neighbours: diagonal steps first, the longest way's rest along an axis.
+    std::array<int, 3> way = {std::abs(i - 3), std::abs(j - 3), std::abs(k - 3)};
+    std::sort(way.begin(), way.end());
+    const double length = way[0] * std::sqrt(3.0) + (way[1] - way[0]) * std::sqrt(2.0) + (way[2] - way[1]);
+    EXPECT_NEAR(depth[rank], 2 + length, 1e-5);
+  });
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,172 @@
+// Placing a vertex: least squares on the tangent planes of its cell's crossings, drawn towards their mean. On
+// the rim the mean alone would lie on the outermost crossings, and a strip one crossing wide would have no
+// area: there a vertex goes half way to the middle of its cell, in the sheet's plane.  What comes to lie
+// outside the solid goes back to the crossings' mean or the nearest crossing.
+#include "core/contour/dual_contour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/scaled_to_unit.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/layer_index.h"
+#include "core/solid/solid_membership.h"
+
+namespace affskel::core {
+namespace {
+
+// Rows of a symmetric positive definite matrix.
+using Matrix = std::array<Vec3, 3>;
+
+Vec3 solve(const Matrix& m, const Vec3& b) {
+  const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
+  return (1 / dot(m[0], c0)) * (b.x * c0 + (b.y * c1 + b.z * c2));
+}
+
+Vec3 unit(const Vec3& v) {
+  const Vec3 near = scaled_to_unit(v);
+  const double length = norm(near);
+  return length > 0 ? (1 / length) * near : Vec3{};
+}
+
+// Which places of the frame lie inside the parts of a solid.
+class PartInterior {
+ public:
+  PartInterior(const SolidParts& parts, const Lattice& lattice) : lattice_(lattice), meshes_(parts.meshes()) {
+    membership_.reserve(meshes_.size());
+    for (const Mesh& mesh : meshes_) membership_.emplace_back(mesh);
+  }
+
+  bool contains(std::uint32_t part, const Vec3& u) const {
+    return membership_[part].contains(scaled_place(lattice_, (1 / lattice_.spacing) * u));
+  }
+
+ private:
+  const Lattice& lattice_;
+  std::vector<Mesh> meshes_;
+  std::vector<SolidMembership> membership_;
+};
+
+class Contouring {
+ public:
+  Contouring(const Lattice& lattice, const SolidParts& parts, std::span<const SheetCrossing> crossings,
+             const EdgeCells& cells, double regularisation)
+      : spacing_(lattice.spacing),
+        parts_(parts),
+        crossings_(crossings),
+        cells_(cells),
+        regularisation_(regularisation),
+        ranks_(lattice),
+        interior_(parts, lattice) {}
+
+  std::vector<Vec3> vertices(ExecutionContext* context) {
+    std::vector<Vec3> result;
+    result.reserve(cells_.size());
+    std::int64_t reached = -1;
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+      for (; reached < cells_.place[cell][0]; ranks_.move_to(static_cast<std::uint32_t>(++reached)))
+        throw_if_stopped(context);
+      result.push_back(kept_inside(cell, place(cell)));
+    }
+    return result;
+  }
+
+ private:
+  Vec3 place(std::uint32_t cell) const {
+    const std::span<const std::uint32_t> members = cells_.edges_of(cell);
+    const Vec3& reference = crossings_[members[0]].normal;
+    const double share = 1 / static_cast<double>(members.size());
+    Vec3 mean, normal;
+    Matrix m{Vec3{regularisation_, 0, 0}, Vec3{0, regularisation_, 0}, Vec3{0, 0, regularisation_}};
+    for (std::uint32_t s : members) {
+      mean = mean + share * crossings_[s].position;
+      const Vec3 n = dot(crossings_[s].normal, reference) < 0 ? -crossings_[s].normal : crossings_[s].normal;
+      normal = normal + n;
+      m[0] = m[0] + share * n.x * n;
+      m[1] = m[1] + share * n.y * n;
+      m[2] = m[2] + share * n.z * n;
+    }
+    const CellPlace& at = cells_.place[cell];
+    const Vec3 corner =
+        spacing_ * Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+    const double h = spacing_;
+    if (inside(at, cells_.part[cell])) {
+      const Vec3 n = unit(normal), away = corner + Vec3{h / 2, h / 2, h / 2} - mean;
+      mean = mean + 0.5 * (away - dot(away, n) * n);
+    }
+    Vec3 right;
+    for (std::uint32_t s : members) {
+      const Vec3& n = crossings_[s].normal;
+      right = right + (share * dot(n, crossings_[s].position - mean)) * n;
+    }
+    const Vec3 p = mean + solve(m, right);
+    return {std::clamp(p.x, corner.x, corner.x + h), std::clamp(p.y, corner.y, corner.y + h),
+            std::clamp(p.z, corner.z, corner.z + h)};
+  }
+
+  // A cell's corners, in a part.
+  bool inside(const CellPlace& at, std::uint32_t part) const {
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::uint32_t point =
+          ranks_.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2));
+      if (point == LayerIndex::kOutside || parts_.of_point(point) != part) return false;
+    }
+    return true;
+  }
+
+  Vec3 kept_inside(std::uint32_t cell, const Vec3& wanted) const {
+    if (interior_.contains(cells_.part[cell], wanted)) return wanted;
+    const std::span<const std::uint32_t> members = cells_.edges_of(cell);
+    Vec3 mean, nearest = crossings_[members[0]].position;
+    for (std::uint32_t s : members) {
+      const Vec3& crossing = crossings_[s].position;
+      mean = mean + (1 / static_cast<double>(members.size())) * crossing;
+      if (norm(crossing - wanted) < norm(nearest - wanted)) nearest = crossing;
+    }
+    return interior_.contains(cells_.part[cell], mean) ? mean : nearest;
+  }
+
+  double spacing_;
+  const SolidParts& parts_;
+  std::span<const SheetCrossing> crossings_;
+  const EdgeCells& cells_;
+  double regularisation_;
+  LayerIndex ranks_;
+  PartInterior interior_;
+};
+
+void add_quad(const std::array<std::uint32_t, 4>& ring, DualContour& sheet) {
+  const auto [a, b, c, d] = ring;
+  const Vec3 ac = sheet.vertices[a] - sheet.vertices[c], bd = sheet.vertices[b] - sheet.vertices[d];
+  if (dot(ac, ac) <= dot(bd, bd)) {
+    sheet.triangles.push_back({a, b, c});
+    sheet.triangles.push_back({a, c, d});
+  } else {
+    sheet.triangles.push_back({a, b, d});
+    sheet.triangles.push_back({b, c, d});
+  }
+}
+
+}  // namespace
+
+DualContour dual_contour(const Lattice& lattice, const SolidParts& parts,
+                         std::span<const SheetCrossing> crossings, const DualContourOptions& options) {
+  if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
+    throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
+  }
+  std::vector<LatticeEdge> edges;
+  edges.reserve(crossings.size());
+  for (const SheetCrossing& crossing : crossings) edges.push_back(crossing.edge);
+  DualContour sheet;
+  sheet.cells = edge_cells(lattice, parts, edges);
+  sheet.vertices =
+      Contouring(lattice, parts, crossings, sheet.cells, options.regularisation).vertices(options.context);
+  sheet.triangles.reserve(2 * crossings.size());
+  for (const auto& ring : sheet.cells.ring) add_quad(ring, sheet);
+  return sheet;
+}
+
+}  // namespace affskel::core

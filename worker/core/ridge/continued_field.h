@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/lattice/lattice.h"
+#include "core/ridge/row_band.h"
+
+namespace affskel::core {
+
+/// Values on a band round a solid, continued from its sample points: at a place outside, the mean over the
+/// nearest sample points p of  value_p + gradient_p . (place - p), clamped to 0 .. value_p.  "Nearest" is
+/// found step by step from neighbouring places (26), as in a vector distance transform (Danielsson 1980), up
+/// to the band's margin; beyond it the value is 0.
+/// @param value, gradient per sample point, per spacing.
+/// @return per place of the band.
+std::vector<float> continued_field(const Lattice& lattice, const RowBand& band, std::span<const double> value,
+                                   std::span<const Vec3> gradient);
+
+}  // namespace affskel::core

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "core/erosion/frame_field.h"
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+/// How deep a sample point lies in the solid, in spacings: the least d(y) + l(x, y) over the sample points y,
+/// d = E / |grad E| the mean height of a chord over its section, l the length of a way over neighbouring
+/// sample points (26; a chamfer distance, Borgefors 1986).  d alone may be long in a thin limb, whose chord
+/// is all that lies beyond the point.
+/// @param field of this lattice.
+/// @return per sample point.
+std::vector<float> local_depth(const Lattice& lattice, const FrameField& field);
+
+}  // namespace affskel::core

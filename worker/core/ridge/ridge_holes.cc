@@ -1,0 +1,154 @@
+#include "core/ridge/ridge_holes.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/require.h"
+
+namespace affskel::core {
+namespace {
+
+// A closed walk along a rim, each vertex once.
+using Loop = std::vector<std::uint32_t>;
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+// The edges of one triangle, ascending.
+std::vector<Edge> rim_edges(const RidgeMesh& mesh) {
+  std::vector<Edge> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) sides.emplace_back(std::minmax(t[k], t[(k + 1) % 3]));
+  std::sort(sides.begin(), sides.end());
+  std::vector<Edge> rim;
+  for (std::size_t first = 0, last; first < sides.size(); first = last) {
+    for (last = first + 1; last < sides.size() && sides[last] == sides[first];) ++last;
+    if (last - first == 1) rim.push_back(sides[first]);
+  }
+  return rim;
+}
+
+// Walks along the rim; whenever a walk comes back to one of its own vertices, what lies between is a loop.
+class RimWalk {
+ public:
+  explicit RimWalk(const RidgeMesh& mesh) {
+    for (const Edge& edge : rim_edges(mesh)) {
+      open_[edge.first].push_back(edge.second);
+      open_[edge.second].push_back(edge.first);
+    }
+  }
+
+  std::vector<Loop> loops() {
+    for (auto& [start, ends] : open_)
+      while (!ends.empty()) walk(start);
+    return std::move(found_);
+  }
+
+ private:
+  void walk(std::uint32_t start) {
+    Loop way{start};
+    std::map<std::uint32_t, std::size_t> place{{start, 0}};
+    for (std::uint32_t at = start; !open_[at].empty();) {
+      const std::uint32_t to = open_[at].front();
+      take(at, to);
+      take(to, at);
+      const auto [known, fresh] = place.try_emplace(to, way.size());
+      if (fresh) {
+        way.push_back(to);
+      } else {
+        const auto first = static_cast<std::ptrdiff_t>(known->second) + 1;
+        found_.emplace_back(way.begin() + first - 1, way.end());
+        for (auto v = way.begin() + first; v != way.end(); ++v) place.erase(*v);
+        way.erase(way.begin() + first, way.end());
+      }
+      at = to;
+    }
+  }
+
+  void take(std::uint32_t from, std::uint32_t to) {
+    std::vector<std::uint32_t>& ends = open_[from];
+    ends.erase(std::find(ends.begin(), ends.end(), to));
+  }
+
+  std::map<std::uint32_t, std::vector<std::uint32_t>> open_;  // rim edges not walked yet
+  std::vector<Loop> found_;
+};
+
+double length_of(const RidgeMesh& mesh, const Loop& loop) {
+  double sum = 0;
+  for (std::size_t n = 0; n < loop.size(); ++n)
+    sum += norm(mesh.vertices[loop[(n + 1) % loop.size()]].position - mesh.vertices[loop[n]].position);
+  return sum;
+}
+
+RidgeVertex middle_of(const RidgeMesh& mesh, const Loop& loop) {
+  RidgeVertex middle = mesh.vertices[loop[0]];
+  // The running mean: each vertex takes its share of those so far.
+  for (std::size_t n = 1; n < loop.size(); ++n)
+    middle = between(middle, mesh.vertices[loop[n]], 1 / static_cast<double>(n + 1));
+  return middle;
+}
+
+class Closing {
+ public:
+  Closing(RidgeMesh& mesh, const std::function<bool(const Vec3&)>& inside, double max_share)
+      : mesh_(mesh), inside_(inside), max_share_(max_share), sets_(mesh.vertices.size()) {
+    for (const Triangle& t : mesh.triangles) {
+      sets_.unite(t[0], t[1]);
+      sets_.unite(t[0], t[2]);
+    }
+    area_.assign(mesh.vertices.size(), 0);
+    for (const Triangle& t : mesh.triangles) area_[sets_.find(t[0])] += triangle_area(mesh, t);
+  }
+
+  std::uint32_t run() {
+    std::vector<Loop> loops = RimWalk(mesh_).loops();
+    std::map<std::uint32_t, double> longest;  // by piece
+    for (const Loop& loop : loops) {
+      double& length = longest[sets_.find(loop[0])];
+      length = std::max(length, length_of(mesh_, loop));
+    }
+    std::uint32_t closed = 0;
+    for (const Loop& loop : loops)
+      if (length_of(mesh_, loop) < longest[sets_.find(loop[0])] && close(loop)) ++closed;
+    return closed;
+  }
+
+ private:
+  bool close(const Loop& loop) {
+    const RidgeVertex middle = middle_of(mesh_, loop);
+    double fan = 0;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+      const Vec3 &a = mesh_.vertices[loop[n]].position,
+                 &b = mesh_.vertices[loop[(n + 1) % loop.size()]].position;
+      fan += 0.5 * norm(cross(a - middle.position, b - middle.position));
+      if (!inside_(0.5 * (a + middle.position))) return false;
+    }
+    if (fan > max_share_ * area_[sets_.find(loop[0])] || !inside_(middle.position)) return false;
+    const auto centre = static_cast<std::uint32_t>(mesh_.vertices.size());
+    mesh_.vertices.push_back(middle);
+    mesh_.part.push_back(mesh_.part[loop[0]]);
+    for (std::size_t n = 0; n < loop.size(); ++n)
+      mesh_.triangles.push_back({loop[n], loop[(n + 1) % loop.size()], centre});
+    return true;
+  }
+
+  RidgeMesh& mesh_;
+  const std::function<bool(const Vec3&)>& inside_;
+  double max_share_;
+  DisjointSets sets_;         // pieces, of the vertices before any was added
+  std::vector<double> area_;  // per piece
+};
+
+}  // namespace
+
+std::uint32_t close_holes(RidgeMesh& mesh, const std::function<bool(const Vec3&)>& inside,
+                          const RidgeHoleOptions& options) {
+  require_within(options.max_share, 0, 1, "the share of a hole must lie between 0 and 1");
+  return Closing(mesh, inside, options.max_share).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,55 @@
+#include "core/ridge/ridge_mesh.h"
+
+#include <utility>
+
+namespace affskel::core {
+namespace {
+
+Vec3 unit(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : Vec3{};
+}
+
+}  // namespace
+
+RidgeVertex between(const RidgeVertex& a, const RidgeVertex& b, double t) {
+  const auto mean = [t](const auto& from, const auto& to) { return (1 - t) * from + t * to; };
+  const bool turned = dot(a.normal_a - a.normal_b, b.normal_a - b.normal_b) < 0;
+  RidgeVertex v;
+  v.position = mean(a.position, b.position);
+  v.point = a.point;
+  v.erosion = mean(a.erosion, b.erosion);
+  v.strength = mean(a.strength, b.strength);
+  v.ratio = mean(a.ratio, b.ratio);
+  v.roundness = mean(a.roundness, b.roundness);
+  v.area = mean(a.area, b.area);
+  v.normal_a = unit(mean(a.normal_a, turned ? b.normal_b : b.normal_a));
+  v.normal_b = unit(mean(a.normal_b, turned ? b.normal_a : b.normal_b));
+  return v;
+}
+
+double triangle_area(const RidgeMesh& mesh, const Triangle& triangle) {
+  const Vec3& corner = mesh.vertices[triangle[0]].position;
+  return 0.5 * norm(cross(mesh.vertices[triangle[1]].position - corner,
+                          mesh.vertices[triangle[2]].position - corner));
+}
+
+void drop_unused_vertices(RidgeMesh& mesh) {
+  constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> index(mesh.vertices.size(), kUnused);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) index[corner] = 0;
+  std::uint32_t kept = 0;
+  for (std::uint32_t v = 0; v < index.size(); ++v) {
+    if (index[v] == kUnused) continue;
+    mesh.vertices[kept] = mesh.vertices[v];
+    mesh.part[kept] = mesh.part[v];
+    index[v] = kept++;
+  }
+  mesh.vertices.resize(kept);
+  mesh.part.resize(kept);
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) corner = index[corner];
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,78 @@
+#include "core/ridge/ridge_sheet.h"
+
+#include <span>
+#include <utility>
+
+#include "core/base/require.h"
+#include "core/contour/dual_contour.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/solid_parts.h"
+#include "core/solid/solid_membership.h"
+
+namespace affskel::core {
+namespace {
+
+// What a vertex tells of its cell's crossings: their mean, normals turned to agree with the first.
+RidgeVertex vertex_at(const Vec3& position, std::span<const RidgeCrossing> crossings,
+                      std::span<const std::uint32_t> members) {
+  RidgeVertex vertex;
+  for (std::size_t n = 0; n < members.size(); ++n) {
+    const RidgeCrossing& c = crossings[members[n]];
+    const RidgeVertex here{c.position,  c.edge.point, c.erosion,  c.strength, c.ratio,
+                           c.roundness, c.area,       c.normal_a, c.normal_b};
+    vertex = n == 0 ? here : between(vertex, here, 1 / static_cast<double>(n + 1));
+  }
+  vertex.position = position;
+  return vertex;
+}
+
+RidgeMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<const RidgeCrossing> crossings,
+                  ExecutionContext* context) {
+  std::vector<SheetCrossing> places;
+  places.reserve(crossings.size());
+  for (const RidgeCrossing& crossing : crossings)
+    places.push_back({crossing.edge, crossing.position, crossing.normal});
+  DualContourOptions options;
+  options.context = context;
+  DualContour found = dual_contour(lattice, parts, places, options);
+  RidgeMesh mesh;
+  mesh.vertices.reserve(found.vertices.size());
+  for (std::uint32_t cell = 0; cell < found.cells.size(); ++cell)
+    mesh.vertices.push_back(vertex_at(found.vertices[cell], crossings, found.cells.edges_of(cell)));
+  mesh.part = std::move(found.cells.part);
+  mesh.triangles = std::move(found.triangles);
+  return mesh;
+}
+
+}  // namespace
+
+RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
+                       const RidgeSheetOptions& options) {
+  require_within(options.weak_share, 1e-3, 1, "the share of the weak sheet must lie between 0.001 and 1");
+  const SolidParts parts(solid, lattice);
+  SmoothedDerivativesOptions smoothing = options.derivatives;
+  smoothing.context = options.context;
+  std::vector<RidgeCrossing> crossings;
+  {
+    const std::vector<PointDerivatives> derivatives = smoothed_derivatives(lattice, field, smoothing);
+    throw_if_stopped(options.context);
+    crossings = ridge_crossings(lattice, parts, field, derivatives,
+                                {options.weak_share * options.rims.low, options.min_erosion});
+  }
+  throw_if_stopped(options.context);
+  RidgeMesh mesh = contour(lattice, parts, crossings, options.context);
+  throw_if_stopped(options.context);
+  RidgeSheet sheet;
+  sheet.pieces = cut_rims(mesh, options.rims);
+  sheet.flaps_cut = cut_flaps(mesh, options.flaps);
+  const SolidMembership membership(solid.mesh);
+  const auto inside = [&](const Vec3& u) {
+    return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * u));
+  };
+  sheet.holes_closed = close_holes(mesh, inside, options.holes);
+  sheet.vertices = std::move(mesh.vertices);
+  sheet.triangles = std::move(mesh.triangles);
+  return sheet;
+}
+
+}  // namespace affskel::core

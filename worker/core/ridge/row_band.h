@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+/// The places of a lattice that lie within `margin` steps, along each axis, of the hull of the sample points
+/// of a row: rows (i, j) of consecutive k.  Numbers the places, so that arrays over them hold a solid and
+/// what lies round it without holding the lattice's whole box.
+class RowBand {
+ public:
+  /// Places begin .. end - 1 of a row; the number of place k is offset + k.
+  struct Row {
+    std::int32_t begin = 0, end = 0;  ///< equal: the row has no places
+    std::int64_t offset = 0;
+    bool empty() const { return begin >= end; }
+  };
+
+  /// Not in the band.
+  static constexpr std::int64_t kNone = -1;
+
+  RowBand(const Lattice& lattice, std::int32_t margin);
+
+  std::size_t places() const { return places_; }
+  std::int32_t margin() const { return margin_; }
+  /// Rows have i from -margin to rows_end(0) - 1, and j likewise.
+  std::int32_t rows_end(std::size_t axis) const { return ends_[axis]; }
+
+  /// i and j may lie outside the band: an empty row.
+  const Row& row(std::int32_t i, std::int32_t j) const {
+    static constexpr Row kNoRow;
+    if (i < -margin_ || j < -margin_ || i >= ends_[0] || j >= ends_[1]) return kNoRow;
+    return rows_[index(i, j)];
+  }
+
+  /// The number of a place, 0 .. places() - 1, or kNone.
+  std::int64_t at(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    const Row& r = row(i, j);
+    return k >= r.begin && k < r.end ? r.offset + k : kNone;
+  }
+
+ private:
+  std::size_t index(std::int32_t i, std::int32_t j) const {
+    return static_cast<std::size_t>(i + margin_) * static_cast<std::size_t>(ends_[1] + margin_) +
+           static_cast<std::size_t>(j + margin_);
+  }
+
+  std::int32_t margin_;
+  std::int32_t ends_[2];
+  std::vector<Row> rows_;
+  std::size_t places_ = 0;
+};
+
+/// Calls `visit(i, j, k, rank)` for every sample point, in lattice order.
+template <class Visit>
+void for_each_point(const Lattice& lattice, Visit visit) {
+  for (const LatticeRun& run : lattice.axis[2].runs) {
+    for (std::uint32_t n = 0; n < run.length; ++n) {
+      visit(static_cast<std::int32_t>(run.start[0]), static_cast<std::int32_t>(run.start[1]),
+            static_cast<std::int32_t>(run.start[2] + n), run.first + n);
+    }
+  }
+}
+
+}  // namespace affskel::core

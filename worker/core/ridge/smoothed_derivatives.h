@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/erosion/frame_field.h"
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+// Notation.  P = sqrt(E / max E): near a smooth surface that bulges E grows with the square of the distance,
+// so that P is nearly linear there.  Lengths in spacings.  d = E / |grad E| is the depth of a point.
+
+struct SmoothedDerivativesOptions {
+  /// The Gaussian's standard deviation as a share of the local depth, > 0.
+  double width = 0.35;
+  /// Bounds of the standard deviation, spacings, 1 <= min_width <= max_width <= 32: what the lattice carries,
+  /// and what is affordable.
+  double min_width = 2;
+  double max_width = 9;
+  ExecutionContext* context = nullptr;  ///< asked at every step whether to stop
+};
+
+/// The derivatives of P at a sample point.
+struct PointDerivatives {
+  float value = 0;                  ///< P itself, not smoothed
+  float width = 0;                  ///< the Gaussian's standard deviation there
+  std::array<float, 3> gradient{};  ///< per spacing
+  std::array<float, 6> hessian{};   ///< xx, xy, xz, yy, yz, zz, per spacing squared
+};
+
+/// First and second derivatives of P at every sample point by Gaussian derivatives (Lindeberg 1994; with the
+/// moments of the sampled kernels made exact, so that quadratic polynomials have their own derivatives).
+///
+/// The width goes with the local depth, min over the points y that are reached within the solid of
+/// d(y) + |x - y|: in a limb d is the length beyond the point, but never more than the way to a surface that
+/// bulges.  So a finer lattice gives the same derivatives, and a scaled solid too.
+///
+/// Outside the solid P continues linearly from the nearest sample points by its exact gradient there, but
+/// never below 0 nor above its value there.  Where the surface bulges that is 0, as E's definition says; at
+/// saddles and hollows of the surface, where E is not 0, there is no false ridge a few spacings inside.
+/// @param field of this lattice.
+/// @return per sample point.  A function of lattice and field alone.
+/// @throws CoreError kBadInput when an option is out of range; kCancelled when the context asks to stop.
+std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
+                                                   const SmoothedDerivativesOptions& options = {});
+
+}  // namespace affskel::core
