@@ -119,7 +119,8 @@ void add_fetch(CommandLine& line) {
       ->check(CLI::IsMember(artifact_names()))
       ->type_name("");
   std::vector<std::string> with_divergence = operator_words();
-  std::erase(with_divergence, "chords");
+  std::erase_if(with_divergence,
+                [](const std::string& name) { return wire::gives_sheet(operator_named(name)); });
   command->add_option("--operator", options->skeleton.operator_name, "Of the divergence (default: the job's)")
       ->check(CLI::IsMember(with_divergence))
       ->type_name("OP");

@@ -15,6 +15,7 @@
 #include "client/commands/shared/skeleton_options.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -38,7 +39,7 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
 }
 
 std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
-  const std::string skeleton = params.operator_() == v1::OPERATOR_CHORDS
+  const std::string skeleton = wire::gives_sheet(params.operator_())
                                    ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle")
                                    : base::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
@@ -56,11 +57,11 @@ v1::SkeletonPoints fetch_points(Context& context, const v1::Job& job, const v1::
   return parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
 }
 
-// The skeleton as its operator gives it: points, or the sheet of chords.  Tells when there is none.
+// The skeleton as its operator gives it: points, or its sheet.  Tells when there is none.
 // Returns the threshold that was applied, 0 when the server does not say.
 double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonParams& params, bool own,
                       RenderInput& input) {
-  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
+  const bool sheet = wire::gives_sheet(params.operator_());
   if (sheet) {
     input.sheet = fetch_sheet(context, job.id(), params);
   } else {
@@ -98,7 +99,7 @@ void add_render(CommandLine& line) {
   CLI::App* command = line.add("render", "Picture of the body with its skeleton",
                                "  affskel-client render @last -o body.png --width 2400\n"
                                "  affskel-client render @last --operator chords -o sheet.png\n"
-                               "A skeleton by chords is drawn as its sheet, any other as its points",
+                               "A skeleton by chords or ridge is drawn as its sheet, any other as its points",
                                [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
   add_skeleton_options(command, options->skeleton);
