@@ -9,8 +9,8 @@ namespace affskel::client {
 
 /// A surface as the server sends it.
 struct FetchedSurface {
-  ShapeFile shape;              ///< of a sheet of chords with columns
-  v1::SkeletonQuality quality;  ///< of a sheet of chords
+  ShapeFile shape;              ///< of a sheet with columns
+  v1::SkeletonQuality quality;  ///< of a sheet
   double volume = 0;            ///< of an eroded solid
 };
 

@@ -6,6 +6,7 @@
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
 #include "client/text/words.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -53,7 +54,8 @@ void add_fetch(CommandLine& line) {
       ->check(CLI::IsMember(artifact_names()))
       ->type_name("");
   std::vector<std::string> with_divergence = operator_words();
-  std::erase(with_divergence, "chords");
+  std::erase_if(with_divergence,
+                [](const std::string& name) { return wire::gives_sheet(operator_named(name)); });
   command
       ->add_option("--operator", options->choice.skeleton.operator_name,
                    "Of the divergence (default: the job's)")

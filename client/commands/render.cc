@@ -38,7 +38,7 @@ void add_render(CommandLine& line) {
   CLI::App* command = line.add("render", "Picture of the body with its skeleton",
                                "  affskel-client render @last -o body.png --width 2400\n"
                                "  affskel-client render @last --operator chords -o sheet.png\n"
-                               "A skeleton by chords is drawn as its sheet, any other as its points",
+                               "A skeleton by chords or ridge is drawn as its sheet, any other as its points",
                                [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
   add_skeleton_options(command, options->skeleton);

@@ -30,11 +30,11 @@ void run(Context& context, const Options& options) {
 
 void add_surface(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      line.add("surface", "Triangulated skeleton: the alpha shape of its points, or the sheet of chords",
-               "  affskel-client surface @last -o skeleton.stl\n"
-               "  affskel-client surface @last --threshold 5 --alpha 160000 -o skeleton.obj",
-               [options](Context& context) { run(context, *options); });
+  CLI::App* command = line.add(
+      "surface", "Triangulated skeleton: the alpha shape of its points, or the sheet of chords, ridge",
+      "  affskel-client surface @last -o skeleton.stl\n"
+      "  affskel-client surface @last --threshold 5 --alpha 160000 -o skeleton.obj",
+      [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
   add_skeleton_options(command, options->skeleton);
   command->add_option("--alpha", options->alpha, "Squared radius in mesh units squared (default: 3 DT^2)")

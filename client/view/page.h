@@ -18,7 +18,7 @@ struct ViewInput {
   ViewGrid grid;                   ///< of the points
   ViewSelection selection;         ///< how they were chosen
   std::vector<ViewPoint> points;   ///< by descending |H|
-  bool sheet_is_skeleton = false;  ///< operator `chords`: there is no |H|
+  bool sheet_is_skeleton = false;  ///< operator `chords` or `ridge`: there is no |H|
   v1::TriangleMesh sheet;          ///< then: vertices with E and strength, possibly none
 };
 

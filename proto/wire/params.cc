@@ -9,10 +9,12 @@
 #include "base/direction_set.h"
 #include "base/number_text.h"
 #include "base/published_threshold.h"
+#include "wire/words.h"
 
 namespace affskel::wire {
 namespace {
 
+constexpr double kMaxRidgeStrength = 800;  // the core counts strengths up to 1000
 constexpr std::uint64_t kMaxTargetPoints = std::uint64_t{1} << 31;
 
 std::string bits(double value) {
@@ -80,6 +82,11 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
         "not " +
         base::to_text(params.threshold()));
   }
+  if (result.operator_() == v1::OPERATOR_RIDGE && params.threshold() > kMaxRidgeStrength) {
+    throw std::invalid_argument(
+        "the threshold of ridge is the least strength of its sheet in radians, between 0 and 800, not " +
+        base::to_text(params.threshold()));
+  }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {
     result.set_threshold(result.operator_() == v1::OPERATOR_ZUCKER_HUMMEL ? base::kZuckerHummelThreshold
@@ -96,8 +103,9 @@ v1::SurfaceParams canonical(const v1::SurfaceParams& params) {
   }
   if (params.alpha() == 0) result.set_alpha(0.0);
   *result.mutable_skeleton() = canonical(params.skeleton());
-  if (result.skeleton().operator_() == v1::OPERATOR_CHORDS && result.alpha() != 0) {
-    throw std::invalid_argument("alpha is for point skeletons; the sheet of chords has triangles of its own");
+  if (gives_sheet(result.skeleton().operator_()) && result.alpha() != 0) {
+    throw std::invalid_argument("alpha is for point skeletons; the sheet of " +
+                                word(result.skeleton().operator_()) + " has triangles of its own");
   }
   return result;
 }
@@ -123,9 +131,14 @@ v1::ErodedParams canonical(const v1::ErodedParams& params) {
   return result;
 }
 
+bool gives_sheet(v1::Operator which) {
+  return which == v1::OPERATOR_CHORDS || which == v1::OPERATOR_RIDGE;
+}
+
 v1::SkeletonParams divergence_params(const v1::SkeletonParams& params) {
-  if (params.operator_() == v1::OPERATOR_CHORDS) {
-    throw std::invalid_argument("the operator chords compares chords and has no divergence");
+  if (gives_sheet(params.operator_())) {
+    throw std::invalid_argument("the operator " + word(params.operator_()) +
+                                " gives a sheet and has no divergence");
   }
   v1::SkeletonParams result;
   result.set_operator_(params.operator_());

@@ -23,8 +23,11 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params);
 v1::SurfaceParams canonical(const v1::SurfaceParams& params);
 v1::ErodedParams canonical(const v1::ErodedParams& params);
 
+/// Whether the operator gives a sheet of its own, and no H = div n: `chords` and `ridge`.
+bool gives_sheet(v1::Operator which);
+
 /// What of canonical skeleton parameters the operator's divergence is a function of.
-/// @throws std::invalid_argument for `chords`, which has none.
+/// @throws std::invalid_argument for operators that give a sheet, which have none.
 v1::SkeletonParams divergence_params(const v1::SkeletonParams& params);
 
 /// Keys of canonical parameters: equal keys, equal results.  Doubles enter with all bits.

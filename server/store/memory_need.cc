@@ -35,7 +35,7 @@ std::uint64_t memory_need(v1::TaskKind kind, std::uint64_t mesh_bytes, const v1:
   if (kind == v1::TASK_KIND_PREPARE && prepared.triangles() == 0) {
     return mesh_bytes * kPerMeshByte + params.sampling().target_points() * kPerPoint;
   }
-  const std::uint64_t per_point = kPerPoint + (shocks == v1::OPERATOR_CHORDS ? kSheetPerPoint : 0);
+  const std::uint64_t per_point = kPerPoint + (wire::gives_sheet(shocks) ? kSheetPerPoint : 0);
   return prepared.triangles() * kPerTriangle + prepared.points() * per_point;
 }
 

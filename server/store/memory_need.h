@@ -13,7 +13,7 @@ namespace affskel::server {
 /// it too low says so, while work that nobody is offered waits in vain.
 ///
 /// Before a mesh is read, from its bytes and the number of points asked for (a spacing tells none);
-/// afterwards 235 bytes per triangle and 52 per sample point, and for the sheet of CHORDS 200 per point more.
+/// afterwards 235 bytes per triangle and 52 per sample point, and for a sheet 200 per point more.
 std::uint64_t memory_need(v1::TaskKind kind, std::uint64_t mesh_bytes, const v1::ErosionParams& params,
                           const v1::PreparedSummary& prepared, v1::Operator shocks);
 

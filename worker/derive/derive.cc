@@ -3,13 +3,32 @@
 #include "derive/chord_skeleton.h"
 #include "derive/eroded_solid.h"
 #include "derive/operator_skeleton.h"
+#include "derive/ridge_skeleton.h"
 #include "job/result_bytes.h"
 
 namespace affskel::worker {
 namespace {
 
-bool by_chords(const v1::SkeletonParams& params) {
-  return params.operator_() == v1::OPERATOR_CHORDS;
+v1::SkeletonPoints skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
+  switch (params.operator_()) {
+    case v1::OPERATOR_CHORDS:
+      return chord_skeleton(field, params);
+    case v1::OPERATOR_RIDGE:
+      return ridge_skeleton(field, params);
+    default:
+      return operator_skeleton(field, params);
+  }
+}
+
+v1::TriangleMesh surface(const FinishedField& field, const v1::SurfaceParams& params) {
+  switch (params.skeleton().operator_()) {
+    case v1::OPERATOR_CHORDS:
+      return chord_sheet(field, params.skeleton());
+    case v1::OPERATOR_RIDGE:
+      return ridge_sheet(field, params.skeleton());
+    default:
+      return operator_surface(field, params);
+  }
 }
 
 Derived packed(const v1::SkeletonPoints& points, const std::string& what) {
@@ -35,13 +54,10 @@ Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view 
   field.throw_if_stopped();
   switch (lease.kind()) {
     case v1::TASK_KIND_SKELETON:
-      return packed(by_chords(lease.skeleton()) ? chord_skeleton(field, lease.skeleton())
-                                                : operator_skeleton(field, lease.skeleton()),
+      return packed(skeleton(field, lease.skeleton()),
                     "the skeleton (a higher threshold keeps fewer points)");
     case v1::TASK_KIND_SURFACE:
-      return packed(by_chords(lease.surface().skeleton()) ? chord_sheet(field, lease.surface().skeleton())
-                                                          : operator_surface(field, lease.surface()),
-                    "the surface (a higher threshold keeps fewer points)");
+      return packed(surface(field, lease.surface()), "the surface (a higher threshold keeps fewer points)");
     case v1::TASK_KIND_DIVERGENCE:
       return {operator_divergence(field, lease.skeleton().operator_()), job.lattice().points, std::nullopt};
     case v1::TASK_KIND_ERODED_POINTS:

@@ -39,7 +39,7 @@ v1::ArtifactHeader fetch_patiently(Context& context, const v1::FetchArtifactRequ
 /// The mesh of a job, as it was submitted. @throws ClientError as parse_mesh.
 core::Mesh fetch_mesh(Context& context, const std::string& job);
 
-/// The sheet of operator chords, whole: for pictures.  Waits while it is computed.
+/// The sheet of an operator that gives one, whole: for pictures.  Waits while it is computed.
 /// @throws ClientError kInternal when a corner is out of range or a vertex lacks E or its strength.
 v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params);
 

@@ -10,7 +10,9 @@
 #include "client/commands/shared/follow.h"
 #include "client/text/words.h"
 #include "core/chords/chord_pruning.h"
+#include "core/ridge/ridge_rims.h"
 #include "core/shocks/shock_operator.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -57,6 +59,8 @@ core::ShockOperator shock_operator(v1::Operator which) {
 // Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
 // @throws ClientError kUsage for an unknown operator.
 double first_threshold(const v1::SkeletonParams& params, double spacing) {
+  // The threshold of `ridge` is a strength, which the slider does not set.
+  if (params.operator_() == v1::OPERATOR_RIDGE) return core::RidgeRimOptions().significance;
   const bool chords = params.operator_() == v1::OPERATOR_CHORDS;
   const double preset = chords ? core::ChordPruningOptions().significance
                                : core::default_threshold(shock_operator(params.operator_()), spacing);
@@ -85,7 +89,7 @@ ViewInput fetch_view(Context& context, const v1::Job& job, const v1::SkeletonPar
   ViewInput input;
   input.job = job;
   input.operator_name = operator_word(params.operator_());
-  input.sheet_is_skeleton = params.operator_() == v1::OPERATOR_CHORDS;
+  input.sheet_is_skeleton = wire::gives_sheet(params.operator_());
   input.threshold = first_threshold(params, job.prepared().spacing());
   const LatticePoints lattice(
       fetch_message<v1::Lattice>(context, job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));

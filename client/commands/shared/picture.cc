@@ -23,7 +23,7 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
 }
 
 std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
-  const std::string skeleton = params.operator_() == v1::OPERATOR_CHORDS
+  const std::string skeleton = wire::gives_sheet(params.operator_())
                                    ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle")
                                    : base::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
@@ -45,7 +45,7 @@ v1::SkeletonPoints fetch_points(Context& context, const v1::Job& job, const v1::
 // Returns the threshold that was applied, 0 when the server does not say.
 double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonParams& params, bool own,
                       RenderInput& input) {
-  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
+  const bool sheet = wire::gives_sheet(params.operator_());
   if (sheet) {
     input.sheet = fetch_sheet(context, job.id(), params);
   } else {

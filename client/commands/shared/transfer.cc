@@ -13,6 +13,7 @@
 #include "client/files/write/shape_writer.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -144,7 +145,7 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "surface"));
   const bool own = surface == nullptr || !surface->has_skeleton();
   const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
-  const bool sheet = params.operator_() == v1::OPERATOR_CHORDS;
+  const bool sheet = wire::gives_sheet(params.operator_());
   const auto comments =
       comments_for(header.job(), "affine skeleton, triangulated", "operator " + skeleton_params_text(params),
                    sheet ? &fetched.quality : nullptr);

@@ -14,7 +14,7 @@ std::string volume_text(const Written& written) {
   return (written.unit == "point" ? ", volume about " : ", volume ") + base::rounded(*written.volume, 6);
 }
 
-// A sheet of chords comes with its quality, an alpha shape does not.
+// A sheet comes with its quality, an alpha shape does not.
 std::string advice_for_empty_surface(const Written& written) {
   if (!written.quality) {
     return "no three skeleton points are near enough; try a larger --alpha or a smaller --threshold";

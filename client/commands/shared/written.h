@@ -18,7 +18,7 @@ struct Written {
   std::string unit;         ///< what is counted: "point", "triangle" or "byte"
   std::uint64_t items = 0;  ///< how many
   v1::Job job;              ///< as the server sent it along
-  std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet of chords
+  std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet
   /// Of an eroded solid, mesh units cubed: what the surface encloses, or of points their share of the sample
   /// points times v0.
   std::optional<double> volume = {};

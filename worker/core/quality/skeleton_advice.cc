@@ -144,4 +144,18 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
   return advice + on_few_points(lattice);
 }
 
+std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
+                               const RidgeRimOptions& rims) {
+  if (pieces.max_strength <= 0) {
+    return "nowhere do the normals turn fast across a sheet deep enough in the solid. Submit with a smaller "
+           "spacing or more directions (--directions triangles+sphere:2000)." +
+           on_few_points(lattice);
+  }
+  // Both bounds fall together; just below their higher one a piece is kept.
+  const std::string lower = base::rounded(0.99 * pieces.max_strength * rims.low / rims.high, 3);
+  return "the sheet's greatest strength is " + base::rounded(pieces.max_strength, 3) + ", less than the " +
+         base::rounded(rims.high, 3) + " that a piece of it must reach. --threshold " + lower +
+         " would keep one." + on_few_points(lattice);
+}
+
 }  // namespace affskel::core

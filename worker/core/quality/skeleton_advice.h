@@ -6,6 +6,7 @@
 #include "core/chords/chord_pruning.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
+#include "core/ridge/ridge_rims.h"
 #include "core/shocks/shock_operator.h"
 
 namespace affskel::core {
@@ -29,5 +30,12 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
 /// @param pruning the options that it was made with.
 std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
                                const ChordPruningOptions& pruning);
+
+/// The same for the operator `ridge`: names the greatest strength that there is, and a threshold that keeps
+/// it, or what else is missing.
+/// @param pieces of a sheet without triangles.
+/// @param rims the options that it was cut with.
+std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
+                               const RidgeRimOptions& rims);
 
 }  // namespace affskel::core

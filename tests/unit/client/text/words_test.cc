@@ -12,7 +12,8 @@ using Words = std::vector<std::string>;
 TEST(Words, AreThoseOfTheCommandLine) {
   EXPECT_EQ(state_words(), (Words{"queued", "running", "done", "failed", "cancelled"}));
   EXPECT_EQ(frame_words(), (Words{"axis", "pca", "obb", "affine"}));
-  EXPECT_EQ(operator_words(), (Words{"zucker-hummel", "intermediate", "central", "sobel", "flux", "chords"}));
+  EXPECT_EQ(operator_words(),
+            (Words{"zucker-hummel", "intermediate", "central", "sobel", "flux", "chords", "ridge"}));
 }
 
 TEST(Words, LeadBackToTheirValues) {
@@ -38,7 +39,8 @@ TEST(Words, AnUnknownOneIsRefusedNamingThePossible) {
       ADD_FAILURE() << word;
     } catch (const ClientError& error) {
       EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
-      EXPECT_NE(std::string(error.what()).find("sobel, flux, chords"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("sobel, flux, chords, ridge"), std::string::npos)
+          << error.what();
     }
   }
   EXPECT_THROW(state_named("unknown"), ClientError);

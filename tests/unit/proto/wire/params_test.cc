@@ -106,17 +106,23 @@ TEST(ParamsTest, OperatorsOtherThanTheFirstKeepTheirDefaultOpen) {
   EXPECT_EQ(canonical(params).threshold(), 1);
   params.set_threshold(std::nextafter(1.0, 2.0));
   EXPECT_THROW(canonical(params), std::invalid_argument) << "a share";
+  params.set_operator_(v1::OPERATOR_RIDGE);
+  EXPECT_NO_THROW(canonical(params)) << "an angle";
+  params.set_threshold(801);
+  EXPECT_THROW(canonical(params), std::invalid_argument) << "more than is counted";
   params.set_threshold(0);
   params.set_operator_(static_cast<v1::Operator>(99));
   EXPECT_THROW(canonical(params), std::invalid_argument);
 }
 
-TEST(ParamsTest, SheetsOfChordsHaveNoAlpha) {
-  v1::SurfaceParams params;
-  params.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
-  EXPECT_NO_THROW(canonical(params));
-  params.set_alpha(1);
-  EXPECT_THROW(canonical(params), std::invalid_argument);
+TEST(ParamsTest, SheetsHaveNoAlpha) {
+  for (const v1::Operator which : {v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE}) {
+    v1::SurfaceParams params;
+    params.mutable_skeleton()->set_operator_(which);
+    EXPECT_NO_THROW(canonical(params));
+    params.set_alpha(1);
+    EXPECT_THROW(canonical(params), std::invalid_argument);
+  }
 }
 
 TEST(ParamsTest, DivergenceDependsOnTheOperatorAlone) {
@@ -126,6 +132,9 @@ TEST(ParamsTest, DivergenceDependsOnTheOperatorAlone) {
   EXPECT_EQ(cache_key(divergence_params(canonical(params))), cache_key(first));
   params.set_operator_(v1::OPERATOR_SOBEL);
   EXPECT_NE(cache_key(divergence_params(canonical(params))), cache_key(first));
+  params.set_operator_(v1::OPERATOR_RIDGE);
+  EXPECT_THROW(divergence_params(canonical(params)), std::invalid_argument);
+  params.set_threshold(0.5);
   params.set_operator_(v1::OPERATOR_CHORDS);
   EXPECT_THROW(divergence_params(canonical(params)), std::invalid_argument);
 }

@@ -44,7 +44,7 @@ class DeriveTest : public ::testing::Test {
 };
 
 TEST_F(DeriveTest, StopsWhereverItIsAsked) {
-  for (const v1::Operator which : {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_CHORDS}) {
+  for (const v1::Operator which : {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE}) {
     for (const v1::TaskKind kind : {v1::TASK_KIND_SKELETON, v1::TASK_KIND_SURFACE}) {
       v1::Lease lease = lease_of(kind);
       lease.mutable_skeleton()->set_operator_(which);
@@ -80,7 +80,7 @@ TEST_F(DeriveTest, DivergenceAndSkeletonAgree) {
     EXPECT_EQ(points.quality().points(), static_cast<std::uint64_t>(points.point_size()));
     EXPECT_EQ(points.quality().inside_share(), 1);
     EXPECT_EQ(points.quality().solid_genus(), 1);
-    EXPECT_FALSE(points.quality().has_bridges()) << "of chords only";
+    EXPECT_FALSE(points.quality().has_bridges()) << "of sheets only";
   }
 }
 
@@ -108,6 +108,44 @@ TEST_F(DeriveTest, ChordsGiveTheTorusItsAnnulus) {
     // Two chords that mirror each other in the plane z = 0.
     EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
   }
+}
+
+TEST_F(DeriveTest, TheRidgeOfATorusIsItsAnnulus) {
+  const v1::SkeletonPoints points = skeleton(v1::OPERATOR_RIDGE);
+  ASSERT_GT(points.point_size(), 20);
+  EXPECT_EQ(points.quality().threshold(), 5);
+  EXPECT_EQ(points.quality().inside_share(), 1);
+  EXPECT_EQ(points.quality().components(), 1U);
+  EXPECT_EQ(points.quality().holes(), 1U);
+  EXPECT_TRUE(points.quality().has_bridges());
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(run(lease));
+  const int vertices = sheet.xyz_size() / 3;
+  ASSERT_EQ(vertices, points.point_size()) << "the sheet's vertices are the skeleton's points";
+  ASSERT_EQ(sheet.normal_a_size(), 3 * vertices);
+  ASSERT_EQ(sheet.normal_b_size(), 3 * vertices);
+  ASSERT_EQ(sheet.erosion_size(), vertices);
+  ASSERT_EQ(sheet.strength_size(), vertices);
+  ASSERT_EQ(sheet.ratio_size(), vertices);
+  ASSERT_EQ(sheet.area_size(), vertices);
+  const double spacing = prepared_.lattice().spacing;
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_EQ(sheet.xyz(3 * v), points.xyz(3 * v));
+    EXPECT_LT(std::abs(sheet.xyz(3 * v + 2)), 0.1 * spacing);
+    EXPECT_GE(sheet.strength(v), 5 - 1e-9);
+    EXPECT_LE(sheet.ratio(v), 1);
+    // The level surfaces mirror each other in the plane z = 0.
+    EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
+    EXPECT_EQ(sheet.erosion(v), points.erosion(v));
+  }
+}
+
+TEST_F(DeriveTest, ARidgeHasNoThresholdAboveTheLast) {
+  const v1::SkeletonPoints points = skeleton(v1::OPERATOR_RIDGE, 700);
+  EXPECT_EQ(points.quality().threshold(), 700);
+  EXPECT_EQ(points.quality().other_threshold(), 0);
+  EXPECT_FALSE(points.quality().has_hausdorff_there());
 }
 
 TEST_F(DeriveTest, ErodedSolidsHoldWhatTheLevelSays) {
@@ -180,7 +218,8 @@ TEST_P(FrameTest, ResultsComeBackFromTheFrame) {
 INSTANTIATE_TEST_SUITE_P(Derive, FrameTest,
                          ::testing::Values(InFrame{v1::FRAME_AFFINE, v1::OPERATOR_ZUCKER_HUMMEL, 3},
                                            InFrame{v1::FRAME_PCA, v1::OPERATOR_ZUCKER_HUMMEL, 5},
-                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_CHORDS, 0}),
+                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_CHORDS, 0},
+                                           InFrame{v1::FRAME_PCA, v1::OPERATOR_RIDGE, 0}),
                          [](const auto& each) {
                            return v1::Frame_Name(each.param.frame) + "_" +
                                   v1::Operator_Name(each.param.which);

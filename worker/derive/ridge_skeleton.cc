@@ -1,0 +1,92 @@
+#include "derive/ridge_skeleton.h"
+
+#include "core/quality/skeleton_advice.h"
+#include "core/quality/skeleton_quality.h"
+#include "core/ridge/ridge_sheet.h"
+#include "core/shocks/shock_operator.h"
+#include "derive/messages.h"
+
+namespace affskel::worker {
+namespace {
+
+constexpr double kMaxThreshold = 800;  // the contract's, see SkeletonParams
+
+core::RidgeSheetOptions options_for(const FinishedField& field, double threshold) {
+  core::RidgeSheetOptions options;
+  options.context = field.context();
+  if (threshold != 0) {
+    // The two bounds keep their ratio.
+    options.rims.high *= threshold / options.rims.low;
+    options.rims.low = threshold;
+  }
+  return options;
+}
+
+core::RidgeSheet sheet_of(const FinishedField& field, const core::FrameField& in_frame, double threshold) {
+  return core::ridge_sheet(field.job().solid(), field.lattice(), in_frame, options_for(field, threshold));
+}
+
+core::Mesh mesh_of(const core::RidgeSheet& sheet) {
+  core::Mesh mesh;
+  for (const core::RidgeVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
+  mesh.triangles = sheet.triangles;
+  return mesh;
+}
+
+v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
+                               const core::RidgeSheet& sheet, double threshold) {
+  const core::RidgeRimOptions rims = options_for(field, threshold).rims;
+  core::SheetQualityOptions options;
+  options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
+  const double next = core::next_threshold(rims.low);
+  core::Mesh other;
+  if (next <= kMaxThreshold) {
+    other = mesh_of(sheet_of(field, in_frame, next));
+    options.other = &other;
+    options.other_threshold = next;
+  }
+  field.throw_if_stopped();
+  v1::SkeletonQuality message =
+      quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
+  message.set_threshold(rims.low);
+  if (!sheet.vertices.empty()) message.set_bridges(sheet.pieces.bridges);
+  return message;
+}
+
+}  // namespace
+
+v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
+  const core::FrameField in_frame = field.in_frame();
+  const core::RidgeSheet sheet = sheet_of(field, in_frame, params.threshold());
+  v1::SkeletonPoints message;
+  for (const core::RidgeVertex& vertex : sheet.vertices) {
+    message.add_point(vertex.point);
+    append(field.to_mesh(vertex.position), message.mutable_xyz());
+    message.add_erosion(vertex.erosion);
+    append(field.normal(vertex.point), message.mutable_normal());
+    message.add_direction(in_frame.direction[vertex.point]);
+    message.add_divergence(vertex.strength);
+  }
+  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold());
+  return message;
+}
+
+v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SkeletonParams& params) {
+  const core::FrameField in_frame = field.in_frame();
+  const core::RidgeSheet sheet = sheet_of(field, in_frame, params.threshold());
+  v1::TriangleMesh message;
+  for (const core::RidgeVertex& vertex : sheet.vertices) {
+    append(field.to_mesh(vertex.position), message.mutable_xyz());
+    message.add_erosion(vertex.erosion);
+    message.add_strength(vertex.strength);
+    message.add_ratio(vertex.ratio);
+    message.add_area(vertex.area);
+    append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
+    append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());
+  }
+  append_corners(mesh_of(sheet), message);
+  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold());
+  return message;
+}
+
+}  // namespace affskel::worker
