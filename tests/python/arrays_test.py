@@ -1,6 +1,8 @@
 """What needs no server: messages into arrays, meshes into OFF text, arrays into data sets.
 
 Usage: arrays_test.py PROGRAMS PROJECT"""
+import hashlib
+import importlib.util
 import struct
 import sys
 import types as modules
@@ -10,7 +12,8 @@ from fractions import Fraction
 import numpy as np
 
 import affskel
-from affskel import _arrays, _meshes, _status
+from affskel import _arrays, _meshes, _session, _status
+from affskel.v1 import client_service_pb2 as service
 from affskel.v1 import types_pb2 as types
 
 # A lattice of 2 x 3 x 4 points with a shear, six of them inside in three runs.
@@ -23,8 +26,8 @@ def lattice_by_hand(lattice):
     for start, length in zip(lattice.run_start, lattice.run_length):
         for index in range(start, start + length):
             i, j, k = index // 12, index // 4 % 3, index % 4
-            yield index, [lattice.origin[n] + (i * lattice.axes[n] + (j * lattice.axes[3 + n] + k * lattice.axes[6 + n]))
-                          for n in range(3)]
+            o, a, b, c = lattice.origin, lattice.axes[:3], lattice.axes[3:6], lattice.axes[6:]
+            yield index, [o[n] + (i * a[n] + (j * b[n] + k * c[n])) for n in range(3)]
 
 
 class Decoding(unittest.TestCase):
@@ -108,6 +111,43 @@ class Decoding(unittest.TestCase):
         for wrong in ("unspecified", "Flux", "zucker_hummel", ""):
             with self.subTest(wrong), self.assertRaisesRegex(affskel.UsageError, "zucker-hummel, intermediate"):
                 _status.value_of_word(types.Operator, "OPERATOR_", wrong, "operator")
+
+
+class Stream(list):
+    """A stream of FetchArtifactResponse, as gRPC gives it, and whether it was cancelled."""
+
+    cancelled = False
+
+    def cancel(self):
+        self.cancelled = True
+
+
+class Receiving(unittest.TestCase):
+    """An artefact is whole and undamaged, or an error."""
+
+    def stream(self, pieces, **changes):
+        whole = b"".join(pieces)
+        header = dict(bytes=len(whole), sha256=hashlib.sha256(whole).hexdigest())
+        first = service.FetchArtifactResponse(header=service.ArtifactHeader(**dict(header, **changes)))
+        return Stream([first, *(service.FetchArtifactResponse(data=piece) for piece in pieces)])
+
+    def test_its_pieces_are_joined(self):
+        for pieces in ([b"abc", b"", b"de"], []):
+            self.assertEqual(_session._received(self.stream(pieces))[1], b"".join(pieces))
+
+    def test_anything_else_is_refused_and_cancelled(self):
+        good = self.stream([b"abc", b"de"])
+        for stream, words in (
+            (self.stream([b"abc"], bytes=4), "cut short: 3 of 4 bytes"),
+            (self.stream([b"abc", b"d"], bytes=3), "more than its 3 bytes"),
+            (self.stream([b"abc"], sha256="0" * 64), "damaged on its way"),
+            (Stream(good[1:]), "out of order"),
+            (Stream([good[0], good[0]]), "out of order"),
+            (Stream(), "sent no artefact"),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(affskel.InternalError, words):
+                _session._received(stream)
+            self.assertTrue(stream.cancelled)
 
 
 VERTICES = [[0, 0, 0], [1 / 3, 0, 0], [0, 1e-300, 0], [0, 0, 1e300]]
@@ -219,7 +259,7 @@ class FakeTrimesh(modules.ModuleType):
 class Trimesh(unittest.TestCase):
     def setUp(self):
         try:
-            import trimesh  # noqa: F401: the real one where it is installed
+            importlib.import_module("trimesh")  # the real one where it is installed
         except ImportError:
             sys.modules["trimesh"] = FakeTrimesh("trimesh")
             self.addCleanup(sys.modules.pop, "trimesh")
@@ -232,6 +272,22 @@ class Trimesh(unittest.TestCase):
         self.assertTrue((np.asarray(mesh.faces) == faces).all())
         self.assertEqual(np.asarray(mesh.vertex_attributes["E"]).tolist(), [0, 1, 2, 3])
         self.assertEqual(_meshes.mesh_of(mesh).text, _meshes.mesh_of((vertices, faces)).text)
+
+
+class Pyvista(unittest.TestCase):
+    """Where pyvista is installed, its `wrap` makes its objects of VTK's.  A stand-in: Debian 12 has no pyvista."""
+
+    def setUp(self):
+        if importlib.util.find_spec("vtkmodules") is None:
+            self.skipTest("no python3-vtk9")
+        pyvista = modules.ModuleType("pyvista")
+        pyvista.wrap = lambda dataset: ("wrapped", dataset)
+        self.addCleanup(sys.modules.pop, "pyvista")
+        sys.modules["pyvista"] = pyvista
+
+    def test_data_sets_are_wrapped(self):
+        word, dataset = _arrays.Surface(np.array(VERTICES), np.array(FACES)).to_pyvista()
+        self.assertEqual((word, dataset.GetNumberOfPolys()), ("wrapped", 4))
 
 
 if __name__ == "__main__":

@@ -13,8 +13,15 @@ import tempfile
 import threading
 from pathlib import Path
 
+import numpy as np
+
 PROGRAMS, PROJECT = Path(sys.argv[1]), Path(sys.argv[2])
 CLIENT, SERVER, WORKER = (str(PROGRAMS / f"affskel-{name}") for name in ("client", "server", "worker"))
+
+
+def assert_same(ours, theirs, what=""):
+    """Equal arrays, element by element.  assertEqual would look for what long lists have in common, for minutes."""
+    np.testing.assert_array_equal(np.asarray(ours), np.asarray(theirs), what)
 
 
 class Directory:
@@ -100,7 +107,7 @@ class Server:
                 raise RuntimeError(f"the server ended with {self.process.wait()}: {''.join(said)}")
             self.addresses += re.findall(r"event=listening address=(\S+)", said[-1])
         # A full pipe would stop the server.
-        self.drain = threading.Thread(target=self.process.stderr.read)
+        self.drain = threading.Thread(target=self.process.stderr.read, daemon=True)
         self.drain.start()
 
     @property

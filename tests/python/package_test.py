@@ -37,6 +37,7 @@ def run(*command, **options):
 def setUpModule():
     global directory, wheel, sdist
     directory = Path(tempfile.mkdtemp(prefix="affskel-python-"))
+    unittest.addModuleCleanup(shutil.rmtree, directory)
     before = sources()
     run(sys.executable, "-B", PACKAGE / "build_packages.py", PROJECT, directory / "made")
     assert sources() == before, "building left files in the project's tree"
@@ -44,10 +45,6 @@ def setUpModule():
     (sdist,) = (directory / "made").glob("*.tar.gz")
     venv.create(VENV, system_site_packages=True, clear=True, with_pip=True)
     run(PYTHON, "-m", "pip", "install", "--no-index", "--no-build-isolation", wheel, cwd=directory)
-
-
-def tearDownModule():
-    shutil.rmtree(directory)
 
 
 def sources():
@@ -85,7 +82,8 @@ class Packages(unittest.TestCase):
         folder = directory / sdist.name[:-len(".tar.gz")]
         hook = "from setuptools import build_meta; build_meta.build_wheel('..')"
         (directory / "no-programs").mkdir()
-        environment = {name: value for name, value in os.environ.items() if name not in ("PROTOC", "GRPC_PYTHON_PLUGIN")}
+        programs = ("PROTOC", "GRPC_PYTHON_PLUGIN")
+        environment = {name: value for name, value in os.environ.items() if name not in programs}
         run(PYTHON, "-c", hook, cwd=folder, env=dict(environment, PATH=str(directory / "no-programs")))
         self.assertEqual(members(directory / wheel.name), members(wheel))
 
@@ -100,7 +98,8 @@ class Packages(unittest.TestCase):
     def test_installed_it_works_with_both_implementations_of_protobuf(self):
         script = ("import json, affskel; from affskel.v1 import client_service_pb2 as s, types_pb2 as t\n"
                   "from google.protobuf.internal import api_implementation as a\n"
-                  "job = t.Job.FromString(t.Job(id='x', params=t.ErosionParams(directions='sphere:7')).SerializeToString())\n"
+                  "job = t.Job(id='x', params=t.ErosionParams(directions='sphere:7'))\n"
+                  "job = t.Job.FromString(job.SerializeToString())\n"
                   "print(json.dumps([a.Type(), affskel.__version__, affskel.__file__, job.params.directions]))")
         seen = set()
         for implementation in ("", "python"):

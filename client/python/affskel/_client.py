@@ -50,7 +50,8 @@ class Client:
         patience: seconds for which a server that went away is waited for, in every call.
 
     Raises:
-        UsageError: an address, a file or the configuration is wrong, or the token would leave this machine in the clear.
+        UsageError: an address, a file or the configuration is wrong, or the token would leave this machine in the
+            clear.
     """
 
     def __init__(self, server: Optional[str] = None, *, token_file: Optional[PathLike] = None,
@@ -106,11 +107,11 @@ class Client:
             raise UsageError(f"the priority {priority} is not 0 .. 9")
         header.priority = priority
         header.request_id = request_id
-        if given.file:
+        if given.text is None:
             return self._submit_file(given.file, header, operator)
         self._complete(header, given.text)
         response = self._session.submit(header, given.text)
-        return Job(self._session, response.job.id, response.existed)
+        return Job(self._session, response.job.id, response.existed, given.file)
 
     def job(self, job: str) -> Job:
         """A job by its id, a unique prefix of at least 6 characters, or "@last", the caller's own last one."""
@@ -184,4 +185,4 @@ class Client:
             options += ["--request-id", header.request_id]
         document = run_program(self._session.reached(), ["submit", *options, "--", file],
                                f"{file}: formats other than OFF are read by affskel-client")
-        return Job(self._session, document["id"], bool(document["existed"]))
+        return Job(self._session, document["id"], bool(document["existed"]), file)

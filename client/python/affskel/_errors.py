@@ -126,7 +126,10 @@ _KINDS: Tuple[Type[AffskelError], ...] = (JobFailedError, UsageError, BadInputEr
 BY_CODE = {kind.code: kind for kind in _KINDS}
 
 
-def job_failed(job: str, reason: str, message: str, line: int) -> JobFailedError:
-    """The error for a job that failed, by the server's word for the cause."""
+def job_failed(job: str, reason: str, message: str, file: str, line: int) -> JobFailedError:
+    """The error for a job that failed, by the server's word for the cause; `file` and `line` are of its mesh."""
     kinds: Dict[str, Type[JobFailedError]] = {"BAD_INPUT": BadMeshError, "LIMIT": JobTooLargeError}
-    return kinds.get(reason, JobFailedError)(f"job {job} failed: {message}", job=job, reason=reason, line=line)
+    if reason != "BAD_INPUT":
+        file, line = "", 0
+    kind = kinds.get(reason, JobFailedError)
+    return kind(f"job {job} failed: {message}", job=job, reason=reason, file=file, line=line)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of,
                       surface_of)
-from ._errors import AffskelWarning, InternalError, JobCancelledError, NotFoundError, UsageError, job_failed
+from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
 from ._programs import page
 from ._progress import ProgressBar
 from ._session import Session
@@ -41,8 +41,9 @@ class Job:
         existed: of a job just submitted, whether the same was submitted before, so that this is that job.
     """
 
-    def __init__(self, session: Session, job: str, existed: bool = False) -> None:
+    def __init__(self, session: Session, job: str, existed: bool = False, file: str = "") -> None:
         self._session = session
+        self._file = file  # that its mesh comes from, for messages
         self.id = job
         self.existed = existed
 
@@ -92,7 +93,7 @@ class Job:
         if last is None:
             raise InternalError("the server told no state of the job")
         if last.state == types.JOB_STATE_FAILED:
-            raise job_failed(last.id, last.error.code, last.error.message, last.error.line)
+            raise job_failed(last.id, last.error.code, last.error.message, self._file, last.error.line)
         if last.state == types.JOB_STATE_CANCELLED:
             raise JobCancelledError(f"job {last.id} was cancelled; go on with it by resume()")
         return self

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, List, NamedTuple, Sequence, Tuple, Union
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +17,11 @@ MeshLike = Union[str, "os.PathLike[str]", bytes, Tuple[Any, Any], Any]
 
 
 class Mesh(NamedTuple):
-    """OFF text, or a file that affskel-client must read."""
+    """A mesh to submit."""
 
     name: str  # for people
-    text: bytes = b""
-    file: str = ""  # when it is no OFF text
+    text: Optional[bytes]  # OFF; None = affskel-client must read the file
+    file: str = ""  # where it comes from, if from a file
 
 
 def mesh_of(mesh: MeshLike) -> Mesh:
@@ -41,9 +41,9 @@ def mesh_of(mesh: MeshLike) -> Mesh:
     if isinstance(mesh, (str, os.PathLike)):
         path = Path(mesh)
         if path.suffix.lower() in OFF_SUFFIXES:
-            return Mesh(path.stem, path.read_bytes())
+            return Mesh(path.stem, path.read_bytes(), str(path))
         with path.open("rb"):  # the same error as for OFF when it is not there
-            return Mesh(path.stem, file=str(path.absolute()))
+            return Mesh(path.stem, None, str(path.absolute()))
     return Mesh("mesh", off_text(*_arrays_of(mesh)))
 
 
@@ -57,8 +57,8 @@ def _arrays_of(mesh: Any) -> Tuple[Any, List[npt.NDArray[np.int64]]]:
         return mesh.vertices, _face_rows(mesh.faces)
     if hasattr(mesh, "points") and hasattr(mesh, "faces"):
         return mesh.points, _padded_faces(mesh.faces)
-    raise BadInputError(f"a {type(mesh).__name__} is no mesh: expected a path, (vertices, faces), or a mesh of trimesh, "
-                        "pyvista or VTK")
+    raise BadInputError(f"a {type(mesh).__name__} is no mesh: expected a path, (vertices, faces), or a mesh of "
+                        "trimesh, pyvista or VTK")
 
 
 def _whole(values: Any, what: str) -> npt.NDArray[np.int64]:

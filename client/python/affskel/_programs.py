@@ -59,7 +59,7 @@ def run_program(settings: Settings, arguments: Sequence[str], why: str,
     """
     program = find_program()
     if program is None:
-        raise otherwise(f"{why}, and {PROGRAM} is not in $PATH")
+        raise otherwise(f"{why}; {PROGRAM} is not in $PATH")
     command = [program, "--json", *_arguments(settings), *arguments]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           check=False)
@@ -77,7 +77,7 @@ def run_program(settings: Settings, arguments: Sequence[str], why: str,
 def private_server() -> Address:
     """The address of the caller's private server, which affskel-client starts when none answers."""
     info = run_program(Settings(), ["server-info"],
-                       "no server is configured: name one with server=..., or install affskel, which starts a private one",
+                       "no server is configured: name one with server=..., or let affskel-client start a private one",
                        UnreachableError)
     file = Path(info["data_dir"]) / "server.json"
     try:

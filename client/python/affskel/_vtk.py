@@ -92,22 +92,23 @@ def _grid(lattice: Lattice) -> Any:
         return image
     grid = model.vtkStructuredGrid()
     grid.SetDimensions(*lattice.dims)
-    grid.SetPoints(_points(_x_fastest(lattice.all_points().reshape(*lattice.dims, 3))))
+    places = lattice.all_points().reshape(*lattice.dims, 3)
+    grid.SetPoints(_points(places.transpose(2, 1, 0, 3).reshape(-1, 3)))
     return grid
-
-
-def _x_fastest(dense: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """An array (nx, ny, nz) or (nx, ny, nz, c) by point in the order of VTK."""
-    turned = np.swapaxes(dense, 0, 2)
-    return turned.reshape(-1, *dense.shape[3:])
 
 
 def field_dataset(field: Field) -> Any:
     """See Field.to_pyvista."""
-    lattice = field.lattice
+    dims = field.lattice.dims
+    # VTK counts points with x fastest.
+    places = np.ravel_multi_index(np.unravel_index(field.lattice.inside, dims)[::-1], dims[::-1])
     arrays: Dict[str, Tuple[npt.NDArray[Any], float]] = {
         "E": (field.E, 0), "E_share": (field.share, 0), "slope": (field.slope, 0), "normal": (field.normals, 0),
         "direction": (field.direction.astype(np.int32), -1), "inside": (np.ones(len(field), np.uint8), 0)}
-    dataset = _grid(lattice)
-    _add_attributes(dataset, {name: _x_fastest(lattice.dense(values, fill)) for name, (values, fill) in arrays.items()})
+    dataset = _grid(field.lattice)
+    for name, (values, outside) in arrays.items():
+        whole = np.full((dims[0] * dims[1] * dims[2], *values.shape[1:]), outside, values.dtype)
+        whole[places] = values
+        _add_array(dataset, name, whole)
+    dataset.GetPointData().SetActiveScalars("E")
     return _wrapped(dataset)
