@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 
 import affskel
-from affskel import _arrays, _meshes, _session, _status
+from affskel import _arrays, _meshes, _messages, _session
 from affskel.v1 import client_service_pb2 as service
 from affskel.v1 import types_pb2 as types
 
@@ -99,18 +99,23 @@ class Decoding(unittest.TestCase):
             with self.assertRaises(affskel.InternalError):
                 _arrays.surface_of(surface)
 
-    def test_quality_tells_what_is_absent(self):
-        quality = _arrays.quality_of(types.SkeletonQuality(points=3, hausdorff_there=0.0))
+    def test_messages_become_dictionaries_that_tell_what_is_absent(self):
+        quality = _messages.plain(types.SkeletonQuality(points=3, hausdorff_there=0.0))
         self.assertEqual((quality["points"], quality["hausdorff_there"], quality["hausdorff_back"]), (3, 0.0, None))
+        job = _messages.plain(types.Job(id="x", state=types.JOB_STATE_FAILED, error=types.JobError(line=7),
+                                        done_positions=[types.PositionRange(begin=1, end=3)]))
+        self.assertEqual((job["id"], job["state"], job["stage"], job["error"]["line"], job["quality"]),
+                         ("x", "failed", "", 7, None))
+        self.assertEqual(job["done_positions"], [dict(begin=1, end=3)])
 
     def test_words_are_those_of_the_command_line(self):
-        self.assertEqual(_status.word(types.JobState, "JOB_STATE_", types.JOB_STATE_DONE), "done")
-        self.assertEqual(_status.word(types.Operator, "OPERATOR_", 1), "zucker-hummel")
-        self.assertEqual(_status.word(types.Operator, "OPERATOR_", 0), "")
-        self.assertEqual(_status.value_of_word(types.Operator, "OPERATOR_", "zucker-hummel", "operator"), 1)
+        self.assertEqual(_messages.word(types.JobState, types.JOB_STATE_DONE), "done")
+        self.assertEqual(_messages.word(types.Operator, 1), "zucker-hummel")
+        self.assertEqual(_messages.word(types.Operator, 0), "")
+        self.assertEqual(_messages.value_of_word(types.Operator, "zucker-hummel", "operator"), 1)
         for wrong in ("unspecified", "Flux", "zucker_hummel", ""):
             with self.subTest(wrong), self.assertRaisesRegex(affskel.UsageError, "zucker-hummel, intermediate"):
-                _status.value_of_word(types.Operator, "OPERATOR_", wrong, "operator")
+                _messages.value_of_word(types.Operator, wrong, "operator")
 
 
 class Stream(list):

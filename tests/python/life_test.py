@@ -4,6 +4,7 @@ Usage: life_test.py PROGRAMS PROJECT"""
 import contextlib
 import importlib.util
 import io
+import json
 import os
 import signal
 import sys
@@ -240,6 +241,16 @@ class Errors(WithDirectory):
         with self.assertRaisesRegex(affskel.UnreachableError, r"address from \$AFFSKEL_SERVER"):
             os.environ["AFFSKEL_SERVER"] = f"unix:{self.directory / 'none.sock'}"
             affskel.jobs()
+
+    def test_the_server_tells_what_it_tells_affskel_client(self):
+        server = self.server(workers=0)
+        client = self.client(server)
+        client.submit(CUBE.encode(), spacing=.1)
+        said = json.loads(self.directory.client("--server", server.address, "--json", "server-info"))
+        ours = client.server_info()
+        self.assertEqual(set(ours), set(said))
+        for name in ("version", "started_ms", "pid", "data_dir", "workers", "jobs_queued", "schema_version", "caller"):
+            self.assertEqual(ours[name], said[name], name)
 
     def test_lists_longer_than_one_answer_are_whole(self):
         client = self.client(self.server(workers=0))

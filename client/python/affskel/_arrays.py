@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._errors import InternalError
+from ._messages import plain
 from .v1 import types_pb2 as types
 
 Floats = npt.NDArray[np.float64]
@@ -270,16 +271,10 @@ def directions_of(message: types.Directions) -> Floats:
     return _doubles(message.xyz, 3)
 
 
-def quality_of(message: types.SkeletonQuality) -> Dict[str, Any]:
-    """All fields by name; those that are absent are None."""
-    return {one.name: getattr(message, one.name) if not one.has_presence or message.HasField(one.name) else None
-            for one in message.DESCRIPTOR.fields}
-
-
 def points_of(message: types.SkeletonPoints) -> Points:
     n = len(message.point)
     points, normals = _doubles(message.xyz, 3), _doubles(message.normal, 3)
-    quality = quality_of(message.quality) if message.HasField("quality") else {}
+    quality = plain(message.quality) if message.HasField("quality") else {}
     result = Points(points, _doubles(message.erosion), normals, _wholes(message.direction),
                     _doubles(message.divergence), quality)
     whole = all(len(array) == n for array in (points, normals, result.E, result.direction))
@@ -298,5 +293,5 @@ def surface_of(message: types.TriangleMesh) -> Surface:
     attributes = {name: array for name, array in arrays.items() if len(array)}
     if any(len(array) != len(vertices) for array in attributes.values()):
         raise InternalError("the server sent a damaged surface: a vertex without its attributes")
-    quality: Optional[Dict[str, Any]] = quality_of(message.quality) if message.HasField("quality") else None
+    quality: Optional[Dict[str, Any]] = plain(message.quality) if message.HasField("quality") else None
     return Surface(vertices, corners.reshape(-1, 3), attributes, quality or {}, message.volume)

@@ -9,10 +9,11 @@ from typing import Any, Dict, List, Optional
 from ._errors import LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
+from ._messages import plain, value_of_word, word
 from ._programs import run_program
 from ._session import Session
 from ._settings import PathLike, choose
-from ._status import Status, status_of, value_of_word, word
+from ._status import Status, status_of
 from .v1 import client_service_pb2 as service
 from .v1 import types_pb2 as types
 
@@ -127,17 +128,12 @@ class Client:
         """
         request = service.ListJobsRequest(owner=owner or "")
         if state is not None:
-            request.states.append(value_of_word(types.JobState, "JOB_STATE_", state, "state"))
+            request.states.append(value_of_word(types.JobState, state, "state"))
         return [status_of(job) for job in self._session.list_jobs(request, limit)]
 
     def server_info(self) -> Dict[str, Any]:
         """Version, workers and queue of the server, by the names of ServerInfo in the contract."""
-        info = self._session.server_info()
-        document = {one.name: getattr(info, one.name) for one in info.DESCRIPTOR.fields}
-        document["workers"] = [{one.name: getattr(worker, one.name) for one in worker.DESCRIPTOR.fields}
-                               for worker in info.workers]
-        document["caller"] = {"owner": info.caller.owner, "role": word(service.Role, "ROLE_", info.caller.role)}
-        return document
+        return plain(self._session.server_info())
 
     @staticmethod
     def _header(given: Mesh, spacing: Optional[float], points: Optional[int], directions: str, frame: str,
@@ -153,7 +149,7 @@ class Client:
                 raise UsageError(f"the number of points {wanted} is not 1 .. 2^31")
             header.params.sampling.target_points = int(wanted)
         header.params.directions = directions
-        header.params.frame = value_of_word(types.Frame, "FRAME_", frame, "frame")
+        header.params.frame = value_of_word(types.Frame, frame, "frame")
         if repair not in ("auto", "none"):
             raise UsageError(f"repair is 'auto' or 'none', not '{repair}'")
         header.params.repair = repair == "auto"
@@ -175,7 +171,7 @@ class Client:
         density = ["--spacing", repr(sampling.spacing)] if sampling.HasField("spacing") else [
             "--points", str(sampling.target_points)]
         options = [*density, "--directions", params.directions or "triangles",
-                   "--frame", word(types.Frame, "FRAME_", params.frame), "--operator", operator,
+                   "--frame", word(types.Frame, params.frame), "--operator", operator,
                    "--priority", str(header.priority), "--repair", "auto" if params.repair else "none"]
         if header.skeleton.threshold:
             options += ["--threshold", repr(header.skeleton.threshold)]

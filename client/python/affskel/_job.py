@@ -9,10 +9,11 @@ import numpy as np
 from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of,
                       surface_of)
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
+from ._messages import plain, value_of_word
 from ._programs import page
 from ._progress import ProgressBar
 from ._session import Session
-from ._status import Status, status_of, value_of_word
+from ._status import Status, status_of
 from ._view import View
 from .v1 import client_service_pb2 as service
 from .v1 import types_pb2 as types
@@ -22,7 +23,7 @@ def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> type
     """None = the server's default operator, the operator's default threshold."""
     params = types.SkeletonParams()
     if operator is not None:
-        params.operator = value_of_word(types.Operator, "OPERATOR_", operator, "operator")
+        params.operator = value_of_word(types.Operator, operator, "operator")
     if threshold is not None:
         if not 0 < threshold < float("inf"):
             raise UsageError(f"the threshold {threshold} is not above 0")
@@ -112,8 +113,7 @@ class Job:
 
     def events(self) -> List[Dict[str, Any]]:
         """What happened to it, oldest first: a row each, as `affskel-client --json log` prints them."""
-        names = [one.name for one in service.JobEvent.DESCRIPTOR.fields]
-        return [{name: getattr(event, name) for name in names} for event in self._session.events(self.id)]
+        return [plain(event) for event in self._session.events(self.id)]
 
     # ---- Its results.
 

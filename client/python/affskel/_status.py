@@ -3,25 +3,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime, timezone
-from typing import Any, Optional, Tuple
+from typing import Optional, Tuple
 
-from ._errors import UsageError
+from ._messages import word
 from .v1 import types_pb2 as types
-
-
-def word(kind: Any, prefix: str, number: int) -> str:
-    """The word for a value of the contract's enumeration `kind`: JOB_STATE_DONE is "done"; "" for one not known."""
-    if number == 0 or number not in kind.values():
-        return ""
-    return str(kind.Name(number))[len(prefix):].lower().replace("_", "-")
-
-
-def value_of_word(kind: Any, prefix: str, text: str, what: str) -> Any:
-    """The number of the value with this word.  Raises UsageError that tells the words."""
-    words = {word(kind, prefix, number): number for number in kind.values() if number}
-    if text not in words:
-        raise UsageError(f"there is no {what} '{text}'; there are {', '.join(words)}")
-    return words[text]
 
 
 def _time(milliseconds: int) -> Optional[datetime]:
@@ -93,7 +78,7 @@ def status_of(job: types.Job) -> Status:
     reason = job.error.message or job.waiting_reason or job.quality.advice
     return Status(
         id=job.id, name=job.name, owner=job.owner, priority=job.priority,
-        state=word(types.JobState, "JOB_STATE_", job.state), stage=word(types.JobStage, "JOB_STAGE_", job.stage),
+        state=word(types.JobState, job.state), stage=word(types.JobStage, job.stage),
         directions_done=job.directions_done, directions_total=job.directions_total, points=prepared.points,
         spacing=prepared.spacing, volume=prepared.volume, skeleton_points=job.skeleton_points, reason=reason,
         notes=tuple(Note(note.severity, note.code, note.message) for note in prepared.notes),
