@@ -1,0 +1,76 @@
+"""Affine skeletons of closed triangle meshes: submit a mesh, get arrays.
+
+    import affskel
+    job = affskel.submit("body.off", spacing=200).wait()
+    field = job.field()                        # points, E, normals, slope, direction: NumPy arrays
+    sheet = job.skeleton(operator="chords")    # vertices, faces, attributes
+    solid = job.eroded(fraction=.05)           # the solid where E is at least 5 % of the volume
+    job.view()                                 # in a notebook: the body and its skeleton to turn
+
+The functions of this module use one client, made by the first call with the server that affskel-client would take; a
+`Client` of one's own names another.  All errors are AffskelError.  The messages of the service itself are in
+`affskel.v1`.  The package computes nothing: all geometry is in the service's workers.
+"""
+from __future__ import annotations
+
+import threading
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any, Dict, List, Optional
+
+from ._arrays import Field, Lattice, Points, Surface
+from ._client import Client
+from ._errors import (AffskelError, AffskelWarning, BadInputError, BadMeshError, InternalError, JobCancelledError,
+                      JobFailedError, JobTooLargeError, LimitError, NotAllowedError, NotFoundError, TimedOutError,
+                      UnreachableError, UsageError)
+from ._job import Job
+from ._meshes import MeshLike
+from ._status import Note, Status
+from ._view import View
+
+__all__ = [
+    "AffskelError", "AffskelWarning", "BadInputError", "BadMeshError", "Client", "Field", "InternalError", "Job",
+    "JobCancelledError", "JobFailedError", "JobTooLargeError", "Lattice", "LimitError", "NotAllowedError",
+    "NotFoundError", "Note", "Points", "Status", "Surface", "TimedOutError", "UnreachableError", "UsageError", "View",
+    "job", "jobs", "server_info", "submit",
+]
+
+try:
+    __version__ = version("affskel")
+except PackageNotFoundError:  # not installed
+    __version__ = "unknown"
+
+_lock = threading.Lock()
+_client: Optional[Client] = None
+
+
+def _default_client() -> Client:
+    global _client
+    with _lock:
+        if _client is None:
+            _client = Client()
+        return _client
+
+
+def submit(mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
+           directions: str = "triangles", frame: str = "axis", operator: str = "zucker-hummel",
+           threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
+           repair: str = "auto") -> Job:
+    """See Client.submit."""
+    return _default_client().submit(mesh, spacing=spacing, points=points, directions=directions, frame=frame,
+                                    operator=operator, threshold=threshold, name=name, priority=priority,
+                                    request_id=request_id, repair=repair)
+
+
+def job(job: str) -> Job:
+    """See Client.job."""
+    return _default_client().job(job)
+
+
+def jobs(*, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Status]:
+    """See Client.jobs."""
+    return _default_client().jobs(state=state, owner=owner, limit=limit)
+
+
+def server_info() -> Dict[str, Any]:
+    """See Client.server_info."""
+    return _default_client().server_info()

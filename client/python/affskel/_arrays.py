@@ -1,0 +1,297 @@
+"""Results as arrays.
+
+Notation: R sample points, K directions, n points or vertices, m faces.  Lengths are in the units of the mesh, areas in
+these squared, volumes cubed.  Sample points come in lattice order, x slowest, z fastest, as in every file of
+affskel-client.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import InternalError
+from ._messages import plain
+from .v1 import types_pb2 as types
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+Table = Dict[str, npt.NDArray[Any]]
+
+# ARTIFACT_KIND_FIELD: little-endian records without padding.
+FIELD_RECORD = np.dtype([("E", "<f8"), ("area", "<f8"), ("direction", "<u4")])
+
+
+def _doubles(values: Sequence[float], width: int = 1) -> Floats:
+    """(n,) or, with a width, (n, width)."""
+    array = np.fromiter(values, np.float64, len(values))
+    if width == 1:
+        return array
+    if len(array) % width:
+        raise InternalError(f"the server sent {len(array)} numbers where they come by {width}")
+    return array.reshape(-1, width)
+
+
+def _wholes(values: Sequence[int]) -> Ints:
+    return np.fromiter(values, np.int64, len(values))
+
+
+def _columns(points: Floats, names: str = "x y z") -> Table:
+    return {name: points[:, axis] for axis, name in enumerate(names.split())}
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """The lattice whose points inside the solid are the R sample points.
+
+    Attributes:
+        dims: numbers of lattice points along the three axes.
+        origin: (3,) place of lattice point (0, 0, 0).
+        axes: (3, 3), row a is the step to the next point along axis a.
+        inside: (R,) linear indices (i ny + j) nz + k of the sample points, ascending.
+    """
+
+    dims: Tuple[int, int, int]
+    origin: Floats
+    axes: Floats
+    inside: Ints
+
+    def __len__(self) -> int:
+        return len(self.inside)
+
+    @property
+    def is_axis_parallel(self) -> bool:
+        """Whether its axes are x, y and z, in this order and direction."""
+        steps = np.diag(self.axes)
+        return bool((self.axes == np.diag(steps)).all() and (steps > 0).all())
+
+    def _places(self, i: Ints, j: Ints, k: Ints) -> Floats:
+        """In the order of additions that the contract asks for, to the last bit."""
+        a, b, c = (index[:, np.newaxis].astype(np.float64) * axis for index, axis in zip((i, j, k), self.axes))
+        return np.asarray(self.origin + (a + (b + c)))
+
+    def points(self) -> Floats:
+        """(R, 3) places of the sample points."""
+        i, j, k = np.unravel_index(self.inside, self.dims)
+        return self._places(i, j, k)
+
+    def all_points(self) -> Floats:
+        """(nx ny nz, 3) places of all lattice points, inside or not."""
+        i, j, k = (index.ravel() for index in np.indices(self.dims))
+        return self._places(i, j, k)
+
+    def dense(self, values: npt.ArrayLike, fill: float = np.nan) -> npt.NDArray[Any]:
+        """Values of the sample points, (R,) or (R, c), as an array (nx, ny, nz) or (nx, ny, nz, c).
+
+        Args:
+            fill: what the other lattice points get.
+        """
+        array = np.asarray(values)
+        if len(array) != len(self):
+            raise ValueError(f"{len(array)} values for {len(self)} sample points")
+        nx, ny, nz = self.dims
+        grid = np.full((nx * ny * nz, *array.shape[1:]), fill, array.dtype)
+        grid[self.inside] = array
+        return grid.reshape(nx, ny, nz, *array.shape[1:])
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """The erosion level E at the sample points.
+
+    Attributes:
+        points: (R, 3) their places.
+        E: (R,) erosion level, the least volume that a plane through the point cuts off, counting only the piece
+            connected with it.
+        normals: (R, 3) the optimal normals, unit: E grows along them.
+        slope: (R,) |grad E|, the area of the optimal section; grad E = slope[:, None] * normals.
+        direction: (R,) index of the optimal direction.
+        directions: (K, 3) the direction set, unit vectors; zeros for triangles without area.
+        volume: v0, volume of the solid.
+        lattice: where the points are.
+    """
+
+    points: Floats
+    E: Floats
+    normals: Floats
+    slope: Floats
+    direction: Ints
+    directions: Floats
+    volume: float
+    lattice: Lattice
+
+    def __len__(self) -> int:
+        return len(self.E)
+
+    @property
+    def share(self) -> Floats:
+        """(R,) E as a share of v0."""
+        return np.asarray(self.E / self.volume)
+
+    def table(self) -> Table:
+        """Columns as in the CSV of affskel-client, and the slope: for `pandas.DataFrame(field.table())`."""
+        return {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz"),
+                "direction": self.direction, "slope": self.slope}
+
+    def to_pyvista(self) -> Any:
+        """The whole lattice with the arrays E, E_share, slope, normal, direction and inside.
+
+        Outside the solid E and the slope are 0, as on its surface, and the direction is -1.
+
+        Returns:
+            pyvista's ImageData, of a turned or sheared lattice its StructuredGrid; without pyvista the object of VTK
+            that these are.
+        """
+        from ._vtk import field_dataset
+        return field_dataset(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Points of a skeleton, or of an eroded solid.
+
+    Attributes:
+        points: (n, 3).  For "chords" they lie on lattice edges, otherwise they are sample points.
+        E: (n,) erosion level.
+        normals: (n, 3) optimal normals, unit.
+        direction: (n,) index of the optimal direction.
+        H: (n,) the operator's divergence of the normals, for "chords" the strength of the shock; empty for an eroded
+            solid.
+        quality: what the skeleton is like, by the names of SkeletonQuality in the contract; empty for an eroded solid.
+    """
+
+    points: Floats
+    E: Floats
+    normals: Floats
+    direction: Ints
+    H: Floats
+    quality: Mapping[str, Any] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def attributes(self) -> Table:
+        """Arrays by point."""
+        arrays = {"E": self.E, "normal": self.normals, "direction": self.direction, "H": self.H}
+        return {name: array for name, array in arrays.items() if len(array) == len(self)}
+
+    def table(self) -> Table:
+        """Columns as in the CSV of affskel-client: for `pandas.DataFrame(points.table())`."""
+        columns = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz"),
+                   "direction": self.direction}
+        if len(self.H) == len(self):
+            columns["H"] = self.H
+        return columns
+
+    def to_pyvista(self) -> Any:
+        """pyvista's PolyData of the points with their attributes; without pyvista a vtkPolyData."""
+        from ._vtk import points_dataset
+        return points_dataset(self.points, self.attributes())
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A triangulated skeleton, or the surface of an eroded solid.
+
+    Attributes:
+        vertices: (n, 3).
+        faces: (m, 3) indices of vertices.
+        attributes: arrays by vertex.  The sheet of "chords" has E, strength of the shock (0 .. 1), area of the optimal
+            sections, normal_a and normal_b (n, 3) of the two chords; other surfaces have none, the points that they
+            are made of carry them (`Job.skeleton_points`).
+        quality: of the sheet of "chords", by the names of SkeletonQuality in the contract; otherwise empty.
+        volume: enclosed by the surface of an eroded solid; otherwise 0.
+    """
+
+    vertices: Floats
+    faces: Ints
+    attributes: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
+    quality: Mapping[str, Any] = field(default_factory=dict)
+    volume: float = 0.0
+
+    def __len__(self) -> int:
+        return len(self.faces)
+
+    def table(self) -> Table:
+        """The vertices, columns as in the files of affskel-client: for `pandas.DataFrame(surface.table())`."""
+        columns = _columns(self.vertices)
+        for name, array in self.attributes.items():
+            if array.ndim == 1:
+                columns[name] = array
+            else:
+                side = name[-1]
+                columns.update(_columns(array, f"nx_{side} ny_{side} nz_{side}"))
+        return columns
+
+    def to_pyvista(self) -> Any:
+        """pyvista's PolyData with the attributes as point data; without pyvista a vtkPolyData."""
+        from ._vtk import surface_dataset
+        return surface_dataset(self.vertices, self.faces, self.attributes)
+
+    def to_trimesh(self) -> Any:
+        """A trimesh.Trimesh with the attributes as `vertex_attributes`; vertices and faces stay as they are."""
+        import trimesh
+        return trimesh.Trimesh(vertices=self.vertices, faces=self.faces, process=False,
+                               vertex_attributes=dict(self.attributes))
+
+
+def lattice_of(message: types.Lattice) -> Lattice:
+    """Raises InternalError when the message contradicts itself."""
+    if len(message.origin) != 3 or len(message.axes) != 9 or len(message.dims) != 3:
+        raise InternalError("the server sent a damaged lattice: wrong number of values")
+    starts, lengths = _wholes(message.run_start), _wholes(message.run_length)
+    if len(starts) != len(lengths):
+        raise InternalError("the server sent a damaged lattice: runs without length")
+    dims = (int(message.dims[0]), int(message.dims[1]), int(message.dims[2]))
+    ends = starts + lengths
+    if len(starts) and ((lengths < 1).any() or (starts[1:] < ends[:-1]).any() or starts[0] < 0
+                        or ends[-1] > dims[0] * dims[1] * dims[2]):
+        raise InternalError("the server sent a damaged lattice: runs out of order")
+    # Point p of run r has the index starts[r] + (p - what the runs before it hold).
+    before = np.cumsum(lengths) - lengths
+    inside = np.arange(lengths.sum()) + np.repeat(starts - before, lengths)
+    return Lattice(dims, _doubles(message.origin), _doubles(message.axes, 3), inside)
+
+
+def field_of(lattice: Lattice, directions: Floats, data: bytes, volume: float) -> Field:
+    """Raises InternalError when the three do not fit each other."""
+    if len(data) != len(lattice) * FIELD_RECORD.itemsize:
+        raise InternalError(f"the field has {len(data)} bytes for {len(lattice)} sample points")
+    records = np.frombuffer(data, FIELD_RECORD)
+    direction = records["direction"].astype(np.int64)
+    if len(direction) and direction.max() >= len(directions):
+        raise InternalError(f"the field names direction {direction.max()} of {len(directions)}")
+    return Field(lattice.points(), records["E"].astype(np.float64), directions[direction],
+                 records["area"].astype(np.float64), direction, directions, volume, lattice)
+
+
+def directions_of(message: types.Directions) -> Floats:
+    return _doubles(message.xyz, 3)
+
+
+def points_of(message: types.SkeletonPoints) -> Points:
+    n = len(message.point)
+    points, normals = _doubles(message.xyz, 3), _doubles(message.normal, 3)
+    quality = plain(message.quality) if message.HasField("quality") else {}
+    result = Points(points, _doubles(message.erosion), normals, _wholes(message.direction),
+                    _doubles(message.divergence), quality)
+    whole = all(len(array) == n for array in (points, normals, result.E, result.direction))
+    if not whole or len(result.H) not in (0, n):
+        raise InternalError("the server sent damaged points: their arrays differ in length")
+    return result
+
+
+def surface_of(message: types.TriangleMesh) -> Surface:
+    vertices = _doubles(message.xyz, 3)
+    corners = _wholes(message.corners)
+    if len(corners) % 3 or (len(corners) and corners.max() >= len(vertices)):
+        raise InternalError("the server sent a damaged surface: corners out of range")
+    arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "area": _doubles(message.area),
+              "normal_a": _doubles(message.normal_a, 3), "normal_b": _doubles(message.normal_b, 3)}
+    attributes = {name: array for name, array in arrays.items() if len(array)}
+    if any(len(array) != len(vertices) for array in attributes.values()):
+        raise InternalError("the server sent a damaged surface: a vertex without its attributes")
+    quality: Optional[Dict[str, Any]] = plain(message.quality) if message.HasField("quality") else None
+    return Surface(vertices, corners.reshape(-1, 3), attributes, quality or {}, message.volume)

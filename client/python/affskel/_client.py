@@ -1,0 +1,184 @@
+"""A client of one server."""
+from __future__ import annotations
+
+import getpass
+import hashlib
+import os
+from typing import Any, Dict, List, Optional
+
+from ._errors import LimitError, UsageError
+from ._job import Job, skeleton_params
+from ._meshes import Mesh, MeshLike, mesh_of
+from ._messages import plain, value_of_word, word
+from ._programs import run_program
+from ._session import Session
+from ._settings import PathLike, choose
+from ._status import Status, status_of
+from .v1 import client_service_pb2 as service
+from .v1 import types_pb2 as types
+
+DEFAULT_POINTS = 100000
+MAX_NAME, MAX_OWNER = 200, 100  # bytes, by the contract
+MAX_POINTS = 1 << 31
+
+
+def _short(text: str, most: int) -> str:
+    """At most so many bytes, cut between characters; what is no text becomes a question mark."""
+    return text.encode("utf-8", "replace")[:most].decode("utf-8", "ignore")
+
+
+def _user_name() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):  # no entry for the user
+        return str(os.geteuid())
+
+
+class Client:
+    """A connection to a server, made when it is first needed.  Thread-safe; a context manager closes it.
+
+    Without arguments it meets the server that affskel-client would: $AFFSKEL_SERVER, else the one of the configuration
+    file (~/.config/affskel/config), else a private server under $AFFSKEL_HOME, which affskel-client starts and which
+    leaves when idle.
+
+    Args:
+        server: "unix:PATH" or "HOST:PORT".
+        token_file: its first line is the token to show; else $AFFSKEL_TOKEN_FILE or the configuration's `token_file`.
+            It is read again when it has changed.
+        tls_ca: who signed the server's certificate, PEM: speak TLS; else $AFFSKEL_TLS_CA or `tls_ca`.
+        client_cert, client_key: own certificate and its key, PEM, for servers that ask for one; else
+            $AFFSKEL_CLIENT_CERT and $AFFSKEL_CLIENT_KEY, or `client_cert` and `client_key`.
+        patience: seconds for which a server that went away is waited for, in every call.
+
+    Raises:
+        UsageError: an address, a file or the configuration is wrong, or the token would leave this machine in the
+            clear.
+    """
+
+    def __init__(self, server: Optional[str] = None, *, token_file: Optional[PathLike] = None,
+                 tls_ca: Optional[PathLike] = None, client_cert: Optional[PathLike] = None,
+                 client_key: Optional[PathLike] = None, patience: float = 300.0) -> None:
+        files = {"token_file": token_file, "tls_ca": tls_ca, "client_cert": client_cert, "client_key": client_key}
+        self._session = Session(choose(server, files), patience)
+
+    def __enter__(self) -> "Client":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the connection, and the calls under way; the next call opens another."""
+        self._session.close()
+
+    def submit(self, mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
+               directions: str = "triangles", frame: str = "axis", operator: str = "zucker-hummel",
+               threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
+               repair: str = "auto") -> Job:
+        """Submits a mesh.  The same mesh and parameters give the same job, computed once.
+
+        The server checks the mesh: one that bounds no solid is told by `Job.wait`, as BadMeshError.
+
+        Args:
+            mesh: a path (OFF; other formats are read by the installed affskel-client), OFF text as bytes, a pair of
+                vertices (n, 3) and faces (m, 3) or sequences of indices, or a mesh of trimesh, pyvista or VTK.
+            spacing: of the lattice, mesh units.
+            points: number of sample points to aim at, instead of a spacing; default 100000.
+            directions: "triangles", "sphere:N", "random:N:SEED", joined by "+".
+            frame: axes of the lattice: "axis", "pca", "obb" or "affine".
+            operator, threshold: of the job's own skeleton; see `Job.skeleton`.
+            name: for people; default the file's stem.
+            priority: 0 .. 9, higher first.
+            request_id: submitting again with the same key and content gives the same job; other content is refused.
+            repair: "auto" welds, turns and drops what needs it, and `Status.notes` tells so; "none" refuses.
+
+        Raises:
+            UsageError: an argument is wrong.
+            BadInputError: the arrays are no mesh, or affskel-client could not read the file.
+            LimitError: the mesh, or what the owner has, exceeds a limit.
+            OSError: the file cannot be read.
+        """
+        if spacing is not None and points is not None:
+            raise UsageError("spacing and points exclude each other")
+        given = mesh_of(mesh)
+        header = self._header(given, spacing, points, directions, frame, repair)
+        header.skeleton.CopyFrom(skeleton_params(operator, threshold))
+        header.name = name if name is not None else _short(given.name, MAX_NAME)
+        if priority not in range(10):
+            raise UsageError(f"the priority {priority} is not 0 .. 9")
+        header.priority = priority
+        header.request_id = request_id
+        if given.text is None:
+            return self._submit_file(given.file, header, operator)
+        self._complete(header, given.text)
+        response = self._session.submit(header, given.text)
+        return Job(self._session, response.job.id, response.existed, given.file)
+
+    def job(self, job: str) -> Job:
+        """A job by its id, a unique prefix of at least 6 characters, or "@last", the caller's own last one."""
+        return Job(self._session, self._session.get_job(job).id)
+
+    def jobs(self, *, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Status]:
+        """Jobs, newest first.
+
+        Args:
+            state: "queued", "running", "done", "failed" or "cancelled"; None = all.
+            owner: None = all that the caller may see.
+            limit: how many at most.
+        """
+        request = service.ListJobsRequest(owner=owner or "")
+        if state is not None:
+            request.states.append(value_of_word(types.JobState, state, "state"))
+        return [status_of(job) for job in self._session.list_jobs(request, limit)]
+
+    def server_info(self) -> Dict[str, Any]:
+        """Version, workers and queue of the server, by the names of ServerInfo in the contract."""
+        return plain(self._session.server_info())
+
+    @staticmethod
+    def _header(given: Mesh, spacing: Optional[float], points: Optional[int], directions: str, frame: str,
+                repair: str) -> service.SubmitJobHeader:
+        header = service.SubmitJobHeader()
+        if spacing is not None:
+            if not 0 < spacing < float("inf"):
+                raise UsageError(f"the spacing {spacing} is not above 0")
+            header.params.sampling.spacing = spacing
+        else:
+            wanted = DEFAULT_POINTS if points is None else points
+            if not 1 <= wanted <= MAX_POINTS or int(wanted) != wanted:
+                raise UsageError(f"the number of points {wanted} is not 1 .. 2^31")
+            header.params.sampling.target_points = int(wanted)
+        header.params.directions = directions
+        header.params.frame = value_of_word(types.Frame, frame, "frame")
+        if repair not in ("auto", "none"):
+            raise UsageError(f"repair is 'auto' or 'none', not '{repair}'")
+        header.params.repair = repair == "auto"
+        return header
+
+    def _complete(self, header: service.SubmitJobHeader, text: bytes) -> None:
+        """What depends on the mesh and on the server."""
+        info = self._session.server_info()
+        if 0 < info.max_mesh_bytes < len(text):
+            raise LimitError(f"the mesh has {len(text)} bytes; the server takes at most {info.max_mesh_bytes}")
+        if not info.caller.owner:  # a server that does not know who calls is told
+            header.owner = _short(_user_name(), MAX_OWNER)
+        header.mesh_sha256 = hashlib.sha256(text).hexdigest()
+        header.mesh_bytes = len(text)
+
+    def _submit_file(self, file: str, header: service.SubmitJobHeader, operator: str) -> Job:
+        """By affskel-client, which reads the file, checks it and submits it as OFF text."""
+        params, sampling = header.params, header.params.sampling
+        density = ["--spacing", repr(sampling.spacing)] if sampling.HasField("spacing") else [
+            "--points", str(sampling.target_points)]
+        options = [*density, "--directions", params.directions or "triangles",
+                   "--frame", word(types.Frame, params.frame), "--operator", operator,
+                   "--priority", str(header.priority), "--repair", "auto" if params.repair else "none"]
+        if header.skeleton.threshold:
+            options += ["--threshold", repr(header.skeleton.threshold)]
+        if header.name:
+            options += ["--name", header.name]
+        if header.request_id:
+            options += ["--request-id", header.request_id]
+        document = run_program(self._session.reached(), ["submit", *options, "--", file],
+                               f"{file}: formats other than OFF are read by affskel-client")
+        return Job(self._session, document["id"], bool(document["existed"]), file)

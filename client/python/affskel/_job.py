@@ -1,0 +1,241 @@
+"""A job and its results."""
+from __future__ import annotations
+
+import warnings
+from typing import Any, Dict, Iterator, List, Optional
+
+import numpy as np
+
+from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of,
+                      surface_of)
+from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
+from ._messages import plain, value_of_word
+from ._programs import page
+from ._progress import ProgressBar
+from ._session import Session
+from ._status import Status, status_of
+from ._view import View
+from .v1 import client_service_pb2 as service
+from .v1 import types_pb2 as types
+
+
+def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> types.SkeletonParams:
+    """None = the server's default operator, the operator's default threshold."""
+    params = types.SkeletonParams()
+    if operator is not None:
+        params.operator = value_of_word(types.Operator, operator, "operator")
+    if threshold is not None:
+        if not 0 < threshold < float("inf"):
+            raise UsageError(f"the threshold {threshold} is not above 0")
+        params.threshold = threshold
+    return params
+
+
+class Job:
+    """A job on a server.  It holds nothing of the results: each call fetches what it returns.
+
+    Results that are not stored yet are computed by a worker first, from the finished field.  Calls for results raise
+    NotFoundError before the job is done, and all calls raise AffskelError when the server says no.
+
+    Attributes:
+        id: 32 hexadecimal digits.
+        existed: of a job just submitted, whether the same was submitted before, so that this is that job.
+    """
+
+    def __init__(self, session: Session, job: str, existed: bool = False, file: str = "") -> None:
+        self._session = session
+        self._file = file  # that its mesh comes from, for messages
+        self.id = job
+        self.existed = existed
+
+    def __repr__(self) -> str:
+        return f"affskel.Job({self.id!r})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Job) and self.id == other.id
+
+    def __hash__(self) -> int:
+        return hash(self.id)
+
+    # ---- Its life.
+
+    def status(self) -> Status:
+        """The job as it is now."""
+        return status_of(self._session.get_job(self.id))
+
+    def progress(self, *, timeout: Optional[float] = None) -> Iterator[Status]:
+        """Its status now and after every change, until a final one; goes on across restarts of the server.
+
+        Args:
+            timeout: seconds for the whole; then TimedOutError.
+        """
+        for job in self._session.watch(self.id, timeout):
+            yield status_of(job)
+
+    def wait(self, *, timeout: Optional[float] = None, progress: Optional[bool] = None) -> "Job":
+        """Follows the job to its end.
+
+        Args:
+            timeout: seconds; None = as long as it takes.
+            progress: whether to show a bar, if tqdm is there; None = at a terminal and in a notebook.
+
+        Returns:
+            The job itself, done.
+
+        Raises:
+            JobFailedError: with the reason; BadMeshError when it is the mesh.
+            JobCancelledError: somebody cancelled it.
+            TimedOutError: the time is over, and the job goes on.
+        """
+        last: Optional[types.Job] = None
+        with ProgressBar(progress) as bar:
+            for last in self._session.watch(self.id, timeout):
+                bar.show(status_of(last))
+        if last is None:
+            raise InternalError("the server told no state of the job")
+        if last.state == types.JOB_STATE_FAILED:
+            raise job_failed(last.id, last.error.code, last.error.message, self._file, last.error.line)
+        if last.state == types.JOB_STATE_CANCELLED:
+            raise JobCancelledError(f"job {last.id} was cancelled; go on with it by resume()")
+        return self
+
+    def cancel(self) -> Status:
+        """Stops it, its progress kept; workers stop at their next report."""
+        return status_of(self._session.cancel(self.id))
+
+    def resume(self) -> Status:
+        """Goes on with a job that was cancelled or failed; computes results anew that retention has removed."""
+        return status_of(self._session.resume(self.id))
+
+    def delete(self) -> None:
+        """Removes a job that is done, failed or cancelled, with all that belongs to it."""
+        self._session.delete(self.id)
+
+    def events(self) -> List[Dict[str, Any]]:
+        """What happened to it, oldest first: a row each, as `affskel-client --json log` prints them."""
+        return [plain(event) for event in self._session.events(self.id)]
+
+    # ---- Its results.
+
+    def field(self, *, timeout: Optional[float] = None) -> Field:
+        """E at the sample points.
+
+        Args:
+            timeout: seconds for each of its parts, as everywhere below: the call may wait for a worker.
+        """
+        job = self._session.get_job(self.id)
+        data = self._bytes(service.ARTIFACT_KIND_FIELD, timeout)
+        return field_of(self.lattice(timeout=timeout), self.directions(timeout=timeout), data, job.prepared.volume)
+
+    def lattice(self, *, timeout: Optional[float] = None) -> Lattice:
+        """The sample points alone; there as soon as the mesh is prepared."""
+        return lattice_of(types.Lattice.FromString(self._bytes(service.ARTIFACT_KIND_LATTICE, timeout)))
+
+    def directions(self, *, timeout: Optional[float] = None) -> Floats:
+        """(K, 3) the direction set; there as soon as the mesh is prepared."""
+        return directions_of(types.Directions.FromString(self._bytes(service.ARTIFACT_KIND_DIRECTIONS, timeout)))
+
+    def skeleton(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
+                 alpha: Optional[float] = None, timeout: Optional[float] = None) -> Surface:
+        """The skeleton as a triangulated surface.
+
+        Args:
+            operator: "zucker-hummel", "sobel", "central", "intermediate", "flux" or "chords"; None = the job's.
+            threshold: in the operator's unit; None = the operator's default, without an operator the job's.
+            alpha: squared radius of the alpha shape through the points, mesh units squared; None = by the spacing.
+                Not for "chords", whose sheet goes through the shocks itself.
+        """
+        request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SURFACE)
+        chosen = self._chosen(operator, threshold)
+        if chosen is None and alpha is not None:
+            chosen = self._session.get_job(self.id).skeleton
+        if chosen is not None:
+            request.surface.skeleton.CopyFrom(chosen)
+            request.surface.alpha = alpha or 0.0
+        surface = surface_of(types.TriangleMesh.FromString(self._fetched(request, timeout)))
+        self._warn_if_empty("surface of the skeleton", len(surface), surface.quality.get("advice"))
+        return surface
+
+    def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
+                        timeout: Optional[float] = None) -> Points:
+        """The points that the operator calls shocks, with E, normals and H; arguments as for `skeleton`."""
+        request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SKELETON)
+        chosen = self._chosen(operator, threshold)
+        if chosen is not None:
+            request.skeleton.CopyFrom(chosen)
+        points = points_of(types.SkeletonPoints.FromString(self._fetched(request, timeout)))
+        self._warn_if_empty("skeleton", len(points), points.quality.get("advice"))
+        return points
+
+    def divergence(self, operator: Optional[str] = None, *, timeout: Optional[float] = None) -> Floats:
+        """(R,) the operator's H at every sample point, of which the threshold keeps some; not for "chords"."""
+        request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_DIVERGENCE)
+        chosen = self._chosen(operator, None)
+        if chosen is not None:
+            request.skeleton.CopyFrom(chosen)
+        return np.frombuffer(self._fetched(request, timeout), "<f8").astype(np.float64)
+
+    def eroded(self, fraction: Optional[float] = None, volume: Optional[float] = None, *,
+               timeout: Optional[float] = None) -> Surface:
+        """The closed surface of the eroded solid, the places where E is at least a level.
+
+        Args:
+            fraction: the level as a share of v0, between 0 and 1.
+            volume: the level itself, mesh units cubed.  One of the two is needed.
+        """
+        request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, fraction, volume)
+        message = types.TriangleMesh.FromString(self._fetched(request, timeout))
+        self._warn_if_empty("eroded solid", len(message.corners), message.quality.advice)
+        return surface_of(message)
+
+    def eroded_points(self, fraction: Optional[float] = None, volume: Optional[float] = None, *,
+                      timeout: Optional[float] = None) -> Points:
+        """The sample points in the eroded solid; arguments as for `eroded`."""
+        request = self._eroded_request(service.ARTIFACT_KIND_ERODED_POINTS, fraction, volume)
+        message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
+        self._warn_if_empty("eroded solid", len(message.point), message.quality.advice)
+        return points_of(message)
+
+    def mesh(self, *, timeout: Optional[float] = None) -> bytes:
+        """The OFF text that was submitted, unchanged."""
+        return self._bytes(service.ARTIFACT_KIND_MESH, timeout)
+
+    def view(self, operator: Optional[str] = None, threshold: Optional[float] = None, *, height: int = 640) -> View:
+        """The body and its skeleton to turn, in a frame of the notebook; made by the installed affskel-client.
+
+        Args:
+            operator, threshold: as for `skeleton`.
+            height: of the frame, CSS pixels.
+        """
+        self._chosen(operator, threshold)  # the same errors as elsewhere
+        options = [] if operator is None else ["--operator", operator]
+        if threshold is not None:
+            options += ["--threshold", repr(float(threshold))]
+        return View(page(self._session.reached(), self.id, options), height)
+
+    def _chosen(self, operator: Optional[str], threshold: Optional[float]) -> Optional[types.SkeletonParams]:
+        """None = the job's own skeleton.  A threshold alone is for the job's operator."""
+        if operator is None and threshold is None:
+            return None
+        params = skeleton_params(operator, threshold)
+        if operator is None:
+            params.operator = self._session.get_job(self.id).skeleton.operator
+        return params
+
+    def _eroded_request(self, kind: "service.ArtifactKind", fraction: Optional[float],
+                        volume: Optional[float]) -> service.FetchArtifactRequest:
+        if (fraction is None) == (volume is None):
+            raise UsageError("say the level of the eroded solid by fraction or by volume")
+        level = types.ErodedParams(volume=volume) if fraction is None else types.ErodedParams(fraction=fraction)
+        return service.FetchArtifactRequest(job=self.id, kind=kind, eroded=level)
+
+    def _bytes(self, kind: "service.ArtifactKind", timeout: Optional[float]) -> bytes:
+        return self._fetched(service.FetchArtifactRequest(job=self.id, kind=kind), timeout)
+
+    def _fetched(self, request: service.FetchArtifactRequest, timeout: Optional[float]) -> bytes:
+        return self._session.fetch(request, timeout)[1]
+
+    def _warn_if_empty(self, what: str, count: int, advice: Optional[str]) -> None:
+        if count == 0:
+            warnings.warn(f"the {what} of job {self.id} is empty" + (f": {advice}" if advice else ""), AffskelWarning,
+                          stacklevel=3)

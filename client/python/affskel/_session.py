@@ -1,0 +1,333 @@
+"""The calls, tried again when a server that was there goes away.
+
+A server that was never reached is an error at once.  One that answered may go away and come back, or have too much
+to do: calls that change nothing twice (all of them) are then repeated with growing pauses, and the private server is
+started again.
+"""
+from __future__ import annotations
+
+import hashlib
+import logging
+import queue
+import threading
+import time
+from dataclasses import replace
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, Type, TypeVar
+
+import grpc
+
+from ._channel import Token, open_channel, token_of
+from ._errors import (AffskelError, InternalError, LimitError, NotAllowedError, NotFoundError, TimedOutError,
+                      UnreachableError, UsageError)
+from ._programs import private_server
+from ._settings import Settings
+from .v1 import client_service_pb2 as service
+from .v1 import client_service_pb2_grpc as rpc
+from .v1 import types_pb2 as types
+
+CHUNK_BYTES = 1 << 20  # largest piece of data in a message
+UNARY_DEADLINE = 30.0  # seconds
+START_PATIENCE = 10.0  # for the first answer of a private server
+FIRST_PAUSE, LONGEST_PAUSE = 0.1, 2.0
+MAX_LISTED = 1000  # jobs in one answer
+FINAL_STATES = (types.JOB_STATE_DONE, types.JOB_STATE_FAILED, types.JOB_STATE_CANCELLED)
+
+Result = TypeVar("Result")
+_log = logging.getLogger("affskel")
+_Code = grpc.StatusCode
+_ERRORS: Dict[Any, Type[AffskelError]] = {
+    _Code.INVALID_ARGUMENT: UsageError,
+    _Code.ALREADY_EXISTS: UsageError,
+    _Code.OUT_OF_RANGE: UsageError,
+    _Code.NOT_FOUND: NotFoundError,
+    _Code.DATA_LOSS: NotFoundError,  # what was stored is damaged: there is nothing to be had
+    _Code.UNAVAILABLE: UnreachableError,
+    _Code.CANCELLED: UnreachableError,
+    _Code.DEADLINE_EXCEEDED: TimedOutError,
+    _Code.ABORTED: UnreachableError,
+    _Code.PERMISSION_DENIED: NotAllowedError,
+    _Code.UNAUTHENTICATED: NotAllowedError,
+    _Code.RESOURCE_EXHAUSTED: LimitError,
+}
+
+
+def _is_away(error: Any) -> bool:
+    """Whether the server is away or closing: it then cancels the calls that it no longer answers."""
+    return error.code() in (_Code.UNAVAILABLE, _Code.CANCELLED)
+
+
+def _is_ready(channel: Any) -> bool:
+    """Whether the connection stands, so that UNAVAILABLE was the server's own answer."""
+    states: "queue.Queue[Any]" = queue.Queue()
+    channel.subscribe(states.put)  # tells the state as it is, then changes
+    try:
+        return bool(states.get(timeout=1) == grpc.ChannelConnectivity.READY)
+    except queue.Empty:
+        return False
+    finally:
+        channel.unsubscribe(states.put)
+
+
+class _Connection:
+    """A channel, its stub, and what it was made for."""
+
+    def __init__(self, settings: Settings) -> None:
+        assert settings.address is not None
+        self.settings = settings
+        self.target = settings.address.target
+        self.channel = open_channel(settings)
+        self.stub: Any = rpc.ErosionServiceStub(self.channel)  # type: ignore[no-untyped-call]
+
+
+class Session:
+    """Thread-safe.  All calls raise AffskelError."""
+
+    def __init__(self, settings: Settings, patience: float) -> None:
+        """patience: seconds without any success after which a server that went away is given up."""
+        self._settings = settings
+        self._patience = patience
+        self._token: Optional[Token] = token_of(settings)
+        self._lock = threading.Lock()
+        self._connection: Optional[_Connection] = None
+        self._proven = False  # the server answered at least once
+
+    @property
+    def embedded(self) -> bool:
+        return self._settings.address is None
+
+    def reached(self) -> Settings:
+        """The settings with the address in use; that of the private server once it is known."""
+        return self._connect().settings
+
+    def close(self) -> None:
+        with self._lock:
+            connection, self._connection = self._connection, None
+        if connection is not None:
+            connection.channel.close()
+
+    def _connect(self) -> _Connection:
+        with self._lock:
+            if self._connection is None:
+                settings = self._settings
+                if settings.address is None:
+                    settings = replace(settings, address=private_server())
+                self._connection = _Connection(settings)
+            return self._connection
+
+    def _forget(self, connection: _Connection) -> None:
+        """Not closed: other threads may be using it."""
+        with self._lock:
+            if self._connection is connection:
+                self._connection = None
+
+    def _metadata(self) -> Tuple[Tuple[str, str], ...]:
+        return (("authorization", "Bearer " + self._token.text()),) if self._token else ()
+
+    def _error(self, error: Any, target: str, not_yet: Type[AffskelError]) -> AffskelError:
+        code, detail = error.code(), error.details() or ""
+        kind = not_yet if code == _Code.FAILED_PRECONDITION else _ERRORS.get(code, InternalError)
+        if _is_away(error):
+            where = "" if self.embedded else f" (address from {self._settings.origin})"
+            return kind(f"cannot reach the server at {target}: {detail}{where}")
+        if code == _Code.DEADLINE_EXCEEDED:
+            return kind(f"the server at {target} did not answer in time")
+        if code == _Code.UNIMPLEMENTED:
+            return kind(f"the server at {target} does not offer this call (an older version?): {detail}")
+        return kind(detail or f"the server answered with status {code.name}")
+
+    def _run(self, attempt: Callable[[_Connection], Result], not_yet: Type[AffskelError] = NotAllowedError,
+             deadline: Optional[float] = None) -> Result:
+        """Runs `attempt` until it succeeds or fails for good.
+
+        Args:
+            not_yet: the error when the job's state does not allow the call.
+            deadline: of the clock `time.monotonic`.
+        """
+        tries = _Tries(self, not_yet, deadline)
+        while True:
+            connection = self._connect()
+            try:
+                result = attempt(connection)
+            except grpc.RpcError as error:
+                tries.failed(error, connection)
+            else:
+                self._proven = True
+                return result
+
+    def _unary(self, name: str, request: Any) -> Any:
+        def call(at: _Connection) -> Any:
+            return getattr(at.stub, name)(request, timeout=UNARY_DEADLINE, metadata=self._metadata())
+
+        return self._run(call)
+
+    def submit(self, header: service.SubmitJobHeader, mesh: bytes) -> service.SubmitJobResponse:
+        def messages() -> Iterator[service.SubmitJobRequest]:
+            yield service.SubmitJobRequest(header=header)
+            for begin in range(0, len(mesh), CHUNK_BYTES):
+                yield service.SubmitJobRequest(data=mesh[begin:begin + CHUNK_BYTES])
+
+        def call(at: _Connection) -> service.SubmitJobResponse:
+            timeout = 120 + len(mesh) / CHUNK_BYTES  # 1 MiB/s at least
+            answer: service.SubmitJobResponse = at.stub.SubmitJob(messages(), timeout=timeout,
+                                                                  metadata=self._metadata())
+            return answer
+
+        return self._run(call)
+
+    def get_job(self, job: str) -> types.Job:
+        answer: types.Job = self._unary("GetJob", service.GetJobRequest(job=job))
+        return answer
+
+    def list_jobs(self, request: service.ListJobsRequest, limit: int) -> List[types.Job]:
+        """The newest `limit` jobs that the request is about, from as many answers as needed."""
+        jobs: List[types.Job] = []
+        while len(jobs) < limit:
+            request.limit = min(limit - len(jobs), MAX_LISTED)
+            answer = self._unary("ListJobs", request)
+            jobs.extend(answer.jobs)
+            if not answer.next_page_token:
+                break
+            request.page_token = answer.next_page_token
+        return jobs
+
+    def cancel(self, job: str) -> types.Job:
+        answer: types.Job = self._unary("CancelJob", service.CancelJobRequest(job=job))
+        return answer
+
+    def resume(self, job: str) -> types.Job:
+        answer: types.Job = self._unary("ResumeJob", service.ResumeJobRequest(job=job))
+        return answer
+
+    def delete(self, job: str) -> None:
+        self._unary("DeleteJob", service.DeleteJobRequest(job=job))
+
+    def events(self, job: str) -> List[service.JobEvent]:
+        answer = self._unary("ListJobEvents", service.ListJobEventsRequest(job=job))
+        return list(answer.events)
+
+    def server_info(self) -> service.ServerInfo:
+        answer: service.ServerInfo = self._unary("GetServerInfo", service.GetServerInfoRequest())
+        return answer
+
+    def watch(self, job: str, timeout: Optional[float] = None) -> Iterator[types.Job]:
+        """Every state of the job until a final one; attaches again when the stream breaks.
+
+        Args:
+            timeout: seconds for the whole, after which TimedOutError is raised; None = as long as it takes.
+        """
+        deadline = None if timeout is None else time.monotonic() + timeout
+
+        def begin(at: _Connection) -> Tuple[_Connection, Any, Optional[types.Job]]:
+            call = at.stub.WatchJob(service.WatchJobRequest(job=job), timeout=_left(deadline),
+                                    metadata=self._metadata())
+            first = next(call, None)  # with it the server is known to answer
+            if first is None:
+                raise InternalError("the server ended the watch without a state")
+            return at, call, first
+
+        while True:
+            connection, call, now = self._run(begin, deadline=deadline)
+            try:
+                while now is not None:
+                    job = now.id  # "@last" may mean another job by now
+                    yield now
+                    if now.state in FINAL_STATES:
+                        return
+                    now = next(call, None)
+            except grpc.RpcError as error:
+                if not _is_away(error):
+                    raise self._error(error, connection.target, NotAllowedError) from error
+            finally:
+                call.cancel()  # nothing when it has ended
+            _log.info("the server went away; trying to reach it again")
+            self._forget(connection)
+            time.sleep(FIRST_PAUSE)
+
+    def fetch(self, request: service.FetchArtifactRequest,
+              timeout: Optional[float] = None) -> Tuple[service.ArtifactHeader, bytes]:
+        """One artefact, its size and SHA-256 checked.
+
+        Args:
+            timeout: seconds, also for a worker to compute it first; None = as long as it takes.
+        """
+        deadline = None if timeout is None else time.monotonic() + timeout
+        return self._run(
+            lambda at: _received(
+                at.stub.FetchArtifact(request, timeout=_left(deadline), metadata=self._metadata())),
+            NotFoundError, deadline)
+
+
+class _Tries:
+    """What one call has gone through so far."""
+
+    def __init__(self, session: Session, not_yet: Type[AffskelError], deadline: Optional[float]) -> None:
+        self._session = session
+        self._not_yet = not_yet
+        self._deadline = deadline
+        self._pause = FIRST_PAUSE
+        self._failing: Optional[float] = None  # since the first error: a call itself may take long
+
+    def failed(self, error: Any, connection: _Connection) -> None:
+        """Waits for the next try, or raises what the error means."""
+        session = self._session
+        meaning = session._error(error, connection.target, self._not_yet)
+        if not _is_away(error):
+            raise meaning from error
+        if not session._proven and _is_ready(connection.channel):
+            session._proven = True
+        # An idle private server may leave at this very moment: another is started.
+        if not session._proven and not session.embedded:
+            raise meaning from error
+        session._forget(connection)
+        self._wait_or_raise(meaning)
+
+    def _wait_or_raise(self, error: AffskelError) -> None:
+        now = time.monotonic()
+        if self._failing is None:
+            self._failing = now
+            _log.info("trying again: %s", error)
+        patience = self._session._patience if self._session._proven else START_PATIENCE
+        if now >= self._failing + patience:
+            raise error
+        left = _left(self._deadline)
+        time.sleep(self._pause if left is None else min(self._pause, left))
+        self._pause = min(2 * self._pause, LONGEST_PAUSE)
+
+
+def _left(deadline: Optional[float]) -> Optional[float]:
+    """Seconds until the deadline."""
+    if deadline is None:
+        return None
+    left = deadline - time.monotonic()
+    if left <= 0:
+        raise TimedOutError("the time is over; the job goes on")
+    return left
+
+
+def _received(call: Any) -> Tuple[service.ArtifactHeader, bytes]:
+    """All of a stream of FetchArtifactResponse."""
+    header: Optional[service.ArtifactHeader] = None
+    pieces: List[bytes] = []
+    received = 0
+    digest = hashlib.sha256()
+    try:
+        for answer in call:
+            if answer.HasField("header") != (header is None):
+                raise InternalError("the server sent the parts of the artefact out of order")
+            if header is None:
+                header = answer.header
+                continue
+            received += len(answer.data)
+            if received > header.bytes:
+                raise InternalError(f"the artefact has more than its {header.bytes} bytes")
+            digest.update(answer.data)
+            pieces.append(answer.data)
+    finally:
+        call.cancel()
+    if header is None:
+        raise InternalError("the server sent no artefact")
+    if received != header.bytes:
+        raise InternalError(f"the artefact was cut short: {received} of {header.bytes} bytes arrived")
+    if digest.hexdigest() != header.sha256:
+        raise InternalError("the artefact was damaged on its way: its SHA-256 is another")
+    return header, b"".join(pieces)

@@ -1,0 +1,266 @@
+"""Jobs from submission to their end, across restarts, without a configured server, and everything that can go wrong.
+
+Usage: life_test.py PROGRAMS PROJECT"""
+import contextlib
+import importlib.util
+import io
+import json
+import os
+import signal
+import sys
+import unittest
+
+import affskel
+
+from lab import PROGRAMS, Directory, Server, assert_same
+
+CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+        "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+OPEN_CUBE = CUBE.replace("8 6 0", "8 5 0", 1).replace("4 3 0 4 7\n", "")
+
+
+class WithDirectory(unittest.TestCase):
+    def setUp(self):
+        self.directory = Directory()
+        self.addCleanup(self.directory.remove)
+        self.directory.use_environment(self.addCleanup)
+
+    def server(self, *options, workers=1):
+        server = Server(self.directory, *options, workers=workers)
+        self.addCleanup(lambda: server.process.poll() is None and server.end())
+        return server
+
+    def client(self, server, **options):
+        return self.enterContext(affskel.Client(server.address, **options))
+
+
+class Restarts(WithDirectory):
+    def test_a_job_is_followed_across_a_stop_and_a_kill_of_the_server(self):
+        server = self.server()
+        client = self.client(server)
+        job = client.submit(self.directory.make("body", "--triangles", 5000), points=20000)
+        disturbances, seen = [signal.SIGTERM, signal.SIGKILL], []
+        for status in job.progress(timeout=250):
+            seen.append(status)
+            # Only a job that is not finished is disturbed: each restart is in the middle of it.
+            if disturbances and 0 < status.directions_done < status.directions_total:
+                server.end(disturbances.pop())
+                server.start()
+        self.assertEqual(disturbances, [])
+        self.assertEqual((seen[-1].state, seen[-1].directions_done), ("done", 5000))
+        self.assertEqual([status.is_final for status in seen], [False] * (len(seen) - 1) + [True])
+        self.directory.client("--server", server.address, "fetch", job.id, "field", "-o", self.directory / "field.csv")
+        assert_same(job.field().E, self.directory.rows("field.csv")["E"])
+
+    def test_every_call_waits_for_a_server_that_was_there(self):
+        server = self.server()
+        client = self.client(server)
+        job = client.submit(CUBE.encode(), spacing=.1).wait()
+        E = job.field().E.tolist()
+        for call in (lambda: job.field().E.tolist() == E, lambda: client.submit(CUBE.encode(), spacing=.1) == job,
+                     lambda: job.status().state == "done", lambda: client.jobs()[0].id == job.id):
+            server.end(signal.SIGKILL)
+            server.start()
+            self.assertTrue(call())
+
+    def test_it_is_given_up_after_the_patience(self):
+        server = self.server()
+        client = self.client(server, patience=.3)
+        job = client.submit(CUBE.encode(), spacing=.1).wait()
+        server.end()
+        with self.assertRaisesRegex(affskel.UnreachableError, "cannot reach the server at unix:.*the argument server"):
+            job.status()
+
+
+class PrivateServer(WithDirectory):
+    def tearDown(self):
+        self.directory.stop_private_server()
+
+    def test_it_starts_by_itself_and_again_and_is_that_of_the_command_line(self):
+        client = self.enterContext(affskel.Client())
+        job = client.submit(self.directory.make("box", "--size", "3,2,1"), spacing=.1).wait()
+        self.assertEqual(self.directory.client("status", "@last").split()[1], job.id)
+        first = client.server_info()
+        self.assertEqual(first["data_dir"], os.environ["AFFSKEL_HOME"])
+        os.kill(first["pid"], signal.SIGKILL)
+        self.assertEqual(job.status().state, "done")
+        self.assertNotEqual(client.server_info()["pid"], first["pid"])
+        self.assertEqual(len(job.field()), job.status().points)
+
+    def test_a_home_too_deep_for_a_socket_is_no_obstacle(self):
+        os.environ["AFFSKEL_HOME"] = self.directory.environment["AFFSKEL_HOME"] = str(self.directory / ("deep" * 25))
+        client = self.enterContext(affskel.Client())
+        self.assertEqual(client.submit(CUBE.encode(), spacing=.1).wait().status().points, 1000)
+
+    def test_without_affskel_client_it_is_said_what_to_do(self):
+        os.environ["PATH"] = os.pathsep.join(part for part in os.environ["PATH"].split(os.pathsep)
+                                             if part != str(PROGRAMS))
+        with self.assertRaisesRegex(affskel.UnreachableError, "name one with server=.*not in .PATH"):
+            affskel.Client().server_info()
+
+    def test_a_directory_that_cannot_be_used_is_the_error_of_affskel_client(self):
+        (self.directory / "file").write_text("")
+        os.environ["AFFSKEL_HOME"] = self.directory.environment["AFFSKEL_HOME"] = str(self.directory / "file")
+        code, said = self.directory.client_error("server-info")
+        with self.assertRaises(affskel.NotAllowedError) as failure:
+            affskel.Client().server_info()
+        self.assertEqual((failure.exception.exit_code, failure.exception.message, failure.exception.file),
+                         (code, said["message"], said["file"]))
+
+
+class Waiting(WithDirectory):
+    def test_without_a_worker_a_job_waits_and_can_be_cancelled_and_resumed(self):
+        client = self.client(self.server(workers=0))
+        job = client.submit(CUBE.encode(), spacing=.1, name="cube")
+        status = job.status()
+        self.assertEqual((status.state, status.name, status.points), ("queued", "cube", 0))
+        self.assertIsNone(status.finished)
+        with self.assertRaises(affskel.TimedOutError):
+            job.wait(timeout=.2)
+        for result in (job.field, job.lattice, job.skeleton, job.skeleton_points, lambda: job.eroded(.1)):
+            with self.assertRaises(affskel.NotFoundError):
+                result()
+        with self.assertRaises(affskel.NotAllowedError):
+            job.delete()
+        self.assertEqual(job.cancel().state, "cancelled")
+        with self.assertRaisesRegex(affskel.JobCancelledError, job.id):
+            job.wait()
+        self.assertEqual(job.resume().state, "queued")
+        job.cancel()
+        self.assertEqual([event["event"] for event in job.events()],
+                         ["submitted", *["cancel_requested", "cancelled", "resumed"] * 2][:-1])
+        job.delete()
+        with self.assertRaisesRegex(affskel.NotFoundError, job.id):
+            job.status()
+
+    def test_a_finished_job_tells_what_it_was(self):
+        client = self.client(self.server())
+        job = client.submit(CUBE.encode(), spacing=.1, priority=9).wait()
+        status = job.status()
+        self.assertEqual((status.state, status.stage, status.points, status.directions_done, status.priority),
+                         ("done", "complete", 1000, 12, 9))
+        self.assertEqual((status.volume, status.spacing, status.share_done), (1.0, .1, 1.0))
+        self.assertTrue(status.created <= status.started <= status.finished)
+        self.assertEqual(client.job(job.id[:8]), job)
+        self.assertEqual(client.job("@last"), job)
+        self.assertEqual([one.id for one in client.jobs(state="done", limit=1)], [job.id])
+        self.assertEqual(client.jobs(state="failed"), [])
+
+    def test_a_mesh_of_several_messages_goes_there_and_back(self):
+        client = self.client(self.server())
+        text = CUBE.replace("OFF\n", "OFF\n" + "".join(f"# {number:070}\n" for number in range(40000))).encode()
+        self.assertGreater(len(text), 2 << 20)
+        job = client.submit(text, spacing=.1).wait()
+        self.assertTrue(job.mesh() == text)
+        self.assertEqual(job.status().points, 1000)
+
+    def test_the_bar_of_tqdm_reaches_the_end(self):
+        if importlib.util.find_spec("tqdm") is None:
+            self.skipTest("no python3-tqdm")
+        client = self.client(self.server())
+        job = client.submit(CUBE.encode(), spacing=.1)
+        shown = io.StringIO()
+        with contextlib.redirect_stderr(shown):
+            job.wait(progress=True)
+            self.assertRegex(shown.getvalue().split("\r")[-1], "100%.* 12/12 .*complete")
+            before = shown.getvalue()
+            job.wait()  # no terminal
+            self.assertEqual(shown.getvalue(), before)
+
+
+class Errors(WithDirectory):
+    def test_a_mesh_with_a_hole_is_told_with_its_place(self):
+        client = self.client(self.server())
+        for text, words in ((OPEN_CUBE, "edge"), ("OFF\n1 0 0\n0 0 zero\n", "zero")):
+            with self.assertRaisesRegex(affskel.BadMeshError, words) as failure:
+                client.submit(text.encode(), spacing=.1).wait()
+            error = failure.exception
+            self.assertIsInstance(error, affskel.JobFailedError)
+            self.assertIsInstance(error, affskel.BadInputError)
+            self.assertEqual((error.code, error.exit_code, error.reason), ("BAD_INPUT", 3, "BAD_INPUT"))
+            self.assertIn(error.job, str(error))
+        self.assertEqual(error.line, 3)
+        self.assertEqual(client.job(error.job).status().state, "failed")
+
+    def test_it_is_told_as_affskel_client_tells_it(self):
+        server = self.server()
+        file = self.directory / "hole.off"
+        for text in (OPEN_CUBE, CUBE.replace("4 3 0 4 7", "4 3 0 4 8"), "OFF\n1 0 0\n0 0 zero\n", "OFF\n"):
+            file.write_text(text)
+            code, said = self.directory.client_error("--server", server.address, "submit", file)
+            with self.assertRaises(affskel.BadInputError) as failure:
+                self.client(server).submit(file, spacing=.1).wait()
+            error = failure.exception
+            self.assertEqual((code, said["code"], said["file"], said.get("line", 0)),
+                             (error.exit_code, error.code, error.file, error.line))
+            self.assertTrue(error.message.endswith(said["message"]), (error.message, said["message"]))
+
+    def test_wrong_arguments_are_refused_before_anything_is_stored(self):
+        client = self.client(self.server(workers=0))
+        for wrong in (dict(spacing=-1), dict(spacing=float("nan")), dict(points=0), dict(points=2.5),
+                      dict(points=1 << 40), dict(spacing=1, points=1), dict(operator="fuzzy"), dict(frame="mesh"),
+                      dict(threshold=0), dict(threshold=float("inf")), dict(priority=10), dict(priority=-1),
+                      dict(repair="some"), dict(directions="sphere"), dict(name="x" * 201), dict(request_id="x" * 201)):
+            with self.subTest(wrong), self.assertRaises(affskel.UsageError):
+                client.submit(CUBE.encode(), **wrong)
+        self.assertEqual(client.jobs(), [])
+
+    def test_results_that_do_not_exist(self):
+        client = self.client(self.server())
+        job = client.submit(CUBE.encode(), spacing=.1).wait()
+        for call in (lambda: job.eroded(), lambda: job.eroded(.1, .1), lambda: job.eroded(1.5),
+                     lambda: job.skeleton("fuzzy"), lambda: job.skeleton(threshold=-1), lambda: job.view("fuzzy"),
+                     lambda: client.jobs(state="lost"), lambda: job.divergence("chords")):
+            with self.assertRaises(affskel.UsageError):
+                call()
+        with self.assertRaisesRegex(affskel.NotFoundError, "ffffff"):
+            client.job("ffffffffff")
+
+    def test_the_same_request_with_other_content_is_refused(self):
+        client = self.client(self.server(workers=0))
+        job = client.submit(CUBE.encode(), spacing=.1, request_id="one")
+        self.assertTrue(client.submit(CUBE.encode(), spacing=.1, request_id="one").existed)
+        with self.assertRaisesRegex(affskel.UsageError, "one"):
+            client.submit(CUBE.encode(), spacing=.2, request_id="one")
+        self.assertEqual([status.id for status in client.jobs()], [job.id])
+
+    def test_limits_are_told(self):
+        client = self.client(self.server("--quota", "queued-jobs=1", workers=0))
+        client.submit(CUBE.encode(), spacing=.1)
+        with self.assertRaises(affskel.LimitError) as failure:
+            client.submit(CUBE.encode(), spacing=.2)
+        self.assertEqual(failure.exception.exit_code, 8)
+
+    def test_a_job_that_is_too_large_says_so(self):
+        client = self.client(self.server("--quota", "chords=1K"))
+        with self.assertRaises(affskel.JobTooLargeError) as failure:
+            client.submit(CUBE.encode(), spacing=.05).wait()
+        self.assertEqual((failure.exception.reason, failure.exception.code), ("LIMIT", "LIMIT"))
+
+    def test_a_server_that_was_never_there_is_an_error_at_once(self):
+        with self.assertRaisesRegex(affskel.UnreachableError, r"address from \$AFFSKEL_SERVER"):
+            os.environ["AFFSKEL_SERVER"] = f"unix:{self.directory / 'none.sock'}"
+            affskel.jobs()
+
+    def test_the_server_tells_what_it_tells_affskel_client(self):
+        server = self.server(workers=0)
+        client = self.client(server)
+        client.submit(CUBE.encode(), spacing=.1)
+        said = json.loads(self.directory.client("--server", server.address, "--json", "server-info"))
+        ours = client.server_info()
+        self.assertEqual(set(ours), set(said))
+        for name in ("version", "started_ms", "pid", "data_dir", "workers", "jobs_queued", "schema_version", "caller"):
+            self.assertEqual(ours[name], said[name], name)
+
+    def test_lists_longer_than_one_answer_are_whole(self):
+        client = self.client(self.server(workers=0))
+        ids = [client.submit(CUBE.encode(), spacing=.1, name=str(number)).id for number in range(7)]
+        from affskel import _session
+        most, _session.MAX_LISTED = _session.MAX_LISTED, 3
+        self.addCleanup(setattr, _session, "MAX_LISTED", most)
+        self.assertEqual([status.id for status in client.jobs()], ids[::-1])
+        self.assertEqual([status.id for status in client.jobs(limit=4)], ids[:2:-1])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

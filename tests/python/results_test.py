@@ -1,0 +1,329 @@
+"""Every result as arrays, against the files of affskel-client, closed forms and VTK.
+
+Usage: results_test.py PROGRAMS PROJECT"""
+import json
+import sys
+import unittest
+import warnings
+
+import numpy as np
+
+import affskel
+
+from lab import Directory, Server, assert_same
+
+try:
+    import vtkmodules
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+except ImportError:
+    vtkmodules = None
+
+
+def setUpModule():
+    global directory, server, client, body, sheared, box
+    directory = Directory()
+    unittest.addModuleCleanup(directory.remove)
+    server = Server(directory)
+    unittest.addModuleCleanup(server.end)
+    directory.environment["AFFSKEL_SERVER"] = server.address
+    directory.use_environment(unittest.addModuleCleanup)
+    client = affskel.Client(server.address)
+    unittest.addModuleCleanup(client.close)
+    # The body, in its own axes and in a sheared lattice; a bar whose field is known.
+    body = client.submit(directory.make("body", "--triangles", 500), spacing=300).wait()
+    sheared = client.submit(directory / "body.off", points=2000, frame="affine", operator="chords").wait()
+    box = client.submit(directory.make("box", "--size", "40,6,4"), spacing=.5).wait()
+
+
+def read_ply(file):
+    """Vertices by property, and triangles, of a binary PLY of affskel-client."""
+    data = file.read_bytes()
+    header, _, rest = data.partition(b"end_header\n")
+    lines = header.decode().split("\n")
+    n, m = (int(line.split()[2]) for line in lines if line.startswith("element "))
+    kinds = {"double": "<f8", "int": "<i4"}
+    names = [(line.split()[2], kinds[line.split()[1]]) for line in lines
+             if line.startswith("property ") and " list " not in line]
+    vertices = np.frombuffer(rest, np.dtype(names), n)
+    faces = np.frombuffer(rest[vertices.nbytes:], np.dtype([("corners", "u1"), ("vertices", "<i4", 3)]), m)
+    assert (faces["corners"] == 3).all()
+    return vertices, faces["vertices"]
+
+
+def enclosed_volume(surface):
+    """By the divergence theorem."""
+    a, b, c = (surface.vertices[surface.faces[:, corner]] for corner in range(3))
+    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+
+
+class AgainstTheFiles(unittest.TestCase):
+    def assert_same_columns(self, table, columns):
+        self.assertEqual(set(columns) - set(table), set())
+        for name, values in columns.items():
+            assert_same(table[name], values, name)
+
+    def test_the_field_is_that_of_the_csv_to_the_last_bit(self):
+        for job in (body, sheared):
+            directory.client("fetch", job.id, "field", "-o", directory / "field.csv")
+            field = job.field()
+            self.assert_same_columns(field.table(), directory.rows("field.csv"))
+            self.assertGreater(len(field), 1000)
+            assert_same(field.normals, field.directions[field.direction])
+            self.assertEqual(job.status().points, len(field))
+            self.assertEqual(job.status().volume, field.volume)
+
+    def test_skeleton_points_are_those_of_the_csv(self):
+        for job, options in ((body, {}), (body, dict(threshold=9)), (body, dict(operator="sobel")),
+                             (body, dict(operator="chords", threshold=.01)), (sheared, {})):
+            with self.subTest(options):
+                arguments = [part for name, value in options.items() for part in (f"--{name}", value)]
+                directory.client("skeleton", job.id, *arguments, "-o", directory / "skeleton.csv")
+                points = job.skeleton_points(**options)
+                self.assert_same_columns(points.table(), directory.rows("skeleton.csv"))
+                self.assertEqual(points.quality["points"], len(points))
+
+    def test_the_sheet_of_chords_is_that_of_the_ply_with_its_attributes(self):
+        for job in (body, sheared):
+            directory.client("surface", job.id, "--operator", "chords", "-o", directory / "sheet.ply")
+            vertices, faces = read_ply(directory / "sheet.ply")
+            sheet = job.skeleton(operator="chords")
+            assert_same(sheet.faces, faces)
+            self.assertEqual(list(sheet.table()), list(vertices.dtype.names))
+            for name, values in sheet.table().items():
+                assert_same(values, vertices[name], name)
+            self.assertGreater(len(sheet), 100)
+            self.assertEqual(sheet.quality["points"], len(sheet.vertices))
+
+    def test_other_surfaces_are_those_of_the_ply(self):
+        for options in ({}, dict(operator="sobel", threshold=20), dict(threshold=9, alpha=1e6), dict(alpha=2e5)):
+            with self.subTest(options):
+                arguments = [part for name, value in options.items() for part in (f"--{name}", value)]
+                directory.client("surface", body.id, *arguments, "-o", directory / "surface.ply")
+                vertices, faces = read_ply(directory / "surface.ply")
+                surface = body.skeleton(**options)
+                assert_same(surface.faces, faces)
+                assert_same(surface.vertices, vertices.tolist())
+
+    def test_the_jobs_own_operator_holds_unless_another_is_named(self):
+        assert_same(sheared.skeleton().vertices, sheared.skeleton("chords").vertices)
+        few, many = sheared.skeleton(threshold=.2), sheared.skeleton(threshold=1e-9)
+        self.assertLess(len(few), len(many))
+        self.assertIn("strength", few.attributes)
+
+    def test_the_divergence_is_what_the_threshold_is_applied_to(self):
+        divergence, points = body.divergence(), body.skeleton_points()
+        kept = np.abs(divergence) > 7
+        assert_same(divergence[kept], points.H)
+        assert_same(body.field().points[kept], points.points)
+        directory.client("fetch", body.id, "divergence", "--operator", "sobel", "-o", directory / "H.csv")
+        assert_same(body.divergence("sobel"), directory.rows("H.csv")["H"])
+
+    def test_the_mesh_is_what_was_submitted(self):
+        self.assertTrue(body.mesh() == (directory / "body.off").read_bytes())
+
+    def test_the_view_is_the_page_of_the_command_line(self):
+        for options in ((), ("--operator", "chords", "--threshold", "0.01")):
+            directory.client("view", body.id, *options, "-o", directory / "page.html")
+            view = body.view(*(["chords", .01] if options else []))
+            self.assertTrue(view.page == (directory / "page.html").read_text(encoding="utf-8"))
+        self.assertTrue(view.save(directory / "copy.html").read_text(encoding="utf-8") == view.page)
+
+
+class ClosedForms(unittest.TestCase):
+    def test_in_a_bar_the_field_is_area_times_distance(self):
+        """With the six normals of a box's faces the chords of x are the slabs between x and a face."""
+        field, edges = box.field(), np.array([40.0, 6.0, 4.0])
+        areas = edges.prod() / edges
+        slabs = np.concatenate([field.points * areas, (edges - field.points) * areas], axis=1)
+        nearest = slabs.argmin(axis=1)
+        np.testing.assert_allclose(field.E, slabs.min(axis=1), rtol=1e-12)
+        clear = np.sort(slabs, axis=1)[:, 1] - slabs.min(axis=1) > 1e-6
+        self.assertGreater(clear.sum(), 1000)
+        np.testing.assert_allclose(field.slope[clear], areas[nearest[clear] % 3], rtol=1e-12)
+        inward = np.concatenate([np.eye(3), -np.eye(3)])
+        np.testing.assert_allclose(field.normals[clear], inward[nearest[clear]], atol=1e-12)
+        self.assertEqual(field.volume, 960)
+        self.assertEqual(len(field), 80 * 12 * 8)
+
+    def test_the_gradient_is_slope_times_normal(self):
+        """To first order in the spacing, where a point and its neighbours have the same optimal direction."""
+        field = body.field()
+        E, direction = (field.lattice.dense(values, -1) for values in (field.E, field.direction))
+        gradient = field.lattice.dense(field.slope[:, None] * field.normals, 0)
+        places = field.lattice.all_points().reshape(*field.lattice.dims, 3)
+        errors = []
+        for axis in range(3):
+            here, after = (np.delete(values, gone, axis) for values in (direction, ) for gone in (-1, 0))
+            same = (here >= 0) & (here == after)
+            rise, step = (np.diff(values, axis=axis)[same] for values in (E, places))
+            means = (np.delete(gradient, -1, axis) + np.delete(gradient, 0, axis))[same] / 2
+            expected = np.einsum("ij,ij->i", means, step)
+            errors += list(np.abs(rise - expected) / (np.linalg.norm(means, axis=1) * np.linalg.norm(step, axis=1)))
+        self.assertGreater(len(errors), 300)
+        self.assertLess(np.median(errors), .02)
+
+    def test_eroded_points_are_those_at_or_above_the_level(self):
+        field = body.field()
+        for options, level in ((dict(fraction=.05), .05 * field.volume), (dict(volume=2e9), 2e9)):
+            points = body.eroded_points(**options)
+            assert_same(points.E, field.E[field.E >= level])
+            assert_same(points.points, field.points[field.E >= level])
+            self.assertNotIn("H", points.table())
+
+    def test_the_eroded_surface_is_closed_and_encloses_its_volume(self):
+        surface = body.eroded(fraction=.05)
+        edges = np.concatenate([surface.faces[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
+        there, back = ({tuple(edge) for edge in edges[:, order].tolist()} for order in ([0, 1], [1, 0]))
+        self.assertEqual(len(there), len(edges))
+        self.assertEqual(there ^ back, set())
+        self.assertAlmostEqual(enclosed_volume(surface) / surface.volume, 1, places=9)
+        share = surface.volume / body.field().volume
+        self.assertAlmostEqual(share, len(body.eroded_points(fraction=.05)) / len(body.field()), delta=.02)
+
+    def test_what_is_empty_says_why(self):
+        for empty in (lambda: body.eroded(fraction=.9), lambda: body.eroded_points(fraction=.9)):
+            with self.assertWarnsRegex(affskel.AffskelWarning, "no sample point reaches the level"):
+                self.assertEqual(len(empty()), 0)
+        with self.assertWarnsRegex(affskel.AffskelWarning, "skeleton of job .* is empty: "):
+            self.assertEqual(len(body.skeleton_points(threshold=1e6)), 0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            body.skeleton()
+
+
+class SameMesh(unittest.TestCase):
+    """However a mesh is given, its field is the same."""
+
+    def field_of(self, mesh):
+        job = client.submit(mesh, spacing=300).wait()
+        field = job.field()
+        return field.E, field.points
+
+    def test_arrays_bytes_and_files(self):
+        wanted = body.field()
+        text = (directory / "body.off").read_bytes()
+        rows = [line.split() for line in text.decode().splitlines()[1:] if line and not line.startswith("#")]
+        n = int(rows[0][0])
+        vertices = np.array(rows[1:1 + n], float)
+        faces = np.array(rows[1 + n:], int)[:, 1:]
+        directory.client("transform", directory / "body.off", "--scale", 1, "-o", directory / "body.ply")
+        for mesh in (text, (vertices, faces), (vertices.tolist(), faces.tolist()), directory / "body.ply",
+                     str(directory / "body.off")):
+            with self.subTest(type(mesh)):
+                E, points = self.field_of(mesh)
+                assert_same(E, wanted.E)
+                assert_same(points, wanted.points)
+
+    @unittest.skipIf(vtkmodules is None, "no python3-vtk9")
+    def test_a_mesh_of_vtk(self):
+        from vtkmodules.vtkIOGeometry import vtkOBJReader
+        directory.client("transform", directory / "body.off", "--scale", 1, "-o", directory / "body.obj")
+        reader = vtkOBJReader()
+        reader.SetFileName(str(directory / "body.obj"))
+        reader.Update()
+        # VTK holds the vertices of .obj in single precision: the mesh is another, by rounding.
+        E, _ = self.field_of(reader.GetOutput())
+        wanted = body.field().E
+        self.assertLess(np.median(np.abs(E - wanted) / wanted), 1e-4)
+
+    def test_another_format_is_checked_by_the_client_before_anything_is_sent(self):
+        (directory / "hole.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n")
+        before = len(client.jobs())
+        with self.assertRaises(affskel.BadInputError) as failure:
+            client.submit(directory / "hole.obj", spacing=.1)
+        self.assertTrue(failure.exception.file.endswith("hole.obj"))
+        self.assertNotIsInstance(failure.exception, affskel.JobFailedError)
+        self.assertEqual(len(client.jobs()), before)
+
+    def test_the_same_again_is_the_same_job_and_options_arrive(self):
+        again = client.submit(directory / "body.off", spacing=300)
+        self.assertTrue(again.existed)
+        self.assertEqual(again, body)
+        for mesh in (directory / "body.off", directory / "body.ply"):
+            directory.client("transform", directory / "body.off", "--scale", 1, "-o", directory / "body.ply")
+            job = client.submit(mesh, points=500, directions="random:7:1", frame="pca", operator="flux", threshold=.4,
+                                name="n", priority=7, request_id=mesh.suffix, repair="none")
+            said = json.loads(directory.client("--json", "status", job.id))
+            self.assertEqual(said["params"], dict(sampling=dict(target_points=500), directions="random:7:1",
+                                                  repair=False, frame="pca"))
+            self.assertEqual(said["skeleton"], dict(operator="flux", threshold=.4))
+            self.assertEqual((said["name"], said["priority"]), ("n", 7))
+
+
+@unittest.skipIf(vtkmodules is None, "no python3-vtk9")
+class DataSets(unittest.TestCase):
+    def arrays(self, dataset):
+        data = dataset.GetPointData()
+        return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+
+    def test_the_field_stands_at_its_places(self):
+        for job, kind in ((body, "vtkImageData"), (sheared, "vtkStructuredGrid")):
+            field = job.field()
+            dataset = field.to_pyvista()
+            self.assertTrue(dataset.IsA(kind), type(dataset))
+            arrays = self.arrays(dataset)
+            inside = np.flatnonzero(arrays["inside"])
+            self.assertEqual(len(inside), len(field))
+            places = {tuple(np.round(dataset.GetPoint(index), 6)): index for index in inside.tolist()}
+            order = [places[tuple(place)] for place in np.round(field.points, 6).tolist()]
+            for name, values in (("E", field.E), ("slope", field.slope), ("normal", field.normals),
+                                 ("direction", field.direction), ("E_share", field.share)):
+                assert_same(arrays[name][order], values, name)
+            outside = arrays["inside"] == 0
+            self.assertEqual(set(arrays["direction"][outside].tolist()), {-1})
+            self.assertEqual(set(arrays["E"][outside].tolist()), {0.0})
+
+    def test_surfaces_are_those_of_the_vtp_file(self):
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+        directory.client("surface", body.id, "--operator", "chords", "-o", directory / "sheet.vtp")
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(str(directory / "sheet.vtp"))
+        reader.Update()
+        theirs, ours = reader.GetOutput(), body.skeleton("chords").to_pyvista()
+        for get in (lambda data: data.GetPoints().GetData(), lambda data: data.GetPolys().GetConnectivityArray(),
+                    lambda data: data.GetPolys().GetOffsetsArray()):
+            assert_same(vtk_to_numpy(get(ours)), vtk_to_numpy(get(theirs)))
+        self.assertEqual(set(self.arrays(ours)), set(self.arrays(theirs)))
+        for name, values in self.arrays(theirs).items():
+            assert_same(self.arrays(ours)[name], values, name)
+
+    def test_vtk_measures_the_volume_of_an_eroded_solid(self):
+        from vtkmodules.vtkFiltersCore import vtkMassProperties
+        surface = body.eroded(volume=2e9)
+        mass = vtkMassProperties()
+        mass.SetInputData(surface.to_pyvista())
+        self.assertAlmostEqual(mass.GetVolume() / surface.volume, 1, places=6)
+
+    def test_points_have_a_cell_each(self):
+        points = body.skeleton_points()
+        dataset = points.to_pyvista()
+        self.assertEqual(dataset.GetNumberOfVerts(), len(points))
+        assert_same(self.arrays(dataset)["H"], points.H)
+
+    def test_a_surface_comes_back_as_the_mesh_of_a_job(self):
+        surface = body.eroded(fraction=.05)
+        again = client.submit(surface.to_pyvista(), points=300).wait()
+        self.assertAlmostEqual(again.status().volume / surface.volume, 1, places=9)
+
+
+class Tables(unittest.TestCase):
+    def setUp(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("no python3-pandas")
+        self.pandas = pandas
+
+    def test_pandas_takes_every_table(self):
+        field = body.field()
+        frame = self.pandas.DataFrame(field.table())
+        self.assertEqual(frame.shape, (len(field), 9))
+        self.assertEqual(frame["E"].max(), field.E.max())
+        self.assertEqual(self.pandas.DataFrame(body.skeleton("chords").table()).shape[1], 12)
+        jobs = self.pandas.DataFrame(client.jobs())
+        self.assertIn(body.id, set(jobs["id"]))
+        self.assertEqual(self.pandas.DataFrame(body.events())["event"][0], "submitted")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
