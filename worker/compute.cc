@@ -3,25 +3,32 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "available_memory.h"
+#include "base/atomic_file.h"
+#include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "core/base/version.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
+#include "core/files/field_file.h"
+#include "core/files/read/parse_shape.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
-#include "field_file.h"
 #include "wire/direction_order.h"
+#include "wire/sha256.h"
 
 namespace affskel::worker {
 namespace {
@@ -62,12 +69,94 @@ std::vector<std::uint32_t> work_order(std::size_t count, bool shuffle) {
   return list;
 }
 
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+core::FileFormat output_format(const std::string& path) {
+  std::string names;
+  for (const core::FileFormat format : core::field_formats()) {
+    if (extension_of(path) == core::extension_of(format)) return format;
+    names += (names.empty() ? "" : ", ") + std::string(core::extension_of(format));
+  }
+  throw std::invalid_argument(path + ": cannot write the field as '" + extension_of(path) +
+                              "'; possible are " + names);
+}
+
+// The mesh, and the hash of the text that the client would submit.
+struct ReadMesh {
+  core::OffMesh off;
+  std::string sha256;
+};
+
+ReadMesh read_mesh(const std::string& path) {
+  const std::string bytes = read_file(path);
+  core::MeshFile file = core::parse_mesh_file(extension_of(path), bytes);
+  const bool off = file.format == core::FileFormat::kOff;
+  const std::string sha256 = wire::sha256_hex(off ? bytes : core::write_off(file.off.mesh));
+  return {std::move(file.off), sha256};
+}
+
+core::LatticeGrid grid_of(const core::Solid& solid, const core::Lattice& lattice) {
+  const core::SamplePlaces places(solid, lattice);
+  return {places.origin(), places.axes(), lattice.grid.dims};
+}
+
+void check_output(const std::string& path, const core::LatticeGrid& grid) {
+  try {
+    core::check_places(output_format(path), grid);
+  } catch (const core::CoreError& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+}
+
+core::FileFacts facts_of(const ComputeOptions& options, const std::string& sha256, const core::Solid& solid,
+                         const core::Lattice& lattice, std::size_t directions) {
+  const auto number = [](const char* key, double value) {
+    return core::FileFact{key, base::to_text(value), value};
+  };
+  return {{"content", "erosion field of " + std::filesystem::path(options.file).stem().string()},
+          {"job", "none, affskel-worker compute"},
+          {"mesh_sha256", sha256},
+          number("v0", solid.volume),
+          number("spacing", lattice.spacing),
+          number("sample_points", lattice.points),
+          {"directions", options.directions + " (" + std::to_string(directions) + ")"},
+          {"minimum", "over these directions"},
+          {"frame", options.frame},
+          {"core_version", core::kCoreVersion},
+          {"units", core::kFileUnits}};
+}
+
+// In mesh units, in lattice order.
+void write_field(const std::string& path, const core::FileFacts& facts, const core::Solid& solid,
+                 const core::Lattice& lattice, const core::DirectionSet& directions,
+                 const core::ErosionField& field) {
+  base::AtomicFile file(path);
+  core::FieldFile out(output_format(path), file, grid_of(solid, lattice), solid.volume, facts);
+  const double volume_unit = std::ldexp(1.0, 3 * solid.exponent),
+               area_unit = std::ldexp(1.0, 2 * solid.exponent);
+  for (const core::LatticeRun& run : lattice.axis[2].runs) {
+    for (std::uint32_t n = 0; n < run.length; ++n) {
+      const core::FieldValue value = field.value(run.first + n);
+      out.put({run.start[0], run.start[1], run.start[2] + n},
+              {value.erosion * volume_unit, value.area * area_unit, directions[value.direction],
+               value.direction});
+    }
+  }
+  out.finish();
+  file.commit();
+}
+
 }  // namespace
 
 void compute(const ComputeOptions& options) {
-  if (!options.output.empty()) check_field_file(options.output);
+  if (!options.output.empty()) output_format(options.output);
   const core::Stopwatch wall;
-  const core::OffMesh off = core::read_off(read_file(options.file));
+  const ReadMesh read = read_mesh(options.file);
+  const core::OffMesh& off = read.off;
   const core::Solid solid = core::make_solid(off.mesh, {options.repair_mode == "auto", true, options.threads},
                                              off.vertex_line, off.triangle_line);
   for (const core::MeshNote& note : solid.notes) {
@@ -81,6 +170,7 @@ void compute(const ComputeOptions& options) {
   lattice_options.memory_budget = available_memory();
   lattice_options.point_bytes = core::kErosionBytesPerPoint;
   const core::Lattice lattice = core::make_lattice(solid, lattice_options);
+  if (!options.output.empty()) check_output(options.output, grid_of(solid, lattice));
   core::DirectionOptions direction_options;
   direction_options.frame = lattice_options.frame;
   const core::DirectionSet directions = core::make_directions(solid, options.directions, direction_options);
@@ -94,7 +184,8 @@ void compute(const ComputeOptions& options) {
   const core::ErosionCost cost = erosion.cost();
   const double wall_s = wall.seconds();
   if (!options.output.empty()) {
-    write_field_file(options.output, solid, lattice, directions, erosion.field());
+    write_field(options.output, facts_of(options, read.sha256, solid, lattice, directions.size()), solid,
+                lattice, directions, erosion.field());
   }
   std::fprintf(
       stderr,

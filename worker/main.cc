@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
@@ -67,6 +68,9 @@ int run_compute(const affskel::worker::ComputeOptions& options) {
   } catch (const std::system_error& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return exit_code(error.code());
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "affskel-worker: %s\n", error.what());
+    return kUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return kBadInput;
@@ -106,7 +110,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       "Examples:\n"
       "  affskel-worker --server unix:/run/affskel/server.sock --threads 4\n"
       "  affskel-worker --server lab.example.org:7060 --tls-ca ca.pem --token-file worker.token\n"
-      "  affskel-worker compute body.off --spacing 200 -o body.csv");
+      "  affskel-worker compute body.off --spacing 200 -o body.vti");
   app.add_option("--server", flags.loop.server, "server to work for: unix:PATH or HOST:PORT");
   app.add_option("--threads", flags.loop.threads, "computing threads")
       ->check(CLI::Range(1U, 1024U))
@@ -143,7 +147,10 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.add_option("--client-key", flags.loop.access.tls_key, "its key, PEM; else $AFFSKEL_CLIENT_KEY")
       ->envname("AFFSKEL_CLIENT_KEY");
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
-  compute->add_option("FILE", flags.compute.file, "mesh (OFF)")->required();
+  compute
+      ->add_option("FILE", flags.compute.file,
+                   "closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp")
+      ->required();
   compute->add_option("--spacing", flags.compute.spacing, "lattice spacing in mesh units")
       ->check([](const std::string& text) {
         double value = 0;
@@ -171,7 +178,8 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   compute->add_flag("!--no-prune", flags.compute.prune,
                     "evaluate every point for every direction (a yardstick)");
   compute->add_flag("--shuffle", flags.compute.shuffle, "work in a random order (the field must not change)");
-  compute->add_option("-o,--output", flags.compute.output, "write the field: .csv or .dat");
+  compute->add_option("-o,--output", flags.compute.output,
+                      "write the field: .csv .dat .vti .vts .vtkhdf .hdf");
   return compute;
 }
 

@@ -1,17 +1,16 @@
 #include "client/artifacts/divergence_writer.h"
 
-#include <limits>
-
 #include "base/coding.h"
 
 namespace affskel::client {
 
-DivergenceWriter::DivergenceWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points)
-    : table_(format, file, points, {{"H", {"H"}, false, std::numeric_limits<double>::quiet_NaN()}}),
+DivergenceWriter::DivergenceWriter(core::FileFormat format, base::AtomicFile& file,
+                                   const LatticePoints& points, const core::FileFacts& facts)
+    : table_(format, file, points.grid(), {{"H", {"H"}}}, facts),
       values_(points, sizeof(double), "divergence", "values",
               [this](const SamplePoint& at, const char* bytes) {
                 const double divergence = base::decode<double>(bytes);
-                table_.put(at, {&divergence, 1});
+                table_.put({at.i, at.j, at.k}, {&divergence, 1});
               }) {}
 
 void DivergenceWriter::finish() {

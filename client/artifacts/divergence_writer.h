@@ -3,16 +3,17 @@
 #include <string_view>
 
 #include "client/artifacts/record_decoder.h"
-#include "client/files/write/lattice_table.h"
+#include "core/files/lattice_table.h"
 
 namespace affskel::client {
 
-/// Writes a DIVERGENCE artefact as its bytes arrive, in pieces of any size, in one of divergence_formats():
-/// the LatticeTable with the column `H` (NaN outside).
+/// Writes a DIVERGENCE artefact as its bytes arrive, in pieces of any size, in one of divergence_formats(): a
+/// core::LatticeTable with the column `H` (0 outside).
 class DivergenceWriter {
  public:
-  /// `file` and `points` must outlive it.
-  DivergenceWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points);
+  /// `file` and `points` must outlive it.  @throws as core::LatticeTable, also from the others.
+  DivergenceWriter(core::FileFormat format, base::AtomicFile& file, const LatticePoints& points,
+                   const core::FileFacts& facts);
 
   void data(std::string_view bytes) { values_.data(bytes); }
   /// Checks that every point got its value.  The file is left uncommitted.
@@ -20,7 +21,7 @@ class DivergenceWriter {
   void finish();
 
  private:
-  LatticeTable table_;
+  core::LatticeTable table_;
   RecordDecoder values_;
 };
 

@@ -16,7 +16,7 @@ FieldDecoder::FieldDecoder(const LatticePoints& points, const v1::Directions& di
 
 void FieldDecoder::record(const SamplePoint& at, const char* bytes) {
   const wire::FieldRecord record = wire::decode_field_record(bytes);
-  FieldPoint point{at, record.erosion, {}, record.direction};
+  FieldPoint point{at, record.erosion, record.area, {}, record.direction};
   const std::uint64_t first = 3 * std::uint64_t{point.direction};
   if (first + 3 > static_cast<std::uint64_t>(directions_.xyz_size())) {
     throw ClientError(ExitCode::kInternal, "the field names direction " + std::to_string(point.direction) +

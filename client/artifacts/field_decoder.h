@@ -13,6 +13,7 @@ namespace affskel::client {
 /// One sample point of a finished field.
 struct FieldPoint : SamplePoint {
   double erosion = 0;           ///< E, mesh units cubed
+  double area = 0;              ///< of the section, mesh units squared
   core::Vec3 normal;            ///< the optimal direction, unit
   std::uint32_t direction = 0;  ///< its index
 };

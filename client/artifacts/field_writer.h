@@ -1,23 +1,26 @@
 #pragma once
 
 #include "client/artifacts/field_decoder.h"
-#include "client/files/write/lattice_table.h"
+#include "core/files/field_file.h"
 
 namespace affskel::client {
 
-/// Writes a field in one of field_formats(), as the LatticeTable with the columns `E` (NaN outside), `normal`
-/// (0 outside; nx, ny, nz in text) and `direction` (-1 outside).  Equal fields give equal bytes.
+/// Writes a field as its points arrive.
 class FieldWriter : public FieldReceiver {
  public:
-  /// `file` and `points` must outlive it.
-  FieldWriter(FileFormat format, base::AtomicFile& file, const LatticePoints& points);
+  /// @param volume v0, mesh units cubed.  @param file must outlive it.  @throws as core::FieldFile.
+  FieldWriter(core::FileFormat format, base::AtomicFile& file, const LatticePoints& points, double volume,
+              const core::FileFacts& facts)
+      : field_(format, file, points.grid(), volume, facts) {}
 
-  void put(const FieldPoint& point) override;
+  void put(const FieldPoint& point) override {
+    field_.put({point.i, point.j, point.k}, {point.erosion, point.area, point.normal, point.direction});
+  }
   /// The file is left uncommitted.
-  void finish() override { table_.finish(); }
+  void finish() override { field_.finish(); }
 
  private:
-  LatticeTable table_;
+  core::FieldFile field_;
 };
 
 }  // namespace affskel::client

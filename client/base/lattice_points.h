@@ -6,6 +6,7 @@
 
 #include "affskel/v1/types.pb.h"
 #include "core/base/vec3.h"
+#include "core/lattice/lattice.h"
 
 namespace affskel::client {
 
@@ -23,6 +24,8 @@ class LatticePoints {
   std::uint64_t count() const { return count_; }
   const std::array<std::uint32_t, 3>& dims() const { return dims_; }
   const core::Vec3& origin() const { return origin_; }
+  /// Where its places are, mesh units.
+  core::LatticeGrid grid() const { return {origin_, axes_, dims_}; }
   const core::Vec3& axis(int k) const { return axes_[static_cast<std::size_t>(k)]; }
   const std::vector<Run>& runs() const { return runs_; }
 

@@ -1,36 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "core/mesh/mesh.h"
-#include "core/text/off_file.h"
+#include "core/files/shape_file.h"
 
 namespace affskel::client {
 
-/// One number per point beside its coordinates: E, H, part of a normal, ...
-struct PointColumn {
-  std::string name;
-  bool whole = false;  ///< meant for whole numbers, such as an index
-  std::vector<double> values;
-};
-
-/// A file of points or of triangles: a skeleton, a field, a mesh, a surface.
-struct ShapeFile {
-  std::string path;
-  core::OffMesh off;  ///< triangles empty: points alone; the lines only where the format has them
-  std::vector<PointColumn> columns;  ///< one value per point each
-  std::vector<std::uint32_t> quads;  ///< while it is read: first triangles of the faces with four corners
-
-  const core::Mesh& mesh() const { return off.mesh; }
-  bool is_surface() const { return !off.mesh.triangles.empty(); }
-  /// The column of this name, nullptr when there is none.
-  const PointColumn* column(std::string_view name) const;
-};
-
-/// A shape of a mesh alone, without a file.
-ShapeFile shape_of(core::Mesh mesh);
+// The shapes of files, which client and worker share.
+using core::PointColumn;
+using core::shape_of;
+using core::ShapeFile;
 
 }  // namespace affskel::client

@@ -27,9 +27,6 @@ void check_options(const CLI::App& fetch) {
   if (fetch.count("--operator") > 0 && artifact != "divergence") {
     throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
   }
-  if (fetch.count("--format") > 0 && artifact == "mesh") {
-    throw CLI::ValidationError("--format", "the mesh is the submitted bytes; see transform --help");
-  }
 }
 
 }  // namespace
@@ -38,15 +35,16 @@ void add_fetch(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = line.add(
       "fetch", "Write one artefact of a job",
-      "  affskel-client fetch @last field -o body.vtkhdf\n"
+      "  affskel-client fetch @last field -o body.vti\n"
       "  affskel-client fetch @last skeleton -o body.csv\n"
       "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
       "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
       "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
-      "Formats by extension: field and divergence .csv .dat .vtkhdf;\n"
-      "skeleton and eroded points .csv .ply .off .xyz .vtp; surface and eroded surface\n"
-      ".off .ply .obj .stl .vtp; mesh: the submitted bytes. Of an eroded solid this\n"
-      "is the one at a tenth of the volume; see erode",
+      "Formats by extension: field and divergence .csv .dat .vti .vts .vtkhdf .hdf;\n"
+      "skeleton and eroded points .csv .ply .off .xyz .vtp; mesh, surface and eroded\n"
+      "surface .off .ply .obj .stl .vtp, where the mesh as .off is the submitted bytes.\n"
+      ".vti and .vts open in every ParaView, .vts also where the lattice is turned.\n"
+      "Of an eroded solid this is the one at a tenth of the volume; see erode",
       [options](Context& context) { run(context, *options); }, check_options);
   add_job(command, options->choice.job);
   command->add_option("ARTEFACT", options->choice.name, "What to fetch")

@@ -37,11 +37,12 @@ void prepare_output_dir(const std::string& directory) {
 std::vector<Written> fetch_results(Context& context, const v1::Job& job, const SubmitOptions& options) {
   const fs::path stem = fs::path(options.output_dir) / fs::path(options.file).stem();
   std::vector<Written> written;
-  written.push_back(transfer_field(context, job.id(), {stem.string() + ".field.vtkhdf"}));
+  const std::string field = stem.string() + ".field" + std::string(extension_of(open_field_format(job)));
+  written.push_back(transfer_field(context, job.id(), {field}));
   tell_written(context.console(), written.back());
   written.push_back(transfer_skeleton(context, job.id(), nullptr, {stem.string() + ".skeleton.ply"}));
   tell_written(context.console(), written.back());
-  written.push_back(transfer_surface(context, job.id(), nullptr, {stem.string() + ".surface.off"}));
+  written.push_back(transfer_surface(context, job.id(), nullptr, {stem.string() + ".surface.ply"}));
   tell_written(context.console(), written.back());
   return written;
 }
@@ -85,7 +86,8 @@ void add_following_options(CLI::App* command, SubmitOptions& o) {
   command->add_flag("-w,--wait", o.wait, "Follow the job to its end");
   command
       ->add_option("-o,--output-dir", o.output_dir,
-                   "Wait, then write STEM.field.vtkhdf, STEM.skeleton.ply and STEM.surface.off here")
+                   "Wait, then write STEM.field.vti (.vts where the lattice is turned),\nSTEM.skeleton.ply "
+                   "and STEM.surface.ply here")
       ->type_name("DIR");
 }
 

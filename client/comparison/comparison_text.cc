@@ -5,8 +5,8 @@
 
 #include "base/number_text.h"
 #include "client/comparison/comparison.h"
-#include "client/files/numbers.h"
 #include "client/text/key_line.h"
+#include "core/files/numbers.h"
 
 namespace affskel::client {
 namespace {
@@ -15,7 +15,7 @@ using nlohmann::ordered_json;
 
 // In per cent, without the sign.
 std::string column_share(double share) {
-  return with_decimals(100 * share, 2);
+  return core::with_decimals(100 * share, 2);
 }
 
 double shown_radius(const Comparison& c, double radius) {
@@ -123,12 +123,12 @@ std::string comparison_csv(const Comparison& c) {
   for (const Column& column : columns) text += std::string(",") + column.name;
   text += "\n";
   for (const double radius : c.radii) {
-    append_exact(text, radius);
+    core::append_exact(text, radius);
     text.push_back(',');
-    append_exact(text, radius * radius);
+    core::append_exact(text, radius * radius);
     for (const Column& column : columns) {
       text.push_back(',');
-      append_exact(text, column.curve->share_within(radius));
+      core::append_exact(text, column.curve->share_within(radius));
     }
     text.push_back('\n');
   }

@@ -9,12 +9,6 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
-constexpr std::array kDivergence = {FileFormat::kCsv, FileFormat::kDat, FileFormat::kVtkHdf};
-constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz,
-                                  FileFormat::kVtp};
-constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
-                                 FileFormat::kVtp};
 constexpr std::array kPicture = {FileFormat::kPng};
 constexpr std::array kPage = {FileFormat::kHtml};
 
@@ -26,17 +20,8 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-std::span<const FileFormat> field_formats() {
-  return kField;
-}
 std::span<const FileFormat> divergence_formats() {
-  return kDivergence;
-}
-std::span<const FileFormat> skeleton_formats() {
-  return kSkeleton;
-}
-std::span<const FileFormat> surface_formats() {
-  return kSurface;
+  return field_formats();
 }
 
 std::span<const FileFormat> picture_formats() {
@@ -45,12 +30,6 @@ std::span<const FileFormat> picture_formats() {
 
 std::span<const FileFormat> page_formats() {
   return kPage;
-}
-
-std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 12> kNames = {".csv", ".dat", ".vtkhdf", ".ply", ".off", ".xyz",
-                                                       ".obj", ".stl", ".vtp",    ".png", ".svg", ".html"};
-  return kNames[static_cast<std::size_t>(format)];
 }
 
 std::string lower_extension(const std::filesystem::path& file) {

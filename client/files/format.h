@@ -5,20 +5,20 @@
 #include <string>
 #include <string_view>
 
+#include "core/files/file_format.h"
+
 namespace affskel::client {
 
-enum class FileFormat { kCsv, kDat, kVtkHdf, kPly, kOff, kXyz, kObj, kStl, kVtp, kPng, kSvg, kHtml };
+using core::extension_of;
+using core::field_formats;
+using core::FileFormat;
+using core::skeleton_formats;
+using core::surface_formats;
 
-/// What can be written as which formats.
-std::span<const FileFormat> field_formats();       // csv dat vtkhdf
-std::span<const FileFormat> divergence_formats();  // csv dat vtkhdf
-std::span<const FileFormat> skeleton_formats();    // csv ply off xyz vtp
-std::span<const FileFormat> surface_formats();     // off ply obj stl vtp
+/// More of what can be written as which formats.
+std::span<const FileFormat> divergence_formats();  // as fields
 std::span<const FileFormat> picture_formats();     // png
 std::span<const FileFormat> page_formats();        // html
-
-/// With the dot, e.g. ".csv".
-std::string_view extension_of(FileFormat format);
 
 /// The file's extension with the dot, in lower case; empty without one.
 std::string lower_extension(const std::filesystem::path& file);

@@ -49,24 +49,4 @@ std::string encode_png(const Image& image) {
   return bytes;
 }
 
-Rgb viridis(float t) {
-  // Samples of van der Walt and Smith's map at equal distances.
-  static constexpr std::array<std::array<int, 3>, 10> kTable = {{{68, 1, 84},
-                                                                 {72, 40, 120},
-                                                                 {62, 74, 137},
-                                                                 {49, 104, 142},
-                                                                 {38, 130, 142},
-                                                                 {31, 158, 137},
-                                                                 {53, 183, 121},
-                                                                 {110, 206, 88},
-                                                                 {181, 222, 43},
-                                                                 {253, 231, 37}}};
-  const float place = std::clamp(t, 0.0f, 1.0f) * float(kTable.size() - 1);
-  const auto low = std::min(static_cast<std::size_t>(place), kTable.size() - 2);
-  const auto colour = [](const std::array<int, 3>& c) {
-    return Rgb{float(c[0]) / 255, float(c[1]) / 255, float(c[2]) / 255};
-  };
-  return mix(colour(kTable[low]), colour(kTable[low + 1]), place - float(low));
-}
-
 }  // namespace affskel::client

@@ -5,24 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "client/base/colour.h"
+
 namespace affskel::client {
-
-/// Colour with components in 0 .. 1, as displayed (sRGB values, blended as they are).
-struct Rgb {
-  float r = 0, g = 0, b = 0;
-  friend bool operator==(const Rgb&, const Rgb&) = default;
-};
-
-inline Rgb operator+(Rgb a, Rgb b) {
-  return {a.r + b.r, a.g + b.g, a.b + b.b};
-}
-inline Rgb operator*(float s, Rgb a) {
-  return {s * a.r, s * a.g, s * a.b};
-}
-/// a for t = 0, b for t = 1.
-inline Rgb mix(Rgb a, Rgb b, float t) {
-  return (1 - t) * a + t * b;
-}
 
 inline constexpr Rgb kWhite{1, 1, 1};
 
@@ -47,8 +32,5 @@ class Image {
 /// The picture as the bytes of an 8-bit RGB PNG file.
 /// @throws ClientError kInternal when libpng fails.
 std::string encode_png(const Image& image);
-
-/// Perceptually uniform colours from dark violet (0) over green to yellow (1); t is clamped.
-Rgb viridis(float t);
 
 }  // namespace affskel::client

@@ -65,19 +65,12 @@ Layout lay_out(const Box& box, int width) {
   return layout;
 }
 
-// E varies over orders of magnitude, like a volume: its cube root is like a length.
-struct ErosionScale {
+// The E of the last colour.
+double highest_of(const RenderInput& input) {
   double highest = 0;
-  float colour_position(double erosion) const {
-    return highest > 0 ? static_cast<float>(std::cbrt(std::max(0.0, erosion) / highest)) : 0.0f;
-  }
-};
-
-ErosionScale scale_of(const RenderInput& input) {
-  ErosionScale scale;
-  for (const double e : input.skeleton.erosion()) scale.highest = std::max(scale.highest, e);
-  for (const double e : input.sheet.erosion()) scale.highest = std::max(scale.highest, e);
-  return scale;
+  for (const double e : input.skeleton.erosion()) highest = std::max(highest, e);
+  for (const double e : input.sheet.erosion()) highest = std::max(highest, e);
+  return highest;
 }
 
 void paste(Image& image, const Image& part, int left, int top) {
@@ -88,7 +81,7 @@ void paste(Image& image, const Image& part, int left, int top) {
   }
 }
 
-void draw_points(const RenderInput& input, const Layout& layout, const ErosionScale& scale, Panel& panel) {
+void draw_points(const RenderInput& input, const Layout& layout, double highest, Panel& panel) {
   // A ball in a cubic cell, and its affine image in any other: neighbours are as near to each other along
   // every axis of the lattice.  Frames keep volumes, so that it is as large as in the mesh's own.
   const double smallest = std::max(1.0, layout.text / 9);
@@ -99,18 +92,18 @@ void draw_points(const RenderInput& input, const Layout& layout, const ErosionSc
   for (Vec3& axis : half_axes) axis = share * axis;
   for (int p = 0; p < input.skeleton.point_size(); ++p) {
     const Vec3 at{input.skeleton.xyz(3 * p), input.skeleton.xyz(3 * p + 1), input.skeleton.xyz(3 * p + 2)};
-    const Ball ball{at, viridis(scale.colour_position(input.skeleton.erosion(p)))};
+    const Ball ball{at, viridis(colour_position(input.skeleton.erosion(p), highest))};
     panel.draw_ball(ball, smallest);
     panel.draw_ellipsoid(ball, half_axes);
   }
 }
 
-void draw_sheet(const v1::TriangleMesh& sheet, const ErosionScale& scale, Panel& panel) {
+void draw_sheet(const v1::TriangleMesh& sheet, double highest, Panel& panel) {
   core::Mesh mesh;
   std::vector<Rgb> colours;
   for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
     mesh.points.push_back({sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)});
-    colours.push_back(viridis(scale.colour_position(sheet.erosion(v))));
+    colours.push_back(viridis(colour_position(sheet.erosion(v), highest)));
   }
   for (int t = 0; t < sheet.corners_size() / 3; ++t) {
     mesh.triangles.push_back({sheet.corners(3 * t), sheet.corners(3 * t + 1), sheet.corners(3 * t + 2)});
@@ -121,9 +114,9 @@ void draw_sheet(const v1::TriangleMesh& sheet, const ErosionScale& scale, Panel&
 Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, const Layout& layout,
                  const Box& box, std::size_t which) {
   Panel panel(layout.panel_width[which], layout.panel_height, kViews[which].view, box.centre(), layout.scale);
-  const ErosionScale scale = scale_of(input);
-  draw_points(input, layout, scale, panel);
-  draw_sheet(input.sheet, scale, panel);
+  const double highest = highest_of(input);
+  draw_points(input, layout, highest, panel);
+  draw_sheet(input.sheet, highest, panel);
   panel.draw_surface(input.mesh, normals);
   return panel.resolve();
 }
@@ -151,8 +144,8 @@ void draw_scale_bar(Image& image, const Layout& layout) {
 }
 
 void draw_colour_bar(Image& image, const Layout& layout, const RenderInput& input) {
-  const ErosionScale scale = scale_of(input);
-  if (scale.highest <= 0) return;
+  const double highest = highest_of(input);
+  if (highest <= 0) return;
   const int width = image.width() * 2 / 5, left = image.width() - layout.margin - width;
   const int top = image.height() - static_cast<int>(3.6 * layout.text),
             height = static_cast<int>(1.1 * layout.text);
@@ -165,7 +158,7 @@ void draw_colour_bar(Image& image, const Layout& layout, const RenderInput& inpu
   draw_text(image, {double(left), top - 0.8 * layout.text}, title, layout.text, kInk);
   for (int tick = 0; tick <= 4; ++tick) {
     const double t = tick / 4.0;
-    const std::string label = tick == 0 ? "0" : base::rounded(t * t * t * scale.highest / unit, 2);
+    const std::string label = tick == 0 ? "0" : base::rounded(t * t * t * highest / unit, 2);
     const double text = text_width(label, 0.9 * layout.text);
     const double x = left + t * (width - 1);
     const double start = std::clamp(x - text / 2, double(left), left + width - text);

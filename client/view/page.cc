@@ -9,11 +9,11 @@
 
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
-#include "client/files/base64.h"
 #include "client/text/markup_text.h"
 #include "client/text/words.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
+#include "core/files/base64.h"
 #include "wire/sha256.h"
 #include "wire/version.h"
 
@@ -209,7 +209,7 @@ std::string policy_hash(std::string_view text) {
   std::string bytes;
   for (std::size_t i = 0; i < digits.size(); i += 2)
     bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
-  return "'sha256-" + base64(bytes) + "'";
+  return "'sha256-" + core::base64(bytes) + "'";
 }
 
 }  // namespace
@@ -238,7 +238,7 @@ std::string view_page(const ViewInput& input) {
   if (input.sheet_is_skeleton) add_sheet(arrays, input, scale);
   facts["arrays"] = arrays.directory();
   const std::string name = markup_text(input.job.name()), data = json_for_html(facts),
-                    block = base64(arrays.bytes());
+                    block = core::base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
                                 {"version", wire::kVersion},
                                 {"overlay", page_overlay_style()},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "wire/artifact_kinds.h"
+#include "wire/params.h"
 
 namespace affskel::server {
 namespace {

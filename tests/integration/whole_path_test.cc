@@ -44,7 +44,7 @@ TEST_F(EmbeddedTest, MeshInSkeletonOut) {
   ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
   EXPECT_EQ(lines(submitted.out), 1U);
   const std::string id = first_line(submitted.out);
-  for (const char* name : {"body.field.vtkhdf", "body.skeleton.ply", "body.surface.off"}) {
+  for (const char* name : {"body.field.vti", "body.skeleton.ply", "body.surface.ply"}) {
     EXPECT_TRUE(std::filesystem::exists(lab_.path("out") + "/" + name)) << name;
   }
 

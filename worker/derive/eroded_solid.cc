@@ -47,6 +47,7 @@ v1::TriangleMesh eroded_surface(const FinishedField& field, const v1::ErodedPara
   v1::TriangleMesh message;
   for (const core::Vec3& p : surface.mesh.points) append(p, message.mutable_xyz());
   append_corners(surface.mesh, message);
+  append_values(surface.values, message);
   message.set_volume(surface.volume);
   if (surface.mesh.triangles.empty()) message.mutable_quality()->set_advice(advice_for(field, options.level));
   return message;

@@ -18,6 +18,13 @@ void append_point(const FinishedField& field, std::uint32_t point, const core::L
   message.add_direction(value.direction);
 }
 
+void append_values(const std::vector<core::PlaceValue>& values, v1::TriangleMesh& message) {
+  for (const core::PlaceValue& value : values) {
+    message.add_erosion(value.erosion);
+    message.add_area(value.area);
+  }
+}
+
 void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message) {
   message.mutable_corners()->Reserve(static_cast<int>(3 * mesh.triangles.size()));
   for (const core::Triangle& t : mesh.triangles) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "affskel/v1/types.pb.h"
+#include "core/erosion/field_between.h"
 #include "core/mesh/mesh.h"
 #include "core/quality/skeleton_quality.h"
 #include "derive/finished_field.h"
@@ -13,6 +16,9 @@ void append(const core::Vec3& v, google::protobuf::RepeatedField<double>* list);
 /// Appends a sample point with E, optimal normal and direction.
 void append_point(const FinishedField& field, std::uint32_t point, const core::LatticePlace& place,
                   v1::SkeletonPoints& message);
+
+/// Appends E and area per vertex.
+void append_values(const std::vector<core::PlaceValue>& values, v1::TriangleMesh& message);
 
 void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message);
 

@@ -4,6 +4,7 @@
 
 #include "base/coding.h"
 #include "core/base/error.h"
+#include "core/erosion/field_between.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "core/shocks/skeleton.h"
@@ -73,10 +74,14 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
   core::AlphaShapeOptions options;
   options.alpha = params.alpha();
   options.spacing = field.lattice().spacing;
-  const core::Mesh surface = core::alpha_shape(points, options);
+  core::Mesh surface = core::alpha_shape(points, options);
   v1::TriangleMesh message;
-  for (const core::Vec3& p : surface.points) append(field.to_mesh(p), message.mutable_xyz());
+  for (core::Vec3& p : surface.points) {
+    append(field.to_mesh(p), message.mutable_xyz());
+    p = (1 / options.spacing) * p;
+  }
   append_corners(surface, message);
+  append_values(core::field_between(field.lattice(), field.in_frame(), surface.points), message);
   return message;
 }
 

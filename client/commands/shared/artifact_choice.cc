@@ -9,17 +9,6 @@
 namespace affskel::client {
 namespace {
 
-// The mesh is written as it was submitted, OFF text, even where the file's name promises another format.
-void warn_of_foreign_extension(Context& context, const Destination& destination) {
-  const std::string extension = destination.extension();
-  for (const FileFormat format : surface_formats()) {
-    if (format == FileFormat::kOff || extension != extension_of(format)) continue;
-    context.console().warning(destination.name() +
-                              ": the mesh is written as it was submitted, as OFF text, not as '" + extension +
-                              "'; affskel-client transform --scale 1 writes it in other formats");
-  }
-}
-
 Written fetch_divergence(Context& context, const ArtifactChoice& choice, const Destination& destination) {
   const ChosenSkeleton chosen = choose_skeleton(context, choice.job, choice.skeleton);
   return transfer_divergence(context, chosen.job, chosen.get(), destination);
@@ -46,17 +35,11 @@ Written fetch_eroded(Context& context, const ArtifactChoice& choice, const Desti
 }
 
 Written fetch_submitted_mesh(Context& context, const ArtifactChoice& choice, const Destination& destination) {
-  warn_of_foreign_extension(context, destination);
   return transfer_mesh(context, choice.job, destination);
 }
 
 Written fetch_field(Context& context, const ArtifactChoice& choice, const Destination& destination) {
   return transfer_field(context, choice.job, destination);
-}
-
-std::span<const FileFormat> off_alone() {
-  static constexpr std::array kFormats = {FileFormat::kOff};
-  return kFormats;
 }
 
 std::span<const FileFormat> no_other() {
@@ -77,7 +60,7 @@ constexpr std::array<Artifact, 6> kArtifacts = {{
     {"skeleton", skeleton_formats, no_other, fetch_skeleton},
     {"surface", surface_formats, no_other, fetch_surface},
     {"eroded", surface_formats, skeleton_formats, fetch_eroded},
-    {"mesh", off_alone, no_other, fetch_submitted_mesh},
+    {"mesh", surface_formats, no_other, fetch_submitted_mesh},
 }};
 
 const Artifact& artifact_named(const std::string& name) {

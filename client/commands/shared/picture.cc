@@ -6,6 +6,7 @@
 #include "client/commands/shared/follow.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {

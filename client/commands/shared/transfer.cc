@@ -10,9 +10,12 @@
 #include "client/artifacts/surface.h"
 #include "client/commands/shared/fetch_artifact.h"
 #include "client/commands/shared/follow.h"
+#include "client/files/read/input_file.h"
 #include "client/files/write/shape_writer.h"
+#include "client/text/job_facts.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "wire/params.h"
 
 namespace affskel::client {
@@ -24,8 +27,10 @@ namespace fs = std::filesystem;
 class FieldSink : public ArtifactSink {
  public:
   FieldSink(FileFormat format, const fs::path& file, const LatticePoints& points,
-            const v1::Directions& directions)
-      : file_(file), writer_(format, file_, points), decoder_(points, directions, writer_) {}
+            const v1::Directions& directions, const v1::Job& job)
+      : file_(file),
+        writer_(format, file_, points, job.prepared().volume(), job_facts(job, "erosion field")),
+        decoder_(points, directions, writer_) {}
   void begin(const v1::ArtifactHeader&) override {}
   void data(std::string_view bytes) override { decoder_.data(bytes); }
   void end() override {
@@ -52,8 +57,9 @@ class RawSink : public ArtifactSink {
 
 class DivergenceSink : public ArtifactSink {
  public:
-  DivergenceSink(FileFormat format, const fs::path& file, const LatticePoints& points)
-      : file_(file), writer_(format, file_, points) {}
+  DivergenceSink(FileFormat format, const fs::path& file, const LatticePoints& points,
+                 const core::FileFacts& facts)
+      : file_(file), writer_(format, file_, points, facts) {}
   void begin(const v1::ArtifactHeader&) override {}
   void data(std::string_view bytes) override { writer_.data(bytes); }
   void end() override {
@@ -66,24 +72,33 @@ class DivergenceSink : public ArtifactSink {
   DivergenceWriter writer_;
 };
 
-// What a file should say about where it comes from.
-std::vector<std::string> comments_for(const v1::Job& job, const std::string& what, const std::string& how,
-                                      const v1::SkeletonQuality* quality = nullptr) {
-  std::vector<std::string> comments = {
-      what + " of " + job.name(),
-      "job " + job.id(),
-      "mesh sha256 " + job.mesh_sha256(),
-      "spacing " + base::to_text(job.prepared().spacing()) + ", " +
-          base::counted(job.prepared().points(), "sample point") + ", v0 " +
-          base::to_text(job.prepared().volume()),
-      "directions " + (job.params().directions().empty() ? "triangles" : job.params().directions()) + " (" +
-          std::to_string(job.prepared().directions()) + "), frame " + frame_word(job.params().frame()),
-      how};
+// What a file says of itself.  @param key, how the parameters that made the artefact.
+std::vector<std::string> comments_for(const v1::Job& job, const std::string& what, const std::string& key,
+                                      const std::string& how, const v1::SkeletonQuality* quality = nullptr) {
+  core::FileFacts facts = job_facts(job, what);
+  facts.push_back({key, how});
+  std::vector<std::string> comments = comment_lines(facts);
   if (quality != nullptr) {
-    for (const auto& [key, value] : quality_lines(*quality))
-      comments.push_back("quality " + key + ": " + value);
+    for (const auto& [name, value] : quality_lines(*quality))
+      comments.push_back("quality " + name + ": " + value);
   }
   return comments;
+}
+
+// Refuses what cannot place a turned lattice, and says what most programs make of the others.
+void check_grid(Context& context, FileFormat format, const LatticePoints& points,
+                const Destination& destination) {
+  try {
+    core::check_places(format, points.grid());
+  } catch (const core::CoreError& error) {
+    throw ClientError(ExitCode::kUsage, error.what(), destination.name());
+  }
+  const bool by_matrix = format == FileFormat::kVtkHdf || format == FileFormat::kHdf;
+  if (!by_matrix || core::is_upright(points.grid())) return;
+  context.console().warning(
+      destination.name() +
+      ": the lattice is turned or sheared, and this format says so by the matrix Direction, which "
+      "ParaView 5.11 and VTK 9.1 pass over; .vts holds the points themselves");
 }
 
 // v0 times the share of the sample points, so that all points give v0.  Cells of the lattice would give
@@ -93,7 +108,29 @@ double volume_of_points(const v1::Job& job, int points) {
   return job.prepared().volume() * (points / all);
 }
 
+// The mesh in another format than the one in which it was submitted.
+Written convert_mesh(Context& context, const std::string& job, FileFormat format,
+                     const Destination& destination) {
+  base::AtomicFile out(destination.file);
+  v1::ArtifactHeader header;
+  const std::string bytes = context.session().fetch_bytes(request_for(job, v1::ARTIFACT_KIND_MESH), &header);
+  ShapeFile shape;
+  shape.off = parse_mesh(bytes, "mesh of job " + header.job().id());
+  const std::vector<std::string> comments = comment_lines(job_facts(header.job(), "mesh"));
+  write_into(out, [&](const WriteBytes& write) { write_surface(format, shape, comments, write); });
+  out.commit();
+  return {destination, "mesh", "triangle", shape.mesh().triangles.size(), header.job()};
+}
+
 }  // namespace
+
+FileFormat open_field_format(const v1::Job& job) {
+  const auto& frame = job.prepared().frame();
+  for (int i = 0; i < frame.size(); ++i) {
+    if (frame[i] != (i % 4 == 0 ? 1 : 0)) return FileFormat::kVts;
+  }
+  return FileFormat::kVti;
+}
 
 Written transfer_field(Context& context, const std::string& job, const Destination& destination) {
   const FileFormat format = choose_format(destination, field_formats(), "field");
@@ -106,11 +143,12 @@ Written transfer_field(Context& context, const std::string& job, const Destinati
   }
   const LatticePoints points(
       fetch_message<v1::Lattice>(context, now.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  check_grid(context, format, points, destination);
   const auto directions =
       fetch_message<v1::Directions>(context, now.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
   const v1::ArtifactHeader header = context.session().fetch(
       request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<FieldSink>(format, destination.file, points, directions);
+        return std::make_unique<FieldSink>(format, destination.file, points, directions, now);
       });
   return {destination, "field", "point", points.count(), header.job()};
 }
@@ -126,7 +164,7 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
   const v1::SkeletonParams& params = skeleton ? *skeleton : header.job().skeleton();
   const v1::SkeletonQuality* quality = points.has_quality() ? &points.quality() : nullptr;
   const auto comments =
-      comments_for(header.job(), "affine skeleton", "operator " + skeleton_params_text(params), quality);
+      comments_for(header.job(), "affine skeleton", "operator", skeleton_params_text(params), quality);
   write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
   out.commit();
   Written written{destination, "skeleton", "point", static_cast<std::uint64_t>(points.point_size()),
@@ -146,9 +184,8 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const bool own = surface == nullptr || !surface->has_skeleton();
   const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
   const bool sheet = wire::gives_sheet(params.operator_());
-  const auto comments =
-      comments_for(header.job(), "affine skeleton, triangulated", "operator " + skeleton_params_text(params),
-                   sheet ? &fetched.quality : nullptr);
+  const auto comments = comments_for(header.job(), "affine skeleton, triangulated", "operator",
+                                     skeleton_params_text(params), sheet ? &fetched.quality : nullptr);
   write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
   Written written{destination, "surface", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
@@ -161,13 +198,17 @@ Written transfer_divergence(Context& context, const std::string& job, const v1::
   const FileFormat format = choose_format(destination, divergence_formats(), "divergence");
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_DIVERGENCE);
   if (skeleton != nullptr) *request.mutable_skeleton() = *skeleton;
-  request.set_job(context.session().get_job(job).id());
+  const v1::Job now = context.session().get_job(job);
+  request.set_job(now.id());
   const LatticePoints points(
       fetch_message<v1::Lattice>(context, request.job(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  check_grid(context, format, points, destination);
+  core::FileFacts facts = job_facts(now, "divergence of the optimal normals");
+  facts.push_back({"operator", operator_word((skeleton ? *skeleton : now.skeleton()).operator_())});
   const v1::ArtifactHeader header = fetch_patiently(
       context, request,
       [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<DivergenceSink>(format, destination.file, points);
+        return std::make_unique<DivergenceSink>(format, destination.file, points, facts);
       },
       "divergence");
   return {destination, "divergence", "point", points.count(), header.job()};
@@ -184,8 +225,8 @@ Written transfer_eroded_points(Context& context, const std::string& job, const v
       parse_eroded_points(fetch_patiently(context, request, header, "eroded solid"));
   const double volume = volume_of_points(header.job(), points.point_size());
   const auto comments =
-      comments_for(header.job(), "eroded solid",
-                   "level " + eroded_params_text(params) + ", volume about " + base::rounded(volume, 6));
+      comments_for(header.job(), "eroded solid", "level",
+                   eroded_params_text(params) + ", volume about " + base::rounded(volume, 6));
   write_into(out, [&](const WriteBytes& write) { write_points(format, shape_of(points), comments, write); });
   out.commit();
   Written written{destination, "eroded", "point", static_cast<std::uint64_t>(points.point_size()),
@@ -204,8 +245,8 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
   v1::ArtifactHeader header;
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "eroded solid"));
   const auto comments =
-      comments_for(header.job(), "eroded solid",
-                   "level " + eroded_params_text(params) + ", volume " + base::to_text(fetched.volume));
+      comments_for(header.job(), "eroded solid", "level",
+                   eroded_params_text(params) + ", volume " + base::to_text(fetched.volume));
   write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
   Written written{destination, "eroded", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
@@ -215,6 +256,10 @@ Written transfer_eroded_surface(Context& context, const std::string& job, const 
 }
 
 Written transfer_mesh(Context& context, const std::string& job, const Destination& destination) {
+  const FileFormat format = destination.extension().empty()
+                                ? FileFormat::kOff
+                                : choose_format(destination, surface_formats(), "mesh");
+  if (format != FileFormat::kOff) return convert_mesh(context, job, format, destination);
   const v1::ArtifactHeader header = context.session().fetch(
       request_for(job, v1::ARTIFACT_KIND_MESH),
       [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(destination.file); });

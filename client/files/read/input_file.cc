@@ -1,34 +1,23 @@
 #include "client/files/read/input_file.h"
 
 #include <new>
+#include <utility>
 
 #include "client/base/error.h"
 #include "client/files/format.h"
 #include "client/files/read/read_file.h"
-#include "client/files/read/read_shape.h"
+#include "core/files/read/parse_shape.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
 namespace {
 
-// By the extension; PLY also by the first bytes of a file without a known one.  All else is OFF text.
-std::string format_of(const std::string& path, std::string_view bytes) {
-  const std::string extension = lower_extension(path);
-  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl, FileFormat::kVtp}) {
-    if (extension == extension_of(format)) return extension.substr(1);
-  }
-  return extension != extension_of(FileFormat::kOff) && bytes.starts_with("ply") ? "ply" : "off";
-}
-
 // The server stores OFF text: what the file holds beside its surface (colours, normals) has no place there.
-void convert(InputFile& input) {
-  ShapeFile shape = parse_shape(input.path, input.bytes);
-  if (!shape.is_surface()) {
-    throw ClientError(ExitCode::kBadInput, "has no triangles; a mesh that bounds a solid is wanted",
-                      input.path);
-  }
-  input.off = std::move(shape.off);
-  input.bytes = core::write_off(input.off.mesh);
+void parse(InputFile& input) {
+  core::MeshFile file = core::parse_mesh_file(lower_extension(input.path), input.bytes);
+  input.format = extension_of(file.format).substr(1);
+  input.off = std::move(file.off);
+  if (input.converted()) input.bytes = core::write_off(input.off.mesh);
 }
 
 }  // namespace
@@ -47,13 +36,14 @@ InputFile read_input(const std::string& path) {
   InputFile input;
   input.path = path;
   input.bytes = read_file(path);
-  input.format = format_of(path, input.bytes);
   input.file_bytes = input.bytes.size();
   input.file_sha256 = wire::sha256_hex(input.bytes);
-  if (input.converted()) {
-    convert(input);
-  } else {
-    input.off = parse_mesh(input.bytes, path);
+  try {
+    parse(input);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, path);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
   }
   return input;
 }

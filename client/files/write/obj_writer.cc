@@ -1,7 +1,7 @@
 #include "base/number_text.h"
-#include "client/files/numbers.h"
 #include "client/files/write/shape_writers.h"
 #include "client/text/printable.h"
+#include "core/files/numbers.h"
 
 namespace affskel::client {
 
@@ -16,7 +16,7 @@ void write_obj(const core::Mesh& mesh, const std::vector<std::string>& comments,
     text = "f";
     for (const std::uint32_t corner : t) {
       text.push_back(' ');
-      append_integer(text, std::uint64_t{corner} + 1);
+      core::append_integer(text, std::uint64_t{corner} + 1);
     }
     write(text + "\n");
   }

@@ -1,46 +1,90 @@
 // PLY (Turk 1994), binary: coordinates as double, columns by their types, faces as lists of vertex_indices.
+// Where there is a column E, vertices also have it as programs for people know it: E as `quality`, in single
+// precision, and colours by the scale of the pictures, up to the largest E of the file.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/coding.h"
-#include "client/files/numbers.h"
+#include "client/base/colour.h"
 #include "client/files/write/shape_writers.h"
 #include "client/files/write/stored_type.h"
 #include "client/text/printable.h"
+#include "core/files/ply_display.h"
 
 namespace affskel::client {
 namespace {
 
-std::string ply_header(const ShapeFile& shape, const std::vector<std::string>& names, bool faces,
-                       const std::vector<Stored>& stored, const std::vector<std::string>& comments) {
-  constexpr const char* kTypes[] = {"int", "uint", "double"};
-  std::string text = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
-  text += "element vertex " + std::to_string(shape.mesh().points.size()) +
-          "\nproperty double x\nproperty double y\nproperty double z\n";
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    text += std::string("property ") + kTypes[static_cast<std::size_t>(stored[i])] + " " + names[i] + "\n";
+class PlyWriter {
+ public:
+  PlyWriter(const ShapeFile& shape, const std::vector<std::string>& names)
+      : shape_(shape), erosion_(shape.column("E")) {
+    for (std::size_t i = 0; i < shape.columns.size(); ++i) {
+      const PointColumn& column = shape.columns[i];
+      if (erosion_ == nullptr || !core::is_ply_display(column.name))
+        columns_.push_back({names[i], &column, stored_as(column)});
+    }
+    if (erosion_ == nullptr) return;
+    for (const double e : erosion_->values) {
+      if (std::isfinite(e)) highest_ = std::max(highest_, e);
+    }
   }
-  if (faces) {
-    text += "element face " + std::to_string(shape.mesh().triangles.size()) +
-            "\nproperty list uchar int vertex_indices\n";
+
+  std::string header(bool faces, const std::vector<std::string>& comments) const {
+    constexpr const char* kTypes[] = {"int", "uint", "double"};
+    std::string text = "ply\nformat binary_little_endian 1.0\n";
+    for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
+    text += "element vertex " + std::to_string(shape_.mesh().points.size()) +
+            "\nproperty double x\nproperty double y\nproperty double z\n";
+    for (const Column& column : columns_) {
+      text += std::string("property ") + kTypes[static_cast<std::size_t>(column.stored)] + " " + column.name +
+              "\n";
+    }
+    if (erosion_ != nullptr) {
+      text += "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
+    }
+    if (faces) {
+      text += "element face " + std::to_string(shape_.mesh().triangles.size()) +
+              "\nproperty list uchar int vertex_indices\n";
+    }
+    return text + "end_header\n";
   }
-  return text + "end_header\n";
-}
+
+  void append_vertex(std::string& row, std::size_t i) const {
+    for (int c = 0; c < 3; ++c) base::append(row, shape_.mesh().points[i][c]);
+    for (const Column& column : columns_) append_stored(row, column.of->values[i], column.stored);
+    if (erosion_ == nullptr) return;
+    const double erosion = erosion_->values[i];
+    const Rgb colour = viridis(colour_position(erosion, highest_));
+    base::append(row, static_cast<float>(erosion));
+    for (const float part : {colour.r, colour.g, colour.b}) {
+      base::append(row, static_cast<std::uint8_t>(std::lround(255 * part)));
+    }
+  }
+
+ private:
+  struct Column {
+    std::string name;
+    const PointColumn* of;
+    Stored stored;
+  };
+
+  const ShapeFile& shape_;
+  const PointColumn* erosion_;  // may be null
+  std::vector<Column> columns_;
+  double highest_ = 0;
+};
 
 }  // namespace
 
 void write_ply(const ShapeFile& shape, const std::vector<std::string>& names, bool faces,
                const std::vector<std::string>& comments, const WriteBytes& write) {
-  std::vector<Stored> stored;
-  for (const PointColumn& column : shape.columns) stored.push_back(stored_as(column));
-  write(ply_header(shape, names, faces, stored, comments));
+  const PlyWriter writer(shape, names);
+  write(writer.header(faces, comments));
   std::string row;
   for (std::size_t i = 0; i < shape.mesh().points.size(); ++i) {
     row.clear();
-    for (int c = 0; c < 3; ++c) base::append(row, shape.mesh().points[i][c]);
-    for (std::size_t k = 0; k < stored.size(); ++k) {
-      append_stored(row, shape.columns[k].values[i], stored[k]);
-    }
+    writer.append_vertex(row, i);
     write(row);
   }
   for (const core::Triangle& t : shape.mesh().triangles) {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "client/base/error.h"
-#include "client/files/write/shape_writer.h"
 #include "client/files/write/shape_writers.h"
+#include "client/text/printable.h"
 #include "core/text/off_file.h"
 
 namespace affskel::client {
@@ -29,6 +29,20 @@ std::vector<PointColumn> columns_as_written(const ShapeFile& shape) {
   const std::vector<std::string> names = written_names(shape);
   for (std::size_t c = 0; c < columns.size(); ++c) columns[c].name = names[c];
   return columns;
+}
+
+std::string off_comments(const std::vector<std::string>& comments) {
+  std::string text;
+  for (const std::string& comment : comments) text += "# " + one_line(comment) + "\n";
+  return text;
+}
+
+// The comments stand behind the word that begins the file.
+void write_off(const core::Mesh& mesh, const std::vector<std::string>& comments, const WriteBytes& write) {
+  const std::string text = core::write_off(mesh);
+  const std::size_t word = text.find('\n') + 1;
+  write(text.substr(0, word) + off_comments(comments));
+  write(std::string_view(text).substr(word));
 }
 
 }  // namespace
@@ -70,7 +84,7 @@ void write_points(FileFormat format, const ShapeFile& shape, const std::vector<s
     case FileFormat::kVtp:
       return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
     case FileFormat::kOff:
-      write("OFF\n" + std::to_string(shape.mesh().points.size()) + " 0 0\n");
+      write("OFF\n" + off_comments(comments) + std::to_string(shape.mesh().points.size()) + " 0 0\n");
       return write_xyz(shape, write);
     case FileFormat::kXyz:
       return write_xyz(shape, write);
@@ -87,13 +101,13 @@ void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<
   }
   switch (format) {
     case FileFormat::kOff:
-      return write(core::write_off(mesh));
+      return write_off(mesh, comments, write);
     case FileFormat::kPly:
       return write_ply(shape, written_names(shape), true, comments, write);
     case FileFormat::kObj:
       return write_obj(mesh, comments, write);
     case FileFormat::kStl:
-      return write_stl(mesh, write);
+      return write_stl(mesh, comments, write);
     case FileFormat::kVtp:
       return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
     default:

@@ -28,16 +28,17 @@ using WriteBytes = std::function<void(std::string_view)>;
 
 /// Writes the points of a shape in one of skeleton_formats(): .csv with a header line and 17 significant
 /// digits, .ply binary and .vtp with all columns under their written_names, .off and .xyz coordinates alone.
-/// @param comments lines for formats that have comments (PLY, VTP), without line breaks.
+/// @param comments lines for formats that have comments (PLY, VTP, OFF), without line breaks.
 /// @throws ClientError kLimit when there are more points than the format can count.
 void write_points(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                   const WriteBytes& write);
 
 /// Writes a surface, be it empty, in one of surface_formats(): .off and .obj as text that reads back exactly,
-/// .ply binary with double coordinates and the columns of the vertices, .vtp with the same as arrays, .stl
-/// binary (single precision, which is all that STL has).  Slivers that single precision makes flat are
-/// written as they are; the surface stays closed.
-/// @param comments lines for formats that have comments (PLY, OBJ, VTP), without line breaks.
+/// .ply binary with double coordinates and the columns of the vertices (and what shows E, see PLY's writer),
+/// .vtp with the same as arrays, .stl binary (single precision, which is all that STL has).  Slivers that
+/// single precision makes flat are written as they are; the surface stays closed.
+/// @param comments lines for formats that have comments (PLY, OBJ, VTP, OFF), without line breaks; of these
+/// "job ID" and "mesh_sha256 HASH", the latter's first half, also find room in the 80 bytes of STL's header.
 /// @throws ClientError kLimit when the mesh has more elements than the format can count, and for .stl when a
 /// coordinate does not fit into single precision or when triangles would become flat in it that hold more
 /// than 1e-6 of the area or all the area round a vertex: the mesh or a part of it is too small, or too far

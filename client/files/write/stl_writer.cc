@@ -1,17 +1,32 @@
 #include <cstdint>
 
 #include "base/coding.h"
-#include "client/files/numbers.h"
 #include "client/files/write/shape_writers.h"
 #include "client/files/write/single_precision.h"
 
 namespace affskel::client {
 
-void write_stl(const core::Mesh& mesh, const WriteBytes& write) {
+namespace {
+
+// What the 80 bytes have room for.  They must not begin with "solid", which marks the text variant.
+std::string stl_header(const std::vector<std::string>& comments) {
+  constexpr std::size_t kSize = 80, kHash = 16;
+  std::string text;
+  for (const std::string& comment : comments) {
+    if (comment.starts_with("job ")) text += comment + ", ";
+    const std::string hash = "mesh_sha256 ";
+    if (comment.starts_with(hash)) text += "mesh " + comment.substr(hash.size(), kHash) + ", ";
+  }
+  text = (text.empty() ? "triangle mesh, " : text) + "units as submitted";
+  text.resize(kSize, ' ');
+  return text;
+}
+
+}  // namespace
+
+void write_stl(const core::Mesh& mesh, const std::vector<std::string>& comments, const WriteBytes& write) {
   check_fits_stl(mesh);
-  // A binary header must not begin with "solid", which marks the text variant.
-  std::string text = "triangle mesh, units as submitted";
-  text.resize(80, ' ');
+  std::string text = stl_header(comments);
   base::append(text, static_cast<std::uint32_t>(mesh.triangles.size()));
   write(text);
   for (const core::Triangle& t : mesh.triangles) {

@@ -8,7 +8,7 @@
 
 #include "base/coding.h"
 #include "client/base/shape_file.h"
-#include "client/files/numbers.h"
+#include "core/files/numbers.h"
 
 namespace affskel::client {
 

@@ -1,6 +1,6 @@
 // Points as rows of numbers: .csv with a header line, .xyz without.
-#include "client/files/numbers.h"
 #include "client/files/write/shape_writers.h"
+#include "core/files/numbers.h"
 
 namespace affskel::client {
 
@@ -12,11 +12,11 @@ void write_csv(const ShapeFile& shape, const std::vector<std::string>& names, co
     row.clear();
     for (int c = 0; c < 3; ++c) {
       if (c > 0) row.push_back(',');
-      append_exact(row, shape.mesh().points[i][c]);
+      core::append_exact(row, shape.mesh().points[i][c]);
     }
     for (const PointColumn& column : shape.columns) {
       row.push_back(',');
-      append_exact(row, column.values[i]);
+      core::append_exact(row, column.values[i]);
     }
     row.push_back('\n');
     write(row);
@@ -28,7 +28,7 @@ void write_xyz(const ShapeFile& shape, const WriteBytes& write) {
   for (const core::Vec3& p : shape.mesh().points) {
     row.clear();
     for (int c = 0; c < 3; ++c) {
-      append_exact(row, p[c]);
+      core::append_exact(row, p[c]);
       row.push_back(c < 2 ? ' ' : '\n');
     }
     write(row);

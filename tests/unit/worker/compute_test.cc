@@ -2,17 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "core/base/error.h"
+#include "core/files/file_format.h"
+#include "core/mesh/map_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/text/off_file.h"
+#include "tools/files.h"
 #include "tools/temporary_directory.h"
+#include "tools/vtk_xml_file.h"
 
 namespace affskel::worker {
 namespace {
@@ -50,6 +57,66 @@ TEST(ComputeTest, AnOutputThatCannotBeWrittenTellsWhy) {
   const std::vector<std::string> names = directory.names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
             (std::set<std::string>{"box.off", "field.csv", "full.csv", "kept.csv", "link.csv"}));
+}
+
+class ComputeFilesTest : public ::testing::Test {
+ protected:
+  ComputeFilesTest() {
+    options_.file = directory_ / "box.off";
+    options_.spacing = 500;
+    const core::Mesh box = core::make_box(2000, 2000, 2000);
+    std::ofstream(options_.file) << core::write_off(box);
+    std::ofstream obj(directory_ / "box.OBJ");
+    for (const core::Vec3& p : box.points) obj << "v " << p.x << " " << p.y << " " << p.z << "\n";
+    for (const core::Triangle& t : box.triangles)
+      obj << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  }
+
+  std::string field(const std::string& name) {
+    options_.output = directory_ / name;
+    compute(options_);
+    return tests::read_file(options_.output);
+  }
+
+  tests::TemporaryDirectory directory_;
+  ComputeOptions options_;
+};
+
+TEST_F(ComputeFilesTest, ReadsWhatSubmitReads) {
+  const std::string csv = field("off.csv"), vti = field("off.vti");
+  options_.file = directory_ / "box.OBJ";
+  EXPECT_EQ(field("obj.csv"), csv);
+  EXPECT_EQ(field("obj.vti"), vti) << "also the hash of the text that would be submitted";
+  options_.file = directory_ / "off.csv";
+  EXPECT_THROW(field("none.csv"), core::CoreError) << "no mesh";
+}
+
+TEST_F(ComputeFilesTest, WritesWhatFetchWrites) {
+  for (const core::FileFormat format : core::field_formats())
+    EXPECT_GT(field("field" + std::string(core::extension_of(format))).size(), 100U);
+  const tests::VtkXmlFile image(tests::read_file(directory_ / "field.vti"));
+  const auto erosion = image.pieces.at(0).arrays.at("E").numbers<double>();
+  const auto inside = image.pieces.at(0).arrays.at("inside").numbers<std::uint8_t>();
+  EXPECT_EQ(std::count(inside.begin(), inside.end(), 1), 64) << "4 x 4 x 4 places, and one layer around";
+  EXPECT_EQ(inside.size(), 216U);
+  // Beside the middle of a face E falls to 0 at the face, half a step away, and as much below it at the next
+  // place.
+  const auto at = [](std::size_t i, std::size_t j, std::size_t k) { return (k * 6 + j) * 6 + i; };
+  EXPECT_NEAR(erosion[at(0, 2, 2)], -erosion[at(1, 2, 2)], 1e-6 * erosion[at(1, 2, 2)]);
+  EXPECT_EQ(erosion[at(0, 0, 0)], 0);
+  EXPECT_EQ(image.facts.at("v0").numbers<double>(), std::vector<double>{8e9});
+  EXPECT_EQ(image.fact("frame"), "axis");
+}
+
+TEST_F(ComputeFilesTest, RefusesAnOutputThatCannotHoldTheField) {
+  EXPECT_THROW(field("field.ply"), std::invalid_argument);
+  EXPECT_THROW(field("field"), std::invalid_argument);
+  options_.file = directory_ / "slant.off";
+  std::ofstream(options_.file) << core::write_off(
+      core::map_mesh(core::shear(0, 1, 0.5), core::make_box(2000, 3000, 4000)));
+  options_.frame = "affine";
+  EXPECT_THROW(field("field.vti"), std::invalid_argument);
+  EXPECT_GT(field("field.vts").size(), 100U);
 }
 
 }  // namespace

@@ -355,6 +355,7 @@ ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const F
   if (options.shortest_edge > 0) {
     result.mesh = tidy_mesh(result.mesh, {.shortest_edge = options.shortest_edge});
   }
+  result.values = field_between(lattice, field, result.mesh.points);
   place_mesh(solid, lattice, result.mesh);
   result.volume = enclosed_volume(result.mesh);
   return result;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/erosion/field_between.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
@@ -22,8 +23,9 @@ struct ErodedSurfaceOptions {
 };
 
 struct ErodedSurface {
-  Mesh mesh;          ///< mesh units
-  double volume = 0;  ///< that the mesh encloses, exact but for rounding; mesh units cubed
+  Mesh mesh;                       ///< mesh units
+  std::vector<PlaceValue> values;  ///< E and its slope, per vertex, see field_between
+  double volume = 0;               ///< that the mesh encloses, exact but for rounding; mesh units cubed
 };
 
 /// The boundary of the eroded solid {x in V : E(x) >= level}: closed, outward-oriented and manifold, whatever

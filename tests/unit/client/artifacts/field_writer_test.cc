@@ -13,13 +13,17 @@
 namespace affskel::client {
 namespace {
 
+using core::FileFormat;
+
+constexpr double kVolume = 10;
+
 // Writes the sample field, fed in pieces of `piece` bytes.
 void write_sample(FileFormat format, const std::string& path, std::size_t piece) {
   const LatticePoints points(sample_lattice());
   const v1::Directions directions = sample_directions();
   const std::string bytes = sample_field();
   base::AtomicFile file(path);
-  FieldWriter writer(format, file, points);
+  FieldWriter writer(format, file, points, kVolume, {});
   FieldDecoder decoder(points, directions, writer);
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
     decoder.data(std::string_view(bytes).substr(at, piece));
@@ -89,10 +93,10 @@ TEST(FieldWriter, RecordsMayBeCutAnywhere) {
 
 TEST(FieldWriter, EqualFieldsAreEqualFiles) {
   const tests::TemporaryDirectory dir;
-  for (const FileFormat format : field_formats()) {
+  for (const FileFormat format : core::field_formats()) {
     write_sample(format, dir / "a", 13);
     write_sample(format, dir / "b", 100);
-    EXPECT_EQ(tests::read_file(dir / "a"), tests::read_file(dir / "b")) << extension_of(format);
+    EXPECT_EQ(tests::read_file(dir / "a"), tests::read_file(dir / "b")) << core::extension_of(format);
   }
 }
 
@@ -103,7 +107,7 @@ class DecoderErrors : public ::testing::Test {
     const v1::Directions directions = sample_directions();
     {
       base::AtomicFile file(dir_ / "f.csv");
-      FieldWriter writer(FileFormat::kCsv, file, points);
+      FieldWriter writer(FileFormat::kCsv, file, points, kVolume, {});
       FieldDecoder decoder(points, directions, writer);
       EXPECT_THROW(
           {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
+#include "client/base/colour.h"
 #include "client/base/error.h"
 #include "client/files/write/shape_writer.h"
 #include "sample_data.h"
@@ -56,8 +58,9 @@ TEST(SkeletonWriter, PlyHeaderDescribesTheBytes) {
             "ply\nformat binary_little_endian 1.0\ncomment job 0123\ncomment two?[2Jlines\nelement vertex 2\n"
             "property double x\nproperty double y\nproperty double z\nproperty double E\n"
             "property double nx\nproperty double ny\nproperty double nz\n"
-            "property int direction\nproperty double H\nend_header\n");
-  constexpr std::size_t kRow = 8 * 8 + 4;
+            "property int direction\nproperty double H\nproperty float quality\nproperty uchar red\n"
+            "property uchar green\nproperty uchar blue\nend_header\n");
+  constexpr std::size_t kRow = 8 * 8 + 4 + 4 + 3;
   ASSERT_EQ(ply.size(), body + 2 * kRow);
   const v1::SkeletonPoints s = sample_skeleton();
   for (int p = 0; p < 2; ++p) {
@@ -67,6 +70,9 @@ TEST(SkeletonWriter, PlyHeaderDescribesTheBytes) {
     std::memcpy(row, at, sizeof row);
     std::memcpy(&direction, at + sizeof row, sizeof direction);
     std::memcpy(&divergence, at + sizeof row + sizeof direction, sizeof divergence);
+    float quality = 0;
+    std::memcpy(&quality, at + 68, sizeof quality);
+    EXPECT_EQ(quality, static_cast<float>(s.erosion(p)));
     for (int c = 0; c < 3; ++c) {
       EXPECT_EQ(row[c], s.xyz(3 * p + c));
       EXPECT_EQ(row[4 + c], s.normal(3 * p + c));
@@ -75,11 +81,18 @@ TEST(SkeletonWriter, PlyHeaderDescribesTheBytes) {
     EXPECT_EQ(divergence, s.divergence(p));
     EXPECT_EQ(direction, std::int32_t(s.direction(p)));
   }
+  // The colours are those of the pictures: the largest E is yellow, the other stands at the cube root of its
+  // share.
+  const Rgb wanted = viridis(std::cbrt(static_cast<float>(s.erosion(0) / s.erosion(1))));
+  const auto colours = [&](std::size_t p) { return ply.substr(body + p * kRow + 72, 3); };
+  EXPECT_EQ(colours(1), "\xFD\xE7\x25");
+  EXPECT_NEAR(static_cast<unsigned char>(colours(0)[1]), 255 * wanted.g, 1);
 }
 
 TEST(SkeletonWriter, OffAndXyzHoldTheCoordinates) {
   const std::string xyz = written(FileFormat::kXyz, sample_skeleton());
   EXPECT_EQ(written(FileFormat::kOff, sample_skeleton()), "OFF\n2 0 0\n" + xyz);
+  EXPECT_EQ(written(FileFormat::kOff, sample_skeleton(), {"job 0\n1"}), "OFF\n# job 0 1\n2 0 0\n" + xyz);
   std::istringstream in(xyz);
   const v1::SkeletonPoints skeleton = sample_skeleton();
   for (const double expected : skeleton.xyz()) {

@@ -4,7 +4,10 @@
 #include <sstream>
 #include <vector>
 
+#include "client/files/format.h"
+#include "client/files/read/read_shape.h"
 #include "client_fixture.h"
+#include "core/text/off_file.h"
 #include "sample_data.h"
 #include "tools/files.h"
 
@@ -18,19 +21,26 @@ TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
   EXPECT_EQ(tests::read_file(dir_ / "f.csv").substr(0, 27), "x,y,z,E,nx,ny,nz,direction\n");
   EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.xyz"}).exit_code, 0);
   EXPECT_EQ(run({"fetch", "@last", "surface", "-o", dir_ / "s.stl"}).exit_code, 0);
-  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.anything"}).exit_code, 0);
-  EXPECT_EQ(tests::read_file(dir_ / "m.anything"), mesh_);
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "mesh"}).exit_code, 0);
+  EXPECT_EQ(tests::read_file(dir_ / "mesh"), mesh_);
   EXPECT_FALSE(service_.fetches.back().has_skeleton());
   EXPECT_EQ(run({"fetch", "@last", "field", "-o", dir_ / "f.ply"}).exit_code, 2);
   EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
 }
 
-TEST_F(ClientTest, FetchSaysWhenTheMeshIsNotWhatItsFileIsCalled) {
-  const Outcome called_stl = run({"fetch", "@last", "mesh", "-o", dir_ / "m.STL"});
-  EXPECT_EQ(called_stl.exit_code, 0);
-  EXPECT_EQ(tests::read_file(dir_ / "m.STL"), mesh_);
-  EXPECT_NE(called_stl.err.find("warning"), std::string::npos) << called_stl.err;
-  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.off"}).err.find("warning"), std::string::npos);
+TEST_F(ClientTest, TheMeshIsFetchedInAnyFormatOfSurfaces) {
+  const core::Mesh submitted = core::read_off(mesh_).mesh;
+  for (const FileFormat format : surface_formats()) {
+    const std::string file = dir_ / ("m" + std::string(extension_of(format)));
+    const Outcome outcome = run({"fetch", "@last", "mesh", "-o", file});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const core::Mesh fetched = read_shape(file).mesh();
+    EXPECT_EQ(fetched.triangles.size(), submitted.triangles.size()) << file;
+    EXPECT_EQ(fetched.points.size(), submitted.points.size()) << file;
+    EXPECT_EQ(tests::read_file(file) == mesh_, format == FileFormat::kOff) << file;
+  }
+  EXPECT_NE(tests::read_file(dir_ / "m.obj").find("# job " + service_.job.id()), std::string::npos);
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", dir_ / "m.csv"}).exit_code, 2);
 }
 
 TEST_F(ClientTest, FetchPrintsNothingOnStandardOutputButJson) {
@@ -65,7 +75,7 @@ TEST_F(ClientTest, ResultsGoToTheStandardOutput) {
     EXPECT_EQ(run(command).exit_code, 2) << "both want standard output";
   }
   EXPECT_EQ(run({"skeleton", "@last", "-o", "-"}).exit_code, 2) << "as what?";
-  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", "-", "--format", "off"}).exit_code, 2);
+  EXPECT_EQ(run({"fetch", "@last", "mesh", "-o", "-", "--format", "csv"}).exit_code, 2);
 }
 
 TEST_F(ClientTest, APlaceThatCannotBeWrittenIsKnownBeforeTheWorkIsDone) {

@@ -111,7 +111,7 @@ TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
   const Outcome done = run({"submit", dir_ / (stem + ".off"), "-o", dir_ / "OUT"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(service_.submitted.name(), "c\xEF\xBF\xBD_e");
-  EXPECT_TRUE(std::filesystem::exists(dir_ / ("OUT/" + stem + ".field.vtkhdf")));
+  EXPECT_TRUE(std::filesystem::exists(dir_ / ("OUT/" + stem + ".field.vti")));
 }
 
 TEST_F(ClientTest, TextForTheServerMustBeUtf8) {
@@ -146,10 +146,10 @@ TEST_F(ClientTest, SubmitIntoADirectoryWritesAllThree) {
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const json document = json::parse(done.out);
   EXPECT_EQ(document.at("id"), service_.job.id());
-  EXPECT_EQ(document.at("files").at("field"), dir_ / "OUT/deep/cube.field.vtkhdf");
-  EXPECT_TRUE(std::filesystem::exists(dir_ / "OUT/deep/cube.field.vtkhdf"));
+  EXPECT_EQ(document.at("files").at("field"), dir_ / "OUT/deep/cube.field.vti");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "OUT/deep/cube.field.vti"));
   EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.skeleton.ply").substr(0, 4), "ply\n");
-  EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.surface.off").substr(0, 3), "OFF");
+  EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.surface.ply").substr(0, 4), "ply\n");
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir_ / "OUT/deep")) ++files;
   EXPECT_EQ(files, 3u);

@@ -22,7 +22,8 @@ TEST(ChooseFormat, NamesThePossibleOnes) {
       FAIL() << name;
     } catch (const ClientError& error) {
       EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
-      EXPECT_NE(std::string(error.what()).find(".csv, .dat, .vtkhdf"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(".csv, .dat, .vti, .vts, .vtkhdf, .hdf"), std::string::npos)
+          << error.what();
     }
   }
 }

@@ -8,8 +8,8 @@
 
 #include "client/artifacts/skeleton_points.h"
 #include "client/base/error.h"
-#include "client/files/numbers.h"
 #include "client/files/write/shape_writer.h"
+#include "core/files/numbers.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/text/off_file.h"

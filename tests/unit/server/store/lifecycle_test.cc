@@ -29,6 +29,14 @@ TEST_F(LifecycleTest, GoesThroughAllStages) {
   EXPECT_FALSE(has_work());
 }
 
+TEST_F(LifecycleTest, AJobTellsTheCoreThatComputesIt) {
+  const std::string id = submit().id();
+  EXPECT_EQ(store_->job(id).core_version(), "");
+  prepare(10, 20);
+  EXPECT_EQ(store_->job(id).core_version(), worker_identity().core_version());
+  EXPECT_EQ(store_->list({}).jobs.at(0).core_version(), worker_identity().core_version());
+}
+
 TEST_F(LifecycleTest, SolidWithoutSamplePointsIsComplete) {
   const v1::Job job = submit();
   erode(0, 3);

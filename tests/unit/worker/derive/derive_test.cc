@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "core/mesh/map_mesh.h"
 #include "core/shapes/shapes.h"
@@ -169,8 +172,35 @@ TEST_F(DeriveTest, ErodedSolidsHoldWhatTheLevelSays) {
   for (int t = 0; t < surface.corners_size(); t += 3)
     mesh.triangles.push_back({surface.corners(t), surface.corners(t + 1), surface.corners(t + 2)});
   EXPECT_NEAR(core::make_solid(mesh).volume, surface.volume(), 1e-9 * surface.volume()) << "closed, outward";
+  const std::size_t vertices = mesh.points.size();
+  ASSERT_EQ(static_cast<std::size_t>(surface.erosion_size()), vertices);
+  ASSERT_EQ(static_cast<std::size_t>(surface.area_size()), vertices);
+  std::vector<double> erosion(surface.erosion().begin(), surface.erosion().end());
+  std::nth_element(erosion.begin(), erosion.begin() + static_cast<std::ptrdiff_t>(vertices / 2),
+                   erosion.end());
+  EXPECT_NEAR(erosion[vertices / 2], level, 0.02 * level);
+  for (const double area : surface.area()) EXPECT_GT(area, 0);
   const double voxels = above * std::pow(prepared_.lattice().spacing, 3);
   EXPECT_NEAR(surface.volume(), voxels, 0.2 * voxels);
+}
+
+TEST_F(DeriveTest, AnAlphaShapeHasTheFieldOfItsPoints) {
+  const v1::SkeletonPoints points = skeleton(v1::OPERATOR_ZUCKER_HUMMEL);
+  const std::vector<core::FieldValue> values = unpack_field(field_, prepared_.lattice().points);
+  std::map<std::array<double, 3>, core::FieldValue> at;
+  for (int i = 0; i < points.point_size(); ++i)
+    at[{points.xyz(3 * i), points.xyz(3 * i + 1), points.xyz(3 * i + 2)}] = values[points.point(i)];
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  const v1::TriangleMesh surface = parsed<v1::TriangleMesh>(run(lease));
+  ASSERT_GT(surface.xyz_size(), 60);
+  ASSERT_EQ(surface.erosion_size(), surface.xyz_size() / 3);
+  for (int v = 0; v < surface.erosion_size(); ++v) {
+    const auto found = at.find({surface.xyz(3 * v), surface.xyz(3 * v + 1), surface.xyz(3 * v + 2)});
+    ASSERT_NE(found, at.end());
+    EXPECT_EQ(surface.erosion(v), found->second.erosion);
+    EXPECT_NEAR(surface.area(v), found->second.area, 1e-12 * found->second.area);
+  }
 }
 
 TEST_F(DeriveTest, EmptySkeletonsSayWhy) {

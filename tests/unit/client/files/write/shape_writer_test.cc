@@ -97,6 +97,21 @@ TEST(MeshWriter, StlHoldsNormalsAndCorners) {
   EXPECT_EQ(first[3], 0.1f);
 }
 
+TEST(MeshWriter, StlSaysWhatItIsInItsHeader) {
+  EXPECT_EQ(written(FileFormat::kStl, sample_mesh()).substr(0, 36), "triangle mesh, units as submitted   ");
+  const std::string job(32, 'a'), hash(64, 'b');
+  const std::vector<std::string> comments = {"content surface of body", "job " + job, "mesh_sha256 " + hash};
+  EXPECT_EQ(written(FileFormat::kStl, sample_mesh(), comments).substr(0, 80),
+            "job " + job + ", mesh " + std::string(16, 'b') + ", units as submitted" + " ");
+}
+
+TEST(MeshWriter, OffHasItsCommentsBehindItsFirstWord) {
+  const std::string plain = written(FileFormat::kOff, sample_mesh());
+  const std::string off = written(FileFormat::kOff, sample_mesh(), {"job 0", "a\nb"});
+  EXPECT_EQ(off, "OFF\n# job 0\n# a b\n" + plain.substr(4));
+  EXPECT_EQ(core::read_off(off).mesh.points, sample_mesh().points);
+}
+
 // The exit code and the cause of writing as .stl, into a file.
 std::string refusal_of_stl(const core::Mesh& mesh) {
   const tests::TemporaryDirectory dir;

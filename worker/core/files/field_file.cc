@@ -1,0 +1,47 @@
+#include "core/files/field_file.h"
+
+#include <array>
+
+namespace affskel::core {
+namespace {
+
+constexpr std::size_t kErosion = 0, kShare = 1;  // components
+
+std::vector<LatticeColumn> field_columns() {
+  return {{"E", {"E"}},
+          {"E_share", {"E_share"}, GridType::kFloat64, 0, false},
+          {"normal", {"nx", "ny", "nz"}},
+          {"direction", {"direction"}, GridType::kInt32, -1}};
+}
+
+bool is_text(FileFormat format) {
+  return format == FileFormat::kCsv || format == FileFormat::kDat;
+}
+
+}  // namespace
+
+FieldFile::FieldFile(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice, double volume,
+                     const FileFacts& facts)
+    : table_(format, file, lattice, field_columns(), facts), axes_(lattice.axes), volume_(volume) {
+  if (is_text(format)) return;
+  outside_.emplace(lattice.dims, [this](const PlaceAround& at, double erosion) {
+    table_.put_outside(at, kErosion, erosion);
+    table_.put_outside(at, kShare, erosion / volume_);
+  });
+}
+
+void FieldFile::put(const LatticePlace& at, const FieldSample& sample) {
+  const Vec3& n = sample.normal;
+  const Vec3 slopes = sample.area * Vec3{dot(n, axes_[0]), dot(n, axes_[1]), dot(n, axes_[2])};
+  if (outside_)
+    outside_->put(at, sample.erosion, slopes);  // first: the table then writes what is before the point
+  table_.put(at, std::array{sample.erosion, sample.erosion / volume_, n.x, n.y, n.z,
+                            static_cast<double>(sample.direction)});
+}
+
+void FieldFile::finish() {
+  if (outside_) outside_->finish();
+  table_.finish();
+}
+
+}  // namespace affskel::core

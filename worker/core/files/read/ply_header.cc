@@ -1,0 +1,132 @@
+#include "core/files/read/ply_header.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
+
+namespace affskel::core {
+namespace {
+
+PlyType parse_type(std::string_view word, std::uint64_t line) {
+  constexpr std::array<std::array<std::string_view, 2>, 8> kNames = {{{"char", "int8"},
+                                                                      {"uchar", "uint8"},
+                                                                      {"short", "int16"},
+                                                                      {"ushort", "uint16"},
+                                                                      {"int", "int32"},
+                                                                      {"uint", "uint32"},
+                                                                      {"float", "float32"},
+                                                                      {"double", "float64"}}};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<PlyType>(i);
+  }
+  fail_at(line, "unknown type " + quoted_excerpt(word));
+}
+
+class HeaderReader {
+ public:
+  explicit HeaderReader(std::string_view bytes) : rest_(bytes) {}
+
+  PlyHeader run() {
+    if (!next() || words_ != std::vector<std::string_view>{"ply"})
+      fail("not a PLY file: must begin with 'ply'");
+    bool has_format = false;
+    while (next()) {
+      if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
+      if (words_[0] == "end_header") {
+        if (!has_format) fail("the header names no format");
+        header_.body = rest_;
+        return std::move(header_);
+      }
+      if (words_[0] == "format") {
+        if (has_format) fail("a second row names a format");
+        read_format();
+        has_format = true;
+      } else if (words_[0] == "element") {
+        read_element();
+      } else if (words_[0] == "property") {
+        read_property();
+      } else {
+        fail("not a row of a PLY header: " + quoted_excerpt(words_[0]));
+      }
+    }
+    fail("the file ends before end_header");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    fail_at(std::max<std::uint64_t>(header_.lines, 1), message);
+  }
+
+  // The body may be binary, so rows are taken one by one, up to end_header.
+  bool next() {
+    const std::size_t end = rest_.find('\n');
+    if (end == std::string_view::npos) return false;
+    std::string_view row = rest_.substr(0, end);
+    rest_ = rest_.substr(end + 1);
+    ++header_.lines;
+    if (!row.empty() && row.back() == '\r') row.remove_suffix(1);
+    words_.clear();
+    for (std::size_t at = 0; (at = row.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+      const std::size_t stop = std::min(row.find_first_of(" \t", at), row.size());
+      words_.push_back(row.substr(at, stop - at));
+      at = stop;
+    }
+    return true;
+  }
+
+  void read_format() {
+    if (words_.size() != 3 || words_[2] != "1.0") fail("expected 'format ENCODING 1.0'");
+    if (words_[1] == "ascii") {
+      header_.encoding = PlyEncoding::kText;
+    } else if (words_[1] == "binary_little_endian") {
+      header_.encoding = PlyEncoding::kLittle;
+    } else if (words_[1] == "binary_big_endian") {
+      header_.encoding = PlyEncoding::kBig;
+    } else {
+      fail("unknown encoding " + quoted_excerpt(words_[1]));
+    }
+  }
+
+  void read_element() {
+    if (words_.size() != 3) fail("expected 'element NAME COUNT'");
+    header_.elements.push_back(
+        {std::string(words_[1]), parse_count(words_[2], header_.lines, "the count"), {}});
+  }
+
+  void read_property() {
+    if (header_.elements.empty()) fail("a property before the first element");
+    PlyProperty property;
+    if (words_.size() == 5 && words_[1] == "list") {
+      property.list = true;
+      property.count_type = parse_type(words_[2], header_.lines);
+      property.type = parse_type(words_[3], header_.lines);
+      if (!is_whole(property.count_type)) fail("the length of a list must be of a whole type");
+    } else if (words_.size() == 3) {
+      property.type = parse_type(words_[1], header_.lines);
+    } else {
+      fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    }
+    property.name = std::string(words_.back());
+    std::vector<PlyProperty>& known = header_.elements.back().properties;
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const PlyProperty& p) { return p.name == property.name; })) {
+      fail("two properties of element " + quoted_excerpt(header_.elements.back().name) + " are called " +
+           quoted_excerpt(property.name));
+    }
+    known.push_back(std::move(property));
+  }
+
+  std::string_view rest_;
+  std::vector<std::string_view> words_;
+  PlyHeader header_;
+};
+
+}  // namespace
+
+PlyHeader read_ply_header(std::string_view bytes) {
+  return HeaderReader(bytes).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,292 @@
+// PLY (Turk 1994): a text header that declares elements with typed properties, then their values in the
+// same order, as text (one row per entry) or as bytes of either order.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "base/coding.h"
+#include "base/number_text.h"
+#include "core/base/error.h"
+#include "core/files/ply_display.h"
+#include "core/files/read/ply_header.h"
+#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::array<std::size_t, 8> kSize = {1, 1, 2, 2, 4, 4, 4, 8};  // by PlyType
+
+// Of the whole types, in their order.
+constexpr std::array<std::pair<double, double>, 6> kRange = {
+    {{-128, 127}, {0, 255}, {-32768, 32767}, {0, 65535}, {-0x1p31, 0x1p31 - 1}, {0, 0x1p32 - 1}}};
+
+// The values of the body, one after the other.
+class Values {
+ public:
+  explicit Values(const PlyHeader& header)
+      : encoding_(header.encoding), bytes_(header.body), rows_(header.body, header.lines) {}
+
+  // Values are taken between begin and end of their entry; place names it in messages.
+  void begin(const std::string& element, std::uint64_t index) {
+    element_ = &element;
+    index_ = index;
+    word_ = 0;
+    if (encoding_ == PlyEncoding::kText && !rows_.next()) fail("the file ends before");
+  }
+
+  double next(PlyType type) {
+    if (encoding_ == PlyEncoding::kText) return next_word(type);
+    const std::size_t size = kSize[static_cast<std::size_t>(type)];
+    if (bytes_.size() < size) fail("the file ends inside");
+    std::array<char, 8> raw{};
+    std::copy_n(bytes_.begin(), size, raw.begin());
+    if (encoding_ == PlyEncoding::kBig)
+      std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(size));
+    bytes_.remove_prefix(size);
+    return decoded(raw.data(), type);
+  }
+
+  void end() const {
+    if (encoding_ == PlyEncoding::kText && word_ != rows_.words().size())
+      fail("too many numbers in the row of");
+  }
+
+  void end_of_file() {
+    const bool more = encoding_ == PlyEncoding::kText ? rows_.next() : !bytes_.empty();
+    if (more) fail_at(line(), "the file goes on after the last entry that the header announces");
+  }
+
+  std::uint64_t line() const { return encoding_ == PlyEncoding::kText ? rows_.line() : 0; }
+  // Every entry takes at least a byte.
+  std::size_t bytes_left() const {
+    return encoding_ == PlyEncoding::kText ? rows_.bytes_left() + rows_.text().size() + 1 : bytes_.size();
+  }
+  std::string place() const { return *element_ + " " + std::to_string(index_); }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { fail_at(line(), what + " " + place()); }
+
+  template <typename Number>
+  static double as(const char* raw) {
+    return static_cast<double>(base::decode<Number>(raw));
+  }
+
+  static double decoded(const char* raw, PlyType type) {
+    switch (type) {
+      case PlyType::kInt8:
+        return as<std::int8_t>(raw);
+      case PlyType::kUint8:
+        return as<std::uint8_t>(raw);
+      case PlyType::kInt16:
+        return as<std::int16_t>(raw);
+      case PlyType::kUint16:
+        return as<std::uint16_t>(raw);
+      case PlyType::kInt32:
+        return as<std::int32_t>(raw);
+      case PlyType::kUint32:
+        return as<std::uint32_t>(raw);
+      case PlyType::kFloat:
+        return as<float>(raw);
+      case PlyType::kDouble:
+        break;
+    }
+    return as<double>(raw);
+  }
+
+  double next_word(PlyType type) {
+    if (word_ == rows_.words().size()) fail("too few numbers in the row of");
+    const std::string_view word = rows_.words()[word_++];
+    double value = 0;
+    try {
+      value = parse_number(word, rows_.line(), "a value");
+    } catch (const CoreError&) {
+      fail_at(line(), quoted_excerpt(word) + " is not a number, in " + place());
+    }
+    if (!is_whole(type)) return value;
+    if (value != std::floor(value)) {
+      fail_at(line(), quoted_excerpt(word) + " is not a whole number, in " + place());
+    }
+    const auto [least, most] = kRange[static_cast<std::size_t>(type)];
+    if (!(value >= least && value <= most)) {
+      fail_at(line(), quoted_excerpt(word) + " is outside the range of its type (" + base::to_text(least) +
+                          " to " + base::to_text(most) + "), in " + place());
+    }
+    return value;
+  }
+
+  PlyEncoding encoding_;
+  std::string_view bytes_;
+  TextRows rows_;
+  const std::string* element_ = nullptr;
+  std::uint64_t index_ = 0;
+  std::size_t word_ = 0;
+};
+
+class PlyReader {
+ public:
+  explicit PlyReader(std::string_view bytes) : header_(read_ply_header(bytes)), values_(header_) {}
+
+  ShapeFile run() {
+    bool has_vertices = false;
+    for (const PlyElement& element : header_.elements) {
+      check_count(element);
+      if (element.name == "vertex") {
+        if (has_vertices) fail_at(header_.lines, "two elements are called vertex");
+        read_vertices(element);
+        has_vertices = true;
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else {
+        pass_over(element);
+      }
+    }
+    if (!has_vertices) fail_at(header_.lines, "the header announces no vertices");
+    values_.end_of_file();
+    return std::move(file_);
+  }
+
+ private:
+  // Refuses what cannot be true before anything is allocated.
+  void check_count(const PlyElement& element) const {
+    if (element.properties.empty() && element.count > 0) {
+      fail_at(header_.lines, "element " + quoted_excerpt(element.name) + " has no properties");
+    }
+    if (element.count > values_.bytes_left() || element.count > std::numeric_limits<std::uint32_t>::max()) {
+      fail_at(header_.lines, std::to_string(element.count) + " entries of element " +
+                                 quoted_excerpt(element.name) + " announced, but only " +
+                                 std::to_string(values_.bytes_left()) + " bytes follow");
+    }
+  }
+
+  const std::vector<double>& next_list(const PlyProperty& property) {
+    const double length = values_.next(property.count_type);
+    if (!(length >= 0) || length > static_cast<double>(values_.bytes_left())) {
+      fail_at(values_.line(), values_.place() + " announces a list of " + base::to_text(length) + " values");
+    }
+    list_.clear();
+    for (double i = 0; i < length; ++i) {
+      list_.push_back(values_.next(property.type));
+    }
+    return list_;
+  }
+
+  // The list as indices; some programs write them as numbers of type float.
+  const std::vector<std::int64_t>& next_corners(const PlyProperty& property) {
+    corners_.clear();
+    for (const double value : next_list(property)) {
+      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
+        fail_at(values_.line(),
+                values_.place() + " uses vertex " + base::to_text(value) + ", which is not a whole number");
+      }
+      corners_.push_back(static_cast<std::int64_t>(value));
+    }
+    return corners_;
+  }
+
+  void pass_over(const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      values_.begin(element.name, i);
+      for (const PlyProperty& property : element.properties) {
+        if (property.list) {
+          next_list(property);
+        } else {
+          values_.next(property.type);
+        }
+      }
+      values_.end();
+    }
+  }
+
+  void read_vertices(const PlyElement& element) {
+    // Per property where its value goes: 0, 1, 2 a coordinate, 3 + i column i.
+    std::vector<std::size_t> target;
+    for (const PlyProperty& p : element.properties) {
+      if (p.list) fail_at(header_.lines, "a list of each vertex (" + p.name + ") is not supported");
+      if (p.name == "x" || p.name == "y" || p.name == "z") {
+        target.push_back(static_cast<std::size_t>(p.name[0] - 'x'));
+      } else {
+        target.push_back(3 + file_.columns.size());
+        file_.columns.push_back({p.name, is_whole(p.type), {}});
+      }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (std::count(target.begin(), target.end(), c) != 1) {
+        fail_at(header_.lines, "the vertices must have each of x, y and z once");
+      }
+    }
+    for (std::uint64_t i = 0; i < element.count; ++i) read_vertex(element, target, i);
+  }
+
+  void read_vertex(const PlyElement& element, const std::vector<std::size_t>& target, std::uint64_t index) {
+    values_.begin(element.name, index);
+    std::array<double, 3> at{};
+    for (std::size_t p = 0; p < target.size(); ++p) {
+      const double value = values_.next(element.properties[p].type);
+      if (target[p] >= 3) {
+        file_.columns[target[p] - 3].values.push_back(value);
+        continue;
+      }
+      if (!std::isfinite(value)) {
+        fail_at(values_.line(), values_.place() + " has a coordinate that is not finite");
+      }
+      at[target[p]] = value;
+    }
+    values_.end();
+    file_.off.mesh.points.push_back({at[0], at[1], at[2]});
+    if (values_.line() > 0) file_.off.vertex_line.push_back(static_cast<std::uint32_t>(values_.line()));
+  }
+
+  void read_faces(const PlyElement& element) {
+    const auto is_corners = [](const PlyProperty& p) {
+      return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
+    };
+    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), is_corners)) {
+      fail_at(header_.lines, "the faces have no list of vertex_indices");
+    }
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      values_.begin(element.name, i);
+      for (const PlyProperty& p : element.properties) {
+        if (is_corners(p)) {
+          add_face(next_corners(p));
+        } else if (p.list) {
+          next_list(p);
+        } else {
+          values_.next(p.type);
+        }
+      }
+      values_.end();
+    }
+  }
+
+  void add_face(const std::vector<std::int64_t>& corners) {
+    add_polygon(file_, corners, values_.place(), values_.line());
+    if (values_.line() > 0) {
+      file_.off.triangle_line.resize(file_.off.mesh.triangles.size(),
+                                     static_cast<std::uint32_t>(values_.line()));
+    }
+    ++file_.off.polygons;
+    if (corners.size() > 3) ++file_.off.polygons_cut;
+  }
+
+  PlyHeader header_;
+  Values values_;
+  std::vector<double> list_;
+  std::vector<std::int64_t> corners_;
+  ShapeFile file_;
+};
+
+}  // namespace
+
+ShapeFile parse_ply(std::string_view bytes) {
+  ShapeFile file = PlyReader(bytes).run();
+  if (file.column("E") != nullptr) {
+    std::erase_if(file.columns, [](const PointColumn& column) { return is_ply_display(column.name); });
+  }
+  return file;
+}
+
+}  // namespace affskel::core

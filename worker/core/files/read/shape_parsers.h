@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/files/shape_file.h"
+
+namespace affskel::core {
+
+// One parser per format; see read_shape.  All leave `path` empty and throw CoreError kBadInput, with the line
+// for text.
+
+ShapeFile parse_csv(std::string_view bytes);
+ShapeFile parse_dat(std::string_view bytes);
+ShapeFile parse_xyz(std::string_view bytes);
+ShapeFile parse_ply(std::string_view bytes);
+ShapeFile parse_obj(std::string_view bytes);
+ShapeFile parse_stl(std::string_view bytes);
+ShapeFile parse_vtp(std::string_view bytes);
+
+/// Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal,
+/// normals, Normal or Normals, with _a or _b behind it or not (Normals_x, normal_a_x); the same of y and z.
+bool is_normal_column(std::string_view name);
+
+/// Cuts a polygon into triangles of `file`.
+/// @param place names it in messages, @param line of it, 0 = none.
+/// @throws CoreError kBadInput when it has less than three corners, or one twice or out of range.
+void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
+                 std::uint64_t line);
+
+/// @throws CoreError kBadInput with the line if there is one.
+[[noreturn]] void fail_at(std::uint64_t line, const std::string& message);
+
+}  // namespace affskel::core

@@ -1,0 +1,124 @@
+#include <cmath>
+#include <string>
+
+#include "base/coding.h"
+#include "core/files/read/shape_parsers.h"
+#include "core/mesh/coincident_points.h"
+#include "core/text/text_rows.h"
+
+namespace affskel::core {
+namespace {
+
+// STL repeats every corner; equal ones become one vertex, in the order of their first appearance.
+ShapeFile joined(const std::vector<Vec3>& corners) {
+  const std::vector<std::uint32_t> first = first_coincident_point(corners);
+  ShapeFile file;
+  Mesh& mesh = file.off.mesh;
+  std::vector<std::uint32_t> vertex(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (first[i] == i) {
+      vertex[i] = static_cast<std::uint32_t>(mesh.points.size());
+      mesh.points.push_back(corners[i]);
+    } else {
+      vertex[i] = vertex[first[i]];
+    }
+  }
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    mesh.triangles.push_back({vertex[i], vertex[i + 1], vertex[i + 2]});
+  }
+  file.off.polygons = mesh.triangles.size();
+  return file;
+}
+
+constexpr std::size_t kHeader = 84, kFacet = 50;
+
+ShapeFile parse_binary(std::string_view bytes) {
+  std::vector<Vec3> corners;
+  for (std::size_t at = kHeader; at < bytes.size(); at += kFacet) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto coordinate = [&](std::size_t k) {
+        return double{base::decode<float>(bytes.data() + at + 12 + 12 * c + 4 * k)};
+      };
+      corners.push_back({coordinate(0), coordinate(1), coordinate(2)});
+      const Vec3& p = corners.back();
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        fail_at(0,
+                "triangle " + std::to_string((at - kHeader) / kFacet) + " has a corner that is not finite");
+      }
+    }
+  }
+  return joined(corners);
+}
+
+// The rows of a text file in the only order that they may have:
+// solid (facet (outer loop, three times vertex, endloop) endfacet)* endsolid, once or more.
+class TextReader {
+ public:
+  explicit TextReader(std::string_view bytes) : rows_(bytes) {}
+
+  ShapeFile run() {
+    while (rows_.next()) {
+      const std::string_view word = rows_.words()[0];
+      if (outside_) {
+        expect(word == "solid", "solid");
+        outside_ = false;
+      } else if (word == "endsolid") {
+        outside_ = true;
+      } else {
+        expect(word == "facet", "facet or endsolid");
+        read_facet();
+      }
+    }
+    if (!outside_) fail_at(rows_.line(), "the file ends before endsolid");
+    return joined(corners_);
+  }
+
+ private:
+  void expect(bool met, const char* what) const {
+    if (!met)
+      fail_at(rows_.line(), std::string("expected ") + what + ", not " + quoted_excerpt(rows_.text()));
+  }
+
+  const std::vector<std::string_view>& next(const char* what) {
+    if (!rows_.next()) fail_at(rows_.line(), std::string("the file ends before ") + what);
+    return rows_.words();
+  }
+
+  void read_facet() {
+    const auto& words = next("outer loop");
+    expect(words[0] == "outer" && words.size() == 2 && words[1] == "loop", "outer loop");
+    for (int corner = 0; corner < 3; ++corner) read_vertex(corner);
+    expect(next("endloop")[0] == "endloop", "endloop after three vertices");
+    expect(next("endfacet")[0] == "endfacet", "endfacet");
+  }
+
+  void read_vertex(int known) {
+    const auto& words = next("a vertex");
+    if (words[0] == "endloop") {
+      fail_at(rows_.line(), "a facet of " + std::to_string(known) + " vertices, needs 3");
+    }
+    expect(words[0] == "vertex", "vertex");
+    if (words.size() != 4) fail_at(rows_.line(), "a vertex needs three coordinates");
+    const auto coordinate = [&](std::size_t i) { return parse_finite(words[i], rows_.line(), "coordinate"); };
+    corners_.push_back({coordinate(1), coordinate(2), coordinate(3)});
+  }
+
+  TextRows rows_;
+  std::vector<Vec3> corners_;
+  bool outside_ = true;
+};
+
+}  // namespace
+
+ShapeFile parse_stl(std::string_view bytes) {
+  // Some binary files begin with "solid", too; the size tells.
+  if (bytes.size() >= kHeader &&
+      bytes.size() == kHeader + kFacet * std::size_t{base::decode<std::uint32_t>(bytes.data() + 80)}) {
+    return parse_binary(bytes);
+  }
+  if (bytes.starts_with("solid")) return TextReader(bytes).run();
+  fail_at(
+      0, "not an STL file: neither text that begins with 'solid' nor as long as its count of triangles says");
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,170 @@
+#include "core/files/read/xml_reader.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <new>
+#include <set>
+
+#include "core/files/read/shape_parsers.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::size_t kMaxTag = std::size_t{1} << 20;  // bytes
+constexpr std::size_t kPiece = kMaxTag / 4;            // what libexpat is given at once; it copies it
+constexpr std::size_t kMaxDepth = 100;
+// libexpat keeps every name that it has met.
+constexpr std::size_t kMaxNames = 1000;
+
+class Reader {
+ public:
+  Reader(std::string_view bytes, XmlHandler& handler)
+      : bytes_(bytes), handler_(handler), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+    if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), on_open, on_close);
+    XML_SetCharacterDataHandler(parser_.get(), on_text);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), on_doctype);
+  }
+
+  XmlEnd run() {
+    for (std::size_t at = 0;;) {
+      const std::size_t size = std::min(kPiece, bytes_.size() - at);
+      const bool last = at + size == bytes_.size();
+      const XML_Status status =
+          XML_Parse(parser_.get(), bytes_.data() + at, static_cast<int>(size), last ? XML_TRUE : XML_FALSE);
+      if (error_) std::rethrow_exception(error_);
+      if (stopped_) return XmlEnd::kStopped;
+      if (status == XML_STATUS_ERROR) return failed();
+      if (last) return XmlEnd::kComplete;
+      at += size;
+      if (at - std::min(at, byte_index()) > kMaxTag) {
+        fail_at(line(), "a tag or comment of XML is longer than " + std::to_string(kMaxTag) + " bytes");
+      }
+    }
+  }
+
+ private:
+  class Element : public XmlElement {
+   public:
+    Element(const Reader& reader, const char* name, const char** attributes)
+        : reader_(reader), name_(name), attributes_(attributes) {}
+
+    std::string_view name() const override { return name_; }
+    std::string attribute(std::string_view name) const override {
+      for (const char** a = attributes_; *a != nullptr; a += 2) {
+        if (name == a[0]) return a[1];
+      }
+      return "";
+    }
+    std::uint64_t line() const override { return reader_.line(); }
+    std::size_t end() const override { return reader_.byte_index() + reader_.byte_count(); }
+
+   private:
+    const Reader& reader_;
+    std::string_view name_;
+    const char** attributes_;  // name, value, name, value, ..., null
+  };
+
+  std::uint64_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
+  std::size_t byte_index() const {
+    return static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
+  }
+  std::size_t byte_count() const { return static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get())); }
+
+  // Exceptions must not pass through libexpat, which is C.
+  template <typename Action>
+  static void guarded(void* reader, Action&& action) {
+    Reader& self = *static_cast<Reader*>(reader);
+    if (self.stopped_ || self.error_) return;  // the end of an empty element comes after its stop
+    try {
+      self.stopped_ = action(self) == XmlHandler::Next::kStop;
+    } catch (...) {
+      self.error_ = std::current_exception();
+    }
+    if (self.stopped_ || self.error_) XML_StopParser(self.parser_.get(), XML_FALSE);
+  }
+
+  static void on_open(void* reader, const char* name, const char** attributes) {
+    guarded(reader, [&](Reader& self) { return self.open(name, attributes); });
+  }
+
+  static void on_close(void* reader, const char* name) {
+    guarded(reader, [&](Reader& self) {
+      --self.depth_;
+      return self.handler_.close(name, self.line());
+    });
+  }
+
+  static void on_text(void* reader, const char* text, int size) {
+    guarded(reader, [&](Reader& self) {
+      self.text({text, static_cast<std::size_t>(size)});
+      return XmlHandler::Next::kReadOn;
+    });
+  }
+
+  static void on_doctype(void* reader, const char*, const char*, const char*, int) {
+    guarded(reader, [](Reader& self) -> XmlHandler::Next {
+      fail_at(self.line(), "a document type (<!DOCTYPE) and its entities are not read");
+    });
+  }
+
+  XmlHandler::Next open(const char* name, const char** attributes) {
+    if (++depth_ > kMaxDepth) {
+      fail_at(line(), "elements of XML are nested more than " + std::to_string(kMaxDepth) + " deep");
+    }
+    names_.insert(name);
+    for (const char** a = attributes; *a != nullptr; a += 2) names_.insert(*a);
+    if (names_.size() > kMaxNames) {
+      fail_at(line(), "elements and attributes of XML have more than " + std::to_string(kMaxNames) +
+                          " different names");
+    }
+    return handler_.open(Element(*this, name, attributes));
+  }
+
+  void text(std::string_view text) {
+    const std::string_view raw = bytes_.substr(byte_index(), byte_count());
+    // What ends a line may be two bytes, which libexpat tells as one.
+    const bool same = raw == text || (text == "\n" && (raw == "\r\n" || raw == "\r"));
+    handler_.text(same ? raw : text, same);
+  }
+
+  XmlEnd failed() {
+    switch (const XML_Error code = XML_GetErrorCode(parser_.get())) {
+      case XML_ERROR_NO_MEMORY:
+        throw std::bad_alloc();
+      case XML_ERROR_NO_ELEMENTS:
+        return names_.empty() ? XmlEnd::kNoElement : XmlEnd::kCutOff;
+      case XML_ERROR_SYNTAX:
+        return XmlEnd::kNoElement;  // there is text in front of the first element
+      case XML_ERROR_UNCLOSED_TOKEN:
+      case XML_ERROR_UNCLOSED_CDATA_SECTION:
+        fail_at(line(), "a tag, a comment or a section of XML does not end");
+      case XML_ERROR_INVALID_TOKEN:
+        fail_at(line(),
+                "not well-formed XML: a character that must not stand here, or an attribute that is not "
+                "NAME=\"VALUE\"");
+      default:
+        fail_at(line(), std::string("not well-formed XML: ") + XML_ErrorString(code));
+    }
+  }
+
+  std::string_view bytes_;
+  XmlHandler& handler_;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
+  std::set<std::string> names_;
+  std::size_t depth_ = 0;
+  bool stopped_ = false;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+XmlEnd read_xml(std::string_view bytes, XmlHandler& handler) {
+  return Reader(bytes, handler).run();
+}
+
+}  // namespace affskel::core

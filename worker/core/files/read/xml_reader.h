@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace affskel::core {
+
+/// The start tag of an element; valid while it is handled.
+class XmlElement {
+ public:
+  virtual ~XmlElement() = default;
+  virtual std::string_view name() const = 0;
+  /// Value of an attribute with its references replaced, empty when there is none.
+  virtual std::string attribute(std::string_view name) const = 0;
+  virtual std::uint64_t line() const = 0;  ///< where the tag begins, counted from 1
+  virtual std::size_t end() const = 0;     ///< behind the tag, in bytes
+};
+
+/// Takes the contents of an XML text in their order; comments and processing instructions are left out.
+class XmlHandler {
+ public:
+  enum class Next { kReadOn, kStop };
+
+  virtual ~XmlHandler() = default;
+  /// After kStop, here and below, nothing behind the tag is looked at: it need not be XML.
+  virtual Next open(const XmlElement& element) = 0;
+  /// The end of an element, also of an empty one.  @param line of its tag.
+  virtual Next close(std::string_view name, std::uint64_t line) = 0;
+  /// A piece of text, also of a CDATA section; references are replaced.
+  /// @param stays whether it lies in the bytes that are read; otherwise it is gone after the call.
+  virtual void text(std::string_view text, bool stays) = 0;
+};
+
+/// How the reading of an XML text ended.
+enum class XmlEnd {
+  kStopped,    ///< the handler stopped it
+  kComplete,   ///< the root element was closed
+  kCutOff,     ///< inside the root element
+  kNoElement,  ///< there is none
+};
+
+/// Reads an XML text by libexpat.  Memory is bounded whatever the bytes: a tag or comment has at most 1 MiB,
+/// elements are nested at most 100 deep and have with their attributes at most 1000 different names, and
+/// there are no entities but the predefined ones, since document types are refused.
+/// @throws CoreError kBadInput with the line for what is not well-formed or beyond these bounds, and what the
+/// handler throws.
+XmlEnd read_xml(std::string_view bytes, XmlHandler& handler);
+
+}  // namespace affskel::core
