@@ -176,6 +176,44 @@ TEST_F(AccessTest, RevokingEndsCallsInMidStream) {
   EXPECT_EQ(this->job(job).state(), v1::JOB_STATE_QUEUED) << "the job itself stays";
 }
 
+// A server that is busy with what is left of deleted jobs looks after tokens all the same.
+TEST_F(AccessTest, RevokingEndsCallsWhileMuchIsTidied) {
+  start();
+  const std::int64_t id = add("ada", v1::ROLE_USER);
+  const std::string job = submit_as("ada", "OFF 1");
+  const auto ada = client("ada");
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job(job);
+  const auto reader = ada->WatchJob(&context, request);
+  v1::Job seen;
+  ASSERT_TRUE(reader->Read(&seen));
+  const auto left = [this] {
+    Database db(database_file(options_.data_dir), Database::Mode::kReadOnly);
+    return db.integer("SELECT count(*) FROM erosions WHERE dropped = 1").value();
+  };
+  {
+    Database db(database_file(options_.data_dir), Database::Mode::kReadWrite);
+    Transaction transaction(db);
+    for (int i = 0; i < 20'000; ++i) {
+      db.run(
+          "INSERT INTO erosions (mesh_sha256, params, params_key, dropped)"
+          " SELECT mesh_sha256, params, params_key || ?, 1 FROM erosions WHERE dropped = 0 LIMIT 1",
+          i);
+    }
+    transaction.commit();
+  }
+  const std::string other = submit("OFF 2");
+  server_->store().cancel(other);
+  server_->store().remove(other);
+  while (left() > 19'900) std::this_thread::yield();
+  revoke(id);
+  while (reader->Read(&seen)) {
+  }
+  EXPECT_EQ(reader->Finish().error_code(), grpc::UNAUTHENTICATED);
+  EXPECT_GT(left(), 0) << "it was not waited for";
+}
+
 TEST_F(AccessTest, AWorkerWithAWorkersTokenWorks) {
   start();
   add("cluster", v1::ROLE_WORKER);

@@ -1,6 +1,9 @@
 #include "rpc/tls.h"
 
+#include <filesystem>
+
 #include "access_fixture.h"
+#include "tools/files.h"
 #include "tools/test_authority.h"
 
 namespace affskel::server {
@@ -83,6 +86,36 @@ TEST_F(TlsTest, ReplacedCertificatesAreUsedWithoutARestart) {
   stranger_.sign("server");
   while (!call(trusting(stranger_)).ok()) std::this_thread::yield();
   EXPECT_EQ(call(trusting(authority_)).error_code(), grpc::UNAVAILABLE);
+}
+
+std::string look_at(TlsFiles& files) {
+  try {
+    files.look();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(TlsTest, WhatIsNotWholeYetIsNotUsed) {
+  TlsFiles files(options_.tls);
+  const TlsOptions used = files.in_use();
+  const std::string certificate = tests::read_file(used.certificate), key = tests::read_file(used.key);
+  EXPECT_EQ(certificate, tests::read_file(options_.tls.certificate));
+  authority_.sign("renewed");
+  spit("server.pem", "-----BEGIN CERTIF");
+  EXPECT_NE(look_at(files).find("server.pem: no certificate"), std::string::npos);
+  EXPECT_EQ(look_at(files), "") << "told once";
+  spit("server.pem", tests::read_file(authority_.certificate("renewed")));
+  EXPECT_NE(look_at(files).find("server.key: no private key"), std::string::npos) << "the key is yet to come";
+  EXPECT_EQ(tests::read_file(used.certificate), certificate);
+  EXPECT_EQ(tests::read_file(used.key), key);
+  std::filesystem::remove(options_.tls.key);
+  EXPECT_NE(look_at(files).find("server.key: cannot be read"), std::string::npos);
+  spit("server.key", tests::read_file(authority_.key("renewed")));
+  EXPECT_EQ(look_at(files), "");
+  EXPECT_EQ(tests::read_file(used.certificate), tests::read_file(authority_.certificate("renewed")));
+  EXPECT_EQ(tests::read_file(used.key), tests::read_file(authority_.key("renewed")));
 }
 
 TEST_F(TlsTest, FilesThatAreNoGoodAreNamed) {
