@@ -37,9 +37,9 @@ void add_completions(CommandLine& line);
 
 /// All of them, in the order of the help.
 inline constexpr std::array kCommands = {
-    add_submit,  add_list,      add_status,  add_watch,  add_log,         add_cancel,
-    add_resume,  add_delete,    add_pin,     add_unpin,  add_fetch,       add_skeleton,
-    add_surface, add_erode,     add_render,  add_view,   add_inspect,     add_make,
-    add_compare, add_transform, add_perturb, add_web,    add_server_info, add_completions};
+    add_submit,  add_list,      add_status,  add_watch, add_log,         add_cancel,
+    add_resume,  add_delete,    add_pin,     add_unpin, add_fetch,       add_skeleton,
+    add_surface, add_erode,     add_render,  add_view,  add_inspect,     add_make,
+    add_compare, add_transform, add_perturb, add_web,   add_server_info, add_completions};
 
 }  // namespace affskel::client

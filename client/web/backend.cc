@@ -40,7 +40,7 @@ Backend::Backend(Environment environment, GlobalOptions global, RetryPolicy poli
     : environment_(std::move(environment)), global_(std::move(global)), policy_(std::move(policy)) {}
 
 bool Backend::refuses_strangers() const {
-  const SecretFile stranger(random_key());
+  const base::MemoryFile stranger("a token", random_key());
   return is_refused(*call(stranger));
 }
 
@@ -52,7 +52,7 @@ std::unique_ptr<Backend::Call> Backend::call() const {
   return std::make_unique<Call>(environment_, global_, policy_);
 }
 
-std::unique_ptr<Backend::Call> Backend::call(const SecretFile& token) const {
+std::unique_ptr<Backend::Call> Backend::call(const base::MemoryFile& token) const {
   GlobalOptions global = global_;
   global.access.token_file = token.path();
   return std::make_unique<Call>(environment_, global, policy_);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_file.h"
 #include "client/commands/shared/context.h"
-#include "client/web/secret_file.h"
 
 namespace affskel::client {
 
@@ -36,7 +36,7 @@ class Backend {
   std::unique_ptr<Call> call() const;
   /// For one request of somebody whose token this is, and never as the client itself.  The token must outlive
   /// the call.
-  std::unique_ptr<Call> call(const SecretFile& token) const;
+  std::unique_ptr<Call> call(const base::MemoryFile& token) const;
 
   /// Whether the server asks for tokens: it refuses one that nobody can have.
   /// @throws ClientError when it cannot be asked.

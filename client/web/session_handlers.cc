@@ -18,7 +18,7 @@ bool may_be_token(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
 
-WebUser user_of(Backend::Call& server, std::shared_ptr<const SecretFile> token) {
+WebUser user_of(Backend::Call& server, std::shared_ptr<const base::MemoryFile> token) {
   const v1::ServerInfo info = server.session().server_info();
   return {std::move(token), info.caller().owner(), info.caller().role() == v1::ROLE_ADMIN,
           info.max_mesh_bytes()};
@@ -34,7 +34,7 @@ WebUser signed_in_user(const WebState& web, const std::string& text) {
         "the server asks nobody for a token, so that nobody can sign in here; see affskel-server "
         "token --help");
   }
-  auto token = std::make_shared<const SecretFile>(text);
+  auto token = std::make_shared<const base::MemoryFile>("the token", text);
   const auto server = web.backend.call(*token);
   return user_of(*server, std::move(token));
 }

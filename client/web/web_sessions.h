@@ -9,15 +9,16 @@
 #include <set>
 #include <string>
 
+#include "base/memory_file.h"
 #include "base/mutex.h"
-#include "client/web/secret_file.h"
 
 namespace affskel::client {
 
 /// Who uses the page.
 struct WebUser {
-  std::shared_ptr<const SecretFile> token;  ///< passed on with every call; null = the client's own identity
-  std::string owner;                        ///< of the jobs that are theirs; empty = all are
+  std::shared_ptr<const base::MemoryFile>
+      token;          ///< passed on with every call; null = the client's own identity
+  std::string owner;  ///< of the jobs that are theirs; empty = all are
   bool admin = false;
   std::uint64_t max_mesh_bytes = 0;  ///< largest upload, as the server takes it
 };

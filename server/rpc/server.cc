@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "base/logfmt.h"
 #include "base/mutex.h"
 #include "database/database_file.h"
 #include "rpc/figures.h"
@@ -134,7 +135,8 @@ void Server::serve(const ServerOptions& options) {
   builder.RegisterService(erosion_service_.get());
   if (!options.tls.certificate.empty()) {
     using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
-    tls_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, tls_credentials(options.tls));
+    tls_files_.emplace(options.tls);
+    tls_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, tls_files_->credentials());
   }
   grpc_ = builder.BuildAndStart();
   if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
@@ -199,45 +201,56 @@ void Server::tick() {
 }
 
 void Server::maintain() {
+  using Steady = std::chrono::steady_clock;
   // Often enough that an expired lease waits a fraction of its own length.
   const auto pause =
       std::chrono::milliseconds(std::clamp<std::int64_t>(store_->options().lease_ms / 10, 20, 500));
+  Steady::time_point due = Steady::now() + pause;
+  Steady::duration rest = pause;
   base::MutexLock lock(mutex_);
-  while (!stopped_.wait_for(lock, pause, [this] {
+  while (!stopped_.wait_for(lock, rest, [this] {
     mutex_.assert_held();
     return stopping_;
   })) {
     lock.unlock();
-    guarded([this] {
-      release_dead_workers(*store_);
-      store_->expire_leases();
-    });
-    erosion_service_->retry_withdrawals();
-    guarded([this] { room_.tick_gate(); });
-    guarded([this] { keep_secrets(); });
+    if (Steady::now() >= due) {
+      look_after_calls();
+      due = Steady::now() + pause;
+    }
+    // What is left of deleted jobs may be much: others get the store between two steps for as long as one
+    // took, and leases, tokens and certificates are looked after all the same.
+    const Steady::time_point begin = Steady::now();
     tidy();
+    const Steady::time_point now = Steady::now();
+    rest = tidying_ ? now - begin : std::max(due - now, Steady::duration::zero());
     lock.lock();
   }
 }
 
-/// Rests as long as each step took, so that others get the store in between.
-void Server::tidy() {
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  for (bool more = true; more;) {
-    more = false;
-    const auto begin = now();
-    guarded([&] {
-      const bool retained = store_->retain();
-      more = store_->tidy() || retained;
-    });
-    tidying_ = more;
-    base::MutexLock lock(mutex_);
-    if (stopped_.wait_for(lock, now() - begin, [this] {
-          mutex_.assert_held();
-          return stopping_;
-        }))
-      return;
+void Server::look_after_calls() {
+  guarded([this] {
+    release_dead_workers(*store_);
+    store_->expire_leases();
+  });
+  erosion_service_->retry_withdrawals();
+  guarded([this] { room_.tick_gate(); });
+  guarded([this] { keep_secrets(); });
+  if (!tls_files_) return;
+  try {
+    tls_files_->look();
+  } catch (const std::exception& error) {
+    spdlog::warn(base::logfmt("tls_files_not_used", {{"message", error.what()}}));
   }
+}
+
+/// One step.
+void Server::tidy() {
+  bool more = false;
+  guarded([&] {
+    const bool retained = store_->retain();
+    more = store_->tidy() || retained;
+  });
+  tidying_ = more;
 }
 
 std::chrono::steady_clock::duration Server::idle_time() {

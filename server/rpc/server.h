@@ -86,6 +86,7 @@ class Server {
   std::string trouble();
   void keep_secrets();
   void maintain();
+  void look_after_calls();
   void tick();
   void tidy();
   void take(int connection, bool is_tcp);
@@ -100,6 +101,7 @@ class Server {
   std::unique_ptr<LeaseQueue> queue_;
   std::unique_ptr<WorkerServiceImpl> worker_service_;
   std::unique_ptr<ErosionServiceImpl> erosion_service_;
+  std::optional<TlsFiles> tls_files_;  // looked at by the thread that maintains
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> tls_;  // of connections with TLS
   std::unique_ptr<grpc::Server> grpc_;
   std::unique_ptr<Listener> listener_;

@@ -99,6 +99,22 @@ class Visitor:
         image = self.shown(selector)
         self.wait(lambda: self.script("return arguments[0].complete && arguments[0].naturalWidth > 0", image))
 
+    def submit(self, mesh, points, name):
+        """From the list of jobs to the page of the new one."""
+        self.shown("main a[href='#new']").click()
+        self.heading("New job")
+        self.wait(lambda: self.all("#file"))[0].send_keys(mesh)
+        self.picture_is_drawn("#found img")
+        self.type("#points", points)
+        self.type("#name", name)
+        self.shown("#submit").click()
+        self.heading(name)
+
+    def skeleton_is_drawn(self):
+        """On the page of a job, once it is done."""
+        self.wait(lambda: self.shown(".badge").text == "done")
+        self.picture_is_drawn()
+
     def width(self):
         """Of the widest thing in the page."""
         return self.script("""return Math.max(document.documentElement.scrollWidth, ...Array.from(

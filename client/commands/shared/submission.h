@@ -28,7 +28,6 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
 
 /// @throws ClientError kUsage when the protocol has no room for a text; kLimit when the server takes no file
 /// as large.
-v1::SubmitJobHeader submission_header(Context& context, const InputFile& input,
-                                      const Submission& submission);
+v1::SubmitJobHeader submission_header(Context& context, const InputFile& input, const Submission& submission);
 
 }  // namespace affskel::client

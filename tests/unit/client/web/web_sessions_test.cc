@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using Clock = WebSessions::Clock;
 
 WebUser user(const std::string& owner) {
-  return {std::make_shared<const SecretFile>("token of " + owner), owner, false, 1000};
+  return {std::make_shared<const base::MemoryFile>("token", "token of " + owner), owner, false, 1000};
 }
 
 struct Sessions {

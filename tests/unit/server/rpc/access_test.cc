@@ -1,174 +1,13 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "access/gate.h"
-#include "access/token.h"
-#include "database/database_file.h"
-#include "service_fixture.h"
-#include "tools/test_authority.h"
-#include "wire/channel.h"
+#include "access_fixture.h"
+#include "every_call.h"
 
 namespace affskel::server {
 namespace {
-
-/// A server with a Unix socket, a TCP address on loopback, and tokens.
-class AccessTest : public ServiceTest {
- protected:
-  AccessTest() { options_.listen.push_back(wire::parse_address("127.0.0.1:0")); }
-
-  /// Adds a token beside the running server, as affskel-server token add does; returns its id.
-  std::int64_t add(const std::string& owner, v1::Role role, std::optional<std::int64_t> expires_ms = {}) {
-    const std::string token = new_token();
-    Database db(database_file(options_.data_dir), Database::Mode::kReadWrite);
-    const std::int64_t id = add_token(db, token, owner, role, unix_ms(), expires_ms);
-    spit("token." + owner, token + "\n");
-    return id;
-  }
-  void revoke(std::int64_t id) {
-    Database db(database_file(options_.data_dir), Database::Mode::kReadWrite);
-    revoke_token(db, id, unix_ms());
-  }
-  void spit(const std::string& name, const std::string& text) {
-    std::ofstream(directory_.path() / name) << text;
-  }
-  std::string file(const std::string& name) const { return (directory_.path() / name).string(); }
-
-  /// The TCP address, with the token that was added for this owner; "" = with none.
-  std::shared_ptr<grpc::Channel> tcp(const std::string& owner, wire::AccessFiles files = {}) {
-    if (!owner.empty()) files.token_file = file("token." + owner);
-    grpc::ChannelArguments arguments;
-    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    return wire::make_channel(server_->addresses().back(), files, arguments);
-  }
-  std::unique_ptr<v1::ErosionService::Stub> client(const std::string& owner) {
-    return v1::ErosionService::NewStub(tcp(owner));
-  }
-  std::string submit_as(const std::string& owner, const std::string& mesh,
-                        const std::string& request_id = "") {
-    v1::SubmitJobHeader header = submit_header(mesh);
-    header.set_request_id(request_id);
-    v1::SubmitJobResponse response;
-    const grpc::Status status = submit_mesh(*client(owner), header, mesh, &response);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    EXPECT_EQ(response.job().owner(), owner);
-    return response.job().id();
-  }
-  grpc::Status get(v1::ErosionService::Stub& stub, const std::string& job, v1::Job* response = nullptr) {
-    grpc::ClientContext context;
-    v1::GetJobRequest request;
-    request.set_job(job);
-    v1::Job ignored;
-    return stub.GetJob(&context, request, response != nullptr ? response : &ignored);
-  }
-  grpc::Status info(v1::ErosionService::Stub& stub, v1::ServerInfo* response) {
-    grpc::ClientContext context;
-    return stub.GetServerInfo(&context, {}, response);
-  }
-};
-
-/// Every call of both services, by a job's id.
-std::vector<std::pair<std::string, std::function<grpc::Status(const std::shared_ptr<grpc::Channel>&)>>>
-all_calls(const std::string& job) {
-  using Client = v1::ErosionService;
-  using Worker = v1::WorkerService;
-  const auto unary = [](auto method, auto request, auto response, auto make_stub) {
-    return [=](const std::shared_ptr<grpc::Channel>& channel) mutable {
-      grpc::ClientContext context;
-      return (*make_stub(channel).*method)(&context, request, &response);
-    };
-  };
-  const auto client = [](const std::shared_ptr<grpc::Channel>& channel) { return Client::NewStub(channel); };
-  const auto worker = [](const std::shared_ptr<grpc::Channel>& channel) { return Worker::NewStub(channel); };
-  const auto about = [&](auto request) {
-    request.set_job(job);
-    return request;
-  };
-  const auto leased = [&](auto request) {
-    request.set_token("no lease");
-    return request;
-  };
-  v1::LeaseTaskRequest lease;
-  *lease.mutable_worker() = worker_identity();
-  return {
-      {"SubmitJob",
-       [](const std::shared_ptr<grpc::Channel>& channel) {
-         v1::SubmitJobResponse response;
-         return submit_mesh(*Client::NewStub(channel), submit_header("OFF all"), "OFF all", &response);
-       }},
-      {"GetJob", unary(&Client::Stub::GetJob, about(v1::GetJobRequest()), v1::Job(), client)},
-      {"ListJobs", unary(&Client::Stub::ListJobs, v1::ListJobsRequest(), v1::ListJobsResponse(), client)},
-      {"WatchJob",
-       [=](const std::shared_ptr<grpc::Channel>& channel) {
-         grpc::ClientContext context;
-         const auto stub = Client::NewStub(channel);
-         const auto reader = stub->WatchJob(&context, about(v1::WatchJobRequest()));
-         v1::Job seen;
-         if (!reader->Read(&seen)) return reader->Finish();
-         context.TryCancel();
-         reader->Finish();
-         return grpc::Status::OK;
-       }},
-      {"CancelJob", unary(&Client::Stub::CancelJob, about(v1::CancelJobRequest()), v1::Job(), client)},
-      {"ResumeJob", unary(&Client::Stub::ResumeJob, about(v1::ResumeJobRequest()), v1::Job(), client)},
-      {"PinJob", unary(&Client::Stub::PinJob, about(v1::PinJobRequest()), v1::Job(), client)},
-      {"UnpinJob", unary(&Client::Stub::UnpinJob, about(v1::UnpinJobRequest()), v1::Job(), client)},
-      {"DeleteJob",
-       unary(&Client::Stub::DeleteJob, about(v1::DeleteJobRequest()), v1::DeleteJobResponse(), client)},
-      {"ListJobEvents", unary(&Client::Stub::ListJobEvents, about(v1::ListJobEventsRequest()),
-                              v1::ListJobEventsResponse(), client)},
-      {"FetchArtifact",
-       [=](const std::shared_ptr<grpc::Channel>& channel) {
-         v1::FetchArtifactRequest request = about(v1::FetchArtifactRequest());
-         request.set_kind(v1::ARTIFACT_KIND_MESH);
-         return fetch(*Client::NewStub(channel), request).status;
-       }},
-      {"GetServerInfo",
-       unary(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest(), v1::ServerInfo(), client)},
-      {"LeaseTask", unary(&Worker::Stub::LeaseTask, lease, v1::LeaseTaskResponse(), worker)},
-      {"RenewLease",
-       unary(&Worker::Stub::RenewLease, leased(v1::RenewLeaseRequest()), v1::ReportResponse(), worker)},
-      {"ReportErosion",
-       [](const std::shared_ptr<grpc::Channel>& channel) {
-         grpc::ClientContext context;
-         v1::ReportResponse response;
-         const auto stub = Worker::NewStub(channel);
-         const auto writer = stub->ReportErosion(&context, &response);
-         v1::ReportErosionRequest message;
-         message.mutable_header()->set_token("no lease");
-         writer->Write(message);
-         writer->WritesDone();
-         return writer->Finish();
-       }},
-      {"CompleteTask",
-       [](const std::shared_ptr<grpc::Channel>& channel) {
-         v1::CompleteTaskHeader header;
-         header.set_token("no lease");
-         return send_result(*Worker::NewStub(channel), header, "");
-       }},
-      {"FailTask",
-       unary(&Worker::Stub::FailTask, leased(v1::FailTaskRequest()), v1::ReportResponse(), worker)},
-      {"ReturnLease",
-       unary(&Worker::Stub::ReturnLease, leased(v1::ReturnLeaseRequest()), v1::ReportResponse(), worker)},
-      {"FetchInput",
-       [=](const std::shared_ptr<grpc::Channel>& channel) {
-         grpc::ClientContext context;
-         const auto stub = Worker::NewStub(channel);
-         v1::FetchInputRequest request = leased(v1::FetchInputRequest());
-         request.set_kind(v1::ARTIFACT_KIND_MESH);
-         const auto reader = stub->FetchInput(&context, request);
-         v1::FetchArtifactResponse part;
-         while (reader->Read(&part)) {
-         }
-         return reader->Finish();
-       }},
-  };
-}
 
 TEST_F(AccessTest, EveryCallIsRefusedWithoutAGoodTokenAndNothingElseIsLearnt) {
   start();
@@ -185,7 +24,7 @@ TEST_F(AccessTest, EveryCallIsRefusedWithoutAGoodTokenAndNothingElseIsLearnt) {
       {"expired", "the token has expired"}};
   for (const auto& [owner, message] : refusals) {
     const auto channel = tcp(owner);
-    for (const auto& [name, call] : all_calls(job)) {
+    for (const auto& [name, call] : every_call(job)) {
       const grpc::Status status = call(channel);
       EXPECT_EQ(status.error_code(), grpc::UNAUTHENTICATED) << name << " " << owner;
       EXPECT_EQ(status.error_message(), message) << name;
@@ -200,7 +39,7 @@ TEST_F(AccessTest, EachRoleCallsItsServiceAlone) {
   add("worker", v1::ROLE_WORKER);
   add("admin", v1::ROLE_ADMIN);
   const std::string job = submit_as("user", "OFF mine");
-  for (const auto& [name, call] : all_calls(job)) {
+  for (const auto& [name, call] : every_call(job)) {
     if (name == "DeleteJob") continue;  // the others are about the job
     const bool for_clients =
         v1::SubmitJobRequest::descriptor()->file()->service(0)->FindMethodByName(name) != nullptr;
@@ -220,7 +59,7 @@ TEST_F(AccessTest, AnothersJobAndNoJobLookAlike) {
   const std::string job = submit_as("ada", "OFF ada's");
   const std::string nothing = std::string(job.rbegin(), job.rend());
   const auto channel = tcp("bob");
-  const auto others = all_calls(job), nobodys = all_calls(nothing);
+  const auto others = every_call(job), nobodys = every_call(nothing);
   for (std::size_t i = 0; i < others.size(); ++i) {
     const std::string& name = others[i].first;
     const bool about_a_job = name.ends_with("Job") || name == "FetchArtifact" || name == "ListJobEvents";
@@ -337,6 +176,44 @@ TEST_F(AccessTest, RevokingEndsCallsInMidStream) {
   EXPECT_EQ(this->job(job).state(), v1::JOB_STATE_QUEUED) << "the job itself stays";
 }
 
+// A server that is busy with what is left of deleted jobs looks after tokens all the same.
+TEST_F(AccessTest, RevokingEndsCallsWhileMuchIsTidied) {
+  start();
+  const std::int64_t id = add("ada", v1::ROLE_USER);
+  const std::string job = submit_as("ada", "OFF 1");
+  const auto ada = client("ada");
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job(job);
+  const auto reader = ada->WatchJob(&context, request);
+  v1::Job seen;
+  ASSERT_TRUE(reader->Read(&seen));
+  const auto left = [this] {
+    Database db(database_file(options_.data_dir), Database::Mode::kReadOnly);
+    return db.integer("SELECT count(*) FROM erosions WHERE dropped = 1").value();
+  };
+  {
+    Database db(database_file(options_.data_dir), Database::Mode::kReadWrite);
+    Transaction transaction(db);
+    for (int i = 0; i < 20'000; ++i) {
+      db.run(
+          "INSERT INTO erosions (mesh_sha256, params, params_key, dropped)"
+          " SELECT mesh_sha256, params, params_key || ?, 1 FROM erosions WHERE dropped = 0 LIMIT 1",
+          i);
+    }
+    transaction.commit();
+  }
+  const std::string other = submit("OFF 2");
+  server_->store().cancel(other);
+  server_->store().remove(other);
+  while (left() > 19'900) std::this_thread::yield();
+  revoke(id);
+  while (reader->Read(&seen)) {
+  }
+  EXPECT_EQ(reader->Finish().error_code(), grpc::UNAUTHENTICATED);
+  EXPECT_GT(left(), 0) << "it was not waited for";
+}
+
 TEST_F(AccessTest, AWorkerWithAWorkersTokenWorks) {
   start();
   add("cluster", v1::ROLE_WORKER);
@@ -358,110 +235,6 @@ TEST_F(AccessTest, ATokenFileThatIsReplacedIsReadAgain) {
       << "without the file the old one is shown";
   add("ada", v1::ROLE_USER);
   EXPECT_TRUE(info(*ada, &response).ok());
-}
-
-/// The same over TLS.
-class TlsTest : public AccessTest {
- protected:
-  TlsTest() : authority_(directory_.path(), "authority"), stranger_(directory_.path(), "stranger") {
-    authority_.sign("server");
-    authority_.sign("client");
-    options_.tls.certificate = authority_.certificate("server");
-    options_.tls.key = authority_.key("server");
-  }
-  wire::AccessFiles trusting(const tests::TestAuthority& authority, const std::string& own = "") const {
-    wire::AccessFiles files;
-    files.tls_ca = authority.file();
-    if (!own.empty()) {
-      files.tls_cert = authority_.certificate(own);
-      files.tls_key = authority_.key(own);
-    }
-    return files;
-  }
-  grpc::Status call(const wire::AccessFiles& files, const std::string& owner = "") {
-    v1::ServerInfo response;
-    return info(*v1::ErosionService::NewStub(tcp(owner, files)), &response);
-  }
-
-  tests::TestAuthority authority_;
-  tests::TestAuthority stranger_;
-};
-
-TEST_F(TlsTest, OnlyWithTlsAndATrustedServer) {
-  start();
-  add("ada", v1::ROLE_USER);
-  EXPECT_TRUE(call(trusting(authority_), "ada").ok());
-  EXPECT_EQ(call(trusting(authority_)).error_code(), grpc::UNAUTHENTICATED);
-  EXPECT_EQ(call(trusting(stranger_), "ada").error_code(), grpc::UNAVAILABLE);
-  EXPECT_EQ(call({}, "ada").error_code(), grpc::UNAVAILABLE) << "in the clear";
-  v1::ServerInfo response;
-  EXPECT_TRUE(info(*client_, &response).ok()) << "the Unix socket needs none";
-}
-
-TEST_F(TlsTest, ConnectionsAreInTheTableAsOthersAre) {
-  start();
-  const std::string job = submit("OFF 1");
-  add("ada", v1::ROLE_ADMIN);
-  const std::size_t others = server_->room().connections.size();
-  const auto stub = v1::ErosionService::NewStub(tcp("ada", trusting(authority_)));
-  grpc::ClientContext context;
-  v1::WatchJobRequest request;
-  request.set_job(job);
-  const auto reader = stub->WatchJob(&context, request);
-  v1::Job seen;
-  ASSERT_TRUE(reader->Read(&seen));
-  EXPECT_EQ(server_->room().connections.size(), others + 1);
-  // Only a connection that is found in the table has its calls counted there.
-  while (server_->room().connections.calls() != 1) std::this_thread::yield();
-  context.TryCancel();
-  reader->Finish();
-}
-
-TEST_F(TlsTest, ClientCertificatesAreAskedForAndVerified) {
-  options_.tls.client_ca = authority_.file();
-  start();
-  add("ada", v1::ROLE_USER);
-  EXPECT_TRUE(call(trusting(authority_, "client"), "ada").ok());
-  const grpc::Status without = call(trusting(authority_), "ada");
-  EXPECT_EQ(without.error_code(), grpc::UNAUTHENTICATED);
-  EXPECT_EQ(without.error_message(), "this server asks for a client certificate");
-  stranger_.sign("strange");
-  EXPECT_EQ(call(trusting(authority_, "strange"), "ada").error_code(), grpc::UNAVAILABLE);
-  EXPECT_EQ(call(trusting(authority_, "client")).error_code(), grpc::UNAUTHENTICATED)
-      << "a token all the same";
-}
-
-TEST_F(TlsTest, ReplacedCertificatesAreUsedWithoutARestart) {
-  start();
-  ASSERT_TRUE(call(trusting(authority_)).ok());
-  stranger_.sign("server");
-  while (!call(trusting(stranger_)).ok()) std::this_thread::yield();
-  EXPECT_EQ(call(trusting(authority_)).error_code(), grpc::UNAVAILABLE);
-}
-
-TEST_F(TlsTest, FilesThatAreNoGoodAreNamed) {
-  spit("rubbish.pem", "rubbish");
-  const auto error_with = [&](const TlsOptions& tls) {
-    options_.tls = tls;
-    try {
-      start();
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
-  const TlsOptions good = options_.tls;
-  for (std::string TlsOptions::*member :
-       {&TlsOptions::certificate, &TlsOptions::key, &TlsOptions::client_ca}) {
-    for (const char* name : {"rubbish.pem", "absent.pem"}) {
-      TlsOptions bad = good;
-      bad.*member = file(name);
-      EXPECT_NE(error_with(bad).find(file(name)), std::string::npos) << error_with(bad);
-    }
-  }
-  TlsOptions mixed = good;
-  mixed.key = authority_.key("client");
-  EXPECT_NE(error_with(mixed).find("not that of the certificate"), std::string::npos);
 }
 
 }  // namespace

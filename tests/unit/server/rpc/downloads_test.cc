@@ -79,7 +79,11 @@ TEST_F(OneDownload, WhoReadsTooSlowlyLosesItsPlaceToOthers) {
   v1::FetchArtifactResponse message;
   while (stalled_->Read(&message)) {
   }
-  EXPECT_EQ(stalled_->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  // The reason comes through when the stream has room for it by then.
+  const grpc::Status ended = stalled_->Finish();
+  EXPECT_TRUE(ended.error_code() == grpc::StatusCode::CANCELLED ||
+              ended.error_message().find("the call was ended: ") != std::string::npos)
+      << ended.error_code() << ' ' << ended.error_message();
 }
 
 TEST_F(ServiceTest, WhoReadsNothingIsEnded) {

@@ -1,0 +1,147 @@
+#include "rpc/tls.h"
+
+#include <filesystem>
+
+#include "access_fixture.h"
+#include "tools/files.h"
+#include "tools/test_authority.h"
+
+namespace affskel::server {
+namespace {
+
+/// A server with tokens whose TCP address speaks TLS.
+class TlsTest : public AccessTest {
+ protected:
+  TlsTest() : authority_(directory_.path(), "authority"), stranger_(directory_.path(), "stranger") {
+    authority_.sign("server");
+    authority_.sign("client");
+    options_.tls.certificate = authority_.certificate("server");
+    options_.tls.key = authority_.key("server");
+  }
+  wire::AccessFiles trusting(const tests::TestAuthority& authority, const std::string& own = "") const {
+    wire::AccessFiles files;
+    files.tls_ca = authority.file();
+    if (!own.empty()) {
+      files.tls_cert = authority_.certificate(own);
+      files.tls_key = authority_.key(own);
+    }
+    return files;
+  }
+  grpc::Status call(const wire::AccessFiles& files, const std::string& owner = "") {
+    v1::ServerInfo response;
+    return info(*v1::ErosionService::NewStub(tcp(owner, files)), &response);
+  }
+
+  tests::TestAuthority authority_;
+  tests::TestAuthority stranger_;
+};
+
+TEST_F(TlsTest, OnlyWithTlsAndATrustedServer) {
+  start();
+  add("ada", v1::ROLE_USER);
+  EXPECT_TRUE(call(trusting(authority_), "ada").ok());
+  EXPECT_EQ(call(trusting(authority_)).error_code(), grpc::UNAUTHENTICATED);
+  EXPECT_EQ(call(trusting(stranger_), "ada").error_code(), grpc::UNAVAILABLE);
+  EXPECT_EQ(call({}, "ada").error_code(), grpc::UNAVAILABLE) << "in the clear";
+  v1::ServerInfo response;
+  EXPECT_TRUE(info(*client_, &response).ok()) << "the Unix socket needs none";
+}
+
+TEST_F(TlsTest, ConnectionsAreInTheTableAsOthersAre) {
+  start();
+  const std::string job = submit("OFF 1");
+  add("ada", v1::ROLE_ADMIN);
+  const std::size_t others = server_->room().connections.size();
+  const auto stub = v1::ErosionService::NewStub(tcp("ada", trusting(authority_)));
+  grpc::ClientContext context;
+  v1::WatchJobRequest request;
+  request.set_job(job);
+  const auto reader = stub->WatchJob(&context, request);
+  v1::Job seen;
+  ASSERT_TRUE(reader->Read(&seen));
+  EXPECT_EQ(server_->room().connections.size(), others + 1);
+  // Only a connection that is found in the table has its calls counted there.
+  while (server_->room().connections.calls() != 1) std::this_thread::yield();
+  context.TryCancel();
+  reader->Finish();
+}
+
+TEST_F(TlsTest, ClientCertificatesAreAskedForAndVerified) {
+  options_.tls.client_ca = authority_.file();
+  start();
+  add("ada", v1::ROLE_USER);
+  EXPECT_TRUE(call(trusting(authority_, "client"), "ada").ok());
+  const grpc::Status without = call(trusting(authority_), "ada");
+  EXPECT_EQ(without.error_code(), grpc::UNAUTHENTICATED);
+  EXPECT_EQ(without.error_message(), "this server asks for a client certificate");
+  stranger_.sign("strange");
+  EXPECT_EQ(call(trusting(authority_, "strange"), "ada").error_code(), grpc::UNAVAILABLE);
+  EXPECT_EQ(call(trusting(authority_, "client")).error_code(), grpc::UNAUTHENTICATED)
+      << "a token all the same";
+}
+
+TEST_F(TlsTest, ReplacedCertificatesAreUsedWithoutARestart) {
+  start();
+  ASSERT_TRUE(call(trusting(authority_)).ok());
+  stranger_.sign("server");
+  while (!call(trusting(stranger_)).ok()) std::this_thread::yield();
+  EXPECT_EQ(call(trusting(authority_)).error_code(), grpc::UNAVAILABLE);
+}
+
+std::string look_at(TlsFiles& files) {
+  try {
+    files.look();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(TlsTest, WhatIsNotWholeYetIsNotUsed) {
+  TlsFiles files(options_.tls);
+  const TlsOptions used = files.in_use();
+  const std::string certificate = tests::read_file(used.certificate), key = tests::read_file(used.key);
+  EXPECT_EQ(certificate, tests::read_file(options_.tls.certificate));
+  authority_.sign("renewed");
+  spit("server.pem", "-----BEGIN CERTIF");
+  EXPECT_NE(look_at(files).find("server.pem: no certificate"), std::string::npos);
+  EXPECT_EQ(look_at(files), "") << "told once";
+  spit("server.pem", tests::read_file(authority_.certificate("renewed")));
+  EXPECT_NE(look_at(files).find("server.key: no private key"), std::string::npos) << "the key is yet to come";
+  EXPECT_EQ(tests::read_file(used.certificate), certificate);
+  EXPECT_EQ(tests::read_file(used.key), key);
+  std::filesystem::remove(options_.tls.key);
+  EXPECT_NE(look_at(files).find("server.key: cannot be read"), std::string::npos);
+  spit("server.key", tests::read_file(authority_.key("renewed")));
+  EXPECT_EQ(look_at(files), "");
+  EXPECT_EQ(tests::read_file(used.certificate), tests::read_file(authority_.certificate("renewed")));
+  EXPECT_EQ(tests::read_file(used.key), tests::read_file(authority_.key("renewed")));
+}
+
+TEST_F(TlsTest, FilesThatAreNoGoodAreNamed) {
+  spit("rubbish.pem", "rubbish");
+  const auto error_with = [&](const TlsOptions& tls) {
+    options_.tls = tls;
+    try {
+      start();
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const TlsOptions good = options_.tls;
+  for (std::string TlsOptions::*member :
+       {&TlsOptions::certificate, &TlsOptions::key, &TlsOptions::client_ca}) {
+    for (const char* name : {"rubbish.pem", "absent.pem"}) {
+      TlsOptions bad = good;
+      bad.*member = file(name);
+      EXPECT_NE(error_with(bad).find(file(name)), std::string::npos) << error_with(bad);
+    }
+  }
+  TlsOptions mixed = good;
+  mixed.key = authority_.key("client");
+  EXPECT_NE(error_with(mixed).find("not that of the certificate"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace affskel::server
