@@ -1,5 +1,8 @@
 #include "client/artifacts/surface.h"
 
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "client/base/error.h"
@@ -24,11 +27,21 @@ void add_columns(ShapeFile& shape, const std::vector<std::string>& names,
   }
 }
 
+// Of the circle with the area of the section: what a curve is the axis of.
+void add_radius(ShapeFile& shape) {
+  const PointColumn* area = shape.column("area");
+  if (area == nullptr) damaged("a curve without its sections");
+  PointColumn radius{"radius", false, area->values};
+  for (double& value : radius.values) value = std::sqrt(value / std::numbers::pi);
+  shape.columns.push_back(std::move(radius));
+}
+
 }  // namespace
 
 FetchedSurface parse_surface(const std::string& bytes) {
   v1::TriangleMesh message;
-  if (!message.ParseFromString(bytes) || message.xyz_size() % 3 != 0 || message.corners_size() % 3 != 0) {
+  if (!message.ParseFromString(bytes) || message.xyz_size() % 3 != 0 || message.corners_size() % 3 != 0 ||
+      message.segments_size() % 2 != 0) {
     damaged("odd numbers");
   }
   FetchedSurface surface;
@@ -42,10 +55,18 @@ FetchedSurface parse_surface(const std::string& bytes) {
     }
     surface.shape.off.mesh.triangles.push_back(t);
   }
+  for (int i = 0; i < message.segments_size(); i += 2) {
+    const core::Segment segment = {message.segments(i), message.segments(i + 1)};
+    for (const std::uint32_t end : segment) {
+      if (end >= surface.shape.off.mesh.points.size()) damaged("an end of a segment out of range");
+    }
+    surface.shape.segments.push_back(segment);
+  }
   add_columns(surface.shape, {"E"}, message.erosion());
   add_columns(surface.shape, {"strength"}, message.strength());
   add_columns(surface.shape, {"ratio"}, message.ratio());
   add_columns(surface.shape, {"area"}, message.area());
+  if (!surface.shape.segments.empty()) add_radius(surface.shape);
   add_columns(surface.shape, {"nx_a", "ny_a", "nz_a"}, message.normal_a());
   add_columns(surface.shape, {"nx_b", "ny_b", "nz_b"}, message.normal_b());
   surface.quality = message.quality();

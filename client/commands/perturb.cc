@@ -58,7 +58,7 @@ void run(Console& console, const Options& options) {
   const double fraction = options.noise.empty() ? 0 : fraction_of(options.noise);
   const Destination destination = destination_of(options.output, options.format, console);
   ShapeFile shape = read_shape(options.file);
-  if (!shape.is_surface()) {
+  if (shape.mesh().triangles.empty()) {
     throw ClientError(ExitCode::kBadInput, "has no triangles; noise is for the vertices of a mesh",
                       options.file);
   }
@@ -73,6 +73,7 @@ void run(Console& console, const Options& options) {
   // What was true of the old places (E, normals) is not of the new ones.
   tell_what_is_lost(console, shape, FileFormat::kOff, destination.name());
   shape.columns.clear();
+  shape.segments.clear();
 
   const std::string noise = "Gaussian noise of standard deviation " + base::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);

@@ -41,6 +41,22 @@ void check_surface_size(const core::Mesh& mesh, const std::string& path) {
                     path);
 }
 
+// Points spread over the triangles, and along the curves at the same distances.
+// @return their distances.
+double spread_points(const ShapeFile& shape, std::uint64_t samples, std::vector<core::Vec3>& points) {
+  const core::Mesh& mesh = shape.mesh();
+  double distance = core::curve_length(mesh.points, shape.segments) / static_cast<double>(samples);
+  if (!mesh.triangles.empty()) {
+    points = core::surface_samples(mesh, {samples});
+    distance = std::sqrt(core::surface_area(mesh) / static_cast<double>(points.size()));
+  }
+  if (!shape.segments.empty() && distance > 0) {
+    const std::vector<core::Vec3> more = core::curve_samples(mesh.points, shape.segments, distance);
+    points.insert(points.end(), more.begin(), more.end());
+  }
+  return distance;
+}
+
 ComparedPoints read_points(const std::string& path, std::uint64_t samples, Console& console) {
   ShapeFile shape = read_shape(path);
   ComparedPoints result{path, shape.is_surface(), {}};
@@ -49,14 +65,12 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Conso
   } else {
     check_surface_size(shape.mesh(), path);
     try {
-      result.points = core::surface_samples(shape.mesh(), {samples});
+      const double distance = spread_points(shape, samples, result.points);
+      console.note(path + ": a surface, compared by " + base::counted(result.points.size(), "point") +
+                   " spread over it, about " + base::rounded(distance, 3) + " apart");
     } catch (const core::CoreError& error) {
       throw error_from_core(error, path);
     }
-    const double spacing =
-        std::sqrt(core::surface_area(shape.mesh()) / static_cast<double>(result.points.size()));
-    console.note(path + ": a surface, compared by " + base::counted(result.points.size(), "point") +
-                 " spread over it, about " + base::rounded(spacing, 3) + " apart");
   }
   if (result.points.empty()) {
     throw ClientError(ExitCode::kBadInput,

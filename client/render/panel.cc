@@ -168,20 +168,35 @@ bool Panel::draw_profile(const std::array<Vec3, 3>& corners, const std::array<Rg
       std::fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
   if (longest == 0) return true;  // nothing to be seen of it
   if (doubled >= kProfile * longest) return false;
-  const double across_x = -(p[b].y - p[a].y) / longest * kProfile / 2;
-  const double across_y = (p[b].x - p[a].x) / longest * kProfile / 2;
-  const ScreenPoint a0{p[a].x - across_x, p[a].y - across_y}, a1{p[a].x + across_x, p[a].y + across_y};
-  const ScreenPoint b0{p[b].x - across_x, p[b].y - across_y}, b1{p[b].x + across_x, p[b].y + across_y};
+  draw_line(p[a], p[b], colours[a], colours[b], kProfile);
+  return true;
+}
+
+void Panel::draw_line(const Projected& a, const Projected& b, Rgb colour_a, Rgb colour_b, double width) {
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (length == 0) return;
+  const double across_x = -(b.y - a.y) / length * width / 2;
+  const double across_y = (b.x - a.x) / length * width / 2;
+  const ScreenPoint a0{a.x - across_x, a.y - across_y}, a1{a.x + across_x, a.y + across_y};
+  const ScreenPoint b0{b.x - across_x, b.y - across_y}, b1{b.x + across_x, b.y + across_y};
   // t: the share of the way from a to b.
   const auto paint = [&](int x, int y, double t) {
-    const auto depth = static_cast<float>((1 - t) * p[a].depth + t * p[b].depth);
-    cover(at(x, y), depth, kProfileLight * mix(colours[a], colours[b], static_cast<float>(t)));
+    const auto depth = static_cast<float>((1 - t) * a.depth + t * b.depth);
+    cover(at(x, y), depth, kProfileLight * mix(colour_a, colour_b, static_cast<float>(t)));
   };
   for_each_sample({a0, b0, b1}, columns_, rows_,
                   [&](int x, int y, double, double w1, double w2) { paint(x, y, w1 + w2); });
   for_each_sample({a0, b1, a1}, columns_, rows_,
                   [&](int x, int y, double, double w1, double) { paint(x, y, w1); });
-  return true;
+}
+
+void Panel::draw_curves(const std::vector<Vec3>& points, const std::vector<core::Segment>& segments,
+                        const std::vector<Rgb>& colours, double width) {
+  for (const auto& [a, b] : segments) {
+    draw_line(project(points[a]), project(points[b]), colours[a], colours[b], kSamples * width);
+    // Round joints; also what is seen from its end.
+    for (const std::uint32_t end : {a, b}) draw_ball({points[end], colours[end]}, width / 2);
+  }
 }
 
 void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normals) {

@@ -22,7 +22,7 @@ struct Ball {
   Rgb colour;
 };
 
-/// Draws one view: opaque balls, facets and sheets, depth-buffered, inside a translucent surface.  Works on a
+/// Draws one view: opaque balls, facets, sheets and curves, depth-buffered, inside a translucent surface.  Works on a
 /// grid of 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers takes a
 /// share of the light, and the layers in front of a ball and those behind it are kept apart.
 class Panel {
@@ -42,6 +42,9 @@ class Panel {
   /// The same with a colour per vertex, blended in between; facets that look thinner than a pixel are drawn
   /// as lines of one, so that a sheet does not vanish where it is seen from its edge.
   void draw_sheet(const core::Mesh& mesh, const std::vector<Rgb>& colours);
+  /// The segments of curves, opaque and lit alike all round.  @param width of the lines, pixels.
+  void draw_curves(const std::vector<core::Vec3>& points, const std::vector<core::Segment>& segments,
+                   const std::vector<Rgb>& colours, double width);
   /// @param normals one per triangle and corner, unit or zero.
   void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals);
 
@@ -70,6 +73,8 @@ class Panel {
   // Flat, lit on the side that the viewer sees.  `darkest`: brightness where no light falls.
   void draw_facet(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours,
                   double darkest);
+  // A line of `width` samples from a to b.
+  void draw_line(const Projected& a, const Projected& b, Rgb colour_a, Rgb colour_b, double width);
   // Draws a facet that looks thinner than a pixel as a line along its longest side; false for any other.
   bool draw_profile(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours);
   // Keeps what is nearer.

@@ -98,7 +98,8 @@ void draw_points(const RenderInput& input, const Layout& layout, double highest,
   }
 }
 
-void draw_sheet(const v1::TriangleMesh& sheet, double highest, Panel& panel) {
+// @param curve_width pixels.
+void draw_sheet(const v1::TriangleMesh& sheet, double highest, double curve_width, Panel& panel) {
   core::Mesh mesh;
   std::vector<Rgb> colours;
   for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
@@ -109,6 +110,10 @@ void draw_sheet(const v1::TriangleMesh& sheet, double highest, Panel& panel) {
     mesh.triangles.push_back({sheet.corners(3 * t), sheet.corners(3 * t + 1), sheet.corners(3 * t + 2)});
   }
   panel.draw_sheet(mesh, colours);
+  std::vector<core::Segment> segments;
+  for (int i = 0; i < sheet.segments_size(); i += 2)
+    segments.push_back({sheet.segments(i), sheet.segments(i + 1)});
+  panel.draw_curves(mesh.points, segments, colours, curve_width);
 }
 
 Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, const Layout& layout,
@@ -116,7 +121,7 @@ Image draw_panel(const RenderInput& input, const std::vector<Vec3>& normals, con
   Panel panel(layout.panel_width[which], layout.panel_height, kViews[which].view, box.centre(), layout.scale);
   const double highest = highest_of(input);
   draw_points(input, layout, highest, panel);
-  draw_sheet(input.sheet, highest, panel);
+  draw_sheet(input.sheet, highest, std::max(2.0, layout.text / 5), panel);
   panel.draw_surface(input.mesh, normals);
   return panel.resolve();
 }

@@ -129,6 +129,8 @@ void add_sheet(Arrays& arrays, const ViewInput& input, const Scale& scale) {
   arrays.add("sheetShares", "f32", shares);
   arrays.add("sheetCorners", "u32",
              std::vector<std::uint32_t>(sheet.corners().begin(), sheet.corners().end()));
+  arrays.add("sheetSegments", "u32",
+             std::vector<std::uint32_t>(sheet.segments().begin(), sheet.segments().end()));
   const SheetPieces pieces = sheet_pieces(sheet);
   arrays.add("sheetPieces", "u32", pieces.piece);
   arrays.add("sheetPieceShares", "f32", std::vector<float>(pieces.shares.begin(), pieces.shares.end()));

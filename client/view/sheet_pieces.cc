@@ -1,6 +1,7 @@
 #include "client/view/sheet_pieces.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/vec3.h"
@@ -15,29 +16,42 @@ Vec3 vertex(const v1::TriangleMesh& sheet, std::uint32_t v) {
   return {sheet.xyz(first), sheet.xyz(first + 1), sheet.xyz(first + 2)};
 }
 
-double weight(const v1::TriangleMesh& sheet, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const Vec3 at = vertex(sheet, a);
-  const double area = 0.5 * core::norm(core::cross(vertex(sheet, b) - at, vertex(sheet, c) - at));
-  const auto strength = [&](std::uint32_t v) { return sheet.strength(static_cast<int>(v)); };
-  return area * ((strength(a) + strength(b)) + strength(c)) / 3;
+double mean_strength(const v1::TriangleMesh& sheet, std::span<const std::uint32_t> element) {
+  double sum = 0;
+  for (const std::uint32_t v : element) sum += sheet.strength(static_cast<int>(v));
+  return sum / static_cast<double>(element.size());
+}
+
+double weight(const v1::TriangleMesh& sheet, std::span<const std::uint32_t> element) {
+  const Vec3 at = vertex(sheet, element[0]), along = vertex(sheet, element[1]) - at;
+  const double area = element.size() == 2
+                          ? core::dot(along, along)
+                          : 0.5 * core::norm(core::cross(along, vertex(sheet, element[2]) - at));
+  return area * mean_strength(sheet, element);
+}
+
+// The vertices of each triangle, then of each segment.
+std::vector<std::span<const std::uint32_t>> elements_of(const v1::TriangleMesh& sheet) {
+  std::vector<std::span<const std::uint32_t>> elements;
+  for (int i = 0; i < sheet.corners_size(); i += 3) elements.push_back({sheet.corners().data() + i, 3});
+  for (int i = 0; i < sheet.segments_size(); i += 2) elements.push_back({sheet.segments().data() + i, 2});
+  return elements;
 }
 
 }  // namespace
 
 SheetPieces sheet_pieces(const v1::TriangleMesh& sheet) {
-  const auto& corners = sheet.corners();
-  const int triangles = corners.size() / 3;
+  const auto elements = elements_of(sheet);
   core::DisjointSets vertices(static_cast<std::size_t>(sheet.xyz_size() / 3));
-  for (int t = 0; t < triangles; ++t) {
-    vertices.unite(corners[3 * t], corners[3 * t + 1]);
-    vertices.unite(corners[3 * t], corners[3 * t + 2]);
+  for (const auto& element : elements) {
+    for (const std::uint32_t v : element.subspan(1)) vertices.unite(element[0], v);
   }
   std::vector<double> weights(static_cast<std::size_t>(sheet.xyz_size() / 3), 0);  // by the vertex of a set
   std::vector<std::uint32_t> roots;
   double whole = 0;
-  for (int t = 0; t < triangles; ++t) {
-    const std::uint32_t root = vertices.find(corners[3 * t]);
-    const double w = weight(sheet, corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
+  for (const auto& element : elements) {
+    const std::uint32_t root = vertices.find(element[0]);
+    const double w = weight(sheet, element);
     weights[root] += w;
     whole += w;
     roots.push_back(root);

@@ -4,6 +4,9 @@
 // middle, cut into three pieces: from left to right one column of strength 0.5, five of 0.5 and two of 1. The
 // colour of E goes evenly from left to right.
 //
+// affskel_made_up_page curve FILE: the first column of that sheet, and from its last corner a curve of eight
+// segments along x.
+//
 // affskel_made_up_page stretched FILE: the skeleton is a column of six points through the middle, of a
 // lattice with steps of 1/8 along x and y and 1/2 along z.
 //
@@ -80,6 +83,29 @@ ViewInput sheet_page() {
   return input;
 }
 
+// The first strip, and from its upper end a curve on the same line.
+ViewInput curve_page() {
+  ViewInput input = sheet_page();
+  input.job.set_name("curve");
+  input.operator_name = "ridge";
+  input.sheet.Clear();
+  add_strip(input.sheet, 0, 1, 0.5);
+  constexpr unsigned kSegments = 8;
+  auto last = static_cast<unsigned>(input.sheet.xyz_size() / 3 - 1);
+  for (unsigned s = 1; s <= kSegments; ++s) {
+    const int from = 3 * static_cast<int>(last);
+    const double at[] = {input.sheet.xyz(from) + kEdge / kSquares / 2, input.sheet.xyz(from + 1),
+                         input.sheet.xyz(from + 2)};
+    for (const double c : at) input.sheet.add_xyz(c);
+    input.sheet.add_erosion(kVolume * kHighestShare);
+    input.sheet.add_strength(8);
+    input.sheet.add_segments(last);
+    last = static_cast<unsigned>(input.sheet.xyz_size() / 3 - 1);
+    input.sheet.add_segments(last);
+  }
+  return input;
+}
+
 ViewInput stretched_page() {
   ViewInput input = cube(32);
   input.job.set_name("stretched");
@@ -124,16 +150,16 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string kind = arguments.size() == 2 || arguments.size() == 3 ? arguments[0] : "";
   const bool known = kind == "thinned" ? arguments.size() == 3
-                                       : arguments.size() == 2 && (kind == "sheet" || kind == "stretched");
+                                       : arguments.size() == 2 && (kind == "sheet" || kind == "curve" || kind == "stretched");
   if (!known) {
-    std::cerr << "usage: affskel_made_up_page sheet FILE | stretched FILE | thinned N FILE\n";
+    std::cerr << "usage: affskel_made_up_page sheet FILE | curve FILE | stretched FILE | thinned N FILE\n";
     return 2;
   }
   try {
-    const ViewInput input = kind == "sheet" ? sheet_page()
-                            : kind == "stretched"
-                                ? stretched_page()
-                                : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
+    const ViewInput input = kind == "sheet"       ? sheet_page()
+                            : kind == "curve"     ? curve_page()
+                            : kind == "stretched" ? stretched_page()
+                                                  : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
     affskel::base::AtomicFile file(arguments.back());
     file.write(affskel::client::view_page(input));
     file.commit();

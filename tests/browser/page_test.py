@@ -332,6 +332,32 @@ class Sheet(WithPage):
         self.assertGreater(right[1], right[2])
 
 
+class Curve(WithPage):
+    """A strip of a sheet and a curve of eight segments: see made_up_page.cc."""
+
+    def file(self):
+        return self.made_up("curve")
+
+    def test_counts_its_segments(self):
+        self.assertEqual(self.page.element("threshold-count").text,
+                         "16 triangles and 8 segments of curves in one piece")
+
+    def test_draws_a_tube(self):
+        self.page.click("view-top")
+        for layer in ["mesh", "axes"]:
+            self.page.click("show-" + layer)
+        picture = self.page.canvas_picture()
+        background = picture.getpixel((2, 2))
+        unit = self.page.state()["camera"]["zoom"] * self.page.element("canvas").size["height"] / 4
+        # The curve goes from 0.5 to 2.5 of the edge of 4; the middle of the picture is 2.
+        for x in (1, 2, 2.4):
+            column = int(picture.width / 2 + (x - 2) * unit)
+            drawn = [y for y in range(picture.height) if picture.getpixel((column, y)) != background]
+            # Six sides round a circle of 0.3 spacings of 0.5.
+            self.assertGreater(len(drawn), 0.25 * unit, x)
+            self.assertLess(len(drawn), 0.35 * unit, x)
+
+
 class Stretched(WithPage):
     """Points of a lattice whose steps are four times as long along z: see made_up_page.cc."""
 

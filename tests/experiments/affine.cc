@@ -115,6 +115,16 @@ void check(const std::vector<Images>& all, const SimilarityStudy& study, Operato
   }
 }
 
+void tabulate(const std::string& file, const std::string& name, const SimilarityStudy& study,
+              Report& report) {
+  report.subsection(name);
+  report.table(similarity_table(study));
+  report.drawing(file,
+                 svg_of(similarity_chart("Skeleton of the mapped body, mapped skeleton; " + name, study,
+                                         kPublishedShare)),
+                 "Share of similar points over the squared radius under affine maps, " + name);
+}
+
 constexpr const char* kText =
     "Published: 98 % similar points at r^2 = 1e8 after a rotation, a translation and a shear; as under "
     "noise, that radius is half a body's height. Here *turn and shear* is 30 degrees about z, 20 about x, "
@@ -133,35 +143,24 @@ void affine_experiment(const Setting& setting, Report& report) {
   std::vector<Images> all;
   all.push_back(compute_images(mesh, FrameKind::kAxis, setting));
   all.push_back(compute_images(mesh, FrameKind::kAffine, setting));
-  const SimilarityStudy zucker_hummel = study(all, Operator::kZuckerHummel);
-  const SimilarityStudy chords = study(all, Operator::kChords);
+  const OperatorStudies studies{study(all, Operator::kZuckerHummel), study(all, Operator::kChords),
+                                study(all, Operator::kRidge)};
   report.section("Affine invariance (6.4, figures 6.19 to 6.21)");
-  report.subsection("Zucker-Hummel");
-  report.table(similarity_table(zucker_hummel));
-  report.subsection("Chords");
-  report.table(similarity_table(chords));
-  report.drawing("affine",
-                 svg_of(similarity_chart("Skeleton of the mapped body, mapped skeleton; Zucker-Hummel",
-                                         zucker_hummel, kPublishedShare)),
-                 "Share of similar points over the squared radius under affine maps, Zucker-Hummel");
-  report.drawing("affine_chords",
-                 svg_of(similarity_chart("Skeleton of the mapped body, mapped skeleton; chords", chords,
-                                         kPublishedShare)),
-                 "Share of similar points over the squared radius under affine maps, chords");
+  tabulate("affine", "Zucker-Hummel", studies.zucker_hummel, report);
+  tabulate("affine_chords", "chords", studies.chords, report);
+  tabulate("affine_ridge", "ridge", studies.ridge, report);
   show(all, report);
   report.text(kText);
   const double squared = 3 * setting.spacing() * setting.spacing();
-  const auto shares = [&](std::size_t n) {
-    return zucker_hummel.both_ways(n) + ", chords " + chords.both_ways(n);
-  };
   report.compare({format("turn and shear, body of %zu", mesh.triangles.size()), "98 % at r^2 = 1e8",
-                  "at r^2 = " + squared_text(squared) + ": axis " + shares(0) + "; affine " + shares(2) +
-                      "; " + zucker_hummel.chance_levels(chords),
+                  "at r^2 = " + squared_text(squared) + ": axis " + studies.shares(0) +
+                      "; affine " + studies.shares(2) + "; " + studies.chance_levels(),
                   "agrees, and at a radius that means something"});
   report.compare({format("stretch 2, 1, 1/2, body of %zu", mesh.triangles.size()), "-",
-                  "axis " + shares(1) + "; affine " + shares(3), "-"});
-  check(all, zucker_hummel, Operator::kZuckerHummel, setting.quick, report);
-  check(all, chords, Operator::kChords, setting.quick, report);
+                  "axis " + studies.shares(1) + "; affine " + studies.shares(3), "-"});
+  check(all, studies.zucker_hummel, Operator::kZuckerHummel, setting.quick, report);
+  check(all, studies.chords, Operator::kChords, setting.quick, report);
+  check(all, studies.ridge, Operator::kRidge, setting.quick, report);
 }
 
 }  // namespace affskel::experiments

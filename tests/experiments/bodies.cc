@@ -24,11 +24,17 @@ struct Result {
   Job job;
   Cloud skeleton;
   std::vector<std::size_t> pieces;
-  Sheet sheet;  // at half the spacing: its cells would be coarse in a picture
+  Sheet chords, ridge;  // at half the spacing: their cells would be coarse in a picture
 };
 
 double largest_share(const Result& r) {
   return static_cast<double>(r.pieces[0]) / static_cast<double>(r.skeleton.size());
+}
+
+std::string size_of(const Sheet& sheet) {
+  return format("%zu, %llu, %llu", sheet.mesh.triangles.size(),
+                static_cast<unsigned long long>(sheet.betti.components),
+                static_cast<unsigned long long>(sheet.betti.holes));
 }
 
 std::vector<std::string> row(const Result& r) {
@@ -40,8 +46,8 @@ std::vector<std::string> row(const Result& r) {
           std::to_string(r.skeleton.size()),
           std::to_string(r.pieces.size()),
           format("%.1f %%", 100 * largest_share(r)),
-          format("%zu, %llu", r.sheet.mesh.triangles.size(),
-                 static_cast<unsigned long long>(r.sheet.betti.components)),
+          size_of(r.chords),
+          size_of(r.ridge),
           duration(r.job.seconds),
           r.published.time,
           r.published.seconds > 0 ? format("%.2g", ratio) : "-"};
@@ -61,15 +67,15 @@ Exhibit exhibit(const Result& r) {
           {}};
 }
 
-Exhibit sheet_exhibit(const Result& r) {
+Exhibit sheet_exhibit(const Result& r, const char* name, const Sheet& sheet) {
   return {{format("%u triangles", r.published.triangles),
-           format("chords, dT = %g: ", r.job.lattice.spacing / 2) +
-               std::to_string(r.sheet.mesh.triangles.size()) + " triangles"},
+           format("%s, dT = %g: ", name, r.job.lattice.spacing / 2) +
+               std::to_string(sheet.mesh.triangles.size()) + " triangles"},
           r.job.mesh,
           {},
           {},
           0,
-          r.sheet.mesh};
+          sheet.mesh};
 }
 
 }  // namespace
@@ -83,11 +89,14 @@ void body_experiment(const Setting& setting, Report& report) {
              compute(mesh, {setting.spacing(), "triangles", core::FrameKind::kAxis, setting.threads}),
              {},
              {},
+             {},
              {}};
     r.skeleton = zucker_hummel_skeleton(r.job);
     r.pieces = piece_sizes(r.job, r.skeleton);
     const JobOptions finer{setting.spacing() / 2, "triangles", core::FrameKind::kAxis, setting.threads};
-    r.sheet = chord_sheet_of(compute(mesh, finer));
+    const Job finer_job = compute(mesh, finer);
+    r.chords = chord_sheet_of(finer_job);
+    r.ridge = ridge_sheet_of(finer_job);
     results.push_back(std::move(r));
   }
   report.section("Bodies (6.2, figures 6.8 to 6.10)");
@@ -97,14 +106,15 @@ void body_experiment(const Setting& setting, Report& report) {
       "size. Zucker-Hummel operator, threshold 7, dT = " +
       format("%g", setting.spacing()) + ", directions of the triangles.");
   Table table{{"triangles", "points", "v0", "largest E / v0", "skeleton", "pieces", "in the largest",
-               "`chords` at dT / 2: triangles, pieces", "time", "published time", "ratio"},
+               "`chords` at dT / 2: triangles, pieces, tunnels", "`ridge` likewise", "time", "published time", "ratio"},
               {}};
   for (const Result& r : results) table.rows.push_back(row(r));
   report.table(table);
-  std::vector<Exhibit> points, sheets;
+  std::vector<Exhibit> points, chords, ridges;
   for (const Result& r : results) {
     points.push_back(exhibit(r));
-    sheets.push_back(sheet_exhibit(r));
+    chords.push_back(sheet_exhibit(r, "chords", r.chords));
+    ridges.push_back(sheet_exhibit(r, "ridge", r.ridge));
   }
   report.picture("bodies", gallery(points, {{Side::kFront, Side::kSide}, 2200}),
                  "Bodies and their affine skeletons, from the front and from the side");
@@ -114,12 +124,17 @@ void body_experiment(const Setting& setting, Report& report) {
       "volumes the gaps of the coarse bodies become few, and they close as the triangles, and with them "
       "the directions, become more. The ratio of the times compares a machine of 2003 with this one; "
       "`affskel_bench` also times the published algorithm, written anew, on this machine.");
-  report.picture("bodies_chords", gallery(sheets, {{Side::kFront, Side::kSide}, 2200}),
+  report.picture("bodies_chords", gallery(chords, {{Side::kFront, Side::kSide}, 2200}),
                  "The skeletons as sheets of equal chords, at half the spacing");
   report.text(
       "The sheets of the operator `chords`: the places where two chords of equal volume meet, which is "
       "the skeleton's definition, without a derivative of the normals. Thin lines are ways through weaker "
       "shocks, laid to join the strong parts to one piece.");
+  report.picture("bodies_ridge", gallery(ridges, {{Side::kFront, Side::kSide}, 2200}),
+                 "The skeletons as ridges of E, at half the spacing");
+  report.text(
+      "The sheets of the operator `ridge`: where the normals turn fast across the sheet, be it in a jump or "
+      "not. In a smooth body most of the middle sheet is no jump.");
   for (const Result& r : results) {
     const std::string name = format("body of %u triangles", r.published.triangles);
     report.compare({name + format(", dT %g", setting.spacing()), r.published.time,
@@ -129,8 +144,10 @@ void body_experiment(const Setting& setting, Report& report) {
                     r.published.triangles <= 500 ? verdict(r) : verdict(r) + "; no skeleton was published"});
     report.expect(name + ": share of the largest piece", largest_share(r), setting.quick ? 0.1 : 0.5, 1);
     report.expect(name + ": largest E / v0", r.job.highest_share(), 0.2, 0.55);
-    report.expect(name + ": pieces of the sheet of chords", static_cast<double>(r.sheet.betti.components), 1,
+    report.expect(name + ": pieces of the sheet of chords", static_cast<double>(r.chords.betti.components), 1,
                   setting.quick ? 20 : 3);
+    report.expect(name + ": pieces of the ridge", static_cast<double>(r.ridge.betti.components), 1,
+                  setting.quick ? 20 : 1);
     report.expect(name + ": seconds", r.job.seconds, 0, 600);
   }
 }

@@ -50,7 +50,7 @@ Result measure(const std::string& name, const core::Mesh& mesh, const std::strin
     r.reach = {std::max(r.reach.x, std::abs(offset.x) / dt), std::max(r.reach.y, std::abs(offset.y) / dt),
                std::max(r.reach.z, std::abs(offset.z) / dt)};
   }
-  for (const Vec3& p : chord_sheet_of(r.job).shocks.place) {
+  for (const Vec3& p : chord_sheet_of(r.job).points.place) {
     const Vec3 offset = core::transposed_times(to_frame, p - r.job.solid.centre);
     r.chords = std::max(r.chords, core::norm(offset) / dt);
   }

@@ -113,7 +113,7 @@ TEST(Sheet, IsMappedBackFromItsFrame) {
   const Sheet sheet = chord_sheet_of(job);
   ASSERT_FALSE(sheet.mesh.points.empty());
   EXPECT_EQ(sheet.betti, (core::BettiNumbers{1, 1, 0}));
-  for (const core::Vec3& p : sheet.shocks.place) {
+  for (const core::Vec3& p : sheet.points.place) {
     EXPECT_NEAR(p.z, 0, 1200.0 / 6);  // the frame narrows all turns, so that facets beside the plane count
     const double round = std::sqrt(p.x * p.x + p.y * p.y);
     EXPECT_GT(round, 1500);

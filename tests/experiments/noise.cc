@@ -69,16 +69,16 @@ SimilarityStudy study(const Bodies& bodies, Operator shock_operator, Report& rep
   return result;
 }
 
-void show(const Bodies& bodies, const SimilarityStudy& zucker_hummel, const SimilarityStudy& chords,
-          Report& report) {
-  report.drawing("noise",
-                 svg_of(similarity_chart("Similar points under vertex noise, Zucker-Hummel", zucker_hummel,
-                                         kPublishedShare)),
-                 "Share of similar points over the squared radius under noise, Zucker-Hummel");
+void draw(const std::string& file, const std::string& name, const SimilarityStudy& study, Report& report) {
   report.drawing(
-      "noise_chords",
-      svg_of(similarity_chart("Similar points under vertex noise, chords", chords, kPublishedShare)),
-      "Share of similar points over the squared radius under noise, chords");
+      file, svg_of(similarity_chart("Similar points under vertex noise, " + name, study, kPublishedShare)),
+      "Share of similar points over the squared radius under noise, " + name);
+}
+
+void show(const Bodies& bodies, const OperatorStudies& studies, Report& report) {
+  draw("noise", "Zucker-Hummel", studies.zucker_hummel, report);
+  draw("noise_chords", "chords", studies.chords, report);
+  draw("noise_ridge", "ridge", studies.ridge, report);
   const auto exhibit = [](const std::string& name, const Job& job) {
     const Cloud skeleton = skeleton_by(Operator::kZuckerHummel, job);
     return Exhibit{{name, format("%zu skeleton points", skeleton.size())},
@@ -94,17 +94,14 @@ void show(const Bodies& bodies, const SimilarityStudy& zucker_hummel, const Simi
   }
   report.picture("noise", gallery(exhibits, {{Side::kFront, Side::kSide}, 2200}),
                  "The body and its skeleton without noise and with noise");
-  const auto shares = [&](std::size_t n) {
-    return zucker_hummel.both_ways(n) + ", chords " + chords.both_ways(n);
-  };
   report.compare({format("noise of unit deviation, body of %u", bodies.triangles), "94 % at r^2 = 1e8",
-                  "at r^2 = " + squared_text(3 * bodies.dt() * bodies.dt()) + ": " + shares(0) + "; " +
-                      zucker_hummel.chance_levels(chords),
+                  "at r^2 = " + squared_text(3 * bodies.dt() * bodies.dt()) + ": " +
+                      studies.shares(0) + "; " + studies.chance_levels(),
                   "agrees, and at a radius that means something"});
   report.compare(
-      {format("noise of 0.5 %% of the diagonal, body of %u", bodies.triangles), "-", shares(1), "-"});
+      {format("noise of 0.5 %% of the diagonal, body of %u", bodies.triangles), "-", studies.shares(1), "-"});
   report.compare(
-      {format("noise of 1 %% of the diagonal, body of %u", bodies.triangles), "-", shares(2), "-"});
+      {format("noise of 1 %% of the diagonal, body of %u", bodies.triangles), "-", studies.shares(2), "-"});
 }
 
 constexpr const char* kText =
@@ -136,9 +133,10 @@ void noise_experiment(const Setting& setting, Report& report) {
   bool first = true;
   for (const Run& run : runs) {
     const Bodies bodies = compute_bodies(setting, run.triangles, run.dt);
-    const SimilarityStudy zucker_hummel = study(bodies, Operator::kZuckerHummel, report);
-    const SimilarityStudy chords = study(bodies, Operator::kChords, report);
-    if (first) show(bodies, zucker_hummel, chords, report);
+    const OperatorStudies studies{study(bodies, Operator::kZuckerHummel, report),
+                                  study(bodies, Operator::kChords, report),
+                                  study(bodies, Operator::kRidge, report)};
+    if (first) show(bodies, studies, report);
     first = false;
   }
 }

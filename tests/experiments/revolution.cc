@@ -25,7 +25,7 @@ struct Result {
   // Largest distance of a shock of equal chords from the z axis.
   double chords() const {
     double greatest = 0;
-    for (const Vec3& p : sheet.shocks.place) greatest = std::max(greatest, std::sqrt(p.x * p.x + p.y * p.y));
+    for (const Vec3& p : sheet.points.place) greatest = std::max(greatest, std::sqrt(p.x * p.x + p.y * p.y));
     return greatest;
   }
   double greatest() const { return *std::max_element(radius.begin(), radius.end()); }

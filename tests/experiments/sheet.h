@@ -6,14 +6,15 @@
 
 namespace affskel::experiments {
 
-/// The skeleton by the operator `chords`, in mesh units.
+/// The skeleton by the operator `chords` or `ridge`, in mesh units.
 struct Sheet {
-  Cloud shocks;  ///< its points: where two equal chords meet, on lattice edges
+  Cloud points;  ///< `chords`: where two equal chords meet, on lattice edges; `ridge`: the mesh's vertices
   core::Mesh mesh;
   core::BettiNumbers betti;  ///< of the mesh
 };
 
 /// With the operator's default options.
 Sheet chord_sheet_of(const Job& job);
+Sheet ridge_sheet_of(const Job& job);
 
 }  // namespace affskel::experiments

@@ -26,11 +26,27 @@ std::string squared_text(double squared) {
 }
 
 const char* name_of(Operator shock_operator) {
-  return shock_operator == Operator::kZuckerHummel ? "zucker-hummel" : "chords";
+  switch (shock_operator) {
+    case Operator::kZuckerHummel:
+      return "zucker-hummel";
+    case Operator::kChords:
+      return "chords";
+    case Operator::kRidge:
+      break;
+  }
+  return "ridge";
 }
 
 Cloud skeleton_by(Operator shock_operator, const Job& job) {
-  return shock_operator == Operator::kZuckerHummel ? zucker_hummel_skeleton(job) : chord_sheet_of(job).shocks;
+  switch (shock_operator) {
+    case Operator::kZuckerHummel:
+      return zucker_hummel_skeleton(job);
+    case Operator::kChords:
+      return chord_sheet_of(job).points;
+    case Operator::kRidge:
+      break;
+  }
+  return ridge_sheet_of(job).points;
 }
 
 double SimilarityStudy::radius() const {
@@ -41,9 +57,14 @@ std::string SimilarityStudy::both_ways(std::size_t n) const {
   return format("%.1f / %.1f %%", 100 * there(n), 100 * back(n));
 }
 
-std::string SimilarityStudy::chance_levels(const SimilarityStudy& chords) const {
-  return format("chance %.0f %%, chords %.0f %%", 100 * chance.share_within(radius()),
-                100 * chords.chance.share_within(chords.radius()));
+std::string OperatorStudies::shares(std::size_t n) const {
+  return zucker_hummel.both_ways(n) + ", chords " + chords.both_ways(n) + ", ridge " + ridge.both_ways(n);
+}
+
+std::string OperatorStudies::chance_levels() const {
+  const auto level = [](const SimilarityStudy& s) { return 100 * s.chance.share_within(s.radius()); };
+  return format("chance %.0f %%, chords %.0f %%, ridge %.0f %%", level(zucker_hummel), level(chords),
+                level(ridge));
 }
 
 Table similarity_table(const SimilarityStudy& study) {

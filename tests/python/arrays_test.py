@@ -95,9 +95,16 @@ class Decoding(unittest.TestCase):
                                                    direction=[0, 0]))
         for surface in (types.TriangleMesh(xyz=[0] * 9, corners=[0, 1, 3]), types.TriangleMesh(xyz=[0] * 8),
                         types.TriangleMesh(xyz=[0] * 9, corners=[0, 1, 2], erosion=[1, 2]),
-                        types.TriangleMesh(xyz=[0] * 9, corners=[0, 1])):
+                        types.TriangleMesh(xyz=[0] * 9, corners=[0, 1]),
+                        types.TriangleMesh(xyz=[0] * 9, segments=[0, 3]), types.TriangleMesh(xyz=[0] * 9, segments=[0])):
             with self.assertRaises(affskel.InternalError):
                 _arrays.surface_of(surface)
+
+    def test_curves_are_pairs_of_vertices(self):
+        surface = _arrays.surface_of(types.TriangleMesh(xyz=range(12), corners=[0, 1, 2], segments=[2, 3, 3, 0]))
+        np.testing.assert_array_equal(surface.segments, [[2, 3], [3, 0]])
+        np.testing.assert_array_equal(surface.faces, [[0, 1, 2]])
+        self.assertEqual(_arrays.surface_of(types.TriangleMesh(xyz=range(9), corners=[0, 1, 2])).segments.shape, (0, 2))
 
     def test_messages_become_dictionaries_that_tell_what_is_absent(self):
         quality = _messages.plain(types.SkeletonQuality(points=3, hausdorff_there=0.0))

@@ -42,7 +42,7 @@ Derived packed(const v1::SkeletonPoints& points, const std::string& what) {
 Derived packed(const v1::TriangleMesh& mesh, const std::string& what) {
   Derived result;
   append_result(result.data, mesh, what);
-  result.items = static_cast<std::uint64_t>(mesh.corners_size()) / 3;
+  result.items = static_cast<std::uint64_t>(mesh.corners_size() / 3 + mesh.segments_size() / 2);
   return result;
 }
 

@@ -48,7 +48,9 @@ bool is_sheet(const v1::TriangleMesh& mesh) {
   const auto in_range = [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); };
   return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices &&
          mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 &&
-         std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range);
+         mesh.segments_size() % 2 == 0 &&
+         std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range) &&
+         std::all_of(mesh.segments().begin(), mesh.segments().end(), in_range);
 }
 
 }  // namespace

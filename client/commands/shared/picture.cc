@@ -23,9 +23,14 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
   return cell;
 }
 
+std::string curves_text(const v1::TriangleMesh& sheet) {
+  if (sheet.segments().empty()) return {};
+  return " and " + base::counted(sheet.segments_size() / 2, "segment") + " of curves";
+}
+
 std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
   const std::string skeleton = wire::gives_sheet(params.operator_())
-                                   ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle")
+                                   ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle") + curves_text(input.sheet)
                                    : base::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
          base::counted(job.prepared().points(), "sample point") + " at spacing " +
@@ -53,7 +58,8 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
     input.skeleton = fetch_points(context, job, params, own);
   }
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
-  const int items = sheet ? input.sheet.corners_size() / 3 : input.skeleton.point_size();
+  const int items = sheet ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2
+                          : input.skeleton.point_size();
   warn_about_skeleton(context.console(), static_cast<std::uint64_t>(items), quality, job);
   return quality.threshold();
 }

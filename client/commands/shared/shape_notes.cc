@@ -20,9 +20,18 @@ void tell_renamed(Console& console, const ShapeFile& shape, const std::string& o
 
 }  // namespace
 
+void tell_lost_curves(Console& console, const ShapeFile& shape, FileFormat format,
+                      const std::string& output) {
+  if (shape.segments.empty() || holds_curves(format)) return;
+  console.note(output + " is without the curves (" + base::counted(shape.segments.size(), "segment") +
+               "), for which " + std::string(extension_of(format)) +
+               " has no place; .vtp, .ply and .obj have one");
+}
+
 std::string counts_text(const ShapeFile& shape) {
   std::string text = base::counted(shape.mesh().points.size(), "point");
   if (shape.is_surface()) text += ", " + base::counted(shape.mesh().triangles.size(), "triangle");
+  if (!shape.segments.empty()) text += ", " + base::counted(shape.segments.size(), "segment") + " of curves";
   return text;
 }
 
@@ -33,6 +42,7 @@ void tell_what_is_lost(Console& console, const ShapeFile& shape, FileFormat form
     for (const PointColumn& column : shape.columns) names += (names.empty() ? "" : ", ") + column.name;
     console.note(output + " is without the columns " + names + " of " + shape.path);
   }
+  tell_lost_curves(console, shape, format, output);
   if (holds_columns(format)) tell_renamed(console, shape, output);
   if (shape.off.polygons_cut > 0) {
     console.note(shape.path + ": " + base::counted(shape.off.polygons_cut, "face") +

@@ -10,6 +10,7 @@
 #include "client/artifacts/surface.h"
 #include "client/commands/shared/fetch_artifact.h"
 #include "client/commands/shared/follow.h"
+#include "client/commands/shared/shape_notes.h"
 #include "client/files/read/input_file.h"
 #include "client/files/write/shape_writer.h"
 #include "client/text/job_facts.h"
@@ -188,7 +189,9 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
                                      skeleton_params_text(params), sheet ? &fetched.quality : nullptr);
   write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
+  tell_lost_curves(context.console(), fetched.shape, format, destination.name());
   Written written{destination, "surface", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
+  written.segments = fetched.shape.segments.size();
   if (sheet) written.quality = fetched.quality;
   return written;
 }

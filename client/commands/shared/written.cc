@@ -29,7 +29,7 @@ void tell_result(Console& console, const Written& written) {
   if (written.kind == "skeleton") {
     warn_about_skeleton(console, written.items, written.quality.value_or(v1::SkeletonQuality()), written.job);
   }
-  if (written.kind == "surface" && written.items == 0) {
+  if (written.kind == "surface" && written.items + written.segments == 0) {
     console.warning("the surface is empty: " + advice_for_empty_surface(written));
   }
   if (written.kind == "eroded" && written.items == 0) {
@@ -46,6 +46,7 @@ nlohmann::ordered_json written_json(const Written& written) {
                                      {"artefact", written.kind},
                                      {"file", written.destination.file.string()},
                                      {written.unit + "s", written.items}};
+  if (written.segments > 0) document["segments"] = written.segments;
   if (written.volume) document["volume"] = *written.volume;
   if (written.quality) document["quality"] = to_json(*written.quality);
   return document;
@@ -53,7 +54,9 @@ nlohmann::ordered_json written_json(const Written& written) {
 
 void tell_written(Console& console, const Written& written) {
   console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
-               base::counted(written.items, written.unit) + volume_text(written) + ")");
+               base::counted(written.items, written.unit) +
+               (written.segments > 0 ? ", " + base::counted(written.segments, "segment") + " of curves" : "") +
+               volume_text(written) + ")");
 }
 
 }  // namespace affskel::client

@@ -1,4 +1,5 @@
-// PLY (Turk 1994), binary: coordinates as double, columns by their types, faces as lists of vertex_indices.
+// PLY (Turk 1994), binary: coordinates as double, columns by their types, faces as lists of vertex_indices,
+// curves as edges of vertex1 and vertex2.
 // Where there is a column E, vertices also have it as programs for people know it: E as `quality`, in single
 // precision, and colours by the scale of the pictures, up to the largest E of the file.
 #include <algorithm>
@@ -47,6 +48,10 @@ class PlyWriter {
       text += "element face " + std::to_string(shape_.mesh().triangles.size()) +
               "\nproperty list uchar int vertex_indices\n";
     }
+    if (!shape_.segments.empty()) {
+      text += "element edge " + std::to_string(shape_.segments.size()) +
+              "\nproperty int vertex1\nproperty int vertex2\n";
+    }
     return text + "end_header\n";
   }
 
@@ -91,6 +96,11 @@ void write_ply(const ShapeFile& shape, const std::vector<std::string>& names, bo
     row.clear();
     base::append(row, std::uint8_t{3});
     for (const std::uint32_t corner : t) base::append(row, static_cast<std::int32_t>(corner));
+    write(row);
+  }
+  for (const core::Segment& segment : shape.segments) {
+    row.clear();
+    for (const std::uint32_t end : segment) base::append(row, static_cast<std::int32_t>(end));
     write(row);
   }
 }

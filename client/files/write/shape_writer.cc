@@ -1,5 +1,6 @@
 #include "client/files/write/shape_writer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -55,6 +56,10 @@ bool holds_columns(FileFormat format) {
   return format == FileFormat::kCsv || format == FileFormat::kPly || format == FileFormat::kVtp;
 }
 
+bool holds_curves(FileFormat format) {
+  return format == FileFormat::kPly || format == FileFormat::kObj || format == FileFormat::kVtp;
+}
+
 std::vector<std::string> written_names(const ShapeFile& shape) {
   // Names that stay go first, so that none of them gives way to a changed one.
   std::set<std::string> taken = {"x", "y", "z"};
@@ -82,7 +87,7 @@ void write_points(FileFormat format, const ShapeFile& shape, const std::vector<s
     case FileFormat::kPly:
       return write_ply(shape, written_names(shape), false, comments, write);
     case FileFormat::kVtp:
-      return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
+      return write_vtp(shape, columns_as_written(shape), comments, write);
     case FileFormat::kOff:
       write("OFF\n" + off_comments(comments) + std::to_string(shape.mesh().points.size()) + " 0 0\n");
       return write_xyz(shape, write);
@@ -96,7 +101,7 @@ void write_points(FileFormat format, const ShapeFile& shape, const std::vector<s
 void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                    const WriteBytes& write) {
   const core::Mesh& mesh = shape.mesh();
-  if (mesh.points.size() > kMaxElements || mesh.triangles.size() > kMaxElements) {
+  if (std::max({mesh.points.size(), mesh.triangles.size(), shape.segments.size()}) > kMaxElements) {
     throw ClientError(ExitCode::kLimit, "the mesh has too many elements for this format");
   }
   switch (format) {
@@ -105,11 +110,11 @@ void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<
     case FileFormat::kPly:
       return write_ply(shape, written_names(shape), true, comments, write);
     case FileFormat::kObj:
-      return write_obj(mesh, comments, write);
+      return write_obj(shape, comments, write);
     case FileFormat::kStl:
       return write_stl(mesh, comments, write);
     case FileFormat::kVtp:
-      return write_vtp(shape.mesh(), columns_as_written(shape), comments, write);
+      return write_vtp(shape, columns_as_written(shape), comments, write);
     default:
       throw ClientError(ExitCode::kInternal, "no mesh writer for " + std::string(extension_of(format)));
   }

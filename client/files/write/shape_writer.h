@@ -18,6 +18,9 @@ std::span<const FileFormat> shape_formats(const ShapeFile& shape);
 /// Whether the format has a place for columns beside the coordinates.
 bool holds_columns(FileFormat format);
 
+/// Whether a surface in this format has a place for curves.
+bool holds_curves(FileFormat format);
+
 /// The names under which the columns are written, in their order.  Where a name would not read back (with a
 /// blank, a comma, a quote, a number sign or a control character; x, y or z; the same twice) it is changed:
 /// these characters become '_', and equal names get _2, _3, ... behind them.
@@ -33,8 +36,8 @@ using WriteBytes = std::function<void(std::string_view)>;
 void write_points(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                   const WriteBytes& write);
 
-/// Writes a surface, be it empty, in one of surface_formats(): .off and .obj as text that reads back exactly,
-/// .ply binary with double coordinates and the columns of the vertices (and what shows E, see PLY's writer),
+/// Writes a surface, be it empty, in one of surface_formats(), and its curves where it holds_curves(): .off
+/// and .obj as text that reads back exactly, .ply binary with double coordinates and the columns of the vertices (and what shows E, see PLY's writer),
 /// .vtp with the same as arrays, .stl binary (single precision, which is all that STL has).  Slivers that
 /// single precision makes flat are written as they are; the surface stays closed.
 /// @param comments lines for formats that have comments (PLY, OBJ, VTP, OFF), without line breaks; of these

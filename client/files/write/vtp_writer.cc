@@ -1,6 +1,7 @@
 // VTK XML (VTK User's Guide, "XML File Formats"), with the arrays inline: ParaView 5.11 does not load
 // appended raw data.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -11,6 +12,7 @@
 #include "client/text/printable.h"
 #include "core/files/vtk_arrays.h"
 #include "core/files/vtk_inline_data.h"
+#include "core/mesh/polylines.h"
 
 namespace affskel::client {
 namespace {
@@ -22,26 +24,32 @@ const char* vtk_type(Stored stored) {
 
 class VtpWriter {
  public:
-  VtpWriter(const core::Mesh& mesh, const std::vector<PointColumn>& columns, const WriteBytes& write)
-      : mesh_(mesh), columns_(columns), write_(write) {}
+  VtpWriter(const ShapeFile& shape, const std::vector<PointColumn>& columns, const WriteBytes& write)
+      : mesh_(shape.mesh()),
+        is_surface_(shape.is_surface()),
+        lines_(core::polylines(shape.mesh().points.size(), shape.segments)),
+        columns_(columns),
+        write_(write) {}
 
   void run(const std::vector<std::string>& comments) {
     const std::string points = std::to_string(mesh_.points.size());
-    const bool surface = !mesh_.triangles.empty();
     write_(
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
         "<PolyData>\n");
     write_comments(comments);
-    write_("<Piece NumberOfPoints=\"" + points + "\" NumberOfVerts=\"" + (surface ? "0" : points) +
-           "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-           std::to_string(mesh_.triangles.size()) + "\">\n");
+    write_("<Piece NumberOfPoints=\"" + points + "\" NumberOfVerts=\"" + (is_surface_ ? "0" : points) +
+           "\" NumberOfLines=\"" + std::to_string(lines_.size()) +
+           "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(mesh_.triangles.size()) + "\">\n");
     write_columns();
     write_points();
-    if (surface) {
-      write_cells("Polys", mesh_.triangles.size(), 3);
+    if (!lines_.empty()) write_cells("Lines", lines_);
+    if (is_surface_) {
+      write_cells("Polys", mesh_.triangles);
     } else {
-      write_cells("Verts", mesh_.points.size(), 1);
+      std::vector<std::array<std::uint32_t, 1>> verts(mesh_.points.size());
+      for (std::uint32_t p = 0; p < verts.size(); ++p) verts[p] = {p};
+      write_cells("Verts", verts);
     }
     write_("</Piece>\n</PolyData>\n</VTKFile>\n");
   }
@@ -114,32 +122,34 @@ class VtpWriter {
     write_("</Points>\n");
   }
 
-  // Corners of all cells one after the other, then per cell where its corners end.
-  void write_cells(const std::string& section, std::size_t cells, std::size_t corners) {
-    const auto whole_numbers = [&](const char* name, std::size_t count, auto number) {
-      std::string bytes;
-      bytes.reserve(count * sizeof(std::int64_t));
-      for (std::size_t i = 0; i < count; ++i) base::append(bytes, static_cast<std::int64_t>(number(i)));
-      write_array(std::string("type=\"Int64\" Name=\"") + name + "\"", bytes);
-    };
+  // Points of all cells one after the other, then per cell where its points end.
+  template <typename Cells>
+  void write_cells(const std::string& section, const Cells& cells) {
+    std::string points, ends;
+    std::int64_t end = 0;
+    for (const auto& cell : cells) {
+      for (const std::uint32_t point : cell) base::append(points, std::int64_t{point});
+      end += static_cast<std::int64_t>(cell.size());
+      base::append(ends, end);
+    }
     write_("<" + section + ">\n");
-    whole_numbers("connectivity", cells * corners, [this, corners](std::size_t i) -> std::size_t {
-      return corners == 3 ? mesh_.triangles[i / 3][i % 3] : i;
-    });
-    whole_numbers("offsets", cells, [corners](std::size_t i) { return corners * (i + 1); });
+    write_array("type=\"Int64\" Name=\"connectivity\"", points);
+    write_array("type=\"Int64\" Name=\"offsets\"", ends);
     write_("</" + section + ">\n");
   }
 
   const core::Mesh& mesh_;
+  const bool is_surface_;
+  const std::vector<std::vector<std::uint32_t>> lines_;
   const std::vector<PointColumn>& columns_;
   const WriteBytes& write_;
 };
 
 }  // namespace
 
-void write_vtp(const core::Mesh& mesh, const std::vector<PointColumn>& columns,
+void write_vtp(const ShapeFile& shape, const std::vector<PointColumn>& columns,
                const std::vector<std::string>& comments, const WriteBytes& write) {
-  VtpWriter(mesh, columns, write).run(comments);
+  VtpWriter(shape, columns, write).run(comments);
 }
 
 }  // namespace affskel::client

@@ -198,11 +198,14 @@ class Surface:
     Attributes:
         vertices: (n, 3).
         faces: (m, 3) indices of vertices.
-        attributes: arrays by vertex.  The sheet of "chords" has E, strength of the shock (0 .. 1), area of the optimal
-            sections, normal_a and normal_b (n, 3) of the two chords; other surfaces have none, the points that they
-            are made of carry them (`Job.skeleton_points`).
-        quality: of the sheet of "chords", by the names of SkeletonQuality in the contract; otherwise empty.
+        attributes: arrays by vertex.  Sheets of "chords" and "ridge" have E, strength, area of the optimal
+            sections, normal_a and normal_b (n, 3) of the two sides, that of "ridge" also the ratio of eigenvalues;
+            eroded solids have E and area; alpha shapes have none, the points that they are made of carry them
+            (`Job.skeleton_points`).
+        quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
+        segments: (k, 2) indices of vertices: curves, which stand for the sheet of "ridge" where the solid is round;
+            the radius of the section is sqrt(area / pi).
     """
 
     vertices: Floats
@@ -210,6 +213,7 @@ class Surface:
     attributes: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
     quality: Mapping[str, Any] = field(default_factory=dict)
     volume: float = 0.0
+    segments: Ints = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     def __len__(self) -> int:
         return len(self.faces)
@@ -228,10 +232,11 @@ class Surface:
     def to_pyvista(self) -> Any:
         """pyvista's PolyData with the attributes as point data; without pyvista a vtkPolyData."""
         from ._vtk import surface_dataset
-        return surface_dataset(self.vertices, self.faces, self.attributes)
+        return surface_dataset(self.vertices, self.faces, self.segments, self.attributes)
 
     def to_trimesh(self) -> Any:
-        """A trimesh.Trimesh with the attributes as `vertex_attributes`; vertices and faces stay as they are."""
+        """A trimesh.Trimesh with the attributes as `vertex_attributes`; vertices and faces stay as they are, curves
+        are left out."""
         import trimesh
         return trimesh.Trimesh(vertices=self.vertices, faces=self.faces, process=False,
                                vertex_attributes=dict(self.attributes))
@@ -288,10 +293,15 @@ def surface_of(message: types.TriangleMesh) -> Surface:
     corners = _wholes(message.corners)
     if len(corners) % 3 or (len(corners) and corners.max() >= len(vertices)):
         raise InternalError("the server sent a damaged surface: corners out of range")
+    segments = _wholes(message.segments)
+    if len(segments) % 2 or (len(segments) and segments.max() >= len(vertices)):
+        raise InternalError("the server sent a damaged surface: segments out of range")
     arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "area": _doubles(message.area),
+              "ratio": _doubles(message.ratio),
               "normal_a": _doubles(message.normal_a, 3), "normal_b": _doubles(message.normal_b, 3)}
     attributes = {name: array for name, array in arrays.items() if len(array)}
     if any(len(array) != len(vertices) for array in attributes.values()):
         raise InternalError("the server sent a damaged surface: a vertex without its attributes")
     quality: Optional[Dict[str, Any]] = plain(message.quality) if message.HasField("quality") else None
-    return Surface(vertices, corners.reshape(-1, 3), attributes, quality or {}, message.volume)
+    return Surface(vertices, corners.reshape(-1, 3), attributes, quality or {}, message.volume,
+                   segments.reshape(-1, 2))

@@ -70,13 +70,14 @@ def points_dataset(places: npt.NDArray[Any], attributes: Mapping[str, npt.NDArra
     return _wrapped(dataset)
 
 
-def surface_dataset(vertices: npt.NDArray[Any], faces: npt.NDArray[Any],
+def surface_dataset(vertices: npt.NDArray[Any], faces: npt.NDArray[Any], segments: npt.NDArray[Any],
                     attributes: Mapping[str, npt.NDArray[Any]]) -> Any:
-    """Vertices (n, 3) and triangles (m, 3)."""
+    """Vertices (n, 3), triangles (m, 3) and segments (k, 2), as lines."""
     _, model, _ = _modules()
     dataset = model.vtkPolyData()
     dataset.SetPoints(_points(vertices))
     dataset.SetPolys(_cells(faces))
+    dataset.SetLines(_cells(segments))
     _add_attributes(dataset, attributes)
     return _wrapped(dataset)
 

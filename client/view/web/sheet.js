@@ -1,5 +1,6 @@
-// The skeleton as a triangulated sheet, for the operator `chords`.
-import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial } from 'three';
+// The skeleton as a triangulated sheet, for the operators `chords` and `ridge`, with the curves of the latter as
+// tubes.
+import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, Vector3 } from 'three';
 import { descending } from './decode.js';
 
 const kVertexShader = `
@@ -22,17 +23,77 @@ const kFragmentShader = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * (0.55 + 0.45 * lit), 1.0);
   }`;
 
+const kSides = 6;
+
+// What of `a` is written for each segment: one entry of `size` numbers for each of its ends and each side.
+function onTubes(a, size, segments, entry) {
+  const all = new a.constructor(a.length + segments.length * kSides * size);
+  all.set(a);
+  segments.forEach((vertex, end) => {
+    for (let side = 0; side < kSides; ++side) {
+      entry(vertex, end, side).forEach((value, c) => {
+        all[a.length + (end * kSides + side) * size + c] = value;
+      });
+    }
+  });
+  return all;
+}
+
+// The unit vectors across a segment, for the sides of its tube.
+function across(from, to) {
+  const along = to.clone().sub(from).normalize();
+  const least = Math.abs(along.x) < 0.6 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
+  const first = least.cross(along).normalize();
+  const second = along.cross(first);
+  return Array.from({ length: kSides }, (_, side) => {
+    const angle = (2 * Math.PI * side) / kSides;
+    return first.clone().multiplyScalar(Math.cos(angle)).addScaledVector(second, Math.sin(angle));
+  });
+}
+
+function tubePositions(positions, segments, radius) {
+  const place = (vertex) => new Vector3().fromArray(positions, 3 * vertex);
+  const sides = [];
+  for (let s = 0; s < segments.length; s += 2) sides.push(across(place(segments[s]), place(segments[s + 1])));
+  return onTubes(positions, 3, segments, (vertex, end, side) =>
+    place(vertex).addScaledVector(sides[end >> 1][side], radius).toArray());
+}
+
+const tubeColours = (colours, segments) =>
+  onTubes(colours, 4, segments, (vertex) => colours.subarray(4 * vertex, 4 * vertex + 4));
+
+// The corners of the triangles of a tube whose vertices begin at `first`.
+function tubeCorners(first) {
+  const corners = [];
+  for (let side = 0; side < kSides; ++side) {
+    const a = first + side;
+    const b = first + ((side + 1) % kSides);
+    corners.push(a, b, a + kSides, b, b + kSides, a + kSides);
+  }
+  return corners;
+}
+
 export class Sheet {
-  // pieces: per triangle its piece, the heaviest is 0.
-  constructor(positions, colours, pieces, corners) {
+  // The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
+  // 0.  radius: of the tubes, page units.
+  constructor(positions, colours, pieces, corners, segments, radius) {
     // Lightest pieces last: the slider moves the end of what is drawn.
     this.order = descending(Int32Array.from(pieces, (piece) => -piece));
-    const index = new Uint32Array(corners.length);
-    this.order.forEach((t, place) => index.set(corners.subarray(3 * t, 3 * t + 3), 3 * place));
+    const triangles = corners.length / 3;
+    const first = positions.length / 3;
+    const index = [];
+    this.ends = [0]; // how much of the index the first elements take
+    for (const e of this.order) {
+      const tube = e - triangles;
+      index.push(...(tube < 0 ? corners.subarray(3 * e, 3 * e + 3) : tubeCorners(first + 2 * kSides * tube)));
+      this.ends.push(index.length);
+    }
+    this.isTriangle = (place) => this.order[place] < triangles;
     this.geometry = new BufferGeometry();
-    this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    this.geometry.setAttribute('colour', new BufferAttribute(colours, 4, true));
-    this.geometry.setIndex(new BufferAttribute(index, 1));
+    const places = tubePositions(positions, segments, radius);
+    this.geometry.setAttribute('position', new BufferAttribute(places, 3));
+    this.geometry.setAttribute('colour', new BufferAttribute(tubeColours(colours, segments), 4, true));
+    this.geometry.setIndex(new BufferAttribute(Uint32Array.from(index), 1));
     this.uniforms = { lift: { value: 0 } };
     this.object = new Mesh(
       this.geometry,
@@ -47,8 +108,8 @@ export class Sheet {
     this.object.frustumCulled = false;
   }
 
-  showFirst(triangles) {
-    this.geometry.setDrawRange(0, 3 * triangles);
+  showFirst(elements) {
+    this.geometry.setDrawRange(0, this.ends[elements]);
   }
 
   look() {}

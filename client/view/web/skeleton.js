@@ -1,6 +1,7 @@
 // The two kinds of skeleton that a page can hold, behind one interface: sample points with their |H|, or a
 // sheet in pieces with their shares of its weight.  Both are sorted by the value that the threshold slider
 // compares, descending.
+import { Vector3 } from 'three';
 import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
 import { descending, prefixLength } from './decode.js';
@@ -8,11 +9,16 @@ import { whole } from './numbers.js';
 import { Sheet } from './sheet.js';
 import { sublattice } from './neighbours.js';
 
+const kTube = 0.3; // radius of a curve, lattice spacings
+
 // Like the operator's significance, the slider drops pieces with a smaller share.
-function makeSheet({ arrays, highestShare, threshold }) {
+function makeSheet({ arrays, highestShare, threshold, cell }) {
   const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
   const colours = coloursOf(arrays.sheetShares, highestShare);
-  const sheet = new Sheet(arrays.sheetPositions, colours, pieceOf, arrays.sheetCorners);
+  const [a, b, c] = cell.map((step) => new Vector3(...step));
+  const spacing = Math.cbrt(Math.abs(a.dot(b.cross(c))));
+  const { sheetPositions, sheetCorners, sheetSegments } = arrays;
+  const sheet = new Sheet(sheetPositions, colours, pieceOf, sheetCorners, sheetSegments, kTube * spacing);
   const values = Float32Array.from(sheet.order, (t) => shares[pieceOf[t]]);
   return {
     drawn: sheet,
@@ -24,10 +30,14 @@ function makeSheet({ arrays, highestShare, threshold }) {
     // Joining and placing may have split off pieces below the operator's threshold: then 0, the whole sheet.
     first: shares.every((share) => share >= threshold) ? threshold : 0,
     keeps: (value, least) => value >= least,
-    describe(triangles, least) {
+    describe(elements, least) {
+      let triangles = 0;
+      for (let place = 0; place < elements; ++place) triangles += sheet.isTriangle(place) ? 1 : 0;
+      const segments = elements - triangles;
+      const curves = segments ? ` and ${whole(segments)} segments of curves` : '';
       const kept = prefixLength(shares, null, (share) => share >= least);
       const pieces = shares.length === 1 ? 'one piece' : `${whole(kept)} of ${whole(shares.length)} pieces`;
-      return shares.length === 0 ? 'the sheet is empty' : `${whole(triangles)} triangles in ${pieces}`;
+      return shares.length === 0 ? 'the sheet is empty' : `${whole(triangles)} triangles${curves} in ${pieces}`;
     },
   };
 }
@@ -56,7 +66,7 @@ export function makeSkeleton(page, positions) {
     ...made,
     high: values.length ? Math.max(values[0], low) : low,
     total: values.length,
-    // Returns how many points or triangles are shown.
+    // Returns how many points, or triangles and segments, are shown.
     show(threshold) {
       const count = prefixLength(values, null, (value) => keeps(value, threshold));
       drawn.showFirst(count);

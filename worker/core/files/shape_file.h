@@ -17,15 +17,17 @@ struct PointColumn {
   std::vector<double> values;
 };
 
-/// A file of points or of triangles: a skeleton, a field, a mesh, a surface.
+/// A file of points, or of triangles and curves: a skeleton, a field, a mesh, a surface.
 struct ShapeFile {
   std::string path;
-  OffMesh off;  ///< triangles empty: points alone; the lines only where the format has them
+  OffMesh off;  ///< without triangles and segments: points alone; the lines only where the format has them
+  std::vector<Segment> segments;     ///< of curves
   std::vector<PointColumn> columns;  ///< one value per point each
   std::vector<std::uint32_t> quads;  ///< while it is read: first triangles of the faces with four corners
 
   const Mesh& mesh() const { return off.mesh; }
-  bool is_surface() const { return !off.mesh.triangles.empty(); }
+  /// Be it of curves alone.
+  bool is_surface() const { return !off.mesh.triangles.empty() || !segments.empty(); }
   /// The column of this name, nullptr when there is none.
   const PointColumn* column(std::string_view name) const;
 };

@@ -10,6 +10,9 @@ namespace affskel::core {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// A piece of a curve: the indices of its two ends.
+using Segment = std::array<std::uint32_t, 2>;
+
 /// A triangle soup with shared vertices: plain data, no promise of being closed or manifold.
 struct Mesh {
   std::vector<Vec3> points;

@@ -1,5 +1,6 @@
 #include "core/solid/surface_samples.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -29,6 +30,25 @@ Vec3 point_in(const Mesh& mesh, const Triangle& t, double i) {
 }
 
 }  // namespace
+
+double curve_length(std::span<const Vec3> points, std::span<const Segment> segments) {
+  double length = 0;
+  for (const auto& [a, b] : segments) length += norm(points[b] - points[a]);
+  return length;
+}
+
+std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Segment> segments,
+                                double distance) {
+  std::vector<Vec3> samples;
+  for (const auto& [a, b] : segments) {
+    const Vec3 along = points[b] - points[a];
+    const double parts = std::max(1.0, std::ceil(norm(along) / distance));
+    if (!(static_cast<double>(samples.size()) + parts < 0x1p31))
+      throw CoreError(CoreError::Code::kLimit, "the curves are too long for so small a distance");
+    for (double i = 0; i < parts; ++i) samples.push_back(points[a] + ((i + 0.5) / parts) * along);
+  }
+  return samples;
+}
 
 double surface_area(const Mesh& mesh) {
   double area = 0;

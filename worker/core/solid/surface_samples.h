@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -16,6 +17,15 @@ struct SurfaceSamplesOptions {
 /// diagonal.  No randomness; only + - * / and sqrt.  A triangle's points lie on it to rounding.
 /// @throws CoreError kBadInput when no triangle has an area.
 std::vector<Vec3> surface_samples(const Mesh& mesh, const SurfaceSamplesOptions& options = {});
+
+/// Points spread evenly over curves, at most `distance` apart along each segment: the middles of its equal
+/// parts.  @param distance > 0, finite.
+/// @throws CoreError kLimit for 2^31 points and more.
+std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Segment> segments,
+                                double distance);
+
+/// Length of all segments, mesh units.
+double curve_length(std::span<const Vec3> points, std::span<const Segment> segments);
 
 /// Area of all triangles, mesh units squared.
 double surface_area(const Mesh& mesh);

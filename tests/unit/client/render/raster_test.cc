@@ -221,6 +221,26 @@ TEST(Panel, ASheetSeenFromItsEdgeIsALineOfAPixel) {
   }
 }
 
+TEST(Panel, CurvesAreLinesOfTheirWidthSeenFromAnySide) {
+  const std::vector<core::Vec3> points = {{-8, 0, 0}, {8, 0, 0}};
+  for (const double width : {2.0, 4.0}) {
+    Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+    panel.draw_curves(points, {{0, 1}}, {kRed, kBlue}, width);
+    const Image image = panel.resolve();
+    for (int x = 3; x < 17; ++x) {
+      float covered = 0;
+      for (int y = 0; y < 20; ++y) covered += 1 - image.at(x, y).g;
+      EXPECT_NEAR(covered, width, 0.51) << x;
+    }
+    EXPECT_GT(image.at(4, 10).r, image.at(4, 10).b);
+    EXPECT_GT(image.at(15, 10).b, image.at(15, 10).r);
+    // From its end it is a dot.
+    Panel from_end(20, 20, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {0, 0, 0}, 1);
+    from_end.draw_curves(points, {{0, 1}}, {kRed, kBlue}, width);
+    EXPECT_LT(from_end.resolve().at(10, 10).g, 0.1f);
+  }
+}
+
 TEST(Panel, SurfaceLayersDoNotDependOnTheirOrder) {
   core::Mesh two{{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}, {-9, 3, -9}, {9, 6, -9}, {0, 1, 9}},
                  {{0, 1, 2}, {3, 4, 5}}};

@@ -148,6 +148,11 @@ TEST(Page, TheSheetOfChordsComesBack) {
   EXPECT_EQ(array_of<std::uint32_t>(page, "sheetPieces", "u32"), (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(array_of<float>(page, "sheetPieceShares", "f32"), (std::vector<float>{1}));
   EXPECT_EQ(array_of<std::uint32_t>(page, "sheetCorners", "u32"), (std::vector<std::uint32_t>{2, 0, 1}));
+  EXPECT_TRUE(array_of<std::uint32_t>(page, "sheetSegments", "u32").empty());
+  for (const unsigned v : {1u, 2u}) input.sheet.add_segments(v);
+  const std::string with_curve = view_page(input);
+  EXPECT_EQ(array_of<std::uint32_t>(with_curve, "sheetSegments", "u32"), (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(array_of<std::uint32_t>(with_curve, "sheetPieces", "u32"), (std::vector<std::uint32_t>{0, 0}));
 }
 
 TEST(Page, NoNameBreaksOutOfItsElement) {

@@ -35,6 +35,20 @@ TEST(SheetPieces, ACommonVertexJoins) {
   EXPECT_EQ(pieces.shares, (std::vector<double>{1})) << "exactly: the slider ends there";
 }
 
+TEST(SheetPieces, CurvesJoinAndWeighAsSquaresOverTheirSegments) {
+  v1::TriangleMesh sheet;
+  add_square(sheet, 1, 0.5);  // 0.5
+  add_square(sheet, 2, 1);    // 4, at x = 400
+  add_square(sheet, 1, 1);    // of its last two vertices only a segment is left
+  sheet.mutable_corners()->Truncate(12);
+  for (const std::uint32_t v : {8u, 9u, 6u, 7u}) sheet.add_segments(v);  // 1; 4, of the second square
+  const SheetPieces pieces = sheet_pieces(sheet);
+  EXPECT_EQ(pieces.piece, (std::vector<std::uint32_t>{2, 2, 0, 0, 1, 0}));
+  EXPECT_EQ(pieces.shares, (std::vector<double>{8 / 9.5, 1 / 9.5, 0.5 / 9.5}));
+  for (const std::uint32_t v : {0u, 8u}) sheet.add_segments(v);
+  EXPECT_EQ(sheet_pieces(sheet).shares.size(), 2u) << "the first square and the first curve are one";
+}
+
 TEST(SheetPieces, EquallyHeavyOnesKeepTheirOrder) {
   v1::TriangleMesh sheet;
   add_square(sheet, 2, 0.25);

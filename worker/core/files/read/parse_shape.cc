@@ -77,7 +77,7 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes) {
   const FileFormat format = mesh_format(extension, bytes);
   if (format == FileFormat::kOff) return {format, read_off(bytes)};
   ShapeFile shape = parse_shape(extension, bytes);
-  if (!shape.is_surface())
+  if (shape.mesh().triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "has no triangles; a mesh that bounds a solid is wanted");
   return {format, std::move(shape.off)};
 }
@@ -118,6 +118,20 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
   }
   if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
   cut_polygon(mesh.points, indices, mesh.triangles);
+}
+
+void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,
+                  std::uint64_t line) {
+  if (vertices.size() < 2) fail_at(line, place + " has " + base::counted(vertices.size(), "vertex", "vertices") + ", needs 2");
+  const auto known = static_cast<std::int64_t>(file.mesh().points.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i] < 0 || vertices[i] >= known) {
+      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(known) + " vertices are known)");
+    }
+    if (i == 0 || vertices[i] == vertices[i - 1]) continue;
+    file.segments.push_back(
+        {static_cast<std::uint32_t>(vertices[i - 1]), static_cast<std::uint32_t>(vertices[i])});
+  }
 }
 
 void fail_at(std::uint64_t line, const std::string& message) {

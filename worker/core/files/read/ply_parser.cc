@@ -140,6 +140,8 @@ class PlyReader {
         has_vertices = true;
       } else if (element.name == "face") {
         read_faces(element);
+      } else if (element.name == "edge") {
+        read_edges(element);
       } else {
         pass_over(element);
       }
@@ -162,6 +164,15 @@ class PlyReader {
     }
   }
 
+  // A vertex by its index, which some programs write as a number of type float.
+  std::int64_t whole_index(double value) const {
+    if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
+      fail_at(values_.line(),
+              values_.place() + " uses vertex " + base::to_text(value) + ", which is not a whole number");
+    }
+    return static_cast<std::int64_t>(value);
+  }
+
   const std::vector<double>& next_list(const PlyProperty& property) {
     const double length = values_.next(property.count_type);
     if (!(length >= 0) || length > static_cast<double>(values_.bytes_left())) {
@@ -174,16 +185,9 @@ class PlyReader {
     return list_;
   }
 
-  // The list as indices; some programs write them as numbers of type float.
   const std::vector<std::int64_t>& next_corners(const PlyProperty& property) {
     corners_.clear();
-    for (const double value : next_list(property)) {
-      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
-        fail_at(values_.line(),
-                values_.place() + " uses vertex " + base::to_text(value) + ", which is not a whole number");
-      }
-      corners_.push_back(static_cast<std::int64_t>(value));
-    }
+    for (const double value : next_list(property)) corners_.push_back(whole_index(value));
     return corners_;
   }
 
@@ -259,6 +263,24 @@ class PlyReader {
         }
       }
       values_.end();
+    }
+  }
+
+  // The ends of edges are called vertex1 and vertex2; what else an edge has is passed over.
+  void read_edges(const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      values_.begin(element.name, i);
+      corners_.clear();
+      for (const PlyProperty& p : element.properties) {
+        if (p.list) {
+          next_list(p);
+          continue;
+        }
+        const double value = values_.next(p.type);
+        if (p.name == "vertex1" || p.name == "vertex2") corners_.push_back(whole_index(value));
+      }
+      values_.end();
+      add_polyline(file_, corners_, values_.place(), values_.line());
     }
   }
 

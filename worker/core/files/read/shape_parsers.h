@@ -27,6 +27,12 @@ bool is_normal_column(std::string_view name);
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line);
 
+/// Adds the segments of a polyline to `file`; those of no length by index are left out.
+/// @param place names it in messages, @param line of it, 0 = none.
+/// @throws CoreError kBadInput when it has less than two vertices or one out of range.
+void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,
+                  std::uint64_t line);
+
 /// @throws CoreError kBadInput with the line if there is one.
 [[noreturn]] void fail_at(std::uint64_t line, const std::string& message);
 

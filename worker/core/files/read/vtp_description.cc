@@ -95,7 +95,7 @@ class DescriptionReader : public XmlHandler {
 
   void begin_piece(const XmlElement& element) {
     VtpPiece piece{{}, {}, element.line()};
-    for (const char* what : {"Points", "Verts", "Strips", "Polys"}) {
+    for (const char* what : {"Points", "Verts", "Lines", "Strips", "Polys"}) {
       const std::string name = std::string("NumberOf") + what;
       const std::string count = element.attribute(name);
       if (!count.empty()) piece.announced[what] = parse_count(count, element.line(), name.c_str());

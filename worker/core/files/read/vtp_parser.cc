@@ -1,4 +1,4 @@
-// VTK XML PolyData: points, arrays per point, and cells of which the polygons and strips of triangles are
+// VTK XML PolyData: points, arrays per point, and cells of which lines, polygons and strips of triangles are
 // taken; in one or several pieces, which are put together.
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ class VtpReader {
       first_point_ = file_.off.mesh.points.size();
       read_points(piece);
       read_columns(piece);
-      for (const char* section : {"Verts", "Polys", "Strips"}) read_cells(piece, section);
+      for (const char* section : {"Verts", "Lines", "Polys", "Strips"}) read_cells(piece, section);
       piece = {};  // a file may be made of very many empty ones
     }
     return std::move(file_);
@@ -172,8 +172,15 @@ class VtpReader {
       const auto end = static_cast<std::size_t>(ends[i]);
       cell.clear();
       for (; begin < end; ++begin) cell.push_back(vertex(corners[begin]));
-      section == "Polys" ? add_face(cell, "polygon " + std::to_string(i), line) : add_strip(cell, i, line);
+      add_cell(section, cell, i, line);
     }
+  }
+
+  void add_cell(const std::string& section, const std::vector<std::int64_t>& corners, std::size_t index,
+                std::uint64_t line) {
+    if (section == "Lines") return add_polyline(file_, corners, "line " + std::to_string(index), line);
+    if (section == "Strips") return add_strip(corners, index, line);
+    add_face(corners, "polygon " + std::to_string(index), line);
   }
 
   // The vertex of all pieces for one of the piece in hand; -1 when there is none.

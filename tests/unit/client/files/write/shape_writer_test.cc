@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <sstream>
 
 #include "affskel/v1/types.pb.h"
 #include "client/artifacts/surface.h"
 #include "client/base/error.h"
+#include "core/files/read/parse_shape.h"
 #include "core/shapes/shapes.h"
 #include "core/text/off_file.h"
 #include "tools/temporary_directory.h"
@@ -54,6 +56,43 @@ TEST(MeshWriter, ObjReadsBackExactly) {
   }
   EXPECT_EQ(read.points, mesh.points);
   EXPECT_EQ(read.triangles, mesh.triangles);
+}
+
+TEST(MeshWriter, CurvesReadBackWhereThereIsAPlaceForThem) {
+  for (const bool with_triangles : {true, false}) {
+    ShapeFile shape = shape_of(sample_mesh());
+    if (!with_triangles) shape.off.mesh.triangles.clear();
+    shape.segments = {{0, 1}, {1, 2}, {3, 1}};  // three lines meet in 1
+    shape.columns = {{"E", false, {1, 2, 3, 4}}};
+    for (const FileFormat format : surface_formats()) {
+      std::string bytes;
+      write_surface(format, shape, {"job 7"}, [&](std::string_view piece) { bytes += piece; });
+      ShapeFile read = core::parse_shape(extension_of(format), bytes);
+      EXPECT_EQ(read.mesh().triangles.size(), shape.mesh().triangles.size());
+      if (!holds_curves(format)) {
+        EXPECT_TRUE(read.segments.empty());
+        continue;
+      }
+      EXPECT_TRUE(read.is_surface());
+      EXPECT_EQ(read.mesh().points, shape.mesh().points);
+      for (core::Segment& segment : read.segments) std::sort(segment.begin(), segment.end());
+      EXPECT_EQ(read.segments, (std::vector<core::Segment>{{0, 1}, {1, 2}, {1, 3}})) << extension_of(format);
+    }
+  }
+}
+
+TEST(MeshWriter, ACurveIsOneLine) {
+  ShapeFile shape = shape_of(sample_mesh());
+  shape.segments = {{0, 1}, {2, 1}, {2, 3}};
+  const auto text = [&](FileFormat format) {
+    std::string bytes;
+    write_surface(format, shape, {}, [&](std::string_view piece) { bytes += piece; });
+    return bytes;
+  };
+  EXPECT_NE(text(FileFormat::kObj).find("\nl 1 2 3 4\n"), std::string::npos);
+  EXPECT_NE(text(FileFormat::kVtp).find("NumberOfLines=\"1\""), std::string::npos);
+  EXPECT_NE(text(FileFormat::kPly).find("element edge 3\nproperty int vertex1\nproperty int vertex2\n"),
+            std::string::npos);
 }
 
 TEST(MeshWriter, ACommentNeverHasASecondLine) {

@@ -1,0 +1,71 @@
+#include "core/mesh/polylines.h"
+
+#include <algorithm>
+
+namespace affskel::core {
+namespace {
+
+class Chainer {
+ public:
+  Chainer(std::size_t points, std::span<const Segment> segments)
+      : segments_(segments), first_(points + 1, 0), used_(segments.size(), false) {
+    for (const Segment& segment : segments) {
+      for (const std::uint32_t point : segment) ++first_[point + 1];
+    }
+    for (std::size_t p = 0; p < points; ++p) first_[p + 1] += first_[p];
+    at_.resize(2 * segments.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t s = 0; s < segments.size(); ++s) {
+      for (const std::uint32_t point : segments[s]) at_[next[point]++] = s;
+    }
+  }
+
+  std::vector<std::vector<std::uint32_t>> run() {
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+      if (!used_[s]) lines_.push_back(line_through(s));
+    }
+    return std::move(lines_);
+  }
+
+ private:
+  bool is_within(std::uint32_t point) const { return first_[point + 1] - first_[point] == 2; }
+
+  // Goes on from the last point of the line as far as there is one way.
+  void extend(std::vector<std::uint32_t>& line) {
+    while (is_within(line.back())) {
+      const std::uint32_t point = line.back(), begin = first_[point];
+      const std::uint32_t segment = used_[at_[begin]] ? at_[begin + 1] : at_[begin];
+      if (used_[segment]) return;  // closed
+      used_[segment] = true;
+      line.push_back(segments_[segment][0] == point ? segments_[segment][1] : segments_[segment][0]);
+    }
+  }
+
+  std::vector<std::uint32_t> line_through(std::uint32_t segment) {
+    used_[segment] = true;
+    std::vector<std::uint32_t> line = {segments_[segment][1], segments_[segment][0]};
+    extend(line);
+    std::reverse(line.begin(), line.end());
+    if (line.front() != line.back()) {
+      extend(line);
+    } else if (is_within(line.front())) {
+      line.pop_back();
+      std::rotate(line.begin(), std::min_element(line.begin(), line.end()), line.end());
+      line.push_back(line.front());
+    }
+    return line;
+  }
+
+  std::span<const Segment> segments_;
+  std::vector<std::uint32_t> first_, at_;  // segments of point p: at_[first_[p]] .. at_[first_[p + 1] - 1]
+  std::vector<bool> used_;
+  std::vector<std::vector<std::uint32_t>> lines_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> polylines(std::size_t points, std::span<const Segment> segments) {
+  return Chainer(points, segments).run();
+}
+
+}  // namespace affskel::core
