@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
   std::string job, output;
-  SkeletonOptions skeleton;  // no operator: the job's
+  SkeletonOptions skeleton;  // not given: see shown_skeleton()
   int width = 1600;          // pixels
 };
 
@@ -37,11 +37,11 @@ void add_render(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = line.add("render", "Picture of the body with its skeleton",
                                "  affskel-client render @last -o body.png --width 2400\n"
-                               "  affskel-client render @last --operator chords -o sheet.png\n"
-                               "A skeleton by chords or ridge is drawn as its sheet, any other as its points",
+                               "  affskel-client render @last --operator zucker-hummel -o points.png\n"
+                               "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
                                [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
-  add_skeleton_options(command, options->skeleton);
+  add_skeleton_options(command, options->skeleton, true);
   command->add_option("--width", options->width, "Pixels")
       ->check(whole_number(200, 8000))
       ->capture_default_str()

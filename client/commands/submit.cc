@@ -42,7 +42,9 @@ std::vector<Written> fetch_results(Context& context, const v1::Job& job, const S
   tell_written(context.console(), written.back());
   written.push_back(transfer_skeleton(context, job.id(), nullptr, {stem.string() + ".skeleton.ply"}));
   tell_written(context.console(), written.back());
-  written.push_back(transfer_surface(context, job.id(), nullptr, {stem.string() + ".surface.ply"}));
+  v1::SurfaceParams surface;
+  *surface.mutable_skeleton() = shown_skeleton({}, job);
+  written.push_back(transfer_surface(context, job.id(), surface, {stem.string() + ".surface.ply"}));
   tell_written(context.console(), written.back());
   return written;
 }

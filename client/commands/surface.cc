@@ -13,17 +13,20 @@ namespace {
 
 struct Options {
   std::string job, output, format;
-  SkeletonOptions skeleton;  // no operator: the job's
+  SkeletonOptions skeleton;  // not given: see shown_skeleton()
   double alpha = 0;          // squared radius, 0 = from the spacing
 };
 
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   v1::SurfaceParams params;
-  const ChosenSkeleton chosen = choose_skeleton(context, options.job, options.skeleton);
+  // An alpha shape is one of points.
+  const ChosenSkeleton chosen = options.alpha > 0
+                                    ? choose_skeleton(context, options.job, options.skeleton)
+                                    : choose_shown_skeleton(context, options.job, options.skeleton);
   if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
-  tell_result(context.console(), transfer_surface(context, chosen.job, &params, destination));
+  tell_result(context.console(), transfer_surface(context, chosen.job, params, destination));
 }
 
 }  // namespace
@@ -31,13 +34,14 @@ void run(Context& context, const Options& options) {
 void add_surface(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = line.add(
-      "surface", "Triangulated skeleton: the alpha shape of its points, or the sheet of chords, ridge",
-      "  affskel-client surface @last -o skeleton.stl\n"
-      "  affskel-client surface @last --threshold 5 --alpha 160000 -o skeleton.obj",
+      "surface", "Triangulated skeleton: the sheet of ridge or chords, or the alpha shape of points",
+      "  affskel-client surface @last -o skeleton.ply\n"
+      "  affskel-client surface @last --operator zucker-hummel --alpha 160000 -o skeleton.obj\n"
+      ".vtp, .ply and .obj also hold the curves of ridge",
       [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
-  add_skeleton_options(command, options->skeleton);
-  command->add_option("--alpha", options->alpha, "Squared radius in mesh units squared (default: 3 DT^2)")
+  add_skeleton_options(command, options->skeleton, true);
+  command->add_option("--alpha", options->alpha, "Of an alpha shape: squared radius in mesh units squared (default: 3 DT^2); without\n--operator of the job's points")
       ->check(positive_number())
       ->type_name("A");
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp, or -");

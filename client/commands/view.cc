@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
   std::string job, output;
-  SkeletonOptions skeleton;  // no operator: the job's
+  SkeletonOptions skeleton;  // not given: see shown_skeleton()
 };
 
 void run(Context& context, const Options& options) {
@@ -24,7 +24,7 @@ void run(Context& context, const Options& options) {
   choose_format(destination, page_formats(), "page");
   base::AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
-  const ViewInput input = fetch_view(context, job, skeleton_params(options.skeleton, job));
+  const ViewInput input = fetch_view(context, job, shown_skeleton(options.skeleton, job));
   const std::string page = view_page(input);
   file.write(page);
   file.commit();
@@ -50,7 +50,7 @@ void add_view(CommandLine& line) {
                "  affskel-client view 3f2a9c --threshold 5 -o body.html",
                [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
-  add_skeleton_options(command, options->skeleton);
+  add_skeleton_options(command, options->skeleton, true);
   add_output(command, options->output, "HTML file to write, or -");
 }
 

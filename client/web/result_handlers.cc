@@ -102,7 +102,7 @@ Made make_picture(Backend::Call& server, const nlohmann::json& body, const std::
 Made make_view(Backend::Call& server, const nlohmann::json& body, const std::string& job,
                const std::filesystem::path& path) {
   Made made{finished_job(server.context(), job)};
-  const v1::SkeletonParams params = skeleton_params(skeleton_of(body), made.job);
+  const v1::SkeletonParams params = shown_skeleton(skeleton_of(body), made.job);
   write_whole(path, view_page(fetch_view(server.context(), made.job, params)));
   return made;
 }

@@ -20,11 +20,10 @@ Written fetch_skeleton(Context& context, const ArtifactChoice& choice, const Des
 }
 
 Written fetch_surface(Context& context, const ArtifactChoice& choice, const Destination& destination) {
-  const ChosenSkeleton chosen = choose_skeleton(context, choice.job, choice.skeleton);
-  if (!chosen.params) return transfer_surface(context, chosen.job, nullptr, destination);
+  const ChosenSkeleton chosen = choose_shown_skeleton(context, choice.job, choice.skeleton);
   v1::SurfaceParams params;
   *params.mutable_skeleton() = *chosen.params;
-  return transfer_surface(context, chosen.job, &params, destination);
+  return transfer_surface(context, chosen.job, params, destination);
 }
 
 Written fetch_eroded(Context& context, const ArtifactChoice& choice, const Destination& destination) {

@@ -14,7 +14,7 @@ namespace affskel::client {
 struct ArtifactChoice {
   std::string job;
   std::string name;          ///< one of artifact_names()
-  SkeletonOptions skeleton;  ///< of skeleton, surface and divergence; not given: the job's
+  SkeletonOptions skeleton;  ///< of skeleton, divergence and surface
   v1::ErodedParams eroded;   ///< no level: the default one
 };
 

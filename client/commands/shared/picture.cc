@@ -67,7 +67,7 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
 }  // namespace
 
 std::string job_picture(Context& context, const v1::Job& job, const SkeletonOptions& skeleton, int width) {
-  v1::SkeletonParams params = skeleton_params(skeleton, job);
+  v1::SkeletonParams params = shown_skeleton(skeleton, job);
   RenderInput input;
   const double applied = fetch_skeleton(context, job, params, !skeleton.given(), input);
   if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title

@@ -16,8 +16,9 @@ struct SkeletonOptions {
   bool given() const { return !operator_name.empty() || threshold > 0; }
 };
 
-/// --operator and --threshold.  Without a name of an operator in `skeleton` the default is the job's.
-void add_skeleton_options(CLI::App* command, SkeletonOptions& skeleton);
+/// --operator and --threshold.  Without a name of an operator in `skeleton` the default is the job's, or of
+/// what is `shown` that of shown_skeleton().
+void add_skeleton_options(CLI::App* command, SkeletonOptions& skeleton, bool shown = false);
 
 /// The message for the operator's name. @throws ClientError kUsage for an unknown one.
 v1::SkeletonParams skeleton_params(const SkeletonOptions& options);
@@ -26,6 +27,11 @@ v1::SkeletonParams skeleton_params(const SkeletonOptions& options);
 /// threshold alone is for the job's operator; an operator alone takes its default threshold.  The result
 /// names an operator.
 v1::SkeletonParams skeleton_params(const SkeletonOptions& options, const v1::Job& job);
+
+/// The same for surfaces, pictures and pages.  Without options a job with the published skeleton (Zucker and
+/// Hummel's points above the published threshold) is shown by its ridge: a sheet without the gaps that the
+/// points have, and steadier under noise (see the experiments' report).
+v1::SkeletonParams shown_skeleton(const SkeletonOptions& options, const v1::Job& job);
 
 /// The job that a command is about, and its skeleton's parameters when they are not the job's own.
 struct ChosenSkeleton {
@@ -36,5 +42,9 @@ struct ChosenSkeleton {
 
 /// Asks the server only where the meaning of the options depends on the job.
 ChosenSkeleton choose_skeleton(Context& context, const std::string& job, const SkeletonOptions& options);
+
+/// The same for surfaces: always with parameters.
+ChosenSkeleton choose_shown_skeleton(Context& context, const std::string& job,
+                                     const SkeletonOptions& options);
 
 }  // namespace affskel::client

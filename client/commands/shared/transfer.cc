@@ -174,16 +174,15 @@ Written transfer_skeleton(Context& context, const std::string& job, const v1::Sk
   return written;
 }
 
-Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
+Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams& surface,
                          const Destination& destination) {
   const FileFormat format = choose_format(destination, surface_formats(), "surface");
   base::AtomicFile out(destination.file);
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
-  if (surface != nullptr) *request.mutable_surface() = *surface;
+  *request.mutable_surface() = surface;
   v1::ArtifactHeader header;
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "surface"));
-  const bool own = surface == nullptr || !surface->has_skeleton();
-  const v1::SkeletonParams& params = own ? header.job().skeleton() : surface->skeleton();
+  const v1::SkeletonParams& params = surface.has_skeleton() ? surface.skeleton() : header.job().skeleton();
   const bool sheet = wire::gives_sheet(params.operator_());
   const auto comments = comments_for(header.job(), "affine skeleton, triangulated", "operator",
                                      skeleton_params_text(params), sheet ? &fetched.quality : nullptr);

@@ -14,7 +14,7 @@ namespace affskel::client {
 Written transfer_field(Context& context, const std::string& job, const Destination& destination);
 Written transfer_skeleton(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
                           const Destination& destination);
-Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams* surface,
+Written transfer_surface(Context& context, const std::string& job, const v1::SurfaceParams& surface,
                          const Destination& destination);
 Written transfer_divergence(Context& context, const std::string& job, const v1::SkeletonParams* skeleton,
                             const Destination& destination);
