@@ -8,7 +8,7 @@
 
 namespace affskel::client {
 
-/// Each fetches one artefact and writes it atomically.  `skeleton`, `surface`: null = the job's own
+/// Each fetches one artefact and writes it atomically.  `skeleton` null = the job's own
 /// parameters.  The file is opened before the artefact is computed, so that a path which cannot be written
 /// fails at once.
 Written transfer_field(Context& context, const std::string& job, const Destination& destination);
