@@ -33,7 +33,7 @@ TEST(PolylinesTest, AClosedLineBeginsAndEndsAtItsLeastPoint) {
 TEST(PolylinesTest, EverySegmentIsInOneLineOnce) {
   std::mt19937 random(3);
   for (int round = 0; round < 200; ++round) {
-    const std::uint32_t points = 2 + random() % 12;
+    const std::uint32_t points = 2 + static_cast<std::uint32_t>(random() % 12);
     std::vector<Segment> segments;
     for (std::uint32_t a = 0; a < points; ++a) {
       for (std::uint32_t b = a + 1; b < points; ++b) {
