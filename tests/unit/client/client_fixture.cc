@@ -37,8 +37,6 @@ ClientTest::ClientTest() : server_(service_) {
   service_.artifacts[v1::ARTIFACT_KIND_FIELD] = sample_field();
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = sample_skeleton().SerializeAsString();
   v1::TriangleMesh surface = sample_sheet();
-  surface.clear_erosion();
-  surface.clear_strength();
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = surface.SerializeAsString();
   surface.set_volume(8e8);
   service_.artifacts[v1::ARTIFACT_KIND_ERODED_SURFACE] = surface.SerializeAsString();

@@ -1,6 +1,7 @@
 // Commands that write results, against a server in this process.
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <vector>
 
@@ -166,8 +167,10 @@ TEST_F(ClientTest, RenderWritesAPng) {
 
 TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
   const std::string plain = dir_ / "p.png", other = dir_ / "q.png";
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_SOBEL);
   ASSERT_EQ(run({"render", "@last", "-o", plain, "--width", "300"}).exit_code, 0);
   EXPECT_FALSE(service_.fetches.front().has_skeleton()) << "the job's own, which is stored";
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
   service_.fetches.clear();
   ASSERT_EQ(run({"render", "@last", "--threshold", "3", "-o", other}).exit_code, 0);
   EXPECT_EQ(service_.fetches.front().kind(), v1::ARTIFACT_KIND_SKELETON);
@@ -184,6 +187,56 @@ TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
   sheet.add_corners(9);
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   EXPECT_EQ(run({"render", "@last", "--operator", "chords", "-o", other}).exit_code, 70) << "a damaged sheet";
+}
+
+TEST_F(ClientTest, ThePublishedSkeletonIsShownByItsRidge) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"render", "@last", "-o", dir_ / "p.png", "--width", "300"},
+        {"view", "@last", "-o", dir_ / "p.html"},
+        {"surface", "@last", "-o", dir_ / "p.ply"},
+        {"fetch", "@last", "surface", "-o", dir_ / "p.ply"}}) {
+    service_.fetches.clear();
+    ASSERT_EQ(run(command).exit_code, 0) << command[0];
+    const auto& asked = service_.fetches;
+    EXPECT_TRUE(std::any_of(asked.begin(), asked.end(), [](const v1::FetchArtifactRequest& request) {
+      return request.kind() == v1::ARTIFACT_KIND_SURFACE &&
+             request.surface().skeleton().operator_() == v1::OPERATOR_RIDGE;
+    })) << command[0];
+  }
+  // A threshold is one of the job's operator, an alpha shape one of its points, another operator wanted.
+  run({"surface", "@last", "--threshold", "6", "-o", dir_ / "p.ply"});
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+  run({"surface", "@last", "--alpha", "6", "-o", dir_ / "p.ply"});
+  EXPECT_FALSE(service_.fetches.back().surface().has_skeleton());
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_FLUX);
+  run({"surface", "@last", "-o", dir_ / "p.ply"});
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_FLUX);
+}
+
+TEST_F(ClientTest, CurvesAreToldAndMissedWhereTheyHaveNoPlace) {
+  v1::TriangleMesh sheet = sample_sheet();
+  for (const double v : {0., 0., 3000.}) sheet.add_xyz(v);
+  for (const double area : {3., 4., 5., 100 * std::numbers::pi}) sheet.add_area(area);
+  sheet.add_erosion(6);
+  sheet.add_strength(9);
+  for (const unsigned v : {2u, 3u}) sheet.add_segments(v);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  const Outcome vtp = run({"--json", "surface", "@last", "-o", dir_ / "p.vtp"});
+  EXPECT_NE(vtp.err.find("1 triangle, 1 segment of curves"), std::string::npos) << vtp.err;
+  EXPECT_EQ(json::parse(vtp.out).at("segments"), 1);
+  const ShapeFile shape = read_shape(dir_ / "p.vtp");
+  EXPECT_EQ(shape.segments, (std::vector<core::Segment>{{2, 3}}));
+  EXPECT_DOUBLE_EQ(shape.column("radius")->values[3], 10);
+  const Outcome stl = run({"surface", "@last", "-o", dir_ / "p.stl"});
+  EXPECT_NE(stl.err.find("without the curves (1 segment)"), std::string::npos) << stl.err;
+  EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png"}).exit_code, 0);
+  EXPECT_EQ(run({"compare", dir_ / "p.vtp", dir_ / "p.stl", "--json"}).exit_code, 0);
+  sheet.add_segments(4);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"surface", "@last", "-o", dir_ / "p.vtp"}).exit_code, 70) << "half a segment";
+  sheet.add_segments(0);
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
+  EXPECT_EQ(run({"surface", "@last", "-o", dir_ / "p.vtp"}).exit_code, 70) << "no vertex 4";
 }
 
 TEST_F(ClientTest, RenderOfAnEmptySheetSaysWhy) {
@@ -312,7 +365,8 @@ TEST_F(ClientTest, EmptyResultsAreToldWithTheirAdvice) {
   const Outcome chords = run({"surface", "@last", "--operator", "chords", "-o", dir_ / "c.ply"});
   EXPECT_NE(chords.err.find("the surface is empty: take a smaller significance"), std::string::npos);
   EXPECT_EQ(chords.err.find("--alpha"), std::string::npos) << "chords have none";
-  const Outcome alpha = run({"surface", "@last", "-o", dir_ / "a.ply"});
+  const Outcome alpha =
+      run({"surface", "@last", "--operator", "zucker-hummel", "-o", dir_ / "a.ply"});
   EXPECT_NE(alpha.err.find("--alpha"), std::string::npos) << alpha.err;
 }
 
@@ -339,7 +393,7 @@ TEST_F(ClientTest, SheetsOfChordsKeepTheirProperties) {
   EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_CHORDS);
   const std::string ply = tests::read_file(dir_ / "c.ply");
   EXPECT_NE(ply.find("property double E\n"), std::string::npos);
-  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 3 * 4 * 8 + 13);
+  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 3 * (4 * 8 + 4 + 3) + 13);
   sheet.add_erosion(6);
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   EXPECT_EQ(run({"surface", "@last", "-o", dir_ / "d.ply"}).exit_code, 70);

@@ -247,7 +247,7 @@ TEST_F(ClientTest, StatusTellsEveryFieldAsJson) {
   EXPECT_EQ(job.at("counters").at("reports"), 3);
   EXPECT_EQ(job.at("counters").at("leases_lost"), 0);
   EXPECT_EQ(job.at("prepared").at("volume"), 8e9);
-  EXPECT_EQ(job.size(), 24u) << "all fields but the absent messages params, skeleton, error; got "
+  EXPECT_EQ(job.size(), 25u) << "all fields but the absent messages params, skeleton, error; got "
                              << outcome.out;
 }
 

@@ -47,8 +47,8 @@ TEST_F(ViewTest, WritesThePage) {
   EXPECT_EQ(done.out, "");
   const json all = facts();
   EXPECT_EQ(all.at("name"), "cube");
-  EXPECT_EQ(all.at("operator"), "zucker-hummel");
-  EXPECT_EQ(all.at("threshold"), 7);
+  EXPECT_EQ(all.at("operator"), "ridge");
+  EXPECT_EQ(all.at("threshold"), 0.001);
   EXPECT_EQ(all.at("pointsHere"), 5);
   EXPECT_EQ(all.at("thinning"), 1);
   const json told = json::parse(run({"--json", "-o", dir_ / "p.html"}).out);
@@ -151,7 +151,7 @@ TEST_F(ViewTest, WantsAFinishedJobAndAPageToWrite) {
 
 TEST_F(ViewTest, ADivergenceOfAnotherLatticeIsRefused) {
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(32);
-  EXPECT_EQ(run({"-o", dir_ / "p.html"}).exit_code, 70);
+  EXPECT_EQ(run({"--operator", "zucker-hummel", "-o", dir_ / "p.html"}).exit_code, 70);
 }
 
 TEST_F(ViewTest, DamagedTransfersLeaveNoFile) {

@@ -196,7 +196,7 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
       ++files;
     }
   }
-  EXPECT_EQ(files, 3 + 3 + 5 + 5 + 7 + 1);
+  EXPECT_EQ(files, 6 + 6 + 5 + 5 + 7 + 5);
   EXPECT_EQ(made({{"artefact", "mesh"}, {"format", ".off"}}).body, mesh_);
   EXPECT_EQ(made({{"artefact", "field"}, {"format", ".stl"}}).status, 400);
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);

@@ -147,10 +147,10 @@ TEST(VtpParser, PiecesArePutTogether) {
   EXPECT_EQ(shape.column("E")->values, (Doubles{0, 1, 2, 0, 1, 2, 3}));
 }
 
-TEST(VtpParser, LinesAndVerticesArePassedOver) {
+TEST(VtpParser, LinesAreSegmentsAndVerticesArePassedOver) {
   const ShapeFile shape =
       parsed(piece_of_points(3, cells("Lines", "0 1 2", "3") + cells("Verts", "0 1", "1 2")));
-  EXPECT_FALSE(shape.is_surface());
+  EXPECT_EQ(shape.segments, (std::vector<Segment>{{0, 1}, {1, 2}}));
   EXPECT_EQ(shape.mesh().points.size(), 3u);
 }
 
