@@ -199,9 +199,10 @@ class Surface:
         vertices: (n, 3).
         faces: (m, 3) indices of vertices.
         attributes: arrays by vertex.  The sheet of "chords" has E, strength of the shock (0 .. 1), area of the optimal
-            sections, normal_a and normal_b (n, 3) of the two chords; other surfaces have none, the points that they
-            are made of carry them (`Job.skeleton_points`).
-        quality: of the sheet of "chords", by the names of SkeletonQuality in the contract; otherwise empty.
+            sections, normal_a and normal_b (n, 3) of the two chords; that of "ridge" the same, its strength in radians
+            per depth, and the ratio of its two curvatures; both have the barrier where it was asked for.  Other
+            surfaces have none, the points that they are made of carry them (`Job.skeleton_points`).
+        quality: of the sheet of "chords" or "ridge", by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
     """
 
@@ -288,7 +289,8 @@ def surface_of(message: types.TriangleMesh) -> Surface:
     corners = _wholes(message.corners)
     if len(corners) % 3 or (len(corners) and corners.max() >= len(vertices)):
         raise InternalError("the server sent a damaged surface: corners out of range")
-    arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "area": _doubles(message.area),
+    arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "ratio": _doubles(message.ratio),
+              "barrier": _doubles(message.barrier), "area": _doubles(message.area),
               "normal_a": _doubles(message.normal_a, 3), "normal_b": _doubles(message.normal_b, 3)}
     attributes = {name: array for name, array in arrays.items() if len(array)}
     if any(len(array) != len(vertices) for array in attributes.values()):
