@@ -27,7 +27,7 @@ struct BarrierOptions {
   Matrix3 frame = kIdentity3;
   unsigned threads = 1;
   /// Bytes for chords, 4 for each place and direction.  Places that find no room wait for the next round, and
-  /// each round builds all join trees again.  Beside that: the trees' own (see TreeInput), and 24 per place.
+  /// each round builds all join trees again.  Beside that: the trees' own (see TreeInput), and 48 per place.
   std::uint64_t memory = std::uint64_t{128} << 20;
   ExecutionContext* context = nullptr;  ///< asked for every direction whether to stop
 };

@@ -14,7 +14,7 @@ namespace affskel::core {
 /// Chords of places that need not lie on a lattice: chord(p, d), the volume of the component of
 /// { y in V : d.y <= d.p } that holds p, from the join tree of d.  From p the straight way along the axis
 /// that falls fastest stays in V up to the first triangle that it meets, so that p's component is that of the
-/// triangle's lowest vertex, at p's height; the six triangles of a place are found once.  24 bytes per place.
+/// triangle's lowest vertex, at p's height; the six triangles of a place are found once.  48 bytes per place.
 /// Immutable; threads share it.
 class PlaceChords {
  public:

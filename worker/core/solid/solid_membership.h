@@ -6,9 +6,9 @@
 namespace affskel::core {
 
 /// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by
-/// a ray along +x (see AxisRays).  Independent of the scan conversion that chooses
-/// the sample points, and so can check it.  Keeps a reference to the mesh.  Immutable after construction;
-/// queries from several threads are safe.
+/// a ray along +x (see AxisRays).  Independent of the scan conversion that chooses the sample points, and so
+/// can check it.  Keeps a reference to the mesh.  Immutable after construction; queries from several threads
+/// are safe.
 class SolidMembership {
  public:
   /// @param mesh closed, outward-oriented.
