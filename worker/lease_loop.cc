@@ -318,7 +318,7 @@ class LeaseLoop {
     require_same_job(lease, job);
     const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
     core::throw_if_stopped(&context);
-    const Derived derived = affskel::worker::derive(lease, job, stored, &context);
+    const Derived derived = affskel::worker::derive(lease, job, stored, &context, options_.threads);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
     header.set_points(derived.items);

@@ -65,6 +65,7 @@ FetchedSurface parse_surface(const std::string& bytes) {
   add_columns(surface.shape, {"E"}, message.erosion());
   add_columns(surface.shape, {"strength"}, message.strength());
   add_columns(surface.shape, {"ratio"}, message.ratio());
+  add_columns(surface.shape, {"barrier"}, message.barrier());
   add_columns(surface.shape, {"area"}, message.area());
   if (!surface.shape.segments.empty()) add_radius(surface.shape);
   add_columns(surface.shape, {"nx_a", "ny_a", "nz_a"}, message.normal_a());

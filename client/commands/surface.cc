@@ -15,6 +15,8 @@ struct Options {
   std::string job, output, format;
   SkeletonOptions skeleton;  // not given: see shown_skeleton()
   double alpha = 0;          // squared radius, 0 = from the spacing
+  bool barrier = false;
+  double min_barrier = 0;
 };
 
 void run(Context& context, const Options& options) {
@@ -26,6 +28,8 @@ void run(Context& context, const Options& options) {
                                     : choose_shown_skeleton(context, options.job, options.skeleton);
   if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
+  params.set_barrier(options.barrier || options.min_barrier > 0);
+  params.set_min_barrier(options.min_barrier);
   tell_result(context.console(), transfer_surface(context, chosen.job, params, destination));
 }
 
@@ -33,17 +37,30 @@ void run(Context& context, const Options& options) {
 
 void add_surface(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = line.add(
-      "surface", "Triangulated skeleton: the sheet of ridge or chords, or the alpha shape of points",
-      "  affskel-client surface @last -o skeleton.ply\n"
-      "  affskel-client surface @last --operator zucker-hummel --alpha 160000 -o skeleton.obj\n"
-      ".vtp, .ply and .obj also hold the curves of ridge",
-      [options](Context& context) { run(context, *options); });
+  CLI::App* command =
+      line.add("surface", "Triangulated skeleton: the sheet of ridge or chords, or the alpha shape of points",
+               "  affskel-client surface @last -o sheet.vtp\n"
+               "  affskel-client surface @last --barrier -o sheet.vtp\n"
+               "  affskel-client surface @last --operator chords --min-barrier 0.05 -o shocks.ply\n"
+               "  affskel-client surface @last --operator zucker-hummel --alpha 160000 -o skeleton.obj\n"
+               ".vtp, .ply and .obj also hold the curves of ridge",
+               [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
   add_skeleton_options(command, options->skeleton, true);
-  command->add_option("--alpha", options->alpha, "Of an alpha shape: squared radius in mesh units squared (default: 3 DT^2); without\n--operator of the job's points")
+  command
+      ->add_option("--alpha", options->alpha,
+                   "Of an alpha shape: squared radius in mesh units squared (default: 3 DT^2);\nwithout "
+                   "--operator of the job's points")
       ->check(positive_number())
       ->type_name("A");
+  command->add_flag("--barrier", options->barrier,
+                    "Of a sheet, at its vertices: by what share of E the chord grows on the way from one "
+                    "side's direction to the other's; 0: the normals only turn fast, large: they jump");
+  command
+      ->add_option("--min-barrier", options->min_barrier,
+                   "Drop the sheet's triangles with a vertex of a lower barrier; implies --barrier")
+      ->check(positive_number())
+      ->type_name("B");
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp, or -");
   add_format(command, options->format);
 }

@@ -22,9 +22,9 @@ struct Ball {
   Rgb colour;
 };
 
-/// Draws one view: opaque balls, facets, sheets and curves, depth-buffered, inside a translucent surface.  Works on a
-/// grid of 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers takes a
-/// share of the light, and the layers in front of a ball and those behind it are kept apart.
+/// Draws one view: opaque balls, facets, sheets and curves, depth-buffered, inside a translucent surface.
+/// Works on a grid of 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers
+/// takes a share of the light, and the layers in front of a ball and those behind it are kept apart.
 class Panel {
  public:
   static constexpr int kSamples = 2;  ///< per pixel and axis

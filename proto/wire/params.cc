@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "base/direction_set.h"
 #include "base/number_text.h"
@@ -16,6 +17,22 @@ namespace {
 
 constexpr double kMaxRidgeStrength = 800;  // the core counts strengths up to 1000
 constexpr std::uint64_t kMaxTargetPoints = std::uint64_t{1} << 31;
+
+v1::SurfaceParams with_barrier(v1::SurfaceParams params) {
+  const double least = params.min_barrier();
+  if (!std::isfinite(least) || least < 0) {
+    throw std::invalid_argument("the least barrier must be a finite number > 0, or 0 for all, not " +
+                                base::to_text(least));
+  }
+  if (least == 0) params.set_min_barrier(0.0);  // == also catches -0
+  if (least > 0) params.set_barrier(true);
+  if (params.barrier() && !gives_sheet(params.skeleton().operator_())) {
+    throw std::invalid_argument("barriers are for the sheets of chords and ridge; the operator " +
+                                word(params.skeleton().operator_()) +
+                                " gives points, whose normals have no two sides");
+  }
+  return params;
+}
 
 std::string bits(double value) {
   char text[17];
@@ -107,7 +124,7 @@ v1::SurfaceParams canonical(const v1::SurfaceParams& params) {
     throw std::invalid_argument("alpha is for point skeletons; the sheet of " +
                                 word(result.skeleton().operator_()) + " has triangles of its own");
   }
-  return result;
+  return with_barrier(std::move(result));
 }
 
 v1::ErodedParams canonical(const v1::ErodedParams& params) {
@@ -162,7 +179,9 @@ std::string cache_key(const v1::SkeletonParams& params) {
 }
 
 std::string cache_key(const v1::SurfaceParams& params) {
-  return cache_key(params.skeleton()) + " alpha=" + bits(params.alpha());
+  // Keys from before there were barriers stay valid.
+  const std::string barrier = params.barrier() ? " barrier=" + bits(params.min_barrier()) : "";
+  return cache_key(params.skeleton()) + " alpha=" + bits(params.alpha()) + barrier;
 }
 
 std::string cache_key(const v1::ErodedParams& params) {

@@ -22,7 +22,7 @@ class Job:
         self.run("fetch", self.id, "field", "-o", self.path("field.csv"))
         self.levels = [float(row["E"]) for row in self.rows("field.csv")]
         self.page = self.path("page.html")
-        self.run("view", self.id, "-o", self.page)
+        self.run("view", self.id, "--operator", "zucker-hummel", "-o", self.page)
 
     def path(self, name):
         return os.path.join(self.directory.name, name)

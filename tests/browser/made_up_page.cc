@@ -150,16 +150,18 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string kind = arguments.size() == 2 || arguments.size() == 3 ? arguments[0] : "";
   const bool known = kind == "thinned" ? arguments.size() == 3
-                                       : arguments.size() == 2 && (kind == "sheet" || kind == "curve" || kind == "stretched");
+                                       : arguments.size() == 2 &&
+                                             (kind == "sheet" || kind == "curve" || kind == "stretched");
   if (!known) {
     std::cerr << "usage: affskel_made_up_page sheet FILE | curve FILE | stretched FILE | thinned N FILE\n";
     return 2;
   }
   try {
-    const ViewInput input = kind == "sheet"       ? sheet_page()
-                            : kind == "curve"     ? curve_page()
-                            : kind == "stretched" ? stretched_page()
-                                                  : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
+    const ViewInput input = kind == "sheet"   ? sheet_page()
+                            : kind == "curve" ? curve_page()
+                            : kind == "stretched"
+                                ? stretched_page()
+                                : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
     affskel::base::AtomicFile file(arguments.back());
     file.write(affskel::client::view_page(input));
     file.commit();

@@ -153,8 +153,8 @@ void affine_experiment(const Setting& setting, Report& report) {
   report.text(kText);
   const double squared = 3 * setting.spacing() * setting.spacing();
   report.compare({format("turn and shear, body of %zu", mesh.triangles.size()), "98 % at r^2 = 1e8",
-                  "at r^2 = " + squared_text(squared) + ": axis " + studies.shares(0) +
-                      "; affine " + studies.shares(2) + "; " + studies.chance_levels(),
+                  "at r^2 = " + squared_text(squared) + ": axis " + studies.shares(0) + "; affine " +
+                      studies.shares(2) + "; " + studies.chance_levels(),
                   "agrees, and at a radius that means something"});
   report.compare({format("stretch 2, 1, 1/2, body of %zu", mesh.triangles.size()), "-",
                   "axis " + studies.shares(1) + "; affine " + studies.shares(3), "-"});

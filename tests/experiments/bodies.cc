@@ -85,12 +85,10 @@ void body_experiment(const Setting& setting, Report& report) {
   for (const Published& published : kPublished) {
     if (setting.quick && published.triangles > 500) break;
     const core::Mesh& mesh = setting.body(published.triangles);
-    Result r{published,
-             compute(mesh, {setting.spacing(), "triangles", core::FrameKind::kAxis, setting.threads}),
-             {},
-             {},
-             {},
-             {}};
+    Result r{
+        published, compute(mesh, {setting.spacing(), "triangles", core::FrameKind::kAxis, setting.threads}),
+        {},        {},
+        {},        {}};
     r.skeleton = zucker_hummel_skeleton(r.job);
     r.pieces = piece_sizes(r.job, r.skeleton);
     const JobOptions finer{setting.spacing() / 2, "triangles", core::FrameKind::kAxis, setting.threads};
@@ -106,7 +104,8 @@ void body_experiment(const Setting& setting, Report& report) {
       "size. Zucker-Hummel operator, threshold 7, dT = " +
       format("%g", setting.spacing()) + ", directions of the triangles.");
   Table table{{"triangles", "points", "v0", "largest E / v0", "skeleton", "pieces", "in the largest",
-               "`chords` at dT / 2: triangles, pieces, tunnels", "`ridge` likewise", "time", "published time", "ratio"},
+               "`chords` at dT / 2: triangles, pieces, tunnels", "`ridge` likewise", "time", "published time",
+               "ratio"},
               {}};
   for (const Result& r : results) table.rows.push_back(row(r));
   report.table(table);

@@ -47,6 +47,8 @@ void noise_experiment(const Setting& setting, Report& report);
 void affine_experiment(const Setting& setting, Report& report);
 /// 6.5.1: directions.
 void plane_experiment(const Setting& setting, Report& report);
+/// Not published: which of a sheet's places are jumps of the normals, and which only fast turns.
+void barrier_experiment(const Setting& setting, Report& report);
 /// 6.5.2: time against the number of triangles.
 void growth_experiment(const Setting& setting, Report& report);
 

@@ -23,7 +23,8 @@ struct Experiment {
 constexpr Experiment kExperiments[] = {
     {"torus", torus_experiment},   {"ellipsoid", ellipsoid_experiment}, {"revolution", revolution_experiment},
     {"bodies", body_experiment},   {"threshold", threshold_experiment}, {"noise", noise_experiment},
-    {"affine", affine_experiment}, {"planes", plane_experiment},        {"growth", growth_experiment},
+    {"affine", affine_experiment}, {"planes", plane_experiment},        {"barrier", barrier_experiment},
+    {"growth", growth_experiment},
 };
 
 std::string heading(const Setting& setting, double seconds) {
@@ -77,9 +78,9 @@ int main(int argc, char** argv) {
   app.add_option("--threads", setting.threads, "threads for the erosion")->check(CLI::Range(1U, 1024U));
   app.add_option("--only", only,
                  "one experiment alone: torus, ellipsoid, revolution, bodies, threshold, noise, affine, "
-                 "planes or growth")
+                 "planes, barrier or growth")
       ->check(CLI::IsMember({"torus", "ellipsoid", "revolution", "bodies", "threshold", "noise", "affine",
-                             "planes", "growth"}));
+                             "planes", "barrier", "growth"}));
   CLI11_PARSE(app, argc, argv);
   try {
     return run(setting, directory, only);

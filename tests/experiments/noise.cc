@@ -95,8 +95,8 @@ void show(const Bodies& bodies, const OperatorStudies& studies, Report& report) 
   report.picture("noise", gallery(exhibits, {{Side::kFront, Side::kSide}, 2200}),
                  "The body and its skeleton without noise and with noise");
   report.compare({format("noise of unit deviation, body of %u", bodies.triangles), "94 % at r^2 = 1e8",
-                  "at r^2 = " + squared_text(3 * bodies.dt() * bodies.dt()) + ": " +
-                      studies.shares(0) + "; " + studies.chance_levels(),
+                  "at r^2 = " + squared_text(3 * bodies.dt() * bodies.dt()) + ": " + studies.shares(0) +
+                      "; " + studies.chance_levels(),
                   "agrees, and at a radius that means something"});
   report.compare(
       {format("noise of 0.5 %% of the diagonal, body of %u", bodies.triangles), "-", studies.shares(1), "-"});

@@ -94,6 +94,19 @@ class AgainstTheFiles(unittest.TestCase):
             self.assertGreater(len(sheet), 100)
             self.assertEqual(sheet.quality["points"], len(sheet.vertices))
 
+    def test_barriers_are_those_of_the_ply_and_cut_the_sheet(self):
+        directory.client("surface", body.id, "--operator", "ridge", "--barrier", "-o", directory / "sheet.ply")
+        vertices, _ = read_ply(directory / "sheet.ply")
+        sheet = body.skeleton("ridge", barrier=True)
+        self.assertEqual(list(sheet.table()), list(vertices.dtype.names))
+        assert_same(sheet.attributes["barrier"], vertices["barrier"])
+        least = float(np.quantile(sheet.attributes["barrier"], .9))
+        cut = body.skeleton("ridge", min_barrier=least)
+        self.assertTrue((cut.attributes["barrier"] >= least).all())
+        kept = (sheet.attributes["barrier"][sheet.faces] >= least).all(axis=1)
+        self.assertEqual(len(cut), kept.sum())
+        self.assertGreater(len(cut), 0)
+
     def test_other_surfaces_are_those_of_the_ply(self):
         for options in ({}, dict(operator="sobel", threshold=20), dict(threshold=9, alpha=1e6), dict(alpha=2e5)):
             with self.subTest(options):

@@ -5,6 +5,7 @@
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
+#include "derive/sheet_barriers.h"
 
 namespace affskel::worker {
 namespace {
@@ -30,15 +31,16 @@ core::Mesh mesh_of(const core::ChordSheet& sheet) {
 // @param points the shocks, when they are the skeleton's points; null: the sheet's vertices are.
 v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
                                const core::ChordSheet& sheet, double threshold,
-                               const std::vector<core::Vec3>* points) {
+                               const std::vector<core::Vec3>* points, const SheetBarriers& barriers = {}) {
   core::ChordPruningOptions pruning = options_for(field, threshold).pruning;
   pruning.strong_turn = sheet.strong_turn;
   const double next = core::next_threshold(pruning.significance);
   core::SheetQualityOptions options;
   options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, pruning);
+  if (!barriers.advice.empty()) options.advice_if_empty = barriers.advice;
   options.points = points;
   core::Mesh other;
-  if (next < 1) {
+  if (next < 1 && !barriers.cut) {
     other = mesh_of(sheet_of(field, in_frame, next));
     options.other = &other;
     options.other_threshold = next;
@@ -71,9 +73,11 @@ v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::Skeleton
   return message;
 }
 
-v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SkeletonParams& params) {
+v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
+  const double threshold = params.skeleton().threshold();
   const core::FrameField in_frame = field.in_frame();
-  const core::ChordSheet sheet = sheet_of(field, in_frame, params.threshold());
+  core::ChordSheet sheet = sheet_of(field, in_frame, threshold);
+  const SheetBarriers barriers = take_barriers(field, params, sheet, mesh_of);
   v1::TriangleMesh message;
   for (const core::ChordSheetVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());
@@ -83,8 +87,9 @@ v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SkeletonParam
     append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
     append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());
   }
+  message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
-  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold(), nullptr);
+  *message.mutable_quality() = quality_of(field, in_frame, sheet, threshold, nullptr, barriers);
   return message;
 }
 

@@ -9,7 +9,8 @@ namespace affskel::worker {
 /// @throws core::CoreError for a wrong parameter.
 v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::SkeletonParams& params);
 
-/// The sheet through those shocks.  @throws core::CoreError for a wrong parameter.
-v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SkeletonParams& params);
+/// The sheet through those shocks, with barriers where they are asked for.  @throws core::CoreError for a
+/// wrong parameter.
+v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams& params);
 
 }  // namespace affskel::worker

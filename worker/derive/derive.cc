@@ -23,9 +23,9 @@ v1::SkeletonPoints skeleton(const FinishedField& field, const v1::SkeletonParams
 v1::TriangleMesh surface(const FinishedField& field, const v1::SurfaceParams& params) {
   switch (params.skeleton().operator_()) {
     case v1::OPERATOR_CHORDS:
-      return chord_sheet(field, params.skeleton());
+      return chord_sheet(field, params);
     case v1::OPERATOR_RIDGE:
-      return ridge_sheet(field, params.skeleton());
+      return ridge_sheet(field, params);
     default:
       return operator_surface(field, params);
   }
@@ -49,8 +49,8 @@ Derived packed(const v1::TriangleMesh& mesh, const std::string& what) {
 }  // namespace
 
 Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
-               core::ExecutionContext* context) {
-  const FinishedField field(job, stored, context);
+               core::ExecutionContext* context, unsigned threads) {
+  const FinishedField field(job, stored, context, threads);
   field.throw_if_stopped();
   switch (lease.kind()) {
     case v1::TASK_KIND_SKELETON:

@@ -20,9 +20,10 @@ struct Derived {
 /// Computes the artefact that the lease asks for from the finished field.
 /// @param stored the field's bytes, see ARTIFACT_KIND_FIELD.
 /// @param context asked between the steps whether to stop; may be null.
+/// @param threads that it may use.
 /// @throws core::CoreError for a wrong parameter, or an artefact too large to be sent; kCancelled when
 /// stopped.
 Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
-               core::ExecutionContext* context = nullptr);
+               core::ExecutionContext* context = nullptr, unsigned threads = 1);
 
 }  // namespace affskel::worker

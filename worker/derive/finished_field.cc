@@ -4,9 +4,11 @@
 
 namespace affskel::worker {
 
-FinishedField::FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context)
+FinishedField::FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context,
+                             unsigned threads)
     : job_(job),
       context_(context),
+      threads_(threads),
       values_(unpack_field(stored, job.lattice().points)),
       frame_directions_(core::frame_directions(job.lattice(), job.directions())),
       places_(job.solid(), job.lattice()) {}

@@ -14,11 +14,14 @@ class FinishedField {
  public:
   /// @param stored the server's bytes, see ARTIFACT_KIND_FIELD.
   /// @param context of the task, may be null; must outlive this.
+  /// @param threads that a derivation may use.
   /// @throws core::CoreError kInternal when their number does not fit the job.
-  FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context = nullptr);
+  FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context = nullptr,
+                unsigned threads = 1);
 
   const PreparedJob& job() const { return job_; }
   core::ExecutionContext* context() const { return context_; }
+  unsigned threads() const { return threads_; }
   /// Between the steps of a derivation.  @throws core::CoreError kCancelled when the task is to stop.
   void throw_if_stopped() const { core::throw_if_stopped(context_); }
   const core::Lattice& lattice() const { return job_.lattice(); }
@@ -42,6 +45,7 @@ class FinishedField {
  private:
   const PreparedJob& job_;
   core::ExecutionContext* context_;
+  unsigned threads_;
   std::vector<core::FieldValue> values_;
   core::DirectionSet frame_directions_;
   core::SamplePlaces places_;

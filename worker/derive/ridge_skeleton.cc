@@ -5,6 +5,7 @@
 #include "core/ridge/ridge_sheet.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
+#include "derive/sheet_barriers.h"
 
 namespace affskel::worker {
 namespace {
@@ -34,13 +35,15 @@ core::Mesh mesh_of(const core::RidgeSheet& sheet) {
 }
 
 v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
-                               const core::RidgeSheet& sheet, double threshold) {
+                               const core::RidgeSheet& sheet, double threshold,
+                               const SheetBarriers& barriers = {}) {
   const core::RidgeRimOptions rims = options_for(field, threshold).rims;
   core::SheetQualityOptions options;
   options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
+  if (!barriers.advice.empty()) options.advice_if_empty = barriers.advice;
   const double next = core::next_threshold(rims.low);
   core::Mesh other;
-  if (next <= kMaxThreshold) {
+  if (next <= kMaxThreshold && !barriers.cut) {
     other = mesh_of(sheet_of(field, in_frame, next));
     options.other = &other;
     options.other_threshold = next;
@@ -71,9 +74,11 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
   return message;
 }
 
-v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SkeletonParams& params) {
+v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
+  const double threshold = params.skeleton().threshold();
   const core::FrameField in_frame = field.in_frame();
-  const core::RidgeSheet sheet = sheet_of(field, in_frame, params.threshold());
+  core::RidgeSheet sheet = sheet_of(field, in_frame, threshold);
+  const SheetBarriers barriers = take_barriers(field, params, sheet, mesh_of);
   v1::TriangleMesh message;
   for (const core::RidgeVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());
@@ -84,8 +89,9 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SkeletonParam
     append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
     append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());
   }
+  message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
-  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold());
+  *message.mutable_quality() = quality_of(field, in_frame, sheet, threshold, barriers);
   return message;
 }
 

@@ -9,7 +9,7 @@ namespace affskel::worker {
 /// @throws core::CoreError for a wrong parameter.
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params);
 
-/// That sheet.  @throws core::CoreError for a wrong parameter.
-v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SkeletonParams& params);
+/// That sheet, with barriers where they are asked for.  @throws core::CoreError for a wrong parameter.
+v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams& params);
 
 }  // namespace affskel::worker

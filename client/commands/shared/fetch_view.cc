@@ -103,9 +103,8 @@ ViewInput fetch_view(Context& context, const v1::Job& job, const v1::SkeletonPar
                                   [&](float h) { return double{h} > input.threshold; });
   warn_about_skeleton(
       context.console(),
-      static_cast<std::uint64_t>(input.sheet_is_skeleton
-                                     ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2
-                                     : kept),
+      static_cast<std::uint64_t>(
+          input.sheet_is_skeleton ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2 : kept),
       input.sheet.quality(), job);
   input.grid = view_grid(lattice);
   input.selection = select_view_points(lattice.count(), divergences, input.threshold, kMaxPoints);

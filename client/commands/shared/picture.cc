@@ -29,9 +29,10 @@ std::string curves_text(const v1::TriangleMesh& sheet) {
 }
 
 std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
-  const std::string skeleton = wire::gives_sheet(params.operator_())
-                                   ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle") + curves_text(input.sheet)
-                                   : base::counted(input.skeleton.point_size(), "skeleton point");
+  const std::string skeleton =
+      wire::gives_sheet(params.operator_())
+          ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle") + curves_text(input.sheet)
+          : base::counted(input.skeleton.point_size(), "skeleton point");
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
          base::counted(job.prepared().points(), "sample point") + " at spacing " +
          base::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
@@ -58,8 +59,8 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
     input.skeleton = fetch_points(context, job, params, own);
   }
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
-  const int items = sheet ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2
-                          : input.skeleton.point_size();
+  const int items =
+      sheet ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2 : input.skeleton.point_size();
   warn_about_skeleton(context.console(), static_cast<std::uint64_t>(items), quality, job);
   return quality.threshold();
 }

@@ -102,6 +102,12 @@ void check_grid(Context& context, FileFormat format, const LatticePoints& points
       "ParaView 5.11 and VTK 9.1 pass over; .vts holds the points themselves");
 }
 
+// The skeleton's parameters, and what of it the surface leaves out.  @param surface may be null.
+std::string surface_params_text(const v1::SkeletonParams& skeleton, const v1::SurfaceParams* surface) {
+  const double least = surface == nullptr ? 0 : surface->min_barrier();
+  return skeleton_params_text(skeleton) + (least > 0 ? ", barriers from " + base::to_text(least) : "");
+}
+
 // v0 times the share of the sample points, so that all points give v0.  Cells of the lattice would give
 // another sum, wrong where the solid is thin.
 double volume_of_points(const v1::Job& job, int points) {
@@ -184,8 +190,9 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const FetchedSurface fetched = parse_surface(fetch_patiently(context, request, header, "surface"));
   const v1::SkeletonParams& params = surface.has_skeleton() ? surface.skeleton() : header.job().skeleton();
   const bool sheet = wire::gives_sheet(params.operator_());
-  const auto comments = comments_for(header.job(), "affine skeleton, triangulated", "operator",
-                                     skeleton_params_text(params), sheet ? &fetched.quality : nullptr);
+  const auto comments =
+      comments_for(header.job(), "affine skeleton, triangulated", "operator",
+                   surface_params_text(params, surface), sheet ? &fetched.quality : nullptr);
   write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
   tell_lost_curves(context.console(), fetched.shape, format, destination.name());

@@ -14,9 +14,9 @@ namespace affskel::client {
 /// An artefact of a job that was written into a file.
 struct Written {
   Destination destination;
-  std::string kind;         ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
-  std::string unit;         ///< what is counted: "point", "triangle" or "byte"
-  std::uint64_t items = 0;  ///< how many
+  std::string kind;            ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
+  std::string unit;            ///< what is counted: "point", "triangle" or "byte"
+  std::uint64_t items = 0;     ///< how many
   v1::Job job;                 ///< as the server sent it along
   std::uint64_t segments = 0;  ///< of the curves of a surface
   std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet

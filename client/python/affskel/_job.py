@@ -136,7 +136,8 @@ class Job:
         return directions_of(types.Directions.FromString(self._bytes(service.ARTIFACT_KIND_DIRECTIONS, timeout)))
 
     def skeleton(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
-                 alpha: Optional[float] = None, timeout: Optional[float] = None) -> Surface:
+                 alpha: Optional[float] = None, barrier: bool = False, min_barrier: Optional[float] = None,
+                 timeout: Optional[float] = None) -> Surface:
         """The skeleton as a triangulated surface.
 
         Args:
@@ -144,14 +145,19 @@ class Job:
             threshold: in the operator's unit; None = the operator's default, without an operator the job's.
             alpha: squared radius of the alpha shape through the points, mesh units squared; None = by the spacing.
                 Not for "chords", whose sheet goes through the shocks itself.
+            barrier: for "chords" and "ridge", the attribute "barrier": by what share of E the chord grows on the way
+                from one side's direction to the other's; 0: the normals only turn fast, large: they jump.
+            min_barrier: leave out triangles with a vertex of a lower barrier; implies `barrier`.
         """
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SURFACE)
         chosen = self._chosen(operator, threshold)
-        if chosen is None and alpha is not None:
+        if chosen is None and (alpha is not None or barrier or min_barrier is not None):
             chosen = self._session.get_job(self.id).skeleton
         if chosen is not None:
             request.surface.skeleton.CopyFrom(chosen)
             request.surface.alpha = alpha or 0.0
+            request.surface.barrier = barrier or min_barrier is not None
+            request.surface.min_barrier = min_barrier or 0.0
         surface = surface_of(types.TriangleMesh.FromString(self._fetched(request, timeout)))
         self._warn_if_empty("surface of the skeleton", len(surface), surface.quality.get("advice"))
         return surface

@@ -158,4 +158,15 @@ std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces
          " would keep one." + on_few_points(lattice);
 }
 
+std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const double> barrier,
+                                double least) {
+  double greatest = 0;
+  for (const auto& [a, b, c] : triangles)
+    greatest = std::max(greatest, std::min({barrier[a], barrier[b], barrier[c]}));
+  const std::string none = "no triangle of the sheet has a barrier of " + base::rounded(least, 3) + ": ";
+  if (greatest <= 0) return none + "the normals jump nowhere, they only turn fast.";
+  return none + "the greatest is " + base::rounded(greatest, 3) + ". --min-barrier " +
+         base::rounded(0.99 * greatest, 3) + " would keep one.";
+}
+
 }  // namespace affskel::core

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/chords/chord_pruning.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
+#include "core/mesh/mesh.h"
 #include "core/ridge/ridge_rims.h"
 #include "core/shocks/shock_operator.h"
 
@@ -37,5 +39,11 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
 /// @param rims the options that it was cut with.
 std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
                                const RidgeRimOptions& rims);
+
+/// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
+/// triangle.
+/// @param triangles of the sheet before. @param barrier per vertex of these. @param least that was asked for.
+std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const double> barrier,
+                                double least);
 
 }  // namespace affskel::core

@@ -1,11 +1,7 @@
 #include "core/solid/solid_membership.h"
 
-#include <limits>
-
-#include "core/spatial/ray_crossing.h"
-
 namespace affskel::core {
-SolidMembership::SolidMembership(const Mesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
+SolidMembership::SolidMembership(const Mesh& mesh) : rays_(mesh) {}
 
 bool SolidMembership::contains(const Vec3& q, double tolerance) const {
   if (winding_number(q) > 0) return true;
@@ -18,18 +14,6 @@ bool SolidMembership::contains(const Vec3& q, double tolerance) const {
     }
   }
   return false;
-}
-
-// A ray that leaves the solid through a triangle sees it wind counter-clockwise.
-int SolidMembership::winding_number(const Vec3& q) const {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  int winding = 0;
-  tree_.visit({{q.x, q.y, q.z}, {kFar, q.y, q.z}}, [&](std::uint32_t index) {
-    const Triangle& t = mesh_.triangles[index];
-    const int round = winding_round_line(mesh_, t, q, 0);
-    if (round != 0 && distance_along(mesh_, t, q, 0) > 0) winding += round;
-  });
-  return winding;
 }
 
 }  // namespace affskel::core

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "core/mesh/mesh.h"
-#include "core/spatial/box_tree.h"
+#include "core/spatial/axis_rays.h"
 
 namespace affskel::core {
 
 /// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by
-/// a ray along +x through a tree of the triangles' boxes.  Independent of the scan conversion that chooses
-/// the sample points, and so can check it.  Keeps a reference to the mesh.  Immutable after construction;
-/// queries from several threads are safe.
+/// a ray along +x (see AxisRays).  Independent of the scan conversion that chooses the sample points, and so
+/// can check it.  Keeps a reference to the mesh.  Immutable after construction; queries from several threads
+/// are safe.
 class SolidMembership {
  public:
   /// @param mesh closed, outward-oriented.
@@ -19,10 +19,9 @@ class SolidMembership {
   bool contains(const Vec3& q, double tolerance = 0) const;
 
  private:
-  int winding_number(const Vec3& q) const;
+  int winding_number(const Vec3& q) const { return rays_.shoot(q, 0, true).winding; }
 
-  const Mesh& mesh_;
-  BoxTree tree_;
+  AxisRays rays_;
 };
 
 }  // namespace affskel::core

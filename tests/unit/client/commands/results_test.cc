@@ -133,6 +133,20 @@ TEST_F(ClientTest, SkeletonAndSurfaceSendTheirParameters) {
   EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 2);
 }
 
+TEST_F(ClientTest, SurfaceAsksForBarriers) {
+  const std::string file = dir_ / "s.ply";
+  ASSERT_EQ(run({"surface", "@last", "--barrier", "-o", file}).exit_code, 0);
+  EXPECT_TRUE(service_.fetches.back().surface().barrier());
+  EXPECT_EQ(service_.fetches.back().surface().min_barrier(), 0);
+  ASSERT_EQ(run({"surface", "@last", "--operator", "ridge", "--min-barrier", "0.05", "-o", file}).exit_code,
+            0);
+  EXPECT_TRUE(service_.fetches.back().surface().barrier()) << "--min-barrier implies it";
+  EXPECT_EQ(service_.fetches.back().surface().min_barrier(), 0.05);
+  EXPECT_NE(tests::read_file(file).find("barriers from 0.05"), std::string::npos);
+  EXPECT_EQ(run({"surface", "@last", "--min-barrier", "-1", "-o", file}).exit_code, 2);
+  EXPECT_EQ(run({"surface", "@last", "--min-barrier", "0", "-o", file}).exit_code, 2);
+}
+
 TEST_F(ClientTest, AThresholdAloneIsForTheJobsOperator) {
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   service_.job.mutable_skeleton()->set_threshold(0.02);
@@ -365,8 +379,7 @@ TEST_F(ClientTest, EmptyResultsAreToldWithTheirAdvice) {
   const Outcome chords = run({"surface", "@last", "--operator", "chords", "-o", dir_ / "c.ply"});
   EXPECT_NE(chords.err.find("the surface is empty: take a smaller significance"), std::string::npos);
   EXPECT_EQ(chords.err.find("--alpha"), std::string::npos) << "chords have none";
-  const Outcome alpha =
-      run({"surface", "@last", "--operator", "zucker-hummel", "-o", dir_ / "a.ply"});
+  const Outcome alpha = run({"surface", "@last", "--operator", "zucker-hummel", "-o", dir_ / "a.ply"});
   EXPECT_NE(alpha.err.find("--alpha"), std::string::npos) << alpha.err;
 }
 

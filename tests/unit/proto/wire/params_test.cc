@@ -125,6 +125,32 @@ TEST(ParamsTest, SheetsHaveNoAlpha) {
   }
 }
 
+TEST(ParamsTest, BarriersAreForSheets) {
+  v1::SurfaceParams points, sheet;
+  points.set_barrier(true);
+  EXPECT_THROW(canonical(points), std::invalid_argument);
+  points.set_barrier(false);
+  points.set_min_barrier(0.1);
+  EXPECT_THROW(canonical(points), std::invalid_argument);
+  sheet.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  const std::string plain = cache_key(canonical(sheet));
+  sheet.set_min_barrier(-0.0);
+  EXPECT_EQ(cache_key(canonical(sheet)), plain);
+  EXPECT_EQ(plain.find("barrier"), std::string::npos) << "keys from before there were barriers";
+  sheet.set_min_barrier(0.1);
+  EXPECT_TRUE(canonical(sheet).barrier()) << "nothing can be dropped without";
+  const std::string cut = cache_key(canonical(sheet));
+  sheet.set_barrier(true);
+  EXPECT_EQ(cache_key(canonical(sheet)), cut);
+  sheet.set_min_barrier(0);
+  EXPECT_NE(cache_key(canonical(sheet)), cut);
+  EXPECT_NE(cache_key(canonical(sheet)), plain);
+  for (const double least : {-0.1, std::nan(""), HUGE_VAL}) {
+    sheet.set_min_barrier(least);
+    EXPECT_THROW(canonical(sheet), std::invalid_argument) << least;
+  }
+}
+
 TEST(ParamsTest, DivergenceDependsOnTheOperatorAlone) {
   v1::SkeletonParams params;
   const v1::SkeletonParams first = divergence_params(canonical(params));

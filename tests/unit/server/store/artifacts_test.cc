@@ -163,6 +163,9 @@ TEST_F(ArtifactTest, RefusesWrongRequests) {
   v1::FetchArtifactRequest surface = artifact_request(job.id(), v1::ARTIFACT_KIND_SURFACE);
   surface.mutable_surface()->set_alpha(-1);
   EXPECT_STORE_ERROR(store_->open_artifact(surface), kInvalid);
+  surface.mutable_surface()->set_alpha(0);
+  surface.mutable_surface()->set_barrier(true);
+  EXPECT_NE(refusal(surface).find("zucker-hummel gives points"), std::string::npos) << "the job's operator";
   v1::FetchArtifactRequest eroded = artifact_request(job.id(), v1::ARTIFACT_KIND_ERODED_POINTS);
   eroded.mutable_eroded()->set_fraction(2);
   EXPECT_STORE_ERROR(store_->open_artifact(eroded), kInvalid);

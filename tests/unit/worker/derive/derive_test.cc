@@ -52,6 +52,7 @@ TEST_F(DeriveTest, StopsWhereverItIsAsked) {
       v1::Lease lease = lease_of(kind);
       lease.mutable_skeleton()->set_operator_(which);
       lease.mutable_surface()->mutable_skeleton()->set_operator_(which);
+      lease.mutable_surface()->set_barrier(which == v1::OPERATOR_CHORDS);
       core::expect_stops_wherever_it_is_asked(
           5, [&](core::ExecutionContext* context) { derive(lease, prepared_, field_, context); });
     }
@@ -142,6 +143,64 @@ TEST_F(DeriveTest, TheRidgeOfATorusIsItsAnnulus) {
     EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
     EXPECT_EQ(sheet.erosion(v), points.erosion(v));
   }
+}
+
+TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {
+  for (const v1::Operator which : {v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE}) {
+    v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+    lease.mutable_surface()->mutable_skeleton()->set_operator_(which);
+    const v1::TriangleMesh plain = parsed<v1::TriangleMesh>(run(lease));
+    EXPECT_EQ(plain.barrier_size(), 0);
+    lease.mutable_surface()->set_barrier(true);
+    const Derived one = run(lease), many = derive(lease, prepared_, field_, nullptr, 3);
+    EXPECT_EQ(one.data, many.data);
+    v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(one);
+    ASSERT_EQ(sheet.barrier_size(), sheet.erosion_size());
+    for (const double barrier : sheet.barrier()) EXPECT_GE(barrier, 0);
+    EXPECT_GT(*std::ranges::max_element(sheet.barrier()), 0);
+    sheet.clear_barrier();
+    EXPECT_EQ(sheet.SerializeAsString(), plain.SerializeAsString()) << "nothing else changes";
+  }
+}
+
+TEST_F(DeriveTest, ALeastBarrierCutsTheSheet) {
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  lease.mutable_surface()->set_barrier(true);
+  const v1::TriangleMesh whole = parsed<v1::TriangleMesh>(run(lease));
+  std::vector<double> sorted(whole.barrier().begin(), whole.barrier().end());
+  std::ranges::sort(sorted);
+  const double least = sorted[sorted.size() / 2];
+  ASSERT_GT(least, 0);
+  // Triangles by the places of their corners: the vertices are numbered anew.
+  const auto places = [](const v1::TriangleMesh& sheet, double low) {
+    std::vector<std::vector<double>> list;
+    for (int t = 0; t < sheet.corners_size(); t += 3) {
+      std::vector<double> triangle;
+      double lowest = 1e300;
+      for (int k = t; k < t + 3; ++k) {
+        const int v = static_cast<int>(sheet.corners(k));
+        lowest = std::min(lowest, sheet.barrier(v));
+        for (const double value : {sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2),
+                                   sheet.barrier(v), sheet.strength(v), sheet.normal_b(3 * v)})
+          triangle.push_back(value);
+      }
+      if (lowest >= low) list.push_back(triangle);
+    }
+    return list;
+  };
+  lease.mutable_surface()->set_min_barrier(least);
+  const v1::TriangleMesh cut = parsed<v1::TriangleMesh>(run(lease));
+  EXPECT_EQ(places(cut, 0), places(whole, least));
+  EXPECT_LT(cut.corners_size(), whole.corners_size());
+  EXPECT_GT(cut.corners_size(), 0);
+  EXPECT_EQ(cut.quality().points(), static_cast<std::uint64_t>(cut.barrier_size())) << "none is unused";
+  EXPECT_FALSE(cut.quality().has_hausdorff_there());
+  lease.mutable_surface()->set_min_barrier(1e6);
+  const v1::TriangleMesh empty = parsed<v1::TriangleMesh>(run(lease));
+  EXPECT_EQ(empty.corners_size(), 0);
+  EXPECT_EQ(empty.xyz_size(), 0);
+  EXPECT_NE(empty.quality().advice().find("--min-barrier"), std::string::npos) << empty.quality().advice();
 }
 
 TEST_F(DeriveTest, ARidgeHasNoThresholdAboveTheLast) {

@@ -122,11 +122,13 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
 
 void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,
                   std::uint64_t line) {
-  if (vertices.size() < 2) fail_at(line, place + " has " + base::counted(vertices.size(), "vertex", "vertices") + ", needs 2");
+  if (vertices.size() < 2)
+    fail_at(line, place + " has " + base::counted(vertices.size(), "vertex", "vertices") + ", needs 2");
   const auto known = static_cast<std::int64_t>(file.mesh().points.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (vertices[i] < 0 || vertices[i] >= known) {
-      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(known) + " vertices are known)");
+      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(known) +
+                        " vertices are known)");
     }
     if (i == 0 || vertices[i] == vertices[i - 1]) continue;
     file.segments.push_back(

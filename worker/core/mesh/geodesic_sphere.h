@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+/// The unit geodesic sphere: the icosahedron's faces cut frequency^2-fold and their points moved out to
+/// distance 1.  20 f^2 triangles, counter-clockwise seen from outside, and 10 f^2 + 2 vertices.  Only
+/// + - * / and sqrt are used, so that all machines agree on every bit.
+/// @param frequency f, 1 .. 2^14.
+Mesh geodesic_sphere(std::uint32_t frequency);
+
+}  // namespace affskel::core
