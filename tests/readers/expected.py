@@ -14,6 +14,7 @@ POINT_ARRAYS = {
     "alpha": {"E", "area"},
     "eroded": {"E", "area"},
     "sheet": {"E", "area", "strength", "normal_a", "normal_b"},
+    "ridge": {"E", "area", "strength", "ratio", "normal_a", "normal_b"},
 }
 POINTS_ALONE = ("skeleton", "eroded_points")
 LEVEL = 0.05

@@ -44,7 +44,8 @@ def write_all(frame):
         write("erode", "eroded_points." + extension, "--fraction", LEVEL, "--as", "points")
     for extension in ("vtp", "ply", "stl", "obj", "off"):
         fetch("mesh", "mesh." + extension)
-        fetch("surface", "alpha." + extension)
+        write("surface", "alpha." + extension, "--operator", "zucker-hummel")
+        write("surface", "ridge." + extension, "--operator", "ridge")
         write("surface", "sheet." + extension, "--operator", "chords")
         eroded = write("erode", "eroded." + extension, "--fraction", LEVEL, "--as", "surface")
     with open(os.path.join(folder, "facts.json"), "w", encoding="utf-8") as facts:
