@@ -116,8 +116,8 @@ TEST_F(CrashTest, ASupervisedWorkerIsKilledThreeTimes) {
   expect_undisturbed_field(id);
   const v1::JobCounters counters = lab_.job(id).counters();
   EXPECT_EQ(counters.directions_repeated(), 0U) << "what was reported is never computed again";
-  EXPECT_LE(counters.leases_lost(), 6U)
-      << "a worker holds one lease, and one more shortly before a block ends";
+  EXPECT_LE(counters.leases_lost(), 9U)
+      << "a worker reports one block, computes the next, and may just have asked for another";
 }
 
 TEST_F(CrashTest, WorkersAndServerLeaveInOrderAtSigterm) {
