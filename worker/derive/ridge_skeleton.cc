@@ -37,11 +37,15 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
                                const core::RidgeSheet& sheet, double threshold) {
   const core::RidgeRimOptions rims = options_for(field, threshold).rims;
   core::SheetQualityOptions options;
+  options.segments = sheet.segments;
   options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
   const double next = core::next_threshold(rims.low);
   core::Mesh other;
+  core::RidgeSheet other_sheet;
   if (next <= kMaxThreshold) {
-    other = mesh_of(sheet_of(field, in_frame, next));
+    other_sheet = sheet_of(field, in_frame, next);
+    other = mesh_of(other_sheet);
+    options.other_segments = other_sheet.segments;
     options.other = &other;
     options.other_threshold = next;
   }
