@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/ridge/ridge_meshes.h"
@@ -92,13 +94,15 @@ TEST(RoundSheet, AloneBecomesTheCurveAlone) {
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
 }
 
-TEST(RoundSheet, OfARingIsAClosedCurve) {
-  const auto ring = [](double x, double y) {
+// A ring 2 wide round (15, 15), and the curve of 64 vertices in its middle.
+RidgeMesh ring() {
+  return part_of_square(30, [](double x, double y) {
     const double r = std::max(std::abs(x - 15), std::abs(y - 15));
     return r > 7 && r < 9;
-  };
-  RidgeMesh mesh = part_of_square(30, ring);
-  ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+  });
+}
+
+RidgeCurve ring_curve() {
   RidgeCurve curve;
   curve.closed = true;
   const auto add = [&](double x, double y) {
@@ -111,10 +115,29 @@ TEST(RoundSheet, OfARingIsAClosedCurve) {
   for (double t = 7; t < 23; t += 1) add(23, t);
   for (double t = 23; t > 7; t -= 1) add(t, 23);
   for (double t = 23; t > 7; t -= 1) add(7, t);
-  put_curves(mesh, std::vector{curve});
+  return curve;
+}
+
+TEST(RoundSheet, OfARingIsAClosedCurve) {
+  RidgeMesh mesh = ring();
+  ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+  put_curves(mesh, std::vector{ring_curve()});
   EXPECT_TRUE(mesh.triangles.empty());
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
   EXPECT_EQ(mesh.segments.size(), 64U);
+}
+
+TEST(RoundSheet, StaysWhereItClosesTheGapOfACurve) {
+  RidgeMesh mesh = ring();
+  RidgeCurve open = ring_curve();
+  open.closed = false;
+  // From the middle of a side to three steps before it.
+  std::rotate(open.vertices.begin(), open.vertices.begin() + 8, open.vertices.end());
+  open.vertices.resize(61);
+  open.radius.resize(61);
+  put_curves(mesh, std::vector{open});
+  EXPECT_FALSE(mesh.triangles.empty());
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
 }
 
 TEST(RoundSheet, StaysWhereItIsWideOrOfAnotherPart) {
