@@ -35,6 +35,9 @@ using Chain = std::array<std::size_t, 3>;  // corners of a triangle, each above 
 constexpr std::array<std::array<std::size_t, 2>, 6> kTetrahedra{
     {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}}};
 
+// In the order in which a cell is loaded: 0 and 7 belong to all tetrahedra.
+constexpr std::array<std::size_t, 8> kCorners{0, 7, 1, 2, 3, 4, 5, 6};
+
 struct CurvePoint {
   RidgeVertex at;
   double radius = 0;
@@ -81,7 +84,8 @@ class CurveFinder {
   bool open(std::uint32_t point, std::size_t step) const { return (open_[point] & step) != 0; }
 
   void visit_cell() {
-    load_corners();
+    if (!load_corners()) return;
+    compare_corners();
     for (const auto& [a, b] : kTetrahedra) {
       if (cell_.point[a] == kNone || cell_.point[b] == kNone || cell_.point[7] == kNone) continue;
       if (!open(cell_.point[0], a) || !open(cell_.point[a], b ^ a) || !open(cell_.point[b], 7 ^ b)) continue;
@@ -94,18 +98,30 @@ class CurveFinder {
     }
   }
 
-  void load_corners() {
-    for (std::size_t c = 0; c < 8; ++c) {
+  // Whether a curve may pass: not where all v lie on one side.
+  bool load_corners() {
+    double least = 1;
+    for (const std::size_t c : kCorners) {
       const std::uint32_t point = ranks_.at(place_[0] + static_cast<std::int32_t>(c & 1),
                                             place_[1] + static_cast<std::int32_t>(c >> 1 & 1),
                                             place_[2] + static_cast<std::int32_t>(c >> 2));
       cell_.point[c] = point != LayerIndex::kOutside && near_curve(point) ? point : kNone;
-      if (cell_.point[c] == kNone) continue;
-      cell_.e[c] = vector_of(values_.ridge(point).along);
-      const Vec3 gradient =
-          values_.gradient(point) - static_cast<double>(values_.ridge(point).least) * kShift;
+      if (cell_.point[c] == kNone) {
+        if (c == 7) return false;  // a corner of all tetrahedra
+        continue;
+      }
+      const PointRidge& ridge = values_.ridge(point);
+      cell_.e[c] = vector_of(ridge.along);
+      const Vec3 gradient = values_.gradient(point) - static_cast<double>(ridge.least) * kShift;
       cell_.v[c] = gradient - dot(gradient, cell_.e[c]) * cell_.e[c];
-      for (std::size_t low = 0; low < c; ++low) {
+      least = std::min(least, dot(cell_.v[0], cell_.v[c]));
+    }
+    return least <= 0;
+  }
+
+  void compare_corners() {
+    for (std::size_t c = 1; c < 8; ++c) {
+      for (std::size_t low = 0; low < c && cell_.point[c] != kNone; ++low) {
         if ((low & c) != low || cell_.point[low] == kNone) continue;
         const double turn = dot(cell_.e[low], cell_.e[c]) < 0 ? -1 : 1;
         cell_.turn[low][c] = turn;
