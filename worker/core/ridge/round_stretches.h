@@ -14,8 +14,8 @@ struct RoundStretchOptions {
   /// lambda_2 / lambda_1 of a stretch, smoothed, is at least the lower bound, and somewhere the higher one,
   /// 0 .. 1.  In elliptic cylinders whose axes are as 1 to 0.9, 0.8, 0.7, 0.6 and 0.5 it is 0.84, 0.69, 0.55,
   /// 0.43 and 0.31.
-  double low_ratio = 0.5;
-  double high_ratio = 0.6;
+  double low_ratio = 0.4;
+  double high_ratio = 0.5;
   double smoothing = 1;  ///< of the ratio: this far to both sides, radii, >= 0
 };
 

@@ -27,6 +27,8 @@ RidgeCurve line(std::size_t count, const std::function<double(double)>& ratio, d
 RoundStretchOptions sharp() {
   RoundStretchOptions options;
   options.smoothing = 0;
+  options.low_ratio = 0.5;
+  options.high_ratio = 0.6;
   return options;
 }
 
@@ -87,7 +89,7 @@ TEST(RoundStretches, OfAClosedCurveGoThroughItsFirstVertex) {
 
 TEST(RoundStretches, RefuseWrongBounds) {
   RoundStretchOptions options;
-  options.high_ratio = 0.4;
+  options.high_ratio = 0.3;
   EXPECT_THROW(round_stretches({}, options), CoreError);
   options = {};
   options.smoothing = -1;
