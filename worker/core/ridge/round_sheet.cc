@@ -249,8 +249,10 @@ class Replacement {
   // Whether two joints join the same stretch and piece at about the same place.
   bool same_place(const Joint& a, const Joint& b) {
     const CurveVertex &at_a = curve_[a.curve], &at_b = curve_[b.curve];
-    return at_a.stretch == at_b.stretch && pieces_.find(a.sheet) == pieces_.find(b.sheet) &&
-           std::abs(at_a.arc - at_b.arc) <= reach_ * (at_a.radius + at_b.radius);
+    if (at_a.stretch != at_b.stretch || pieces_.find(a.sheet) != pieces_.find(b.sheet)) return false;
+    const double near = reach_ * (at_a.radius + at_b.radius),
+                 half = 0.5 * curve_length(stretches_[at_a.stretch]);
+    return std::abs(at_a.arc - at_b.arc) <= std::min(near, half);
   }
 
   // Puts in the stretch whose vertices begin at `first`, between its outermost joints.

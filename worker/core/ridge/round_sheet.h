@@ -22,8 +22,9 @@ struct RoundSheetOptions {
 ///    stretch is parted; shorter ones than the least length are left out.
 /// 2. Triangles that belong to stretches are removed.
 /// 3. A stretch is joined to every piece of the sheet that bordered on what was removed, by a segment to the
-///    nearest vertex there; once, but for places along it more than two reaches apart.  Its ends are cut back
-///    to such joints nearer than a reach.  So pieces stay joined, and no tunnel comes to those there were.
+///    nearest vertex there; once, but for places along it more than two reaches or half its length apart. Its
+///    ends are cut back to such joints nearer than a reach.  So pieces stay joined, and no tunnel comes to
+///    those there were.
 /// 4. Pieces of what is left that lie within the reach of one stretch, and are joined to one place of it or
 ///    none, are removed.
 /// Stretches that no triangle belongs to are left out.  A function of mesh and stretches alone.

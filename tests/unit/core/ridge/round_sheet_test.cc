@@ -79,8 +79,11 @@ TEST(RoundSheet, KeepsTheTunnelOfALoop) {
   // Two limbs from a body to another: one becomes a curve.
   RidgeMesh mesh = part_of_square(30, [](double x, double y) { return limb_and_hand(x, y) || y < 4; });
   ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
-  put_curves(mesh, std::vector{line(11, 21, 3)});
-  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+  for (const double radius : {3.0, 9.0}) {  // also where the limb is no longer than its radius
+    RidgeMesh copy = mesh;
+    EXPECT_EQ(put_curves(copy, std::vector{line(11, 21, radius)}), 1U);
+    EXPECT_EQ(topology(copy).betti, (BettiNumbers{1, 1, 0}));
+  }
 }
 
 TEST(RoundSheet, AloneBecomesTheCurveAlone) {
