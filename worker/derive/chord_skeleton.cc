@@ -77,7 +77,8 @@ v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams
   const double threshold = params.skeleton().threshold();
   const core::FrameField in_frame = field.in_frame();
   core::ChordSheet sheet = sheet_of(field, in_frame, threshold);
-  const SheetBarriers barriers = take_barriers(field, params, sheet, mesh_of);
+  std::vector<core::Segment> none;
+  const SheetBarriers barriers = take_barriers(field, params, sheet, none);
   v1::TriangleMesh message;
   for (const core::ChordSheetVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());

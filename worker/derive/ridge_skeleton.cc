@@ -39,12 +39,16 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
                                const SheetBarriers& barriers = {}) {
   const core::RidgeRimOptions rims = options_for(field, threshold).rims;
   core::SheetQualityOptions options;
+  options.segments = sheet.segments;
   options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
   if (!barriers.advice.empty()) options.advice_if_empty = barriers.advice;
   const double next = core::next_threshold(rims.low);
   core::Mesh other;
+  core::RidgeSheet other_sheet;
   if (next <= kMaxThreshold && !barriers.cut) {
-    other = mesh_of(sheet_of(field, in_frame, next));
+    other_sheet = sheet_of(field, in_frame, next);
+    other = mesh_of(other_sheet);
+    options.other_segments = other_sheet.segments;
     options.other = &other;
     options.other_threshold = next;
   }
@@ -78,7 +82,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   const double threshold = params.skeleton().threshold();
   const core::FrameField in_frame = field.in_frame();
   core::RidgeSheet sheet = sheet_of(field, in_frame, threshold);
-  const SheetBarriers barriers = take_barriers(field, params, sheet, mesh_of);
+  const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
   for (const core::RidgeVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());
@@ -91,6 +95,9 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   }
   message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
+  for (const core::Segment& segment : sheet.segments) {
+    for (const std::uint32_t end : segment) message.add_segments(end);
+  }
   *message.mutable_quality() = quality_of(field, in_frame, sheet, threshold, barriers);
   return message;
 }

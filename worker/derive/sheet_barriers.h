@@ -17,7 +17,7 @@ namespace affskel::worker {
 /// What the parameters of a surface ask for at the vertices of its sheet.
 struct SheetBarriers {
   std::vector<double> barrier;  ///< per vertex that is left; empty unless asked for
-  bool cut = false;             ///< whether triangles with a low vertex were dropped
+  bool cut = false;             ///< whether triangles and segments with a low vertex were dropped
   std::string advice;           ///< why nothing is left, when the cut left nothing
 };
 
@@ -28,10 +28,13 @@ core::SheetPlace sheet_place(const FinishedField& field, const core::Vec3& posit
 /// With the default directions, even in the lattice's frame.
 std::vector<double> barriers_at(const FinishedField& field, const std::vector<core::SheetPlace>& places);
 
-/// Drops the triangles with a vertex below the least barrier, then the points that none uses.
-/// @param barrier per point of the sheet.
-/// @return the indices that the points taken out had, ascending.
-std::vector<std::uint32_t> drop_below(double least, const std::vector<double>& barrier, core::Mesh& sheet);
+/// Drops the triangles and segments with a vertex below the least barrier, then numbers anew the vertices that
+/// are left, those that one of the others uses.
+/// @param barrier per vertex.
+/// @return the indices that the vertices taken out had, ascending.
+std::vector<std::uint32_t> drop_below(double least, const std::vector<double>& barrier,
+                                      std::vector<core::Triangle>& triangles,
+                                      std::vector<core::Segment>& segments);
 
 /// Takes out what stands at the given places, ascending.
 template <class Value>
@@ -48,10 +51,10 @@ void erase_at(const std::vector<std::uint32_t>& places, std::vector<Value>& valu
 }
 
 /// Computes the barriers, and cuts the sheet, as the parameters ask.
-/// @param mesh_of gives the sheet as a mesh with the same vertices and triangles.
-template <class Sheet, class MeshOf>
+/// @param segments of its curves.
+template <class Sheet>
 SheetBarriers take_barriers(const FinishedField& field, const v1::SurfaceParams& params, Sheet& sheet,
-                            const MeshOf& mesh_of) {
+                            std::vector<core::Segment>& segments) {
   SheetBarriers result;
   if (!params.barrier()) return result;
   std::vector<core::SheetPlace> places;
@@ -59,14 +62,14 @@ SheetBarriers take_barriers(const FinishedField& field, const v1::SurfaceParams&
   for (const auto& v : sheet.vertices)
     places.push_back(sheet_place(field, v.position, v.normal_a, v.normal_b));
   result.barrier = barriers_at(field, places);
-  if (params.min_barrier() == 0 || sheet.triangles.empty()) return result;
-  core::Mesh mesh = mesh_of(sheet);
-  const std::vector<std::uint32_t> dropped = drop_below(params.min_barrier(), result.barrier, mesh);
-  if (mesh.triangles.empty())
-    result.advice = core::low_barriers_advice(sheet.triangles, result.barrier, params.min_barrier());
+  if (params.min_barrier() == 0 || sheet.vertices.empty()) return result;
+  const std::vector<core::Triangle> all = sheet.triangles;
+  const std::vector<std::uint32_t> dropped =
+      drop_below(params.min_barrier(), result.barrier, sheet.triangles, segments);
+  if (sheet.triangles.empty() && segments.empty() && !all.empty())
+    result.advice = core::low_barriers_advice(all, result.barrier, params.min_barrier());
   erase_at(dropped, sheet.vertices);
   erase_at(dropped, result.barrier);
-  sheet.triangles = std::move(mesh.triangles);
   result.cut = true;
   return result;
 }

@@ -1,12 +1,14 @@
-// b0 by union-find over the vertices that triangles use; b2 is the dimension of the closed surfaces modulo 2.
-// Triangles joined through edges of exactly two are taken as one patch, so that b2 is the number of patches
-// less the rank of the conditions that rims and branches put on them; b1 follows from V - E + F.
+// b0 by union-find over the vertices that triangles and segments use; b2 is the dimension of the closed
+// surfaces modulo 2. Triangles joined through edges of exactly two are taken as one patch, so that b2 is the
+// number of patches less the rank of the conditions that rims and branches put on them; b1 follows from V - E
+// + F.
 #include "core/quality/sheet_topology.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
@@ -19,6 +21,8 @@ struct EdgeSide {
   std::uint32_t triangle;
   friend auto operator<=>(const EdgeSide&, const EdgeSide&) = default;
 };
+
+using Segments = std::span<const Segment>;
 
 std::vector<EdgeSide> sorted_edge_sides(const Mesh& sheet) {
   std::vector<EdgeSide> sides;
@@ -59,8 +63,9 @@ std::uint64_t rank(std::vector<PatchSet> rows) {
 
 class Sheet {
  public:
-  explicit Sheet(const Mesh& sheet)
+  Sheet(const Mesh& sheet, Segments segments)
       : sheet_(sheet),
+        segments_(segments),
         sides_(sorted_edge_sides(sheet)),
         joined_(sheet.points.size()),
         rim_(sheet.points.size()),
@@ -75,6 +80,7 @@ class Sheet {
       if (last - first == 2) patches_.unite(first[0].triangle, first[1].triangle);
       result_.branch_edges += last - first > 2;
     });
+    edges += join_segments();
     count_vertices();
     result_.boundary_loops = count_rim_loops();
     result_.betti.cavities = count_closed_surfaces();
@@ -97,11 +103,27 @@ class Sheet {
     }
   }
 
+  // Joins the ends of segments; the number of those that are no edges of triangles, each taken once.
+  std::int64_t join_segments() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> own;
+    for (const auto& [a, b] : segments_) {
+      joined_.unite(a, b);
+      const EdgeSide from{std::min(a, b), std::max(a, b), 0};
+      const auto side = std::lower_bound(sides_.begin(), sides_.end(), from);
+      if (side == sides_.end() || side->low != from.low || side->high != from.high)
+        own.emplace_back(from.low, from.high);
+    }
+    std::sort(own.begin(), own.end());
+    return std::unique(own.begin(), own.end()) - own.begin();
+  }
+
   void count_vertices() {
     std::vector<bool> used(sheet_.points.size(), false);
     for (const Triangle& t : sheet_.triangles) {
       for (const std::uint32_t v : t) used[v] = true;
     }
+    for (const auto& segment : segments_)
+      for (const std::uint32_t v : segment) used[v] = true;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       if (!used[v]) continue;
       ++vertices_;
@@ -142,6 +164,7 @@ class Sheet {
   }
 
   const Mesh& sheet_;
+  Segments segments_;
   std::vector<EdgeSide> sides_;
   DisjointSets joined_, rim_, patches_;
   std::int64_t vertices_ = 0;
@@ -150,8 +173,8 @@ class Sheet {
 
 }  // namespace
 
-SheetTopology sheet_topology(const Mesh& sheet) {
-  return Sheet(sheet).run();
+SheetTopology sheet_topology(const Mesh& sheet, std::span<const Segment> segments) {
+  return Sheet(sheet, segments).run();
 }
 
 }  // namespace affskel::core

@@ -1,22 +1,25 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/mesh/mesh.h"
 #include "core/solid/betti_numbers.h"
 
 namespace affskel::core {
 
-/// The topology of a triangulated sheet that may have rims, branches and closed surfaces.
+/// The topology of a triangulated sheet that may have rims, branches and closed surfaces, and curves.
 struct SheetTopology {
   BettiNumbers betti;
   std::uint64_t boundary_loops = 0;  ///< connected components of the rim: the edges with one triangle
   std::uint64_t branch_edges = 0;    ///< edges where more than two triangles meet
 };
 
-/// The topology of a sheet, from V - E + F = b0 - b1 + b2; b2 counts the voids that it encloses in space.
-/// Time O(F log F), and an elimination in the number of patches at branches.
+/// The topology of a sheet and its curves, from V - E + F = b0 - b1 + b2; b2 counts the voids that it
+/// encloses in space. Time O(F log F), and an elimination in the number of patches at branches.
 /// @param sheet triangles distinct, each with three distinct corners; orientation does not matter.
-SheetTopology sheet_topology(const Mesh& sheet);
+/// @param segments of curves, two distinct vertices of the sheet each; they may run along its edges.
+SheetTopology sheet_topology(const Mesh& sheet, std::span<const Segment> segments = {});
 
 }  // namespace affskel::core

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/lattice/lattice_coordinates.h"
-#include "core/mesh/unused_points.h"
 #include "core/quality/chance_level.h"
 #include "core/quality/sheet_topology.h"
 #include "core/quality/similarity.h"
@@ -74,10 +73,17 @@ void add_distances(const Lattice& lattice, const std::vector<LatticePlace>& plac
   quality.hausdorff_back = 0;
 }
 
-// The vertices that triangles use.
-std::vector<Vec3> used_vertices(Mesh mesh) {
-  drop_unused_points(mesh);
-  return std::move(mesh.points);
+// The vertices that triangles or segments use.
+std::vector<Vec3> used_vertices(const Mesh& mesh, Segments segments) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) used[corner] = true;
+  for (const auto& segment : segments)
+    for (const std::uint32_t end : segment) used[end] = true;
+  std::vector<Vec3> vertices;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v]) vertices.push_back(mesh.points[v]);
+  return vertices;
 }
 
 }  // namespace
@@ -102,16 +108,16 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
 
 SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const Mesh& sheet,
                               const SheetQualityOptions& options) {
-  const std::vector<Vec3> vertices = used_vertices(sheet);
+  const std::vector<Vec3> vertices = used_vertices(sheet, options.segments);
   SkeletonQuality quality =
       common_part(solid, lattice, options.points != nullptr ? *options.points : vertices);
   if (options.other != nullptr) {
-    const std::vector<Vec3> other = used_vertices(*options.other);
+    const std::vector<Vec3> other = used_vertices(*options.other, options.other_segments);
     quality.hausdorff_there = farthest(vertices, other);
     quality.hausdorff_back = farthest(other, vertices);
   }
-  quality.skeleton = sheet_topology(sheet).betti;
-  quality.mean_thickness = sheet.triangles.empty() ? 0 : 1;
+  quality.skeleton = sheet_topology(sheet, options.segments).betti;
+  quality.mean_thickness = vertices.empty() ? 0 : 1;
   quality.other_threshold = options.other_threshold;
   if (quality.points == 0) quality.advice = options.advice_if_empty;
   return quality;

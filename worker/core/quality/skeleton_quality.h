@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,12 @@ namespace affskel::core {
 
 /// What a skeleton is like.  Distances in the coordinates of the lattice's frame, mesh units.
 struct SkeletonQuality {
-  std::uint64_t points = 0;    ///< sample points kept; of a sheet its vertices
-  BettiNumbers skeleton;       ///< of the union of the points' voxels; of a sheet its own
-  double inside_share = 1;     ///< of the points inside the solid, 0 .. 1, tested by rays; below 1 is a bug
-  double mean_thickness = 0;   ///< in voxels (see voxel_thickness.h); 1 for a sheet; 0 without points
-  BettiNumbers solid;          ///< for comparison
+  std::uint64_t points = 0;  ///< sample points kept; of a sheet its vertices
+  BettiNumbers skeleton;     ///< of the union of the points' voxels; of a sheet its own
+  double inside_share = 1;   ///< of the points inside the solid, 0 .. 1, tested by rays; below 1 is a bug
+  double mean_thickness =
+      0;               ///< in voxels (see voxel_thickness.h); 1 for sheets and curves; 0 without points
+  BettiNumbers solid;  ///< for comparison
   double other_threshold = 0;  ///< the next higher one of the ladder
   /// Hausdorff distances: the largest distance of a point of this skeleton from the one of `other_threshold`,
   /// and back.  Of skeletons by the same H the higher threshold's is a subset, and the way back is 0.  Absent
@@ -44,15 +47,21 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
                                  const std::vector<double>& divergence,
                                  const SkeletonQualityOptions& options = {});
 
+/// Curves that belong to a sheet: two of its vertices each.
+using Segments = std::span<const Segment>;
+
 struct SheetQualityOptions {
+  Segments segments;            ///< of the sheet's curves
   double other_threshold = 0;   ///< that `other` was made with
   const Mesh* other = nullptr;  ///< the sheet at the next higher threshold; none: no Hausdorff distances
+  Segments other_segments;      ///< of its curves
   std::string advice_if_empty;  ///< see empty_sheet_advice
   const std::vector<Vec3>* points = nullptr;  ///< the shocks that the sheet was laid through, likewise in u
 };
 
-/// The quality of a triangulated sheet (`chords`).  Its points are the shocks when they are given, else its
-/// vertices, one per lattice cell that the sheet passes through; distances are between vertices.
+/// The quality of a triangulated sheet (`chords`), or of sheets and curves (`ridge`).  Its points are the
+/// shocks when they are given, else its vertices, one per lattice cell that the sheet passes through;
+/// distances are between vertices.
 /// @param sheet vertices in coordinates of the lattice's frame (u, see frame_field.h), mesh units; triangles
 ///   distinct, each with three distinct corners.
 SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const Mesh& sheet,

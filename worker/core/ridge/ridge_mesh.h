@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,7 @@ struct RidgeVertex {
   Vec3 position;            ///< frame coordinates
   std::uint32_t point = 0;  ///< rank of a sample point next to it
   double erosion = 0;       ///< E, volume
-  double strength = 0;      ///< s, radians, see ridge_crossings()
+  double strength = 0;      ///< s, radians, see ridge_crossings(); on a curve s_2, see ridge_curves()
   double ratio = 0;         ///< lambda_2 / lambda_1, see ridge_crossings()
   double roundness = 0;     ///< lambda_3 / lambda_1, see ridge_crossings()
   double area = 0;          ///< of the section through the vertex, mesh units squared
@@ -20,11 +21,12 @@ struct RidgeVertex {
                             ///< normal_a - normal_b points from a's side of the sheet to b's
 };
 
-/// A sheet of triangles without a common orientation, with rims and branches.
+/// A sheet of triangles without a common orientation, with rims and branches, and curves.
 struct RidgeMesh {
   std::vector<RidgeVertex> vertices;
   std::vector<std::uint32_t> part;  ///< per vertex: of the solid
   std::vector<Triangle> triangles;
+  std::vector<Segment> segments;  ///< of curves: two vertices each
 };
 
 /// a + t (b - a), all values; normals are turned to agree and made unit again.
@@ -33,7 +35,7 @@ RidgeVertex between(const RidgeVertex& a, const RidgeVertex& b, double t);
 /// The area of a triangle of the mesh.
 double triangle_area(const RidgeMesh& mesh, const Triangle& triangle);
 
-/// Leaves out the vertices that no triangle uses; the others keep their order.
+/// Leaves out the vertices that neither triangle nor segment uses; the others keep their order.
 void drop_unused_vertices(RidgeMesh& mesh);
 
 }  // namespace affskel::core

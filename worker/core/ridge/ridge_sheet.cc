@@ -7,6 +7,9 @@
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/solid_parts.h"
+#include "core/ridge/ridge_crossings.h"
+#include "core/ridge/ridge_curves.h"
+#include "core/ridge/ridge_values.h"
 #include "core/solid/solid_membership.h"
 
 namespace affskel::core {
@@ -17,9 +20,7 @@ RidgeVertex vertex_at(const Vec3& position, std::span<const RidgeCrossing> cross
                       std::span<const std::uint32_t> members) {
   RidgeVertex vertex;
   for (std::size_t n = 0; n < members.size(); ++n) {
-    const RidgeCrossing& c = crossings[members[n]];
-    const RidgeVertex here{c.position,  c.edge.point, c.erosion,  c.strength, c.ratio,
-                           c.roundness, c.area,       c.normal_a, c.normal_b};
+    const RidgeVertex& here = crossings[members[n]].at;
     vertex = n == 0 ? here : between(vertex, here, 1 / static_cast<double>(n + 1));
   }
   vertex.position = position;
@@ -31,7 +32,7 @@ RidgeMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<con
   std::vector<SheetCrossing> places;
   places.reserve(crossings.size());
   for (const RidgeCrossing& crossing : crossings)
-    places.push_back({crossing.edge, crossing.position, crossing.normal});
+    places.push_back({crossing.edge, crossing.at.position, crossing.normal});
   DualContourOptions options;
   options.context = context;
   DualContour found = dual_contour(lattice, parts, places, options);
@@ -53,11 +54,15 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   SmoothedDerivativesOptions smoothing = options.derivatives;
   smoothing.context = options.context;
   std::vector<RidgeCrossing> crossings;
+  std::vector<RidgeCurve> curves;
   {
     const std::vector<PointDerivatives> derivatives = smoothed_derivatives(lattice, field, smoothing);
     throw_if_stopped(options.context);
-    crossings = ridge_crossings(lattice, parts, field, derivatives,
-                                {options.weak_share * options.rims.low, options.min_erosion});
+    const RidgeValues values(lattice, parts, field, derivatives, options.weak_share * options.rims.low,
+                             options.min_erosion);
+    crossings = ridge_crossings(lattice, values);
+    throw_if_stopped(options.context);
+    curves = ridge_curves(lattice, parts, values, options.context);
   }
   throw_if_stopped(options.context);
   RidgeMesh mesh = contour(lattice, parts, crossings, options.context);
@@ -70,8 +75,14 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
     return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * u));
   };
   sheet.holes_closed = close_holes(mesh, inside, options.holes);
+  RoundStretchOptions round = options.round;
+  round.low_strength = options.rims.low;
+  round.high_strength = options.rims.high;
+  round.max_roundness = options.rims.max_roundness;
+  sheet.curves = put_curves(mesh, round_stretches(curves, round), options.round_sheet);
   sheet.vertices = std::move(mesh.vertices);
   sheet.triangles = std::move(mesh.triangles);
+  sheet.segments = std::move(mesh.segments);
   return sheet;
 }
 

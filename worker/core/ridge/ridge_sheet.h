@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -7,11 +8,12 @@
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
-#include "core/ridge/ridge_crossings.h"
 #include "core/ridge/ridge_flaps.h"
 #include "core/ridge/ridge_holes.h"
 #include "core/ridge/ridge_mesh.h"
 #include "core/ridge/ridge_rims.h"
+#include "core/ridge/round_sheet.h"
+#include "core/ridge/round_stretches.h"
 #include "core/ridge/smoothed_derivatives.h"
 #include "core/solid/solid.h"
 
@@ -22,9 +24,11 @@ struct RidgeSheetOptions {
   RidgeRimOptions rims;  ///< its `low` is the threshold of `ridge`
   RidgeFlapOptions flaps;
   RidgeHoleOptions holes;
+  RoundStretchOptions round;  ///< its bounds on strength and roundness are those of `rims`
+  RoundSheetOptions round_sheet;
   /// Least strength of the sheet before it is cut, as a share of rims.low, 0 .. 1: what may join its pieces.
   double weak_share = 0.125;
-  double min_erosion = 0.002;           ///< see RidgeCrossingOptions
+  double min_erosion = 0.002;           ///< see RidgeValues
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers
 };
 
@@ -32,9 +36,11 @@ struct RidgeSheetOptions {
 struct RidgeSheet {
   std::vector<RidgeVertex> vertices;
   std::vector<Triangle> triangles;
+  std::vector<Segment> segments;  ///< of curves: two vertices each
   RidgePieces pieces;
   std::uint32_t flaps_cut = 0;     ///< see cut_flaps()
   std::uint32_t holes_closed = 0;  ///< see close_holes()
+  std::uint32_t curves = 0;        ///< see put_curves()
 };
 
 /// The skeleton as a ridge: the surface where E is greatest across the direction in which it bends most, a

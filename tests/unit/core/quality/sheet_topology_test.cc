@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
@@ -95,6 +97,27 @@ TEST(SheetTopology, CountsChambers) {
   finned.points.resize(9);
   finned.triangles.push_back({0, 1, 8});
   expect_topology(finned, {1, 0, 1}, 1, 1);
+}
+
+BettiNumbers with_segments(const Mesh& sheet, const std::vector<std::array<std::uint32_t, 2>>& segments) {
+  return sheet_topology(sheet, segments).betti;
+}
+
+TEST(SheetTopology, CountsCurves) {
+  Mesh points;
+  points.points.resize(6);
+  EXPECT_EQ(with_segments(points, {{0, 1}, {1, 2}, {4, 3}}), (BettiNumbers{2, 0, 0}));
+  EXPECT_EQ(with_segments(points, {{0, 1}, {1, 2}, {2, 0}, {0, 5}}), (BettiNumbers{1, 1, 0}));
+  // A handle on a triangle, a curve that hangs on another, and segments along an edge and given twice.
+  Mesh two = points;
+  two.triangles = {{0, 1, 2}};
+  EXPECT_EQ(with_segments(two, {{2, 3}, {3, 4}, {4, 0}, {1, 5}}), (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(with_segments(two, {{1, 0}, {2, 3}, {3, 2}}), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(sheet_topology(two, std::vector<std::array<std::uint32_t, 2>>{{2, 3}}).boundary_loops, 1U);
+  // Two spheres, joined by two curves.
+  Mesh balls = joined(make_sphere(1, 20), make_sphere(1, 20));
+  const auto second = static_cast<std::uint32_t>(balls.points.size() / 2);
+  EXPECT_EQ(with_segments(balls, {{0, second}, {1, second + 1}}), (BettiNumbers{1, 1, 2}));
 }
 
 }  // namespace

@@ -135,6 +135,31 @@ TEST(SheetQuality, IsThatOfTheTriangles) {
   EXPECT_NEAR(quality.hausdorff_back.value(), std::sqrt(0.5), 1e-14);   // (1, 1) to (1.5, 1.5)
 }
 
+TEST(SheetQuality, CountsCurves) {
+  const Block block;
+  Mesh sheet = ring(1.5), other = ring(1);
+  const auto end = static_cast<std::uint32_t>(sheet.points.size());
+  sheet.points.push_back({4.75, 4.75, 5.25});
+  const std::vector<std::array<std::uint32_t, 2>> segments{{0, end}, {end, 1}};
+  SheetQualityOptions options;
+  options.segments = segments;
+  const SkeletonQuality quality = sheet_quality(block.normals.solid, block.normals.lattice, sheet, options);
+  EXPECT_EQ(quality.points, 9U);
+  EXPECT_EQ(quality.skeleton, (BettiNumbers{1, 2, 0}));
+  // Without a triangle it is a curve, one voxel thick.
+  Mesh curve;
+  curve.points = {{4, 4, 4}, {5, 5, 5}};
+  const std::vector<std::array<std::uint32_t, 2>> one{{0, 1}};
+  options.segments = one;
+  options.other = &other;
+  options.other_segments = {};
+  const SkeletonQuality alone = sheet_quality(block.normals.solid, block.normals.lattice, curve, options);
+  EXPECT_EQ(alone.points, 2U);
+  EXPECT_EQ(alone.mean_thickness, 1);
+  EXPECT_TRUE(alone.hausdorff_there.has_value());
+  EXPECT_GT(alone.chance_level, 0);
+}
+
 TEST(SheetQuality, NoticesVerticesOutside) {
   const Block block;
   EXPECT_EQ(sheet_quality(block.normals.solid, block.normals.lattice, ring(3)).inside_share, 0.5);

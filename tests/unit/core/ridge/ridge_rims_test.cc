@@ -3,47 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "core/base/error.h"
-#include "core/quality/sheet_topology.h"
 #include "core/ridge/ridge_flaps.h"
 #include "core/ridge/ridge_holes.h"
+#include "core/ridge/ridge_meshes.h"
 
 namespace affskel::core {
 namespace {
-
-// The square [0, n] x [0, n] of unit cells in the plane z = 0, each of two triangles.
-RidgeMesh square(std::uint32_t n, const std::function<double(double, double)>& strength) {
-  RidgeMesh mesh;
-  for (std::uint32_t j = 0; j <= n; ++j) {
-    for (std::uint32_t i = 0; i <= n; ++i) {
-      RidgeVertex v;
-      v.position = {double(i), double(j), 0};
-      v.strength = strength(i, j);
-      v.erosion = 1;
-      v.normal_a = {0, 0, 1};
-      v.normal_b = {0, 0, -1};
-      mesh.vertices.push_back(v);
-      mesh.part.push_back(0);
-    }
-  }
-  for (std::uint32_t j = 0; j < n; ++j) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t at = j * (n + 1) + i;
-      mesh.triangles.push_back({at, at + 1, at + n + 2});
-      mesh.triangles.push_back({at, at + n + 2, at + n + 1});
-    }
-  }
-  return mesh;
-}
-
-SheetTopology topology(const RidgeMesh& mesh) {
-  Mesh plain;
-  for (const RidgeVertex& v : mesh.vertices) plain.points.push_back(v.position);
-  plain.triangles = mesh.triangles;
-  return sheet_topology(plain);
-}
 
 double area(const RidgeMesh& mesh) {
   double sum = 0;

@@ -22,7 +22,7 @@ SheetTopology topology(const RidgeSheet& sheet) {
   Mesh mesh;
   for (const RidgeVertex& v : sheet.vertices) mesh.points.push_back(v.position);
   mesh.triangles = sheet.triangles;
-  return sheet_topology(mesh);
+  return sheet_topology(mesh, sheet.segments);
 }
 
 struct Range {
@@ -43,6 +43,7 @@ TEST(RidgeSheet, OfATorusIsAnAnnulusFromTheInnerSurfaceOutwards) {
   EXPECT_EQ(found.betti, (BettiNumbers{1, 1, 0}));
   EXPECT_EQ(found.boundary_loops, 2U);
   EXPECT_EQ(found.branch_edges, 0U);
+  EXPECT_TRUE(sheet.segments.empty());
   Range r;
   for (const RidgeVertex& v : sheet.vertices) {
     const Vec3 x = torus.place(v.position);
@@ -65,6 +66,7 @@ TEST(RidgeSheet, OfAFlatBoxIsTheMiddleRectangleAtEverySpacing) {
     const ErodedSolid box(make_box(6, 3, 1, 1), axes(h), "sphere:1280");
     const RidgeSheet sheet = ridge_sheet(box.solid, box.lattice, box.field);
     EXPECT_EQ(topology(sheet).betti, (BettiNumbers{1, 0, 0})) << h;
+    EXPECT_TRUE(sheet.segments.empty());
     Range x, y;
     for (const RidgeVertex& v : sheet.vertices) {
       const Vec3 at = box.place(v.position);
@@ -87,6 +89,7 @@ TEST(RidgeSheet, OfABallIsItsCentre) {
   const RidgeSheet sheet = ridge_sheet(ball.solid, ball.lattice, ball.field);
   ASSERT_FALSE(sheet.vertices.empty());
   EXPECT_EQ(topology(sheet).betti.components, 1U);
+  EXPECT_TRUE(sheet.segments.empty());
   Range across[3];
   for (const RidgeVertex& v : sheet.vertices) {
     const Vec3 x = ball.place(v.position);
@@ -117,6 +120,60 @@ TEST(RidgeSheet, OfAnEllipticCylinderIsAStripRoundItsAxis) {
   EXPECT_LT(x.high, 0.5);
   EXPECT_LT(z.low, 0.8);
   EXPECT_GT(z.high, 5.2);
+}
+
+// All vertices of a sheet within `reach` of the z axis, and in one piece without triangles, from low to high.
+void expect_axis(const ErodedSolid& solid, const RidgeSheet& sheet, double reach, double low, double high) {
+  EXPECT_EQ(topology(sheet).betti, (BettiNumbers{1, 0, 0}));
+  EXPECT_TRUE(sheet.triangles.empty());
+  EXPECT_EQ(sheet.segments.size() + 1, sheet.vertices.size());
+  EXPECT_EQ(sheet.curves, 1U);
+  Range z;
+  for (const RidgeVertex& v : sheet.vertices) {
+    const Vec3 at = solid.place(v.position);
+    EXPECT_LT(std::hypot(at.x, at.y), reach);
+    EXPECT_GE(v.strength, 5);
+    z.take(at.z);
+  }
+  EXPECT_LT(z.low, low);
+  EXPECT_GT(z.high, high);
+}
+
+// E falls alike to all sides of the axis of a round cylinder; so it does in an elliptic one in a frame in
+// which it is round, on the same axis.
+TEST(RidgeSheet, OfARoundCylinderIsItsAxis) {
+  const double h = 0.1;
+  const Mesh round = make_cylinder(1, 6, 32);
+  const ErodedSolid cylinder(round, axes(h), "triangles+sphere:320");
+  const RidgeSheet axis = ridge_sheet(cylinder.solid, cylinder.lattice, cylinder.field);
+  expect_axis(cylinder, axis, 0.5 * h, 1, 5);
+  // The level plane through a point of the axis cuts off pi z, up to the 32-gon's share; smaller ones meet
+  // the sample points beside it, where tilted planes have larger sections.
+  for (const RidgeVertex& v : axis.vertices) {
+    const double z = cylinder.place(v.position).z, level = 3.12 * std::min(z, 6 - z);
+    EXPECT_LE(v.erosion, level + 0.01);
+    EXPECT_GE(v.erosion, 0.9 * level);
+    EXPECT_GE(v.area, 3.1);
+  }
+  Mesh narrow = round;
+  for (Vec3& p : narrow.points) p.y *= 0.5;
+  const ErodedSolid elliptic(narrow, axes(h, 1, 0.5, 1), "triangles+sphere:320");
+  expect_axis(elliptic, ridge_sheet(elliptic.solid, elliptic.lattice, elliptic.field), 0.5 * h, 1, 5);
+}
+
+TEST(RidgeSheet, OfAConeIsItsAxis) {
+  const double h = 0.1;
+  const ErodedSolid cone(make_cone(1, 6, 32), axes(h), "triangles+sphere:320");
+  expect_axis(cone, ridge_sheet(cone.solid, cone.lattice, cone.field), 0.5 * h, 1, 4.5);
+}
+
+TEST(RidgeSheet, OfTwoCylindersIsTheAxisOfEach) {
+  const Mesh first = make_cylinder(0.5, 6, 32), second = moved(first, {2.5, 0, 0});
+  const ErodedSolid both(joined(first, second), axes(0.1), "triangles+sphere:320");
+  const RidgeSheet sheet = ridge_sheet(both.solid, both.lattice, both.field);
+  EXPECT_EQ(topology(sheet).betti, (BettiNumbers{2, 0, 0}));
+  EXPECT_EQ(sheet.curves, 2U);
+  EXPECT_TRUE(sheet.triangles.empty());
 }
 
 // E is greatest on a sphere, whose normals have all directions: eigenvectors of any sign make one closed

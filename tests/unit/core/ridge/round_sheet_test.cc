@@ -1,0 +1,162 @@
+#include "core/ridge/round_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/ridge/ridge_meshes.h"
+
+namespace affskel::core {
+namespace {
+
+// The square's triangles whose middle satisfies `wanted`.
+template <class Wanted>
+RidgeMesh part_of_square(std::uint32_t n, Wanted wanted) {
+  RidgeMesh mesh = square(n, [](double, double) { return 10; });
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    Vec3 middle;
+    for (const std::uint32_t corner : t) middle = middle + (1.0 / 3) * mesh.vertices[corner].position;
+    return !wanted(middle.x, middle.y);
+  });
+  drop_unused_vertices(mesh);
+  return mesh;
+}
+
+// From (low, 15.1, 0.2) to (high, 15.1, 0.2), vertices one apart.
+RidgeCurve line(double low, double high, double radius) {
+  RidgeCurve curve;
+  for (double x = low; x <= high; x += 1) {
+    RidgeVertex v;
+    v.position = {x, 15.1, 0.2};
+    v.strength = 7;
+    curve.vertices.push_back(v);
+    curve.radius.push_back(radius);
+  }
+  return curve;
+}
+
+// A body, x < 10, a limb of width 4 and a hand, x > 22.
+bool limb_and_hand(double x, double y) {
+  return x < 10 || x > 22 || (y > 13 && y < 17);
+}
+
+bool joined_to_sheet(const RidgeMesh& mesh, std::uint32_t vertex) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const Triangle& t) { return std::find(t.begin(), t.end(), vertex) != t.end(); });
+}
+
+TEST(RoundSheet, BetweenTwoSheetsBecomesACurveThatJoinsThem) {
+  RidgeMesh mesh = part_of_square(30, limb_and_hand);
+  ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(put_curves(mesh, std::vector{line(11, 21, 3)}), 1U);
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
+  std::size_t ends = 0;
+  for (const auto& segment : mesh.segments)
+    for (const std::uint32_t v : segment) ends += joined_to_sheet(mesh, v);
+  EXPECT_EQ(ends, 2U);
+  // Nothing of the strip is left but about its ends.
+  for (const Triangle& t : mesh.triangles) {
+    const double x = mesh.vertices[t[0]].position.x;
+    EXPECT_TRUE(x < 13.5 || x > 18.5) << x;
+  }
+}
+
+TEST(RoundSheet, LosesTheTunnelsOfAStrip) {
+  // Slits in the limb, and a bridge over it.
+  RidgeMesh mesh = part_of_square(30, [](double x, double y) {
+    return limb_and_hand(x, y) && !(x > 13 && x < 15 && y > 14 && y < 16) &&
+           !(x > 17 && x < 18 && y > 14 && y < 15);
+  });
+  ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 2, 0}));
+  put_curves(mesh, std::vector{line(11, 21, 3)});
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
+}
+
+TEST(RoundSheet, KeepsTheTunnelOfALoop) {
+  // Two limbs from a body to another: one becomes a curve.
+  RidgeMesh mesh = part_of_square(30, [](double x, double y) { return limb_and_hand(x, y) || y < 4; });
+  ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+  for (const double radius : {3.0, 9.0}) {  // also where the limb is no longer than its radius
+    RidgeMesh copy = mesh;
+    EXPECT_EQ(put_curves(copy, std::vector{line(11, 21, radius)}), 1U);
+    EXPECT_EQ(topology(copy).betti, (BettiNumbers{1, 1, 0}));
+  }
+}
+
+TEST(RoundSheet, AloneBecomesTheCurveAlone) {
+  RidgeMesh mesh = part_of_square(30, [](double x, double y) { return x > 4 && x < 26 && y > 14 && y < 16; });
+  // Its ends reach beyond the curve's by less than a radius.
+  put_curves(mesh, std::vector{line(6, 24, 3)});
+  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(mesh.vertices.size(), 19U);
+  EXPECT_EQ(mesh.segments.size(), 18U);
+  EXPECT_EQ(mesh.part.size(), 19U);
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
+}
+
+// A ring 2 wide round (15, 15), and the curve of 64 vertices in its middle.
+RidgeMesh ring() {
+  return part_of_square(30, [](double x, double y) {
+    const double r = std::max(std::abs(x - 15), std::abs(y - 15));
+    return r > 7 && r < 9;
+  });
+}
+
+RidgeCurve ring_curve() {
+  RidgeCurve curve;
+  curve.closed = true;
+  const auto add = [&](double x, double y) {
+    RidgeVertex v;
+    v.position = {x, y, 0.1};
+    curve.vertices.push_back(v);
+    curve.radius.push_back(3);
+  };
+  for (double t = 7; t < 23; t += 1) add(t, 7);
+  for (double t = 7; t < 23; t += 1) add(23, t);
+  for (double t = 23; t > 7; t -= 1) add(t, 23);
+  for (double t = 23; t > 7; t -= 1) add(7, t);
+  return curve;
+}
+
+TEST(RoundSheet, OfARingIsAClosedCurve) {
+  RidgeMesh mesh = ring();
+  ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+  put_curves(mesh, std::vector{ring_curve()});
+  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(mesh.segments.size(), 64U);
+}
+
+TEST(RoundSheet, StaysWhereItClosesTheGapOfACurve) {
+  RidgeMesh mesh = ring();
+  RidgeCurve open = ring_curve();
+  open.closed = false;
+  // From the middle of a side to three steps before it.
+  std::rotate(open.vertices.begin(), open.vertices.begin() + 8, open.vertices.end());
+  open.vertices.resize(61);
+  open.radius.resize(61);
+  put_curves(mesh, std::vector{open});
+  EXPECT_FALSE(mesh.triangles.empty());
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
+}
+
+TEST(RoundSheet, StaysWhereItIsWideOrOfAnotherPart) {
+  const RidgeMesh whole = square(30, [](double, double) { return 10; });
+  RidgeMesh mesh = whole;
+  EXPECT_EQ(put_curves(mesh, std::vector{line(5, 25, 3)}), 0U);
+  EXPECT_EQ(mesh.triangles, whole.triangles);
+  EXPECT_TRUE(mesh.segments.empty());
+  RidgeMesh limb = part_of_square(30, limb_and_hand);
+  RidgeCurve other = line(11, 21, 3);
+  other.part = 1;
+  EXPECT_EQ(put_curves(limb, std::vector{other}), 0U);
+  // A stretch shorter than its radius is none.
+  EXPECT_EQ(put_curves(limb, std::vector{line(14, 16, 3)}), 0U);
+  EXPECT_THROW(put_curves(limb, {}, {.reach = 0}), CoreError);
+}
+
+}  // namespace
+}  // namespace affskel::core

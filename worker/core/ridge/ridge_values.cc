@@ -1,0 +1,117 @@
+// With P = sqrt(E / max E): lambda_E = 2 P lambda_P and grad E = 2 P grad P, in units of max E and of the
+// spacing, so that s = -lambda_P P / (2 |grad P|^2).
+#include "core/ridge/ridge_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/require.h"
+#include "core/base/scaled_to_unit.h"
+#include "core/base/symmetric_eigen.h"
+
+namespace affskel::core {
+namespace {
+
+double strength_of(double least, double value, const Vec3& gradient) {
+  const double square = dot(gradient, gradient), turn = -least * value;
+  return turn < 2 * kMaxRidgeStrength * square ? 0.5 * turn / square : kMaxRidgeStrength;
+}
+
+std::array<float, 3> floats_of(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+Vec3 unit(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : Vec3{};
+}
+
+PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
+  const auto& h = point.hessian;
+  double largest = 0, squares = 0;
+  for (std::size_t n = 0; n < 6; ++n) {
+    const double entry = std::abs(static_cast<double>(h[n]));
+    largest = std::max(largest, entry);
+    squares += (n == 0 || n == 3 || n == 5 ? 1 : 2) * entry * entry;
+  }
+  // -lambda_1 is at most the Frobenius norm: most points need no eigenvalues.
+  const Vec3 gradient = vector_of(point.gradient);
+  if (largest == 0 ||
+      strength_of(-std::sqrt(squares), static_cast<double>(point.value), gradient) < 0.25 * min_strength)
+    return {};
+  const auto scaled = [&](std::size_t n) { return static_cast<double>(h[n]) / largest; };
+  const SymmetricEigen eigen =
+      symmetric_eigen({Vec3{scaled(0), scaled(1), scaled(2)}, Vec3{scaled(1), scaled(3), scaled(4)},
+                       Vec3{scaled(2), scaled(4), scaled(5)}});
+  if (eigen.values[2] >= 0) return {};
+  return {floats_of(eigen.vectors[2]), floats_of(eigen.vectors[0]),
+          static_cast<float>(eigen.values[2] * largest),
+          static_cast<float>(eigen.values[1] / eigen.values[2]),
+          static_cast<float>(eigen.values[0] / eigen.values[2])};
+}
+
+}  // namespace
+
+RidgeValues::RidgeValues(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
+                         std::span<const PointDerivatives> derivatives, double min_strength,
+                         double min_erosion)
+    : parts_(parts),
+      field_(field),
+      derivatives_(derivatives),
+      min_strength_(min_strength),
+      to_mesh_(inverse_transposed(frame_matrix(lattice))) {
+  require_within(min_strength, 1e-6, kMaxRidgeStrength,
+                 "the least strength of a ridge must lie between 1e-6 and 1000");
+  require_within(min_erosion, 0, 1, "the least share of E must lie between 0 and 1");
+  const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
+  for (std::uint32_t part = 0; part < parts.count(); ++part)
+    least_erosion_.push_back(min_erosion * cell * parts.points(part));
+  ridges_.reserve(derivatives.size());
+  for (const PointDerivatives& point : derivatives) ridges_.push_back(ridge_at(point, min_strength));
+}
+
+Vec3 RidgeValues::gradient(std::uint32_t point) const {
+  return vector_of(derivatives_[point].gradient);
+}
+
+// E may be of any size.
+double RidgeValues::frame_area(std::uint32_t point) const {
+  const Vec3& g = field_.gradient[point];
+  return std::ldexp(norm(scaled_to_unit(g)), largest_exponent(g));
+}
+
+// |grad_x E| = |F^-T g| for a gradient g in the frame.
+double RidgeValues::mesh_area(std::uint32_t point) const {
+  const Vec3& g = field_.gradient[point];
+  return std::ldexp(norm(to_mesh_ * scaled_to_unit(g)), largest_exponent(g));
+}
+
+RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
+                            std::span<const double> weights, const Vec3& across) const {
+  RidgeVertex vertex;
+  vertex.position = position;
+  vertex.point = points[0];
+  Vec3 gradient;
+  double value = 0, least = 0, width = 0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PointDerivatives& here = derivatives_[points[n]];
+    const PointRidge& ridge = ridges_[points[n]];
+    const double w = weights[n];
+    gradient = gradient + w * vector_of(here.gradient);
+    value += w * static_cast<double>(here.value);
+    width += w * static_cast<double>(here.width);
+    least += w * static_cast<double>(ridge.least);
+    vertex.ratio += w * static_cast<double>(ridge.ratio);
+    vertex.roundness += w * static_cast<double>(ridge.roundness);
+    vertex.erosion += w * field_.erosion[points[n]];
+    vertex.area += w * mesh_area(points[n]);
+  }
+  vertex.strength = strength_of(least, value, gradient);
+  // grad P one width away along e is g -+ lambda width e, to first order.
+  const Vec3 rise = (-least * width) * across;
+  vertex.normal_a = unit(gradient + rise);
+  vertex.normal_b = unit(gradient - rise);
+  return vertex;
+}
+
+}  // namespace affskel::core

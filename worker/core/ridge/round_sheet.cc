@@ -1,0 +1,310 @@
+#include "core/ridge/round_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/require.h"
+#include "core/ridge/round_stretches.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+// The vertices of all stretches, numbered on.
+struct CurveVertex {
+  Vec3 position;
+  double radius = 0;
+  double arc = 0;  // from the stretch's first vertex
+  std::uint32_t stretch = 0, part = 0;
+  Vec3 outward;  // at an end of the stretch: unit, away from it; else 0
+};
+
+Vec3 unit(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : Vec3{};
+}
+
+std::vector<CurveVertex> vertices_of(std::span<const RidgeCurve> stretches) {
+  std::vector<CurveVertex> result;
+  for (std::uint32_t s = 0; s < stretches.size(); ++s) {
+    const RidgeCurve& stretch = stretches[s];
+    const std::size_t first = result.size();
+    double arc = 0;
+    for (std::size_t v = 0; v < stretch.vertices.size(); ++v) {
+      const Vec3& at = stretch.vertices[v].position;
+      if (v > 0) arc += norm(at - stretch.vertices[v - 1].position);
+      result.push_back({at, stretch.radius[v], arc, s, stretch.part, {}});
+    }
+    if (stretch.closed) continue;
+    result[first].outward = unit(result[first].position - result[first + 1].position);
+    result.back().outward = unit(result.back().position - result[result.size() - 2].position);
+  }
+  return result;
+}
+
+// The nearest of points, by their order along the axis on which they reach farthest.
+class NearestVertex {
+ public:
+  explicit NearestVertex(const std::vector<CurveVertex>& vertices) : vertices_(vertices) {
+    double widest = -1;
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax_element(
+          vertices.begin(), vertices.end(),
+          [k](const CurveVertex& a, const CurveVertex& b) { return a.position[k] < b.position[k]; });
+      const double extent = high->position[k] - low->position[k];
+      if (extent > widest) axis_ = k;
+      widest = std::max(widest, extent);
+    }
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) order_.emplace_back(vertices[v].position[axis_], v);
+    std::sort(order_.begin(), order_.end());
+  }
+
+  // The nearest vertex of the part and its distance; kNone when there is none.
+  std::pair<std::uint32_t, double> of(const Vec3& place, std::uint32_t part) const {
+    std::pair<std::uint32_t, double> best{kNone, std::numeric_limits<double>::infinity()};
+    const auto take = [&](const std::pair<double, std::uint32_t>& entry) {
+      if (std::abs(entry.first - place[axis_]) > best.second) return false;
+      const CurveVertex& v = vertices_[entry.second];
+      const double away = norm(v.position - place);
+      if (v.part == part && std::pair{away, entry.second} < std::pair{best.second, best.first})
+        best = {entry.second, away};
+      return true;
+    };
+    const auto middle = std::lower_bound(order_.begin(), order_.end(), std::pair{place[axis_], 0U});
+    for (auto after = middle; after != order_.end() && take(*after);) ++after;
+    for (auto before = middle; before != order_.begin() && take(*(before - 1));) --before;
+    return best;
+  }
+
+ private:
+  const std::vector<CurveVertex>& vertices_;
+  int axis_ = 0;
+  std::vector<std::pair<double, std::uint32_t>> order_;
+};
+
+// Where a sheet vertex lies beside the curves.
+struct Foot {
+  enum class Place : char { kFar, kBeyondEnd, kBeside } place = Place::kFar;
+  std::uint32_t vertex = kNone;  // the nearest of the curves, where not beyond the reach
+  bool sideways = false;         // beyond the reach, but not beyond an end
+  std::uint32_t nearest = kNone;
+};
+
+std::vector<Foot> feet_of(const RidgeMesh& mesh, const std::vector<CurveVertex>& curve, double reach) {
+  std::vector<Foot> feet(mesh.vertices.size());
+  if (curve.empty()) return feet;
+  const NearestVertex nearest(curve);
+  for (std::size_t v = 0; v < feet.size(); ++v) {
+    const auto [at, away] = nearest.of(mesh.vertices[v].position, mesh.part[v]);
+    if (at == kNone) continue;
+    const CurveVertex& c = curve[at];
+    const bool beyond = dot(mesh.vertices[v].position - c.position, c.outward) > 0;
+    const bool within = away <= reach * c.radius;
+    feet[v].nearest = at;
+    feet[v].sideways = !within && !beyond;
+    if (within) {
+      feet[v].vertex = at;
+      feet[v].place = beyond ? Foot::Place::kBeyondEnd : Foot::Place::kBeside;
+    }
+  }
+  return feet;
+}
+
+bool long_enough(const RidgeCurve& curve, double min_length) {
+  const double sum = std::accumulate(curve.radius.begin(), curve.radius.end(), 0.0);
+  return curve_length(curve) * static_cast<double>(curve.radius.size()) >= min_length * sum;
+}
+
+// The parts of all stretches whose vertices are wanted.
+std::vector<RidgeCurve> parts_of(std::span<const RidgeCurve> stretches, const std::vector<char>& wanted) {
+  std::vector<RidgeCurve> result;
+  auto begin = wanted.begin();
+  for (const RidgeCurve& stretch : stretches) {
+    const auto end = begin + static_cast<std::ptrdiff_t>(stretch.vertices.size());
+    for (RidgeCurve& part : parts_of_curve(stretch, {begin, end})) result.push_back(std::move(part));
+    begin = end;
+  }
+  return result;
+}
+
+// The stretches without the places where the sheet is wide.
+std::vector<RidgeCurve> narrow_only(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+                                    const RoundSheetOptions& options) {
+  const std::vector<CurveVertex> curve = vertices_of(stretches);
+  const std::vector<Foot> feet = feet_of(mesh, curve, options.reach);
+  std::vector<char> wanted(curve.size(), 1);
+  for (const Triangle& t : mesh.triangles) {
+    bool crosses = false;
+    for (const std::uint32_t corner : t) crosses = crosses || feet[corner].sideways;
+    if (!crosses) continue;
+    for (const std::uint32_t corner : t)
+      if (feet[corner].place == Foot::Place::kBeside) wanted[feet[corner].vertex] = 0;
+  }
+  std::vector<RidgeCurve> result = parts_of(stretches, wanted);
+  std::erase_if(result, [&](const RidgeCurve& part) { return !long_enough(part, options.min_length); });
+  return result;
+}
+
+class Replacement {
+ public:
+  Replacement(RidgeMesh& mesh, std::vector<RidgeCurve> stretches, double reach)
+      : mesh_(mesh),
+        stretches_(std::move(stretches)),
+        reach_(reach),
+        curve_(vertices_of(stretches_)),
+        feet_(feet_of(mesh, curve_, reach)),
+        replaced_(stretches_.size(), 0),
+        pieces_(mesh.vertices.size()) {}
+
+  std::uint32_t run() {
+    remove_triangles();
+    find_joints();
+    drop_leftovers();
+    std::uint32_t count = 0;
+    for (std::uint32_t s = 0, first = 0; s < stretches_.size(); ++s) {
+      if (replaced_[s]) {
+        add_curve(s, first);
+        ++count;
+      }
+      first += static_cast<std::uint32_t>(stretches_[s].vertices.size());
+    }
+    mesh_.triangles = std::move(kept_);
+    drop_unused_vertices(mesh_);
+    return count;
+  }
+
+ private:
+  struct Joint {
+    double length;
+    std::uint32_t sheet, curve;  // vertices
+    friend auto operator<=>(const Joint&, const Joint&) = default;
+  };
+
+  std::uint32_t stretch_of(std::uint32_t vertex) const { return curve_[feet_[vertex].vertex].stretch; }
+
+  bool belongs(const Triangle& t) const {
+    for (const std::uint32_t corner : t)
+      if (feet_[corner].place != Foot::Place::kBeside || stretch_of(corner) != stretch_of(t[0])) return false;
+    return true;
+  }
+
+  void remove_triangles() {
+    border_.assign(mesh_.vertices.size(), 0);
+    for (const Triangle& t : mesh_.triangles) {
+      if (belongs(t)) {
+        replaced_[stretch_of(t[0])] = 1;
+        for (const std::uint32_t corner : t) border_[corner] = 1;
+      } else {
+        kept_.push_back(t);
+        pieces_.unite(t[0], t[1]);
+        pieces_.unite(t[0], t[2]);
+      }
+    }
+  }
+
+  // Pieces within the reach of one stretch that was put in, unless they join two places of it.
+  void drop_leftovers() {
+    constexpr std::uint32_t kMany = kNone - 1;
+    std::vector<std::uint32_t> beside(mesh_.vertices.size(), kNone);  // per piece: the stretch, or kMany
+    for (const Triangle& t : kept_) {
+      for (const std::uint32_t corner : t) {
+        const bool near = feet_[corner].vertex != kNone && replaced_[stretch_of(corner)];
+        const std::uint32_t here = near ? stretch_of(corner) : kMany;
+        std::uint32_t& known = beside[pieces_.find(corner)];
+        known = known == kNone || known == here ? here : kMany;
+      }
+    }
+    std::vector<std::uint32_t> joints(mesh_.vertices.size(), 0);  // per piece
+    for (const Joint& joint : joints_) ++joints[pieces_.find(joint.sheet)];
+    const auto dropped = [&](std::uint32_t vertex) {
+      const std::uint32_t piece = pieces_.find(vertex);
+      return beside[piece] != kMany && joints[piece] < 2;
+    };
+    std::erase_if(kept_, [&](const Triangle& t) { return dropped(t[0]); });
+    std::erase_if(joints_, [&](const Joint& joint) { return dropped(joint.sheet); });
+  }
+
+  void find_joints() {
+    std::vector<char> used(mesh_.vertices.size(), 0);
+    for (const Triangle& t : kept_)
+      for (const std::uint32_t corner : t) used[corner] = 1;
+    std::vector<Joint> candidates;
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (!used[v] || !border_[v]) continue;
+      const std::uint32_t foot = feet_[v].vertex;
+      candidates.push_back({norm(mesh_.vertices[v].position - curve_[foot].position), v, foot});
+    }
+    std::sort(candidates.begin(), candidates.end());
+    for (const Joint& joint : candidates)
+      if (std::none_of(joints_.begin(), joints_.end(), [&](const Joint& j) { return same_place(j, joint); }))
+        joints_.push_back(joint);
+  }
+
+  // Whether two joints join the same stretch and piece at about the same place.
+  bool same_place(const Joint& a, const Joint& b) {
+    const CurveVertex &at_a = curve_[a.curve], &at_b = curve_[b.curve];
+    if (at_a.stretch != at_b.stretch || pieces_.find(a.sheet) != pieces_.find(b.sheet)) return false;
+    const double near = reach_ * (at_a.radius + at_b.radius),
+                 half = 0.5 * curve_length(stretches_[at_a.stretch]);
+    return std::abs(at_a.arc - at_b.arc) <= std::min(near, half);
+  }
+
+  // Puts in the stretch whose vertices begin at `first`, between its outermost joints.
+  void add_curve(std::uint32_t s, std::uint32_t first) {
+    const RidgeCurve& stretch = stretches_[s];
+    std::uint32_t begin = first, last = first + static_cast<std::uint32_t>(stretch.vertices.size()) - 1;
+    if (!stretch.closed) {
+      const std::uint32_t front = begin, back = last;
+      const auto near_end = [&](std::uint32_t v, std::uint32_t end) {
+        return std::abs(curve_[v].arc - curve_[end].arc) <= reach_ * curve_[end].radius;
+      };
+      std::uint32_t from = kNone, to = kNone;
+      for (const Joint& joint : joints_) {
+        if (curve_[joint.curve].stretch != s) continue;
+        if (near_end(joint.curve, front)) from = std::min(from, joint.curve);
+        if (near_end(joint.curve, back)) to = to == kNone ? joint.curve : std::max(to, joint.curve);
+      }
+      if (from != kNone) begin = from;
+      if (to != kNone && to >= begin) last = to;
+    }
+    const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (std::uint32_t v = begin; v <= last; ++v) {
+      mesh_.vertices.push_back(stretch.vertices[v - first]);
+      mesh_.part.push_back(stretch.part);
+      if (v > begin) mesh_.segments.push_back({base + v - begin - 1, base + v - begin});
+    }
+    if (stretch.closed) mesh_.segments.push_back({base, base + last - begin});
+    for (const Joint& joint : joints_)
+      if (curve_[joint.curve].stretch == s)
+        mesh_.segments.push_back({joint.sheet, base + std::clamp(joint.curve, begin, last) - begin});
+  }
+
+  RidgeMesh& mesh_;
+  std::vector<RidgeCurve> stretches_;
+  double reach_;
+  std::vector<CurveVertex> curve_;
+  std::vector<Foot> feet_;      // per vertex of the mesh
+  std::vector<char> replaced_;  // per stretch: triangles belong to it
+  DisjointSets pieces_;         // of what is kept, by vertices of the mesh
+  std::vector<Triangle> kept_;
+  std::vector<char> border_;  // per vertex: of a triangle that was removed
+  std::vector<Joint> joints_;
+};
+
+}  // namespace
+
+std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+                         const RoundSheetOptions& options) {
+  require_within(options.reach, 1e-3, 1e3, "the reach of a curve must lie between 0.001 and 1000 radii");
+  require_within(options.min_length, 0, 1e6,
+                 "the least length of a stretch must lie between 0 and 1e6 radii");
+  return Replacement(mesh, narrow_only(mesh, stretches, options), options.reach).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/ridge/ridge_curves.h"
+#include "core/ridge/ridge_mesh.h"
+
+namespace affskel::core {
+
+struct RoundSheetOptions {
+  /// How far from a curve its sheet reaches, in the radius of the section, > 0.  What reaches farther is wide
+  /// by right.
+  double reach = 1;
+  double min_length = 1;  ///< of a stretch, in its mean radius, >= 0
+};
+
+/// Puts curves in the place of what is found of the sheet where the solid is round: narrow strips and half
+/// planes about the curve, turned by chance.
+/// 1. A triangle belongs to a stretch when all its corners lie beside it, within its reach and not beyond its
+///    ends.  Where triangles about a stretch cross the reach sideways the sheet is wide: it stays, and the
+///    stretch is parted; shorter ones than the least length are left out.
+/// 2. Triangles that belong to stretches are removed.
+/// 3. A stretch is joined to every piece of the sheet that bordered on what was removed, by a segment to the
+///    nearest vertex there; once, but for places along it more than two reaches or half its length apart. Its
+///    ends are cut back to such joints nearer than a reach.  So pieces stay joined, and no tunnel comes to
+///    those there were.
+/// 4. Pieces of what is left that lie within the reach of one stretch, and are joined to one place of it or
+///    none, are removed.
+/// Stretches that no triangle belongs to are left out.  A function of mesh and stretches alone.
+/// @param mesh without segments; cut (see cut_rims()).
+/// @return how many stretches were put in.
+/// @throws CoreError kBadInput when an option is out of range.
+std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+                         const RoundSheetOptions& options = {});
+
+}  // namespace affskel::core
