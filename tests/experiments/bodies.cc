@@ -75,7 +75,8 @@ Exhibit sheet_exhibit(const Result& r, const char* name, const Sheet& sheet) {
           {},
           {},
           0,
-          sheet.mesh};
+          sheet.mesh,
+          sheet.segments};
 }
 
 }  // namespace
@@ -133,7 +134,9 @@ void body_experiment(const Setting& setting, Report& report) {
                  "The skeletons as ridges of E, at half the spacing");
   report.text(
       "The sheets of the operator `ridge`: where the normals turn fast across the sheet, be it in a jump or "
-      "not. In a smooth body most of the middle sheet is no jump.");
+      "not. In a smooth body most of the middle sheet is no jump. Where the body is round, in limbs and "
+      "head, the "
+      "ridge is a curve.");
   for (const Result& r : results) {
     const std::string name = format("body of %u triangles", r.published.triangles);
     report.compare({name + format(", dT %g", setting.spacing()), r.published.time,

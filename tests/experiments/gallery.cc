@@ -20,6 +20,7 @@ constexpr Rgb kSurface{0.93f, 0.62f, 0.28f};
 constexpr double kText = 13;    // height of a capital letter, pixels
 constexpr double kMargin = 22;  // round a view, pixels
 constexpr double kMaxHeight = 900;
+constexpr double kCurve = 2.5;  // width of a curve, pixels
 
 View view_of(Side side) {
   switch (side) {
@@ -78,6 +79,8 @@ Image draw(const Exhibit& exhibit, const View& view, const Extent& extent, doubl
     panel.draw_ball({exhibit.points[p], client::viridis(static_cast<float>(t))}, radius);
   }
   panel.draw_facets(exhibit.surface, kSurface);
+  panel.draw_curves(exhibit.surface.points, exhibit.segments,
+                    std::vector<Rgb>(exhibit.surface.points.size(), kSurface), kCurve);
   panel.draw_surface(exhibit.solid, client::corner_normals(exhibit.solid));
   return panel.resolve();
 }

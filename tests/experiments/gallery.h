@@ -11,12 +11,13 @@ namespace affskel::experiments {
 
 /// One thing to show.  Empty parts are left out.
 struct Exhibit {
-  std::vector<std::string> caption;  ///< lines above it
-  core::Mesh solid;                  ///< drawn translucent
-  std::vector<core::Vec3> points;    ///< drawn as balls
-  std::vector<double> erosion;       ///< per point: E, for its colour
-  double ball_radius = 0;            ///< mesh units
-  core::Mesh surface;                ///< drawn opaque
+  std::vector<std::string> caption;          ///< lines above it
+  core::Mesh solid;                          ///< drawn translucent
+  std::vector<core::Vec3> points;            ///< drawn as balls
+  std::vector<double> erosion;               ///< per point: E, for its colour
+  double ball_radius = 0;                    ///< mesh units
+  core::Mesh surface;                        ///< drawn opaque
+  std::vector<core::Segment> segments = {};  ///< of curves of the surface, drawn as lines
 };
 
 enum class Side { kFront, kSide, kTop, kOblique };

@@ -38,7 +38,8 @@ Sheet ridge_sheet_of(const Job& job) {
     sheet.points.erosion.push_back(vertex.erosion);
   }
   sheet.mesh = {sheet.points.place, found.triangles};
-  sheet.betti = core::sheet_topology(sheet.mesh).betti;
+  sheet.segments = found.segments;
+  sheet.betti = core::sheet_topology(sheet.mesh, sheet.segments).betti;
   return sheet;
 }
 

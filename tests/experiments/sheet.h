@@ -10,7 +10,8 @@ namespace affskel::experiments {
 struct Sheet {
   Cloud points;  ///< `chords`: where two equal chords meet, on lattice edges; `ridge`: the mesh's vertices
   core::Mesh mesh;
-  core::BettiNumbers betti;  ///< of the mesh
+  std::vector<core::Segment> segments;  ///< of the curves of `ridge`
+  core::BettiNumbers betti;             ///< of both
 };
 
 /// With the operator's default options.

@@ -28,8 +28,8 @@ core::SheetPlace sheet_place(const FinishedField& field, const core::Vec3& posit
 /// With the default directions, even in the lattice's frame.
 std::vector<double> barriers_at(const FinishedField& field, const std::vector<core::SheetPlace>& places);
 
-/// Drops the triangles and segments with a vertex below the least barrier, then numbers anew the vertices that
-/// are left, those that one of the others uses.
+/// Drops the triangles and segments with a vertex below the least barrier, then numbers anew the vertices
+/// that are left, those that one of the others uses.
 /// @param barrier per vertex.
 /// @return the indices that the vertices taken out had, ascending.
 std::vector<std::uint32_t> drop_below(double least, const std::vector<double>& barrier,
