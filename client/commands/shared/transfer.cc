@@ -102,9 +102,9 @@ void check_grid(Context& context, FileFormat format, const LatticePoints& points
       "ParaView 5.11 and VTK 9.1 pass over; .vts holds the points themselves");
 }
 
-// The skeleton's parameters, and what of it the surface leaves out.  @param surface may be null.
-std::string surface_params_text(const v1::SkeletonParams& skeleton, const v1::SurfaceParams* surface) {
-  const double least = surface == nullptr ? 0 : surface->min_barrier();
+// The skeleton's parameters, and what of it the surface leaves out.
+std::string surface_params_text(const v1::SkeletonParams& skeleton, const v1::SurfaceParams& surface) {
+  const double least = surface.min_barrier();
   return skeleton_params_text(skeleton) + (least > 0 ? ", barriers from " + base::to_text(least) : "");
 }
 
