@@ -15,10 +15,10 @@ using nlohmann::json;
 
 class ViewTest : public ClientTest {
  protected:
-  // The page is made of the field and the divergence; in the folder there is only what `view` leaves there.
+  // The page is made of the field and of the divergence or the sheet; in the folder there is only what `view`
+  // leaves there.
   ViewTest() {
     service_.artifacts.erase(v1::ARTIFACT_KIND_SKELETON);
-    service_.artifacts.erase(v1::ARTIFACT_KIND_SURFACE);
     for (const std::string& name : dir_.names()) std::filesystem::remove(dir_ / name);
   }
 
