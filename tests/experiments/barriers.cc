@@ -166,7 +166,7 @@ void barrier_experiment(const Setting& setting, Report& report) {
     if (r.solid == "tetrahedron") continue;
     const bool smooth = r.solid.find("body") == std::string::npos;
     report.expect(what + format(": share of barriers below %g", grain), r.share_below(grain),
-                  smooth ? 0.99 : 0.3, smooth ? 1 : 0.9999);
+                  smooth ? 0.99 : 0.3, 1);
   }
   // At its centroid 5/27 and nowhere more.
   report.expect("tetrahedron, `chords`: greatest barrier", results[8].quantile(1), 0.1, 5.0 / 27 + grain);

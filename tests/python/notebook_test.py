@@ -30,7 +30,7 @@ class Notebook(unittest.TestCase):
         self.addCleanup(server.end)
         with affskel.Client(server.address) as client:
             job = client.submit(directory.make("body", "--triangles", 500), spacing=300, name='a "body" & <b>').wait()
-            count = job.status().skeleton_points
+            count = len(job.skeleton())
             cell = job.view(height=500)._repr_html_()
         page = directory / "notebook.html"
         page.write_text(f"<!DOCTYPE html><meta charset=utf-8><h1>Notebook</h1>{cell}", encoding="utf-8")
@@ -42,7 +42,7 @@ class Notebook(unittest.TestCase):
         state = WebDriverWait(driver, PATIENCE, .02).until(
             lambda _: driver.execute_script("return window.affskel && affskel.state()"))
         self.assertEqual(driver.find_element(By.TAG_NAME, "h1").text, 'a "body" & <b>')
-        self.assertIn(str(count), driver.find_element(By.ID, "threshold-count").text.replace(",", ""), state)
+        self.assertIn(f"{count} triangles", driver.find_element(By.ID, "threshold-count").text.replace(",", ""), state)
         driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
         picture = Image.open(io.BytesIO(driver.find_element(By.ID, "canvas").screenshot_as_png)).convert("RGB")
         number, most = colours(picture)

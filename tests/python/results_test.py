@@ -35,19 +35,35 @@ def setUpModule():
     box = client.submit(directory.make("box", "--size", "40,6,4"), spacing=.5).wait()
 
 
+KINDS = {"double": "<f8", "int": "<i4", "uint": "<u4", "float": "<f4", "uchar": "u1"}
+# What PLY repeats for people, and what it derives of curves.
+SHOWN = ("quality", "red", "green", "blue", "radius")
+
+
 def read_ply(file):
-    """Vertices by property, and triangles, of a binary PLY of affskel-client."""
-    data = file.read_bytes()
-    header, _, rest = data.partition(b"end_header\n")
-    lines = header.decode().split("\n")
-    n, m = (int(line.split()[2]) for line in lines if line.startswith("element "))
-    kinds = {"double": "<f8", "int": "<i4"}
-    names = [(line.split()[2], kinds[line.split()[1]]) for line in lines
-             if line.startswith("property ") and " list " not in line]
-    vertices = np.frombuffer(rest, np.dtype(names), n)
-    faces = np.frombuffer(rest[vertices.nbytes:], np.dtype([("corners", "u1"), ("vertices", "<i4", 3)]), m)
-    assert (faces["corners"] == 3).all()
-    return vertices, faces["vertices"]
+    """Vertices by property, triangles, and segments, of a binary PLY of affskel-client."""
+    header, _, rest = file.read_bytes().partition(b"end_header\n")
+    elements = {}
+    for words in (line.split() for line in header.decode().split("\n")):
+        if words[:1] == ["element"]:
+            count, properties = int(words[2]), []
+            elements[words[1]] = (count, properties)
+        elif words[:1] == ["property"]:
+            properties.extend([("corners", "u1"), (words[-1], "<i4", 3)] if words[1] == "list"
+                              else [(words[2], KINDS[words[1]])])
+    arrays = {}
+    for name, (count, properties) in elements.items():
+        arrays[name] = np.frombuffer(rest, np.dtype(properties), count)
+        rest = rest[arrays[name].nbytes:]
+    assert not rest and (arrays["face"]["corners"] == 3).all()
+    segments = np.zeros((0, 2), np.int64)
+    if "edge" in arrays:
+        segments = np.column_stack([arrays["edge"]["vertex1"], arrays["edge"]["vertex2"]])
+    return arrays["vertex"], arrays["face"]["vertex_indices"], segments
+
+
+def columns_of(vertices):
+    return [name for name in vertices.dtype.names if name not in SHOWN]
 
 
 def enclosed_volume(surface):
@@ -85,10 +101,10 @@ class AgainstTheFiles(unittest.TestCase):
     def test_the_sheet_of_chords_is_that_of_the_ply_with_its_attributes(self):
         for job in (body, sheared):
             directory.client("surface", job.id, "--operator", "chords", "-o", directory / "sheet.ply")
-            vertices, faces = read_ply(directory / "sheet.ply")
+            vertices, faces, _ = read_ply(directory / "sheet.ply")
             sheet = job.skeleton(operator="chords")
             assert_same(sheet.faces, faces)
-            self.assertEqual(list(sheet.table()), list(vertices.dtype.names))
+            self.assertEqual(list(sheet.table()), columns_of(vertices))
             for name, values in sheet.table().items():
                 assert_same(values, vertices[name], name)
             self.assertGreater(len(sheet), 100)
@@ -96,9 +112,9 @@ class AgainstTheFiles(unittest.TestCase):
 
     def test_barriers_are_those_of_the_ply_and_cut_the_sheet(self):
         directory.client("surface", body.id, "--operator", "ridge", "--barrier", "-o", directory / "sheet.ply")
-        vertices, _ = read_ply(directory / "sheet.ply")
+        vertices, _, _ = read_ply(directory / "sheet.ply")
         sheet = body.skeleton("ridge", barrier=True)
-        self.assertEqual(list(sheet.table()), list(vertices.dtype.names))
+        self.assertEqual(list(sheet.table()), columns_of(vertices))
         assert_same(sheet.attributes["barrier"], vertices["barrier"])
         least = float(np.quantile(sheet.attributes["barrier"], .9))
         cut = body.skeleton("ridge", min_barrier=least)
@@ -112,10 +128,12 @@ class AgainstTheFiles(unittest.TestCase):
             with self.subTest(options):
                 arguments = [part for name, value in options.items() for part in (f"--{name}", value)]
                 directory.client("surface", body.id, *arguments, "-o", directory / "surface.ply")
-                vertices, faces = read_ply(directory / "surface.ply")
+                vertices, faces, segments = read_ply(directory / "surface.ply")
                 surface = body.skeleton(**options)
                 assert_same(surface.faces, faces)
-                assert_same(surface.vertices, vertices.tolist())
+                assert_same(surface.segments, segments)
+                assert_same(surface.vertices, np.column_stack([vertices[name] for name in "xyz"]))
+                self.assertEqual(len(segments) > 0, not options, "the ridge has curves")
 
     def test_the_jobs_own_operator_holds_unless_another_is_named(self):
         assert_same(sheared.skeleton().vertices, sheared.skeleton("chords").vertices)

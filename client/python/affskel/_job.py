@@ -19,6 +19,9 @@ from .v1 import client_service_pb2 as service
 from .v1 import types_pb2 as types
 
 
+PUBLISHED = 7  # the threshold of Zucker and Hummel's operator in Zografos (2003)
+
+
 def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> types.SkeletonParams:
     """None = the server's default operator, the operator's default threshold."""
     params = types.SkeletonParams()
@@ -138,28 +141,31 @@ class Job:
     def skeleton(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
                  alpha: Optional[float] = None, barrier: bool = False, min_barrier: Optional[float] = None,
                  timeout: Optional[float] = None) -> Surface:
-        """The skeleton as a triangulated surface.
+        """The skeleton as a triangulated surface, with the curves of "ridge".
 
         Args:
-            operator: "zucker-hummel", "sobel", "central", "intermediate", "flux" or "chords"; None = the job's.
+            operator: "ridge", "chords", "zucker-hummel", "sobel", "central", "intermediate" or "flux"; None = the
+                job's, but "ridge" for a job with the published skeleton (Zucker and Hummel's above 7), unless
+                `threshold` or `alpha` is given.
             threshold: in the operator's unit; None = the operator's default, without an operator the job's.
             alpha: squared radius of the alpha shape through the points, mesh units squared; None = by the spacing.
-                Not for "chords", whose sheet goes through the shocks itself.
+                Not for "ridge" and "chords", which give sheets themselves.
             barrier: for "chords" and "ridge", the attribute "barrier": by what share of E the chord grows on the way
                 from one side's direction to the other's; 0: the normals only turn fast, large: they jump.
             min_barrier: leave out triangles with a vertex of a lower barrier; implies `barrier`.
         """
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SURFACE)
         chosen = self._chosen(operator, threshold)
-        if chosen is None and (alpha is not None or barrier or min_barrier is not None):
+        if chosen is None:
             chosen = self._session.get_job(self.id).skeleton
-        if chosen is not None:
-            request.surface.skeleton.CopyFrom(chosen)
-            request.surface.alpha = alpha or 0.0
-            request.surface.barrier = barrier or min_barrier is not None
-            request.surface.min_barrier = min_barrier or 0.0
+            if alpha is None and chosen.operator == types.OPERATOR_ZUCKER_HUMMEL and chosen.threshold in (0, PUBLISHED):
+                chosen = skeleton_params("ridge", None)
+        request.surface.skeleton.CopyFrom(chosen)
+        request.surface.alpha = alpha or 0.0
+        request.surface.barrier = barrier or min_barrier is not None
+        request.surface.min_barrier = min_barrier or 0.0
         surface = surface_of(types.TriangleMesh.FromString(self._fetched(request, timeout)))
-        self._warn_if_empty("surface of the skeleton", len(surface), surface.quality.get("advice"))
+        self._warn_if_empty("surface of the skeleton", len(surface) + len(surface.segments), surface.quality.get("advice"))
         return surface
 
     def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
