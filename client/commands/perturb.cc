@@ -71,9 +71,10 @@ void run(Console& console, const Options& options) {
     throw error_from_core(error, options.file);
   }
   // What was true of the old places (E, normals) is not of the new ones.
+  // Nor have curves vertices of a mesh.
+  shape.segments.clear();
   tell_what_is_lost(console, shape, FileFormat::kOff, destination.name());
   shape.columns.clear();
-  shape.segments.clear();
 
   const std::string noise = "Gaussian noise of standard deviation " + base::to_text(sigma) +
                             " in every coordinate, seed " + std::to_string(options.seed);

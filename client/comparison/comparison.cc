@@ -41,19 +41,21 @@ void check_surface_size(const core::Mesh& mesh, const std::string& path) {
                     path);
 }
 
-// Points spread over the triangles, and along the curves at the same distances.
+// Points spread over the triangles, and along the curves at the same distances, as many again at most.
 // @return their distances.
 double spread_points(const ShapeFile& shape, std::uint64_t samples, std::vector<core::Vec3>& points) {
   const core::Mesh& mesh = shape.mesh();
-  double distance = core::curve_length(mesh.points, shape.segments) / static_cast<double>(samples);
+  const double length = core::curve_length(mesh.points, shape.segments);
+  double distance = length / static_cast<double>(samples);
   if (!mesh.triangles.empty()) {
     points = core::surface_samples(mesh, {samples});
     distance = std::sqrt(core::surface_area(mesh) / static_cast<double>(points.size()));
   }
-  if (!shape.segments.empty() && distance > 0) {
-    const std::vector<core::Vec3> more = core::curve_samples(mesh.points, shape.segments, distance);
-    points.insert(points.end(), more.begin(), more.end());
-  }
+  if (shape.segments.empty() || length == 0) return distance;
+  const double wanted = std::clamp(std::ceil(length / distance), 1.0, static_cast<double>(samples));
+  const std::vector<core::Vec3> more =
+      core::curve_samples(mesh.points, shape.segments, {static_cast<std::size_t>(wanted)});
+  points.insert(points.end(), more.begin(), more.end());
   return distance;
 }
 

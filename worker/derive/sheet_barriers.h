@@ -64,10 +64,11 @@ SheetBarriers take_barriers(const FinishedField& field, const v1::SurfaceParams&
   result.barrier = barriers_at(field, places);
   if (params.min_barrier() == 0 || sheet.vertices.empty()) return result;
   const std::vector<core::Triangle> all = sheet.triangles;
+  const std::vector<core::Segment> all_segments = segments;
   const std::vector<std::uint32_t> dropped =
       drop_below(params.min_barrier(), result.barrier, sheet.triangles, segments);
-  if (sheet.triangles.empty() && segments.empty() && !all.empty())
-    result.advice = core::low_barriers_advice(all, result.barrier, params.min_barrier());
+  if (sheet.triangles.empty() && segments.empty())
+    result.advice = core::low_barriers_advice(all, all_segments, result.barrier, params.min_barrier());
   erase_at(dropped, sheet.vertices);
   erase_at(dropped, result.barrier);
   result.cut = true;

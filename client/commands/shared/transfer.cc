@@ -193,11 +193,17 @@ Written transfer_surface(Context& context, const std::string& job, const v1::Sur
   const auto comments =
       comments_for(header.job(), "affine skeleton, triangulated", "operator",
                    surface_params_text(params, surface), sheet ? &fetched.quality : nullptr);
+  if (fetched.shape.mesh().triangles.empty() && !fetched.shape.segments.empty() && !holds_curves(format)) {
+    throw ClientError(ExitCode::kUsage,
+                      "the skeleton is of curves alone, for which " + std::string(extension_of(format)) +
+                          " has no place; .vtp, .ply and .obj have one",
+                      destination.name());
+  }
   write_into(out, [&](const WriteBytes& write) { write_surface(format, fetched.shape, comments, write); });
   out.commit();
   tell_lost_curves(context.console(), fetched.shape, format, destination.name());
   Written written{destination, "surface", "triangle", fetched.shape.mesh().triangles.size(), header.job()};
-  written.segments = fetched.shape.segments.size();
+  if (holds_curves(format)) written.segments = fetched.shape.segments.size();
   if (sheet) written.quality = fetched.quality;
   return written;
 }

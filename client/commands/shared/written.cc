@@ -46,7 +46,7 @@ nlohmann::ordered_json written_json(const Written& written) {
                                      {"artefact", written.kind},
                                      {"file", written.destination.file.string()},
                                      {written.unit + "s", written.items}};
-  if (written.segments > 0) document["segments"] = written.segments;
+  if (written.kind == "surface") document["segments"] = written.segments;
   if (written.volume) document["volume"] = *written.volume;
   if (written.quality) document["quality"] = to_json(*written.quality);
   return document;

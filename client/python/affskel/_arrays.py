@@ -205,7 +205,7 @@ class Surface:
         quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
         segments: (k, 2) indices of vertices: curves, which stand for the sheet of "ridge" where the solid is round;
-            the radius of the section is sqrt(area / pi).
+            sqrt(area / pi) is the radius of a circle as large as the section of the optimal plane.
     """
 
     vertices: Floats

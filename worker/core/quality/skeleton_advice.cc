@@ -146,6 +146,10 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
 
 std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
                                const RidgeRimOptions& rims) {
+  if (pieces.max_strength <= 0 && rims.low > RidgeRimOptions().low) {
+    return "nowhere is the sheet nearly as strong as the threshold " + base::rounded(rims.low, 3) +
+           "; the default is " + base::rounded(RidgeRimOptions().low, 3) + "." + on_few_points(lattice);
+  }
   if (pieces.max_strength <= 0) {
     return "nowhere do the normals turn fast across a sheet deep enough in the solid. Submit with a smaller "
            "spacing or more directions (--directions triangles+sphere:2000)." +
@@ -158,12 +162,15 @@ std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces
          " would keep one." + on_few_points(lattice);
 }
 
-std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const double> barrier,
-                                double least) {
+std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
+                                std::span<const double> barrier, double least) {
   double greatest = 0;
   for (const auto& [a, b, c] : triangles)
     greatest = std::max(greatest, std::min({barrier[a], barrier[b], barrier[c]}));
-  const std::string none = "no triangle of the sheet has a barrier of " + base::rounded(least, 3) + ": ";
+  for (const auto& [a, b] : segments) greatest = std::max(greatest, std::min(barrier[a], barrier[b]));
+  const std::string none = std::string("no ") +
+                           (triangles.empty() ? "segment of the curves" : "triangle of the sheet") +
+                           " has a barrier of " + base::rounded(least, 3) + ": ";
   if (greatest <= 0) return none + "the normals jump nowhere, they only turn fast.";
   return none + "the greatest is " + base::rounded(greatest, 3) + ". --min-barrier " +
          base::rounded(0.99 * greatest, 3) + " would keep one.";

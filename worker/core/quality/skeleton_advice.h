@@ -41,9 +41,10 @@ std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces
                                const RidgeRimOptions& rims);
 
 /// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
-/// triangle.
-/// @param triangles of the sheet before. @param barrier per vertex of these. @param least that was asked for.
-std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const double> barrier,
-                                double least);
+/// triangle or a segment.
+/// @param triangles, segments of the sheet before. @param barrier per vertex of these. @param least that was
+///   asked for.
+std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
+                                std::span<const double> barrier, double least);
 
 }  // namespace affskel::core

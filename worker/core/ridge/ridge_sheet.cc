@@ -79,7 +79,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   round.low_strength = options.rims.low;
   round.high_strength = options.rims.high;
   round.max_roundness = options.rims.max_roundness;
-  sheet.curves = put_curves(mesh, round_stretches(curves, round), options.round_sheet);
+  sheet.curves = put_curves(mesh, round_stretches(curves, round), inside, options.round_sheet);
   sheet.vertices = std::move(mesh.vertices);
   sheet.triangles = std::move(mesh.triangles);
   sheet.segments = std::move(mesh.segments);

@@ -15,6 +15,7 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+constexpr int kPlacesOfJoint = 16;  // parts of a joint, between which it is asked whether it is in the solid
 
 // The vertices of all stretches, numbered on.
 struct CurveVertex {
@@ -162,10 +163,27 @@ class Replacement {
         replaced_(stretches_.size(), 0),
         pieces_(mesh.vertices.size()) {}
 
-  std::uint32_t run() {
+  // What is removed, and where curves are joined; the mesh stays as it is.
+  void plan() {
     remove_triangles();
     find_joints();
     drop_leftovers();
+  }
+
+  // Per stretch: whether it has a joint that leaves the solid.
+  std::vector<char> leaving(const std::function<bool(const Vec3&)>& inside) const {
+    std::vector<char> result(stretches_.size(), 0);
+    for (const Joint& joint : joints_) {
+      const Vec3 &from = mesh_.vertices[joint.sheet].position, &to = curve_[joint.curve].position;
+      for (int k = 1; k < kPlacesOfJoint; ++k) {
+        const Vec3 place = from + (static_cast<double>(k) / kPlacesOfJoint) * (to - from);
+        if (!inside(place)) result[curve_[joint.curve].stretch] = 1;
+      }
+    }
+    return result;
+  }
+
+  std::uint32_t carry_out() {
     std::uint32_t count = 0;
     for (std::uint32_t s = 0, first = 0; s < stretches_.size(); ++s) {
       if (replaced_[s]) {
@@ -300,11 +318,21 @@ class Replacement {
 }  // namespace
 
 std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
-                         const RoundSheetOptions& options) {
+                         const std::function<bool(const Vec3&)>& inside, const RoundSheetOptions& options) {
   require_within(options.reach, 1e-3, 1e3, "the reach of a curve must lie between 0.001 and 1000 radii");
   require_within(options.min_length, 0, 1e6,
                  "the least length of a stretch must lie between 0 and 1e6 radii");
-  return Replacement(mesh, narrow_only(mesh, stretches, options), options.reach).run();
+  std::vector<RidgeCurve> wanted = narrow_only(mesh, stretches, options);
+  for (;;) {
+    Replacement replacement(mesh, wanted, options.reach);
+    replacement.plan();
+    const std::vector<char> leaving = replacement.leaving(inside);
+    if (std::find(leaving.begin(), leaving.end(), 1) == leaving.end()) return replacement.carry_out();
+    std::vector<RidgeCurve> staying;
+    for (std::size_t s = 0; s < wanted.size(); ++s)
+      if (!leaving[s]) staying.push_back(std::move(wanted[s]));
+    wanted = std::move(staying);
+  }
 }
 
 }  // namespace affskel::core

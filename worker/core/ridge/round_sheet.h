@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "core/ridge/ridge_curves.h"
@@ -27,11 +28,14 @@ struct RoundSheetOptions {
 ///    those there were.
 /// 4. Pieces of what is left that lie within the reach of one stretch, and are joined to one place of it or
 ///    none, are removed.
-/// Stretches that no triangle belongs to are left out.  A function of mesh and stretches alone.
+/// Stretches that no triangle belongs to are left out, and those with a joint that leaves the solid: there
+/// the sheet stays.  A function of mesh, stretches and solid alone.
 /// @param mesh without segments; cut (see cut_rims()).
+/// @param inside whether a place, frame coordinates, lies in the solid.
 /// @return how many stretches were put in.
 /// @throws CoreError kBadInput when an option is out of range.
 std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+                         const std::function<bool(const Vec3&)>& inside,
                          const RoundSheetOptions& options = {});
 
 }  // namespace affskel::core

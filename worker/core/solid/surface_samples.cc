@@ -38,14 +38,25 @@ double curve_length(std::span<const Vec3> points, std::span<const Segment> segme
 }
 
 std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Segment> segments,
-                                double distance) {
+                                const SurfaceSamplesOptions& options) {
+  const double total = curve_length(points, segments);
+  if (!(total > 0) || !std::isfinite(total)) {
+    throw CoreError(CoreError::Code::kBadInput, "the curves have no length to take points from");
+  }
+  const double per_length = static_cast<double>(options.count) / total;
   std::vector<Vec3> samples;
+  samples.reserve(options.count);
+  double swept = 0;
   for (const auto& [a, b] : segments) {
     const Vec3 along = points[b] - points[a];
-    const double parts = std::max(1.0, std::ceil(norm(along) / distance));
-    if (!(static_cast<double>(samples.size()) + parts < 0x1p31))
-      throw CoreError(CoreError::Code::kLimit, "the curves are too long for so small a distance");
-    for (double i = 0; i < parts; ++i) samples.push_back(points[a] + ((i + 0.5) / parts) * along);
+    const double length = norm(along), begin = swept;
+    swept += length;
+    // Sample i lies where i and a half of the shares are swept.
+    while (samples.size() < options.count) {
+      const double place = (static_cast<double>(samples.size()) + 0.5) / per_length;
+      if (place > swept) break;
+      samples.push_back(points[a] + std::min(1.0, (place - begin) / length) * along);
+    }
   }
   return samples;
 }

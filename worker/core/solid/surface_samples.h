@@ -18,11 +18,11 @@ struct SurfaceSamplesOptions {
 /// @throws CoreError kBadInput when no triangle has an area.
 std::vector<Vec3> surface_samples(const Mesh& mesh, const SurfaceSamplesOptions& options = {});
 
-/// Points spread evenly over curves, at most `distance` apart along each segment: the middles of its equal
-/// parts.  @param distance > 0, finite.
-/// @throws CoreError kLimit for 2^31 points and more.
+/// Points spread evenly over curves: every segment gets its share of the length, to one point.
+/// @param options as for surfaces.
+/// @throws CoreError kBadInput when no segment has a length.
 std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Segment> segments,
-                                double distance);
+                                const SurfaceSamplesOptions& options);
 
 /// Length of all segments, mesh units.
 double curve_length(std::span<const Vec3> points, std::span<const Segment> segments);

@@ -243,8 +243,19 @@ TEST_F(ClientTest, CurvesAreToldAndMissedWhereTheyHaveNoPlace) {
   EXPECT_DOUBLE_EQ(shape.column("radius")->values[3], 10);
   const Outcome stl = run({"surface", "@last", "-o", dir_ / "p.stl"});
   EXPECT_NE(stl.err.find("without the curves (1 segment)"), std::string::npos) << stl.err;
+  EXPECT_EQ(stl.err.find("segment of curves"), std::string::npos) << stl.err;
+  EXPECT_EQ(run({"perturb", dir_ / "p.vtp", "--noise", "1%", "-o", dir_ / "n.vtp"}).err.find("no place"),
+            std::string::npos);
   EXPECT_EQ(run({"render", "@last", "-o", dir_ / "p.png"}).exit_code, 0);
   EXPECT_EQ(run({"compare", dir_ / "p.vtp", dir_ / "p.stl", "--json"}).exit_code, 0);
+  v1::TriangleMesh alone = sheet;
+  alone.clear_corners();
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = alone.SerializeAsString();
+  const Outcome lost = run({"surface", "@last", "-o", dir_ / "alone.stl"});
+  EXPECT_EQ(lost.exit_code, 2);
+  EXPECT_NE(lost.err.find("of curves alone"), std::string::npos) << lost.err;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "alone.stl"));
+  EXPECT_EQ(run({"surface", "@last", "-o", dir_ / "alone.obj"}).exit_code, 0);
   sheet.add_segments(4);
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   EXPECT_EQ(run({"surface", "@last", "-o", dir_ / "p.vtp"}).exit_code, 70) << "half a segment";

@@ -113,10 +113,12 @@ TEST(EmptyRidgeAdvice, NamesAThresholdThatKeepsAPiece) {
 TEST(LowBarriersAdvice, NamesOneThatKeepsATriangle) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 2, 3}};
   const std::vector<double> barrier = {0.01, 0.5, 0.04, 0.02};
-  const std::string advice = low_barriers_advice(triangles, barrier, 0.1);
+  const std::string advice = low_barriers_advice(triangles, {}, barrier, 0.1);
   EXPECT_NE(advice.find("the greatest is 0.02. --min-barrier 0.0198"), std::string::npos) << advice;
-  EXPECT_NE(low_barriers_advice(triangles, std::vector<double>(4, 0.0), 0.1).find("only turn fast"),
+  EXPECT_NE(low_barriers_advice(triangles, {}, std::vector<double>(4, 0.0), 0.1).find("only turn fast"),
             std::string::npos);
+  const std::string curves = low_barriers_advice({}, std::vector<Segment>{{0, 1}, {1, 2}}, barrier, 0.1);
+  EXPECT_TRUE(says(curves, "no segment of the curves")) << curves;
 }
 
 }  // namespace

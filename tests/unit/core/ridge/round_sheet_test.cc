@@ -38,6 +38,10 @@ RidgeCurve line(double low, double high, double radius) {
   return curve;
 }
 
+bool everywhere(const Vec3&) {
+  return true;
+}
+
 // A body, x < 10, a limb of width 4 and a hand, x > 22.
 bool limb_and_hand(double x, double y) {
   return x < 10 || x > 22 || (y > 13 && y < 17);
@@ -51,7 +55,7 @@ bool joined_to_sheet(const RidgeMesh& mesh, std::uint32_t vertex) {
 TEST(RoundSheet, BetweenTwoSheetsBecomesACurveThatJoinsThem) {
   RidgeMesh mesh = part_of_square(30, limb_and_hand);
   ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
-  EXPECT_EQ(put_curves(mesh, std::vector{line(11, 21, 3)}), 1U);
+  EXPECT_EQ(put_curves(mesh, std::vector{line(11, 21, 3)}, everywhere), 1U);
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   std::size_t ends = 0;
   for (const auto& segment : mesh.segments)
@@ -64,6 +68,23 @@ TEST(RoundSheet, BetweenTwoSheetsBecomesACurveThatJoinsThem) {
   }
 }
 
+TEST(RoundSheet, StaysWhereAJointWouldLeaveTheSolid) {
+  // A ditch between the curve and the body, which the strip goes round.
+  const auto inside = [](const Vec3& at) { return at.x < 10.2 || at.x > 10.8 || at.y > 15.6 || at.y < 14.6; };
+  RidgeMesh mesh = part_of_square(30, limb_and_hand);
+  const RidgeMesh before = mesh;
+  const std::vector curves = {line(11, 21, 3)};
+  EXPECT_EQ(put_curves(mesh, curves, inside), 0U);
+  EXPECT_EQ(mesh.triangles, before.triangles);
+  EXPECT_TRUE(mesh.segments.empty());
+  // Another limb's curve is put in all the same.
+  RidgeMesh two = part_of_square(30, [](double x, double y) { return limb_and_hand(x, y) || y < 4; });
+  RidgeCurve other = line(11, 21, 3);
+  for (RidgeVertex& v : other.vertices) v.position.y = 2;
+  EXPECT_EQ(put_curves(two, std::vector{curves[0], other}, inside), 1U);
+  EXPECT_EQ(topology(two).betti, (BettiNumbers{1, 1, 0}));
+}
+
 TEST(RoundSheet, LosesTheTunnelsOfAStrip) {
   // Slits in the limb, and a bridge over it.
   RidgeMesh mesh = part_of_square(30, [](double x, double y) {
@@ -71,7 +92,7 @@ TEST(RoundSheet, LosesTheTunnelsOfAStrip) {
            !(x > 17 && x < 18 && y > 14 && y < 15);
   });
   ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 2, 0}));
-  put_curves(mesh, std::vector{line(11, 21, 3)});
+  put_curves(mesh, std::vector{line(11, 21, 3)}, everywhere);
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
 }
 
@@ -81,7 +102,7 @@ TEST(RoundSheet, KeepsTheTunnelOfALoop) {
   ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
   for (const double radius : {3.0, 9.0}) {  // also where the limb is no longer than its radius
     RidgeMesh copy = mesh;
-    EXPECT_EQ(put_curves(copy, std::vector{line(11, 21, radius)}), 1U);
+    EXPECT_EQ(put_curves(copy, std::vector{line(11, 21, radius)}, everywhere), 1U);
     EXPECT_EQ(topology(copy).betti, (BettiNumbers{1, 1, 0}));
   }
 }
@@ -89,7 +110,7 @@ TEST(RoundSheet, KeepsTheTunnelOfALoop) {
 TEST(RoundSheet, AloneBecomesTheCurveAlone) {
   RidgeMesh mesh = part_of_square(30, [](double x, double y) { return x > 4 && x < 26 && y > 14 && y < 16; });
   // Its ends reach beyond the curve's by less than a radius.
-  put_curves(mesh, std::vector{line(6, 24, 3)});
+  put_curves(mesh, std::vector{line(6, 24, 3)}, everywhere);
   EXPECT_TRUE(mesh.triangles.empty());
   EXPECT_EQ(mesh.vertices.size(), 19U);
   EXPECT_EQ(mesh.segments.size(), 18U);
@@ -124,7 +145,7 @@ RidgeCurve ring_curve() {
 TEST(RoundSheet, OfARingIsAClosedCurve) {
   RidgeMesh mesh = ring();
   ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
-  put_curves(mesh, std::vector{ring_curve()});
+  put_curves(mesh, std::vector{ring_curve()}, everywhere);
   EXPECT_TRUE(mesh.triangles.empty());
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
   EXPECT_EQ(mesh.segments.size(), 64U);
@@ -138,7 +159,7 @@ TEST(RoundSheet, StaysWhereItClosesTheGapOfACurve) {
   std::rotate(open.vertices.begin(), open.vertices.begin() + 8, open.vertices.end());
   open.vertices.resize(61);
   open.radius.resize(61);
-  put_curves(mesh, std::vector{open});
+  put_curves(mesh, std::vector{open}, everywhere);
   EXPECT_FALSE(mesh.triangles.empty());
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
 }
@@ -146,16 +167,16 @@ TEST(RoundSheet, StaysWhereItClosesTheGapOfACurve) {
 TEST(RoundSheet, StaysWhereItIsWideOrOfAnotherPart) {
   const RidgeMesh whole = square(30, [](double, double) { return 10; });
   RidgeMesh mesh = whole;
-  EXPECT_EQ(put_curves(mesh, std::vector{line(5, 25, 3)}), 0U);
+  EXPECT_EQ(put_curves(mesh, std::vector{line(5, 25, 3)}, everywhere), 0U);
   EXPECT_EQ(mesh.triangles, whole.triangles);
   EXPECT_TRUE(mesh.segments.empty());
   RidgeMesh limb = part_of_square(30, limb_and_hand);
   RidgeCurve other = line(11, 21, 3);
   other.part = 1;
-  EXPECT_EQ(put_curves(limb, std::vector{other}), 0U);
+  EXPECT_EQ(put_curves(limb, std::vector{other}, everywhere), 0U);
   // A stretch shorter than its radius is none.
-  EXPECT_EQ(put_curves(limb, std::vector{line(14, 16, 3)}), 0U);
-  EXPECT_THROW(put_curves(limb, {}, {.reach = 0}), CoreError);
+  EXPECT_EQ(put_curves(limb, std::vector{line(14, 16, 3)}, everywhere), 0U);
+  EXPECT_THROW(put_curves(limb, {}, everywhere, {.reach = 0}), CoreError);
 }
 
 }  // namespace

@@ -50,5 +50,21 @@ TEST(SurfaceSamplesTest, ASurfaceWithoutAreaIsRefused) {
   EXPECT_THROW(surface_samples({{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}}), CoreError);
 }
 
+TEST(CurveSamplesTest, EverySegmentGetsItsShareHoweverManyThereAre) {
+  const std::vector<Vec3> points = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {9, 9, 9}};
+  const std::vector<Segment> segments = {{0, 1}, {2, 1}};
+  EXPECT_EQ(curve_length(points, segments), 4);
+  const std::vector<Vec3> samples = curve_samples(points, segments, {8});
+  ASSERT_EQ(samples.size(), 8u);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(norm(samples[i] - Vec3{0.25 + 0.5 * double(i), 0, 0}), 0, 1e-12);
+  EXPECT_NEAR(norm(samples[6] - Vec3{3, 0.75, 0}), 0, 1e-12);
+  EXPECT_NEAR(norm(samples[7] - Vec3{3, 0.25, 0}), 0, 1e-12);
+  // A segment that is there a thousand times takes no more points.
+  const std::vector<Segment> many(1000, {0, 1});
+  EXPECT_EQ(curve_samples(points, many, {10}).size(), 10u);
+  EXPECT_THROW(curve_samples(points, std::vector<Segment>{{1, 1}}, {10}), CoreError);
+}
+
 }  // namespace
 }  // namespace affskel::core
