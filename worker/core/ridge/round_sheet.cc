@@ -164,23 +164,12 @@ class Replacement {
         pieces_(mesh.vertices.size()) {}
 
   // What is removed, and where curves are joined; the mesh stays as it is.
-  void plan() {
+  // @return per stretch: whether it has a place that only joints outside the solid could join.
+  std::vector<char> plan(const std::function<bool(const Vec3&)>& inside) {
     remove_triangles();
-    find_joints();
+    std::vector<char> cut_off = find_joints(inside);
     drop_leftovers();
-  }
-
-  // Per stretch: whether it has a joint that leaves the solid.
-  std::vector<char> leaving(const std::function<bool(const Vec3&)>& inside) const {
-    std::vector<char> result(stretches_.size(), 0);
-    for (const Joint& joint : joints_) {
-      const Vec3 &from = mesh_.vertices[joint.sheet].position, &to = curve_[joint.curve].position;
-      for (int k = 1; k < kPlacesOfJoint; ++k) {
-        const Vec3 place = from + (static_cast<double>(k) / kPlacesOfJoint) * (to - from);
-        if (!inside(place)) result[curve_[joint.curve].stretch] = 1;
-      }
-    }
-    return result;
+    return cut_off;
   }
 
   std::uint32_t carry_out() {
@@ -248,20 +237,37 @@ class Replacement {
     std::erase_if(joints_, [&](const Joint& joint) { return dropped(joint.sheet); });
   }
 
-  void find_joints() {
+  bool stays_inside(const Joint& joint, const std::function<bool(const Vec3&)>& inside) const {
+    const Vec3 &from = mesh_.vertices[joint.sheet].position, &to = curve_[joint.curve].position;
+    for (int k = 1; k < kPlacesOfJoint; ++k) {
+      if (!inside(from + (static_cast<double>(k) / kPlacesOfJoint) * (to - from))) return false;
+    }
+    return true;
+  }
+
+  std::vector<char> find_joints(const std::function<bool(const Vec3&)>& inside) {
     std::vector<char> used(mesh_.vertices.size(), 0);
     for (const Triangle& t : kept_)
       for (const std::uint32_t corner : t) used[corner] = 1;
-    std::vector<Joint> candidates;
+    std::vector<Joint> candidates, outside;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       if (!used[v] || !border_[v]) continue;
       const std::uint32_t foot = feet_[v].vertex;
       candidates.push_back({norm(mesh_.vertices[v].position - curve_[foot].position), v, foot});
     }
     std::sort(candidates.begin(), candidates.end());
-    for (const Joint& joint : candidates)
-      if (std::none_of(joints_.begin(), joints_.end(), [&](const Joint& j) { return same_place(j, joint); }))
-        joints_.push_back(joint);
+    const auto is_joined = [&](const Joint& place) {
+      return std::any_of(joints_.begin(), joints_.end(),
+                         [&](const Joint& j) { return same_place(j, place); });
+    };
+    for (const Joint& joint : candidates) {
+      if (!is_joined(joint)) (stays_inside(joint, inside) ? joints_ : outside).push_back(joint);
+    }
+    std::vector<char> cut_off(stretches_.size(), 0);
+    for (const Joint& joint : outside) {
+      if (!is_joined(joint)) cut_off[curve_[joint.curve].stretch] = 1;
+    }
+    return cut_off;
   }
 
   // Whether two joints join the same stretch and piece at about the same place.
@@ -325,12 +331,11 @@ std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
   std::vector<RidgeCurve> wanted = narrow_only(mesh, stretches, options);
   for (;;) {
     Replacement replacement(mesh, wanted, options.reach);
-    replacement.plan();
-    const std::vector<char> leaving = replacement.leaving(inside);
-    if (std::find(leaving.begin(), leaving.end(), 1) == leaving.end()) return replacement.carry_out();
+    const std::vector<char> cut_off = replacement.plan(inside);
+    if (std::find(cut_off.begin(), cut_off.end(), 1) == cut_off.end()) return replacement.carry_out();
     std::vector<RidgeCurve> staying;
     for (std::size_t s = 0; s < wanted.size(); ++s)
-      if (!leaving[s]) staying.push_back(std::move(wanted[s]));
+      if (!cut_off[s]) staying.push_back(std::move(wanted[s]));
     wanted = std::move(staying);
   }
 }

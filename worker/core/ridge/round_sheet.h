@@ -28,8 +28,9 @@ struct RoundSheetOptions {
 ///    those there were.
 /// 4. Pieces of what is left that lie within the reach of one stretch, and are joined to one place of it or
 ///    none, are removed.
-/// Stretches that no triangle belongs to are left out, and those with a joint that leaves the solid: there
-/// the sheet stays.  A function of mesh, stretches and solid alone.
+/// Joints stay in the solid.  Stretches that no triangle belongs to are left out, and those that could be
+/// joined at some place from outside alone: there the sheet stays.  A function of mesh, stretches and solid
+/// alone.
 /// @param mesh without segments; cut (see cut_rims()).
 /// @param inside whether a place, frame coordinates, lies in the solid.
 /// @return how many stretches were put in.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -68,20 +70,35 @@ TEST(RoundSheet, BetweenTwoSheetsBecomesACurveThatJoinsThem) {
   }
 }
 
-TEST(RoundSheet, StaysWhereAJointWouldLeaveTheSolid) {
-  // A ditch between the curve and the body, which the strip goes round.
-  const auto inside = [](const Vec3& at) { return at.x < 10.2 || at.x > 10.8 || at.y > 15.6 || at.y < 14.6; };
+// Between the sheet, z = 0, and the curve, z = 0.2, where `wall` holds, the solid is left.
+std::function<bool(const Vec3&)> parted(std::function<bool(const Vec3&)> wall) {
+  return [wall = std::move(wall)](const Vec3& at) { return at.z < 0.05 || at.z > 0.15 || !wall(at); };
+}
+
+TEST(RoundSheet, IsJoinedInsideTheSolid) {
+  // The nearest vertex is behind a wall, others beside it are not.
+  const auto inside = parted([](const Vec3& at) { return at.x < 13 && std::abs(at.y - 15) < 0.2; });
+  RidgeMesh mesh = part_of_square(30, limb_and_hand);
+  EXPECT_EQ(put_curves(mesh, std::vector{line(11, 21, 3)}, inside), 1U);
+  EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
+  for (const auto& [a, b] : mesh.segments) {
+    const Vec3 &from = mesh.vertices[a].position, &to = mesh.vertices[b].position;
+    for (int k = 0; k <= 100; ++k) EXPECT_TRUE(inside(from + 0.01 * k * (to - from)));
+  }
+}
+
+TEST(RoundSheet, StaysWhereEveryJointWouldLeaveTheSolid) {
+  const auto inside = parted([](const Vec3& at) { return at.x < 15 && at.y > 10; });
   RidgeMesh mesh = part_of_square(30, limb_and_hand);
   const RidgeMesh before = mesh;
-  const std::vector curves = {line(11, 21, 3)};
-  EXPECT_EQ(put_curves(mesh, curves, inside), 0U);
+  EXPECT_EQ(put_curves(mesh, std::vector{line(11, 21, 3)}, inside), 0U);
   EXPECT_EQ(mesh.triangles, before.triangles);
   EXPECT_TRUE(mesh.segments.empty());
   // Another limb's curve is put in all the same.
   RidgeMesh two = part_of_square(30, [](double x, double y) { return limb_and_hand(x, y) || y < 4; });
   RidgeCurve other = line(11, 21, 3);
   for (RidgeVertex& v : other.vertices) v.position.y = 2;
-  EXPECT_EQ(put_curves(two, std::vector{curves[0], other}, inside), 1U);
+  EXPECT_EQ(put_curves(two, std::vector{line(11, 21, 3), other}, inside), 1U);
   EXPECT_EQ(topology(two).betti, (BettiNumbers{1, 1, 0}));
 }
 
