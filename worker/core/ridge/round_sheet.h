@@ -13,7 +13,7 @@ struct RoundSheetOptions {
   /// How far from a curve its sheet reaches, in the radius of the section, > 0.  What reaches farther is wide
   /// by right.
   double reach = 1;
-  double min_length = 1;  ///< of a stretch, in its mean radius, >= 0
+  double min_length = 0.8;  ///< of a stretch, in its mean radius, >= 0
 };
 
 /// Puts curves in the place of what is found of the sheet where the solid is round: narrow strips and half

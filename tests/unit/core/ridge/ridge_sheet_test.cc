@@ -161,6 +161,13 @@ TEST(RidgeSheet, OfARoundCylinderIsItsAxis) {
   expect_axis(elliptic, ridge_sheet(elliptic.solid, elliptic.lattice, elliptic.field), 0.5 * h, 1, 5);
 }
 
+TEST(RidgeSheet, OfAShortRoundCylinderIsItsAxis) {
+  const double h = 0.1;
+  const ErodedSolid cylinder(make_cylinder(1, 3, 32), axes(h), "triangles+sphere:1280");
+  const RidgeSheet axis = ridge_sheet(cylinder.solid, cylinder.lattice, cylinder.field);
+  expect_axis(cylinder, axis, 0.5 * h, 1.2, 1.8);
+}
+
 TEST(RidgeSheet, OfAConeIsItsAxis) {
   const double h = 0.1;
   const ErodedSolid cone(make_cone(1, 6, 32), axes(h), "triangles+sphere:320");
