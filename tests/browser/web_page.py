@@ -136,10 +136,11 @@ class Visitor:
             .map((e) => e.outerHTML)""")
 
     def downloaded(self, name):
-        """The bytes of a file once it is there."""
+        """The bytes of a file, which are not none, once it is there."""
         path = os.path.join(self.downloads, name)
         try:
-            self.wait(lambda: os.path.isfile(path))
+            # Chromium reserves the name by an empty file, and renames what it has received.
+            self.wait(lambda: os.path.isfile(path) and os.path.getsize(path) > 0)
         except TimeoutException as ended:
             raise AssertionError(f"{name}: there are {os.listdir(self.downloads)}, the page says:\n"
                                  + self.text()) from ended
