@@ -6,37 +6,53 @@
 #include "core/ridge/ridge_sheet.h"
 
 namespace affskel::experiments {
+namespace {
+
+// A job's field as the operators take it, and the way from the lattice's frame to the mesh.
+struct InFrame {
+  core::FrameField field;
+  core::Vec3 origin;
+  core::Matrix3 frame;
+
+  explicit InFrame(const Job& job)
+      : field(core::frame_field(job.lattice, job.directions, job.values)),
+        origin(core::SamplePlaces(job.solid, job.lattice).origin()),
+        frame(core::frame_matrix(job.lattice)) {}
+
+  core::Vec3 to_mesh(const core::Vec3& place) const { return origin + frame * place; }
+};
+
+// @param points each with its sample point, frame coordinates and E.
+template <class Points>
+Cloud cloud_of(const Points& points, const InFrame& in_frame) {
+  Cloud cloud;
+  for (const auto& point : points) {
+    cloud.rank.push_back(point.point);
+    cloud.place.push_back(in_frame.to_mesh(point.position));
+    cloud.erosion.push_back(point.erosion);
+  }
+  return cloud;
+}
+
+}  // namespace
 
 Sheet chord_sheet_of(const Job& job) {
-  const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
-  const core::ChordSheet found = core::chord_sheet(job.solid, job.lattice, field);
-  const core::SamplePlaces places(job.solid, job.lattice);
-  const core::Matrix3 frame = core::frame_matrix(job.lattice);
+  const InFrame in_frame(job);
+  const core::ChordSheet found = core::chord_sheet(job.solid, job.lattice, in_frame.field);
   Sheet sheet;
-  for (const core::ChordShock& shock : found.shocks) {
-    sheet.points.rank.push_back(shock.point);
-    sheet.points.place.push_back(places.origin() + frame * shock.position);
-    sheet.points.erosion.push_back(shock.erosion);
-  }
-  for (const core::ChordSheetVertex& vertex : found.vertices) {
-    sheet.mesh.points.push_back(places.origin() + frame * vertex.position);
-  }
+  sheet.points = cloud_of(found.shocks, in_frame);
+  for (const core::ChordSheetVertex& vertex : found.vertices)
+    sheet.mesh.points.push_back(in_frame.to_mesh(vertex.position));
   sheet.mesh.triangles = found.triangles;
   sheet.betti = core::sheet_topology(sheet.mesh).betti;
   return sheet;
 }
 
 Sheet ridge_sheet_of(const Job& job) {
-  const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
-  const core::RidgeSheet found = core::ridge_sheet(job.solid, job.lattice, field);
-  const core::SamplePlaces places(job.solid, job.lattice);
-  const core::Matrix3 frame = core::frame_matrix(job.lattice);
+  const InFrame in_frame(job);
+  const core::RidgeSheet found = core::ridge_sheet(job.solid, job.lattice, in_frame.field);
   Sheet sheet;
-  for (const core::RidgeVertex& vertex : found.vertices) {
-    sheet.points.rank.push_back(vertex.point);
-    sheet.points.place.push_back(places.origin() + frame * vertex.position);
-    sheet.points.erosion.push_back(vertex.erosion);
-  }
+  sheet.points = cloud_of(found.vertices, in_frame);
   sheet.mesh = {sheet.points.place, found.triangles};
   sheet.segments = found.segments;
   sheet.betti = core::sheet_topology(sheet.mesh, sheet.segments).betti;
