@@ -19,7 +19,7 @@ export class Downloads {
     this.operator = h(
       'select',
       { id: 'download-operator' },
-      h('option', { value: '' }, 'that of the job'),
+      h('option', { value: '' }, 'the usual: the job’s; surfaces by the ridge'),
       session.operators.map((word) => h('option', { value: word }, named(OPERATORS, word))),
     );
     this.threshold = h('input', { id: 'download-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });

@@ -23,6 +23,7 @@ export const OPERATORS = {
   sobel: 'Sobel',
   flux: 'average outward flux',
   chords: 'equal chords, joined into a sheet',
+  ridge: 'the ridge of E: sheets, and curves where the solid is round',
 };
 
 export const FRAMES = {
@@ -36,7 +37,7 @@ export const ARTEFACTS = {
   field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
   divergence: ['Divergence', 'H, which the threshold is applied to'],
   skeleton: ['Skeleton', 'its points'],
-  surface: ['Surface', 'the skeleton as triangles'],
+  surface: ['Surface', 'the skeleton as triangles; its curves in .ply, .obj and .vtp alone'],
   eroded: ['Eroded solid', 'where E is at least a share of the volume'],
   mesh: ['Mesh', 'the file as it was submitted'],
 };
