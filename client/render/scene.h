@@ -15,9 +15,10 @@ struct RenderOptions {
 
 /// What is on the picture.
 struct RenderInput {
-  core::Mesh mesh;                 ///< the body, drawn translucent
-  v1::SkeletonPoints skeleton;     ///< drawn as balls, stretched like the cells, coloured by E; may be empty
-  v1::TriangleMesh sheet;          ///< of `chords` or `ridge`, drawn as a surface, with curves, coloured by E; may be empty
+  core::Mesh mesh;              ///< the body, drawn translucent
+  v1::SkeletonPoints skeleton;  ///< drawn as balls, stretched like the cells, coloured by E; may be empty
+  v1::TriangleMesh
+      sheet;  ///< of `chords` or `ridge`, drawn as a surface, with curves, coloured by E; may be empty
   std::array<core::Vec3, 3> cell;  ///< steps of the lattice, mesh units; give the balls' size and shape
   double volume = 0;               ///< v0, mesh units cubed; E is labelled as a share of it
   std::string title;               ///< one line above the panels

@@ -19,7 +19,7 @@ struct ViewInput {
   ViewSelection selection;         ///< how they were chosen
   std::vector<ViewPoint> points;   ///< by descending |H|
   bool sheet_is_skeleton = false;  ///< operator `chords` or `ridge`: there is no |H|
-  v1::TriangleMesh sheet;          ///< then: with E and strength; triangles, and segments of curves, possibly none
+  v1::TriangleMesh sheet;  ///< then: with E and strength; triangles, and segments of curves, possibly none
 };
 
 /// The axis that points up on a page: z, as in this project's pictures, unless the box is much longer along

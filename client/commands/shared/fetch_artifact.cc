@@ -47,8 +47,7 @@ bool is_sheet(const v1::TriangleMesh& mesh) {
   const int vertices = mesh.xyz_size() / 3;
   const auto in_range = [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); };
   return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices &&
-         mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 &&
-         mesh.segments_size() % 2 == 0 &&
+         mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 && mesh.segments_size() % 2 == 0 &&
          std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range) &&
          std::all_of(mesh.segments().begin(), mesh.segments().end(), in_range);
 }

@@ -53,10 +53,11 @@ nlohmann::ordered_json written_json(const Written& written) {
 }
 
 void tell_written(Console& console, const Written& written) {
-  console.note("wrote " + written.destination.name() + " (" + written.kind + ", " +
-               base::counted(written.items, written.unit) +
-               (written.segments > 0 ? ", " + base::counted(written.segments, "segment") + " of curves" : "") +
-               volume_text(written) + ")");
+  console.note(
+      "wrote " + written.destination.name() + " (" + written.kind + ", " +
+      base::counted(written.items, written.unit) +
+      (written.segments > 0 ? ", " + base::counted(written.segments, "segment") + " of curves" : "") +
+      volume_text(written) + ")");
 }
 
 }  // namespace affskel::client
