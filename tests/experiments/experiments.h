@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/mesh/mesh.h"
 #include "report.h"
@@ -14,6 +16,9 @@ class Setting {
  public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
+  /// Of the experiment on steadiness: noises of each level, and mesh files in the place of bodies of our own.
+  unsigned seeds = 2;
+  std::vector<std::string> meshes;
 
   static constexpr double kBodyHeight =
       18000;  ///< gives skeletons of the published order of size at dT = 200
@@ -49,6 +54,8 @@ void affine_experiment(const Setting& setting, Report& report);
 void plane_experiment(const Setting& setting, Report& report);
 /// Not published: which of a sheet's places are jumps of the normals, and which only fast turns.
 void barrier_experiment(const Setting& setting, Report& report);
+/// Not published: the ridge under noise, by several seeds.
+void steadiness_experiment(const Setting& setting, Report& report);
 /// 6.5.2: time against the number of triangles.
 void growth_experiment(const Setting& setting, Report& report);
 

@@ -78,7 +78,7 @@ Image draw(const Exhibit& exhibit, const View& view, const Extent& extent, doubl
     const double t = highest > 0 ? std::cbrt(exhibit.erosion[p] / highest) : 0;
     panel.draw_ball({exhibit.points[p], client::viridis(static_cast<float>(t))}, radius);
   }
-  panel.draw_facets(exhibit.surface, kSurface);
+  panel.draw_sheet(exhibit.surface, std::vector<Rgb>(exhibit.surface.points.size(), kSurface));
   panel.draw_curves(exhibit.surface.points, exhibit.segments,
                     std::vector<Rgb>(exhibit.surface.points.size(), kSurface), kCurve);
   panel.draw_surface(exhibit.solid, client::corner_normals(exhibit.solid));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -21,9 +22,11 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
-    {"torus", torus_experiment},   {"ellipsoid", ellipsoid_experiment}, {"revolution", revolution_experiment},
-    {"bodies", body_experiment},   {"threshold", threshold_experiment}, {"noise", noise_experiment},
-    {"affine", affine_experiment}, {"planes", plane_experiment},        {"barrier", barrier_experiment},
+    {"torus", torus_experiment},           {"ellipsoid", ellipsoid_experiment},
+    {"revolution", revolution_experiment}, {"bodies", body_experiment},
+    {"threshold", threshold_experiment},   {"noise", noise_experiment},
+    {"affine", affine_experiment},         {"planes", plane_experiment},
+    {"barrier", barrier_experiment},       {"steadiness", steadiness_experiment},
     {"growth", growth_experiment},
 };
 
@@ -76,11 +79,14 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", setting.quick, "small sizes, in seconds");
   app.add_option("--out", directory, "the directory to write to")->capture_default_str();
   app.add_option("--threads", setting.threads, "threads for the erosion")->check(CLI::Range(1U, 1024U));
-  app.add_option("--only", only,
-                 "one experiment alone: torus, ellipsoid, revolution, bodies, threshold, noise, affine, "
-                 "planes, barrier or growth")
-      ->check(CLI::IsMember({"torus", "ellipsoid", "revolution", "bodies", "threshold", "noise", "affine",
-                             "planes", "barrier", "growth"}));
+  std::set<std::string> names;
+  for (const Experiment& experiment : kExperiments) names.insert(experiment.name);
+  app.add_option("--only", only, "one experiment alone")->check(CLI::IsMember(names));
+  app.add_option("--seeds", setting.seeds, "of steadiness: noises of each level")
+      ->check(CLI::Range(1U, 1000U))
+      ->capture_default_str();
+  app.add_option("--mesh", setting.meshes, "of steadiness: files in the place of bodies of our own")
+      ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
   try {
     return run(setting, directory, only);

@@ -71,7 +71,8 @@ bool same_triangle(const Mesh& mesh, std::uint32_t s, std::uint32_t t) {
 // Counts open and crowded edges, names the first of each, and repeated triangles.
 class EdgeDefects {
  public:
-  EdgeDefects(const Mesh& mesh, const TrianglePlace& place) : mesh_(mesh), place_(place) {}
+  EdgeDefects(const Mesh& mesh, const TrianglePlace& place, const EdgePlace& edge)
+      : mesh_(mesh), place_(place), edge_(edge) {}
 
   void see(const EdgeEnd* first, const EdgeEnd* last) {
     const auto count = last - first;
@@ -106,8 +107,7 @@ class EdgeDefects {
   void note(Kind& kind, const EdgeEnd* first, const EdgeEnd* last) {
     if (kind.count++ != 0) return;
     const std::uint32_t h = first->half_edge;
-    kind.first = "vertices " + std::to_string(std::min(from(mesh_, h), to(mesh_, h))) + " and " +
-                 std::to_string(first->high) + ", " + place_(h / 3);
+    kind.first = edge_(h) + ", " + place_(h / 3);
     if (last - first > 2) kind.first += " and " + place_((last - 1)->half_edge / 3);
   }
 
@@ -118,6 +118,7 @@ class EdgeDefects {
 
   const Mesh& mesh_;
   const TrianglePlace& place_;
+  const EdgePlace& edge_;
   Kind open_, crowded_;
   std::string repeated_;
 };
@@ -142,9 +143,9 @@ void turn_over(Mesh& mesh, HalfEdges& mates, std::uint32_t t) {
 
 }  // namespace
 
-HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place) {
+HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place, const EdgePlace& edge) {
   HalfEdges mates(3 * mesh.triangles.size(), kNone);
-  EdgeDefects defects(mesh, place);
+  EdgeDefects defects(mesh, place, edge);
   for_each_edge(mesh, 1, [&](const EdgeEnd* first, const EdgeEnd* last) {
     defects.see(first, last);
     if (last - first != 2) return;

@@ -33,12 +33,42 @@ class Continuation {
     });
   }
 
-  std::vector<float> run() {
-    for (std::int32_t step = 0; step < band_.margin() && !front_.empty(); ++step) advance();
+  std::vector<float> run(std::span<const std::uint8_t> reach) {
+    const std::int32_t steps = std::min(band_.margin(), steps_asked_for(reach));
+    for (std::int32_t step = 0; step < steps && !front_.empty(); ++step) advance();
     return std::move(result_);
   }
 
  private:
+  // How far from the nearest sample point the places lie that are asked for.  About a point that has the
+  // depth n, n steps from the nearest place outside, a cube of n - 1 steps holds sample points alone; of a
+  // way of `reach` steps out of it, straight along all axes at once, so many end outside.
+  std::int32_t steps_asked_for(std::span<const std::uint8_t> reach) {
+    std::vector<char> reached(reach.size(), 0);
+    std::vector<std::uint32_t> layer;
+    for (std::uint32_t rank = 0; rank < reach.size(); ++rank) {
+      for_each_neighbour(place_[rank], [&](const Place&, std::int64_t at) {
+        if (nearest_[static_cast<std::size_t>(at)] == kUnknown) reached[rank] = 1;
+      });
+      if (reached[rank]) layer.push_back(rank);
+    }
+    std::int32_t steps = 0;
+    for (std::int32_t depth = 1; !layer.empty(); ++depth) {
+      std::vector<std::uint32_t> next;
+      for (const std::uint32_t rank : layer) {
+        steps = std::max(steps, std::int32_t{reach[rank]} - depth + 1);
+        for_each_neighbour(place_[rank], [&](const Place&, std::int64_t at) {
+          const std::uint32_t to = nearest_[static_cast<std::size_t>(at)];
+          if (to == kUnknown || reached[to]) return;
+          reached[to] = 1;
+          next.push_back(to);
+        });
+      }
+      layer = std::move(next);
+    }
+    return steps;
+  }
+
   // One layer of places further out.  The new layer is marked only when it is done: a place never looks at
   // those of its own layer, so that their order does not matter.
   void advance() {
@@ -121,8 +151,8 @@ class Continuation {
 }  // namespace
 
 std::vector<float> continued_field(const Lattice& lattice, const RowBand& band, std::span<const double> value,
-                                   std::span<const Vec3> gradient) {
-  return Continuation(lattice, band, value, gradient).run();
+                                   std::span<const Vec3> gradient, std::span<const std::uint8_t> reach) {
+  return Continuation(lattice, band, value, gradient).run(reach);
 }
 
 }  // namespace affskel::core

@@ -8,8 +8,8 @@
 namespace affskel::core {
 
 struct RidgeRimOptions {
-  double low = 5;   ///< the sheet ends where its strength falls below this, radians, > 0
-  double high = 6;  ///< a piece has this strength somewhere, >= low
+  double low = 6;     ///< the sheet ends where its strength falls below this, radians, > 0
+  double high = 6.5;  ///< a piece has this strength somewhere, >= low
   /// ... and, there, at most this lambda_3 / lambda_1: about the centre of a ball E falls alike in all
   /// directions, and e is any of them.
   double max_roundness = 0.8;

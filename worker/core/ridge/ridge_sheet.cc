@@ -79,7 +79,12 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   round.low_strength = options.rims.low;
   round.high_strength = options.rims.high;
   round.max_roundness = options.rims.max_roundness;
-  sheet.curves = put_curves(mesh, round_stretches(curves, round), inside, options.round_sheet);
+  TornStripOptions torn = options.torn;
+  torn.reach = options.round_sheet.reach;
+  torn.round_ratio = options.round_sheet.round_ratio;
+  const std::vector<RidgeCurve> stretches = torn_stretches(mesh, round_stretches(curves, round), torn);
+  sheet.curves = put_curves(mesh, stretches, inside, options.round_sheet);
+  sheet.pieces.bridges += join_pieces(mesh, lattice, field, inside, options.joins);
   sheet.vertices = std::move(mesh.vertices);
   sheet.triangles = std::move(mesh.triangles);
   sheet.segments = std::move(mesh.segments);

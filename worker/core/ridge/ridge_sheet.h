@@ -10,11 +10,13 @@
 #include "core/mesh/mesh.h"
 #include "core/ridge/ridge_flaps.h"
 #include "core/ridge/ridge_holes.h"
+#include "core/ridge/ridge_joins.h"
 #include "core/ridge/ridge_mesh.h"
 #include "core/ridge/ridge_rims.h"
 #include "core/ridge/round_sheet.h"
 #include "core/ridge/round_stretches.h"
 #include "core/ridge/smoothed_derivatives.h"
+#include "core/ridge/torn_strips.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
@@ -25,7 +27,9 @@ struct RidgeSheetOptions {
   RidgeFlapOptions flaps;
   RidgeHoleOptions holes;
   RoundStretchOptions round;  ///< its bounds on strength and roundness are those of `rims`
+  TornStripOptions torn;      ///< its reach and bound of roundness are those of `round_sheet`
   RoundSheetOptions round_sheet;
+  RidgeJoinOptions joins;
   /// Least strength of the sheet before it is cut, as a share of rims.low, 0 .. 1: what may join its pieces.
   double weak_share = 0.125;
   double min_erosion = 0.002;           ///< see RidgeValues

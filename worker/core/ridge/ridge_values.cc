@@ -80,12 +80,6 @@ double RidgeValues::frame_area(std::uint32_t point) const {
   return std::ldexp(norm(scaled_to_unit(g)), largest_exponent(g));
 }
 
-// |grad_x E| = |F^-T g| for a gradient g in the frame.
-double RidgeValues::mesh_area(std::uint32_t point) const {
-  const Vec3& g = field_.gradient[point];
-  return std::ldexp(norm(to_mesh_ * scaled_to_unit(g)), largest_exponent(g));
-}
-
 RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
                             std::span<const double> weights, const Vec3& across) const {
   RidgeVertex vertex;
@@ -104,7 +98,7 @@ RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t>
     vertex.ratio += w * static_cast<double>(ridge.ratio);
     vertex.roundness += w * static_cast<double>(ridge.roundness);
     vertex.erosion += w * field_.erosion[points[n]];
-    vertex.area += w * mesh_area(points[n]);
+    vertex.area += w * section_area(to_mesh_, field_.gradient[points[n]]);
   }
   vertex.strength = strength_of(least, value, gradient);
   // grad P one width away along e is g -+ lambda width e, to first order.
@@ -112,6 +106,11 @@ RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t>
   vertex.normal_a = unit(gradient + rise);
   vertex.normal_b = unit(gradient - rise);
   return vertex;
+}
+
+// |grad_x E| = |F^-T g| for a gradient g in the frame.
+double section_area(const Matrix3& to_mesh, const Vec3& gradient) {
+  return std::ldexp(norm(to_mesh * scaled_to_unit(gradient)), largest_exponent(gradient));
 }
 
 }  // namespace affskel::core

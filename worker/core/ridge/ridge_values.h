@@ -61,8 +61,6 @@ class RidgeValues {
   double frame_area(std::uint32_t point) const;
 
  private:
-  double mesh_area(std::uint32_t point) const;
-
   const SolidParts& parts_;
   const FrameField& field_;
   std::span<const PointDerivatives> derivatives_;
@@ -71,6 +69,11 @@ class RidgeValues {
   std::vector<double> least_erosion_;  // per part
   std::vector<PointRidge> ridges_;     // per sample point
 };
+
+/// The area |grad_x E| of the optimal section, mesh units squared.
+/// @param to_mesh F^-T of the frame.
+/// @param gradient grad_u E, of any size.
+double section_area(const Matrix3& to_mesh, const Vec3& gradient);
 
 /// The entries of PointRidge and PointDerivatives as vectors.
 inline Vec3 vector_of(const std::array<float, 3>& v) {

@@ -9,117 +9,20 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
+#include "core/ridge/curve_feet.h"
 #include "core/ridge/round_stretches.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr int kPlacesOfJoint = 16;  // parts of a joint, between which it is asked whether it is in the solid
 
-// The vertices of all stretches, numbered on.
-struct CurveVertex {
-  Vec3 position;
-  double radius = 0;
-  double arc = 0;  // from the stretch's first vertex
-  std::uint32_t stretch = 0, part = 0;
-  Vec3 outward;  // at an end of the stretch: unit, away from it; else 0
-};
-
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
-}
-
-std::vector<CurveVertex> vertices_of(std::span<const RidgeCurve> stretches) {
-  std::vector<CurveVertex> result;
-  for (std::uint32_t s = 0; s < stretches.size(); ++s) {
-    const RidgeCurve& stretch = stretches[s];
-    const std::size_t first = result.size();
-    double arc = 0;
-    for (std::size_t v = 0; v < stretch.vertices.size(); ++v) {
-      const Vec3& at = stretch.vertices[v].position;
-      if (v > 0) arc += norm(at - stretch.vertices[v - 1].position);
-      result.push_back({at, stretch.radius[v], arc, s, stretch.part, {}});
-    }
-    if (stretch.closed) continue;
-    result[first].outward = unit(result[first].position - result[first + 1].position);
-    result.back().outward = unit(result.back().position - result[result.size() - 2].position);
-  }
-  return result;
-}
-
-// The nearest of points, by their order along the axis on which they reach farthest.
-class NearestVertex {
- public:
-  explicit NearestVertex(const std::vector<CurveVertex>& vertices) : vertices_(vertices) {
-    double widest = -1;
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax_element(
-          vertices.begin(), vertices.end(),
-          [k](const CurveVertex& a, const CurveVertex& b) { return a.position[k] < b.position[k]; });
-      const double extent = high->position[k] - low->position[k];
-      if (extent > widest) axis_ = k;
-      widest = std::max(widest, extent);
-    }
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) order_.emplace_back(vertices[v].position[axis_], v);
-    std::sort(order_.begin(), order_.end());
-  }
-
-  // The nearest vertex of the part and its distance; kNone when there is none.
-  std::pair<std::uint32_t, double> of(const Vec3& place, std::uint32_t part) const {
-    std::pair<std::uint32_t, double> best{kNone, std::numeric_limits<double>::infinity()};
-    const auto take = [&](const std::pair<double, std::uint32_t>& entry) {
-      if (std::abs(entry.first - place[axis_]) > best.second) return false;
-      const CurveVertex& v = vertices_[entry.second];
-      const double away = norm(v.position - place);
-      if (v.part == part && std::pair{away, entry.second} < std::pair{best.second, best.first})
-        best = {entry.second, away};
-      return true;
-    };
-    const auto middle = std::lower_bound(order_.begin(), order_.end(), std::pair{place[axis_], 0U});
-    for (auto after = middle; after != order_.end() && take(*after);) ++after;
-    for (auto before = middle; before != order_.begin() && take(*(before - 1));) --before;
-    return best;
-  }
-
- private:
-  const std::vector<CurveVertex>& vertices_;
-  int axis_ = 0;
-  std::vector<std::pair<double, std::uint32_t>> order_;
-};
-
-// Where a sheet vertex lies beside the curves.
-struct Foot {
-  enum class Place : char { kFar, kBeyondEnd, kBeside } place = Place::kFar;
-  std::uint32_t vertex = kNone;  // the nearest of the curves, where not beyond the reach
-  bool sideways = false;         // beyond the reach, but not beyond an end
-  std::uint32_t nearest = kNone;
-};
-
-std::vector<Foot> feet_of(const RidgeMesh& mesh, const std::vector<CurveVertex>& curve, double reach) {
-  std::vector<Foot> feet(mesh.vertices.size());
-  if (curve.empty()) return feet;
-  const NearestVertex nearest(curve);
-  for (std::size_t v = 0; v < feet.size(); ++v) {
-    const auto [at, away] = nearest.of(mesh.vertices[v].position, mesh.part[v]);
-    if (at == kNone) continue;
-    const CurveVertex& c = curve[at];
-    const bool beyond = dot(mesh.vertices[v].position - c.position, c.outward) > 0;
-    const bool within = away <= reach * c.radius;
-    feet[v].nearest = at;
-    feet[v].sideways = !within && !beyond;
-    if (within) {
-      feet[v].vertex = at;
-      feet[v].place = beyond ? Foot::Place::kBeyondEnd : Foot::Place::kBeside;
-    }
-  }
-  return feet;
-}
-
-bool long_enough(const RidgeCurve& curve, double min_length) {
+bool long_enough(const RidgeCurve& curve, const RoundSheetOptions& options) {
+  if (std::all_of(curve.vertices.begin(), curve.vertices.end(),
+                  [&](const RidgeVertex& v) { return v.ratio >= options.round_ratio; }))
+    return true;
   const double sum = std::accumulate(curve.radius.begin(), curve.radius.end(), 0.0);
-  return curve_length(curve) * static_cast<double>(curve.radius.size()) >= min_length * sum;
+  return curve_length(curve) * static_cast<double>(curve.radius.size()) >= options.min_length * sum;
 }
 
 // The parts of all stretches whose vertices are wanted.
@@ -137,18 +40,18 @@ std::vector<RidgeCurve> parts_of(std::span<const RidgeCurve> stretches, const st
 // The stretches without the places where the sheet is wide.
 std::vector<RidgeCurve> narrow_only(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
                                     const RoundSheetOptions& options) {
-  const std::vector<CurveVertex> curve = vertices_of(stretches);
-  const std::vector<Foot> feet = feet_of(mesh, curve, options.reach);
+  const std::vector<CurveVertex> curve = curve_vertices(stretches);
+  const std::vector<CurveFoot> feet = curve_feet(mesh, curve, options.reach);
   std::vector<char> wanted(curve.size(), 1);
   for (const Triangle& t : mesh.triangles) {
     bool crosses = false;
     for (const std::uint32_t corner : t) crosses = crosses || feet[corner].sideways;
     if (!crosses) continue;
     for (const std::uint32_t corner : t)
-      if (feet[corner].place == Foot::Place::kBeside) wanted[feet[corner].vertex] = 0;
+      if (feet[corner].place == CurveFoot::Place::kBeside) wanted[feet[corner].vertex] = 0;
   }
   std::vector<RidgeCurve> result = parts_of(stretches, wanted);
-  std::erase_if(result, [&](const RidgeCurve& part) { return !long_enough(part, options.min_length); });
+  std::erase_if(result, [&](const RidgeCurve& part) { return !long_enough(part, options); });
   return result;
 }
 
@@ -158,8 +61,8 @@ class Replacement {
       : mesh_(mesh),
         stretches_(std::move(stretches)),
         reach_(reach),
-        curve_(vertices_of(stretches_)),
-        feet_(feet_of(mesh, curve_, reach)),
+        curve_(curve_vertices(stretches_)),
+        feet_(curve_feet(mesh, curve_, reach)),
         replaced_(stretches_.size(), 0),
         pieces_(mesh.vertices.size()) {}
 
@@ -195,16 +98,10 @@ class Replacement {
 
   std::uint32_t stretch_of(std::uint32_t vertex) const { return curve_[feet_[vertex].vertex].stretch; }
 
-  bool belongs(const Triangle& t) const {
-    for (const std::uint32_t corner : t)
-      if (feet_[corner].place != Foot::Place::kBeside || stretch_of(corner) != stretch_of(t[0])) return false;
-    return true;
-  }
-
   void remove_triangles() {
     border_.assign(mesh_.vertices.size(), 0);
     for (const Triangle& t : mesh_.triangles) {
-      if (belongs(t)) {
+      if (is_beside(feet_, curve_, t)) {
         replaced_[stretch_of(t[0])] = 1;
         for (const std::uint32_t corner : t) border_[corner] = 1;
       } else {
@@ -217,14 +114,14 @@ class Replacement {
 
   // Pieces within the reach of one stretch that was put in, unless they join two places of it.
   void drop_leftovers() {
-    constexpr std::uint32_t kMany = kNone - 1;
-    std::vector<std::uint32_t> beside(mesh_.vertices.size(), kNone);  // per piece: the stretch, or kMany
+    constexpr std::uint32_t kMany = kNoVertex - 1;
+    std::vector<std::uint32_t> beside(mesh_.vertices.size(), kNoVertex);  // per piece: the stretch, or kMany
     for (const Triangle& t : kept_) {
       for (const std::uint32_t corner : t) {
-        const bool near = feet_[corner].vertex != kNone && replaced_[stretch_of(corner)];
+        const bool near = feet_[corner].vertex != kNoVertex && replaced_[stretch_of(corner)];
         const std::uint32_t here = near ? stretch_of(corner) : kMany;
         std::uint32_t& known = beside[pieces_.find(corner)];
-        known = known == kNone || known == here ? here : kMany;
+        known = known == kNoVertex || known == here ? here : kMany;
       }
     }
     std::vector<std::uint32_t> joints(mesh_.vertices.size(), 0);  // per piece
@@ -288,14 +185,14 @@ class Replacement {
       const auto near_end = [&](std::uint32_t v, std::uint32_t end) {
         return std::abs(curve_[v].arc - curve_[end].arc) <= reach_ * curve_[end].radius;
       };
-      std::uint32_t from = kNone, to = kNone;
+      std::uint32_t from = kNoVertex, to = kNoVertex;
       for (const Joint& joint : joints_) {
         if (curve_[joint.curve].stretch != s) continue;
         if (near_end(joint.curve, front)) from = std::min(from, joint.curve);
-        if (near_end(joint.curve, back)) to = to == kNone ? joint.curve : std::max(to, joint.curve);
+        if (near_end(joint.curve, back)) to = to == kNoVertex ? joint.curve : std::max(to, joint.curve);
       }
-      if (from != kNone) begin = from;
-      if (to != kNone && to >= begin) last = to;
+      if (from != kNoVertex) begin = from;
+      if (to != kNoVertex && to >= begin) last = to;
     }
     const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (std::uint32_t v = begin; v <= last; ++v) {
@@ -313,9 +210,9 @@ class Replacement {
   std::vector<RidgeCurve> stretches_;
   double reach_;
   std::vector<CurveVertex> curve_;
-  std::vector<Foot> feet_;      // per vertex of the mesh
-  std::vector<char> replaced_;  // per stretch: triangles belong to it
-  DisjointSets pieces_;         // of what is kept, by vertices of the mesh
+  std::vector<CurveFoot> feet_;  // per vertex of the mesh
+  std::vector<char> replaced_;   // per stretch: triangles belong to it
+  DisjointSets pieces_;          // of what is kept, by vertices of the mesh
   std::vector<Triangle> kept_;
   std::vector<char> border_;  // per vertex: of a triangle that was removed
   std::vector<Joint> joints_;

@@ -13,7 +13,8 @@ struct RoundSheetOptions {
   /// How far from a curve its sheet reaches, in the radius of the section, > 0.  What reaches farther is wide
   /// by right.
   double reach = 1;
-  double min_length = 0.8;  ///< of a stretch, in its mean radius, >= 0
+  double min_length = 0.8;   ///< of a stretch, in its mean radius, >= 0
+  double round_ratio = 0.9;  ///< from this lambda_2 / lambda_1 on, all along it, a stretch may be shorter
 };
 
 /// Puts curves in the place of what is found of the sheet where the solid is round: narrow strips and half

@@ -8,8 +8,8 @@
 namespace affskel::core {
 
 struct RoundStretchOptions {
-  double low_strength = 5;   ///< s_2 of a stretch is at least this, radians
-  double high_strength = 6;  ///< ... and somewhere this, where max_roundness holds
+  double low_strength = 6;     ///< s_2 of a stretch is at least this, radians
+  double high_strength = 6.5;  ///< ... and somewhere this, where max_roundness holds
   double max_roundness = 0.8;
   /// lambda_2 / lambda_1 of a stretch, smoothed, is at least the lower bound, and somewhere the higher one,
   /// 0 .. 1.  In elliptic cylinders whose axes are as 1 to 0.9, 0.8, 0.7, 0.6 and 0.5 it is 0.84, 0.69, 0.55,

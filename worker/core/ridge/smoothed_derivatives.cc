@@ -226,6 +226,18 @@ float nearness(double width, const std::vector<double>& ladder, std::size_t step
   return static_cast<float>(std::max(0.0, (ladder[step + 1] - width) / (ladder[step + 1] - ladder[step])));
 }
 
+// Per point: how far the wider of its Gaussians reaches.
+std::vector<std::uint8_t> reaches(const std::vector<PointDerivatives>& points,
+                                  const std::vector<double>& ladder) {
+  std::vector<std::uint8_t> result;
+  result.reserve(points.size());
+  for (const PointDerivatives& point : points) {
+    const auto wider = std::lower_bound(ladder.begin(), ladder.end(), static_cast<double>(point.width));
+    result.push_back(static_cast<std::uint8_t>(reach_of(wider == ladder.end() ? ladder.back() : *wider)));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
@@ -248,7 +260,7 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   {
     const ScaledField scaled = scaled_field(field);
     for (std::size_t p = 0; p < result.size(); ++p) result[p].value = static_cast<float>(scaled.value[p]);
-    values = continued_field(lattice, band, scaled.value, scaled.gradient);
+    values = continued_field(lattice, band, scaled.value, scaled.gradient, reaches(result, ladder));
   }
   std::vector<float> weight(result.size());
   for (std::size_t step = 0; step < ladder.size(); ++step) {

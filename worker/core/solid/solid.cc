@@ -43,7 +43,7 @@ class SolidBuilder {
     HalfEdges mates;
     if (!find_mates_if_closed(solid_.mesh, options_.threads, mates)) {
       if (!every_edge_is_shared(solid_.mesh)) weld();
-      mates = find_mates(solid_.mesh, where);
+      mates = find_mates(solid_.mesh, where, [this](std::uint32_t h) { return edge_place(h); });
     }
     throw_if_stopped(options_.context);
     make_orientation_agree(mates, where);
@@ -71,6 +71,13 @@ class SolidBuilder {
     std::string text = "triangle " + std::to_string(source);
     if (source < triangle_line_.size()) text += " (line " + std::to_string(triangle_line_[source]) + ")";
     return text;
+  }
+
+  // Before triangles are turned over: a corner is then still the input's.
+  std::string edge_place(std::uint32_t half_edge) const {
+    const Triangle& corners = input_.triangles[triangle_source_[half_edge / 3]];
+    const auto [low, high] = std::minmax(corners[half_edge % 3], corners[(half_edge + 1) % 3]);
+    return "vertices " + std::to_string(low) + " and " + std::to_string(high);
   }
 
   void note(MeshNote::Severity severity, const char* code, const std::string& message) {

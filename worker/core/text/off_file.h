@@ -17,6 +17,13 @@ struct ReadOffOptions {
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
+/// Rows of a file that were passed over: all that begin with the same word.
+struct PassedOver {
+  std::string word;
+  std::uint64_t rows = 0;
+  std::uint64_t first_line = 0;  ///< counted from 1; 0 = the file has no lines
+};
+
 /// A mesh with the lines it came from, so that later messages can name the place.
 struct OffMesh {
   Mesh mesh;
@@ -24,6 +31,7 @@ struct OffMesh {
   std::vector<std::uint32_t> triangle_line;  ///< per triangle: the line of its polygon
   std::uint64_t polygons = 0;                ///< faces in the file, of any number of sides >= 3
   std::uint64_t polygons_cut = 0;            ///< faces with more than three sides, cut into triangles
+  std::vector<PassedOver> passed_over;       ///< of formats that hold more than a mesh, in the file's order
 };
 
 /// Reads a Geomview OFF file in text form, strictly: header [ST][C][N]OFF, counts on the same or on the

@@ -26,6 +26,29 @@ RidgeMesh square(std::uint32_t n, const std::function<double(double, double)>& s
   return mesh;
 }
 
+RidgeMesh part_of_square(std::uint32_t n, const std::function<bool(double, double)>& wanted) {
+  RidgeMesh mesh = square(n, [](double, double) { return 10; });
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    Vec3 middle;
+    for (const std::uint32_t corner : t) middle = middle + (1.0 / 3) * mesh.vertices[corner].position;
+    return !wanted(middle.x, middle.y);
+  });
+  drop_unused_vertices(mesh);
+  return mesh;
+}
+
+RidgeCurve line(double low, double high, double radius) {
+  RidgeCurve curve;
+  for (double x = low; x <= high; x += 1) {
+    RidgeVertex v;
+    v.position = {x, 15.1, 0.2};
+    v.strength = 7;
+    curve.vertices.push_back(v);
+    curve.radius.push_back(radius);
+  }
+  return curve;
+}
+
 SheetTopology topology(const RidgeMesh& mesh) {
   Mesh plain;
   for (const RidgeVertex& v : mesh.vertices) plain.points.push_back(v.position);

@@ -49,7 +49,7 @@ TEST(RidgeSheet, OfATorusIsAnAnnulusFromTheInnerSurfaceOutwards) {
     const Vec3 x = torus.place(v.position);
     EXPECT_NEAR(x.z, 0, 0.05 * h);
     r.take(std::hypot(x.x, x.y));
-    EXPECT_GE(v.strength, 5);
+    EXPECT_GE(v.strength, 6);
     // The level surfaces are mirror images of each other in the plane, and lean to its two sides.
     EXPECT_NEAR(std::abs(v.normal_a.z), std::abs(v.normal_b.z), 0.02);
     EXPECT_LT(v.normal_a.z * v.normal_b.z, 0);
@@ -132,7 +132,7 @@ void expect_axis(const ErodedSolid& solid, const RidgeSheet& sheet, double reach
   for (const RidgeVertex& v : sheet.vertices) {
     const Vec3 at = solid.place(v.position);
     EXPECT_LT(std::hypot(at.x, at.y), reach);
-    EXPECT_GE(v.strength, 5);
+    EXPECT_GE(v.strength, 6);
     z.take(at.z);
   }
   EXPECT_LT(z.low, low);

@@ -14,32 +14,6 @@
 namespace affskel::core {
 namespace {
 
-// The square's triangles whose middle satisfies `wanted`.
-template <class Wanted>
-RidgeMesh part_of_square(std::uint32_t n, Wanted wanted) {
-  RidgeMesh mesh = square(n, [](double, double) { return 10; });
-  std::erase_if(mesh.triangles, [&](const Triangle& t) {
-    Vec3 middle;
-    for (const std::uint32_t corner : t) middle = middle + (1.0 / 3) * mesh.vertices[corner].position;
-    return !wanted(middle.x, middle.y);
-  });
-  drop_unused_vertices(mesh);
-  return mesh;
-}
-
-// From (low, 15.1, 0.2) to (high, 15.1, 0.2), vertices one apart.
-RidgeCurve line(double low, double high, double radius) {
-  RidgeCurve curve;
-  for (double x = low; x <= high; x += 1) {
-    RidgeVertex v;
-    v.position = {x, 15.1, 0.2};
-    v.strength = 7;
-    curve.vertices.push_back(v);
-    curve.radius.push_back(radius);
-  }
-  return curve;
-}
-
 bool everywhere(const Vec3&) {
   return true;
 }

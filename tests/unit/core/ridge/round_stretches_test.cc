@@ -56,8 +56,8 @@ TEST(RoundStretches, AreNotPartedByNoise) {
 
 TEST(RoundStretches, AreStrongAndNoBalls) {
   const auto one = [](double) { return 1.0; };
-  EXPECT_EQ(round_stretches(std::vector{line(20, one, 6)}).size(), 1U);
-  EXPECT_TRUE(round_stretches(std::vector{line(20, one, 5.9)}).empty());
+  EXPECT_EQ(round_stretches(std::vector{line(20, one, 6.5)}).size(), 1U);
+  EXPECT_TRUE(round_stretches(std::vector{line(20, one, 6.4)}).empty());
   RidgeCurve ball = line(20, one);
   for (RidgeVertex& v : ball.vertices) v.roundness = 0.9;
   EXPECT_TRUE(round_stretches(std::vector{ball}).empty());

@@ -124,7 +124,8 @@ TEST(ContinuedField, GoesOnLinearlyButNeitherBelowZeroNorUp) {
   for_each_point(box.lattice, [&](std::int32_t, std::int32_t, std::int32_t k, std::uint32_t rank) {
     value[rank] = 11 - 2 * k;
   });
-  const std::vector<float> found = continued_field(box.lattice, band, value, gradient);
+  const std::vector<float> found =
+      continued_field(box.lattice, band, value, gradient, std::vector<std::uint8_t>(64, 3));
   const auto at = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
     return found[static_cast<std::size_t>(band.at(i, j, k))];
   };
@@ -147,12 +148,47 @@ TEST(ContinuedField, TakesTheMeanOfPointsEquallyNear) {
     if (k > 3) value[rank] = 2;
   });
   const std::vector<float> found =
-      continued_field(boxes.lattice, band, value, std::vector<Vec3>(value.size()));
+      continued_field(boxes.lattice, band, value, std::vector<Vec3>(value.size()),
+                      std::vector<std::uint8_t>(value.size(), 2));
   ASSERT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 2))], 8);
   ASSERT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 4))], 2);
   EXPECT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 3))], 5);
   EXPECT_EQ(found[static_cast<std::size_t>(band.at(-1, 1, 3))], 5);
   EXPECT_EQ(found[static_cast<std::size_t>(band.at(-1, 1, 2))], 8);
+}
+
+// What lies within a point's reach is what it is without bounds.
+TEST(ContinuedField, GoesAsFarAsAnyPointReaches) {
+  const BoxLattice boxes(joined(make_box(9, 7, 7), moved(make_box(3, 3, 3), {12, 2, 5})));
+  const RowBand band(boxes.lattice, 6);
+  const std::uint32_t count = boxes.lattice.points;
+  std::vector<double> value(count);
+  std::vector<std::uint8_t> reach(count);
+  for (std::uint32_t p = 0; p < count; ++p) {
+    value[p] = 1 + (p * 7919) % 101;
+    reach[p] = static_cast<std::uint8_t>((p * 31) % 97 == 0 ? 5 : 1);
+  }
+  const std::vector<Vec3> gradient(count, Vec3{0.25, -0.5, 0.125});
+  const auto whole =
+      continued_field(boxes.lattice, band, value, gradient, std::vector<std::uint8_t>(count, 6));
+  const auto bounded = continued_field(boxes.lattice, band, value, gradient, reach);
+  std::size_t asked = 0;
+  for_each_point(boxes.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    const std::int32_t r = reach[rank];
+    for (std::int32_t a = i - r; a <= i + r; ++a) {
+      for (std::int32_t b = j - r; b <= j + r; ++b) {
+        for (std::int32_t c = k - r; c <= k + r; ++c) {
+          const std::int64_t at = band.at(a, b, c);
+          if (at == RowBand::kNone) continue;
+          ++asked;
+          EXPECT_EQ(bounded[static_cast<std::size_t>(at)], whole[static_cast<std::size_t>(at)]);
+        }
+      }
+    }
+  });
+  EXPECT_GT(asked, 10000U);
+  EXPECT_LT(std::count_if(bounded.begin(), bounded.end(), [](float v) { return v > 0; }),
+            std::count_if(whole.begin(), whole.end(), [](float v) { return v > 0; }));
 }
 
 TEST(LocalDepth, IsTheWayToWhatIsShallow) {

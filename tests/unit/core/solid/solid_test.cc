@@ -135,6 +135,29 @@ TEST(MakeSolid, SplitsVerticesWhereSurfacesTouch) {
   EXPECT_TRUE(mesh_facts(solid.mesh).vertices_manifold);
 }
 
+// Vertices are welded, and unused ones left out, before an edge is found to be open.
+TEST(MakeSolid, NamesTheEdgesOfTheInput) {
+  const Mesh whole = make_tetrahedron(1);
+  Mesh open;
+  open.points.assign(7, {9, 9, 9});
+  for (std::size_t t = 0; t < 3; ++t) {
+    const auto first = static_cast<std::uint32_t>(open.points.size());
+    for (const std::uint32_t v : whole.triangles[t]) open.points.push_back(whole.points[v]);
+    open.triangles.push_back({first, first + 1, first + 2});
+  }
+  const std::string message = refusal(open);
+  bool named = false;
+  for (std::uint32_t t = 0; t < 3; ++t) {
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::uint32_t a = 7 + 3 * t + c, b = 7 + 3 * t + (c + 1) % 3;
+      const std::uint32_t low = std::min(a, b), high = std::max(a, b);
+      named |= message.find("vertices " + std::to_string(low) + " and " + std::to_string(high) +
+                            ", triangle " + std::to_string(t)) != std::string::npos;
+    }
+  }
+  EXPECT_TRUE(named) << message;
+}
+
 TEST(MakeSolid, RefusesWhatBoundsNoSolidAndSaysWhere) {
   Mesh open = make_sphere(1, 80);
   open.triangles.pop_back();

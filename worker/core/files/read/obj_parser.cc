@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
 
@@ -18,11 +20,71 @@ std::int64_t corner_of(std::string_view word, std::size_t known, const std::stri
   return static_cast<std::int64_t>(from_end ? known - number : number - 1);
 }
 
+// Rows, of which those that end in a backslash go on in the next line.  The format does not say whether a
+// word may be cut in two; none is here.
+class Statements {
+ public:
+  explicit Statements(std::string_view bytes) : rows_(bytes) {}
+
+  bool next() {
+    do {
+      if (!ahead_ && !rows_.next()) return false;
+      ahead_ = false;
+      line_ = rows_.line();
+      words_ = rows_.words();
+      join();
+    } while (words_.empty());
+    return true;
+  }
+
+  const std::vector<std::string_view>& words() const { return words_; }
+  std::uint64_t line() const { return line_; }  ///< where the statement begins
+
+ private:
+  void join() {
+    for (std::uint64_t last = line_; goes_on();) {
+      if (!rows_.next()) return;
+      // Rows without words are skipped, but one of them ends the statement.
+      ahead_ = rows_.line() != ++last;
+      if (ahead_) return;
+      words_.insert(words_.end(), rows_.words().begin(), rows_.words().end());
+    }
+  }
+
+  // Whether there is a backslash; takes it away.
+  bool goes_on() {
+    if (words_.empty() || words_.back().back() != '\\') return false;
+    words_.back().remove_suffix(1);
+    if (words_.back().empty()) words_.pop_back();
+    return true;
+  }
+
+  TextRows rows_;
+  bool ahead_ = false;  // the row that rows_ is at begins the next statement
+  std::vector<std::string_view> words_;
+  std::uint64_t line_ = 0;
+};
+
+void pass_over(std::vector<PassedOver>& all, std::string_view word, std::uint64_t line) {
+  constexpr std::size_t kMaxKinds = 32;  // the format has fewer; more is a file of another kind
+  constexpr std::size_t kMaxWord = 40;
+  const std::string name(word.substr(0, kMaxWord));
+  const auto known =
+      std::find_if(all.begin(), all.end(), [&](const PassedOver& one) { return one.word == name; });
+  if (known != all.end()) {
+    ++known->rows;
+  } else if (all.size() < kMaxKinds) {
+    all.push_back({name, 1, line});
+  } else {
+    ++all.back().rows;
+  }
+}
+
 }  // namespace
 
 ShapeFile parse_obj(std::string_view bytes) {
   ShapeFile file;
-  TextRows rows(bytes);
+  Statements rows(bytes);
   std::vector<std::int64_t> corners;
   const auto read_corners = [&](const std::string& what) {
     corners.clear();
@@ -47,6 +109,8 @@ ShapeFile parse_obj(std::string_view bytes) {
     } else if (words[0] == "l") {
       read_corners("a line");
       add_polyline(file, corners, "the line", rows.line());
+    } else {
+      pass_over(file.off.passed_over, words[0], rows.line());
     }
   }
   if (file.off.mesh.points.empty()) fail_at(rows.line(), "no vertices (rows that begin with v)");

@@ -64,6 +64,17 @@ FileFormat mesh_format(std::string_view extension, std::string_view bytes) {
                                                                                  : FileFormat::kOff;
 }
 
+// Of the first line that is neither blank nor a comment.
+std::string_view first_word(std::string_view bytes) {
+  constexpr std::string_view kBlank = " \t\r\n\v\f";
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  while (true) {
+    bytes.remove_prefix(std::min(bytes.find_first_not_of(kBlank), bytes.size()));
+    if (!bytes.starts_with('#')) return bytes.substr(0, bytes.find_first_of(kBlank));
+    bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size()));
+  }
+}
+
 }  // namespace
 
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
@@ -79,7 +90,18 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes) {
   ShapeFile shape = parse_shape(extension, bytes);
   if (shape.mesh().triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "has no triangles; a mesh that bounds a solid is wanted");
+  if (!shape.segments.empty()) shape.off.passed_over.push_back({"curves", shape.segments.size(), 0});
   return {format, std::move(shape.off)};
+}
+
+std::string_view extension_of_content(std::string_view bytes) {
+  if (bytes.starts_with("ply")) return ".ply";
+  if (is_binary_stl(bytes) || bytes.starts_with("solid")) return ".stl";
+  const std::string_view word = first_word(bytes);
+  if (word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--")) return ".vtp";
+  constexpr std::array<std::string_view, 12> kObjWords = {"v",      "vn",     "vt", "vp", "f", "l",
+                                                          "mtllib", "usemtl", "o",  "g",  "s", "p"};
+  return std::find(kObjWords.begin(), kObjWords.end(), word) != kObjWords.end() ? ".obj" : ".off";
 }
 
 bool is_normal_column(std::string_view name) {

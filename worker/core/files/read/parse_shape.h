@@ -17,13 +17,19 @@ namespace affskel::core {
 ///   .ply          ASCII or binary of either byte order, any properties (but those of ply_display.h beside an
 ///   E),
 ///                 polygons cut into triangles;
-///   .obj          v and f, polygons cut; the rest is passed over;
+///   .obj          v, f and l, polygons cut, a backslash at a line's end continues it; the rest is
+///                 passed over and counted;
 ///   .stl          text or binary; corners at the same place become one vertex;
 ///   .vtp          VTK XML PolyData, as text, base64 or raw, not compressed; point arrays become columns (see
 ///                 columns_of_array), polygons and strips triangles; the rest is passed over.
 /// Coordinates and normals are finite.
 /// @throws CoreError kBadInput with the line where there is one.
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes);
+
+/// The extension, with its dot, that the content of a mesh file stands for: ".ply", ".stl", ".vtp", ".obj",
+/// and
+/// ".off" for everything else.
+std::string_view extension_of_content(std::string_view bytes);
 
 /// A mesh that was read from a file.
 struct MeshFile {

@@ -17,6 +17,9 @@ ShapeFile parse_obj(std::string_view bytes);
 ShapeFile parse_stl(std::string_view bytes);
 ShapeFile parse_vtp(std::string_view bytes);
 
+/// Whether the size is what the count of triangles in a binary STL file makes it.
+bool is_binary_stl(std::string_view bytes);
+
 /// Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal,
 /// normals, Normal or Normals, with _a or _b behind it or not (Normals_x, normal_a_x); the same of y and z.
 bool is_normal_column(std::string_view name);

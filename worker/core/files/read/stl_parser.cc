@@ -110,12 +110,14 @@ class TextReader {
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kHeader &&
+         bytes.size() == kHeader + kFacet * std::size_t{base::decode<std::uint32_t>(bytes.data() + 80)};
+}
+
 ShapeFile parse_stl(std::string_view bytes) {
   // Some binary files begin with "solid", too; the size tells.
-  if (bytes.size() >= kHeader &&
-      bytes.size() == kHeader + kFacet * std::size_t{base::decode<std::uint32_t>(bytes.data() + 80)}) {
-    return parse_binary(bytes);
-  }
+  if (is_binary_stl(bytes)) return parse_binary(bytes);
   if (bytes.starts_with("solid")) return TextReader(bytes).run();
   fail_at(
       0, "not an STL file: neither text that begins with 'solid' nor as long as its count of triangles says");

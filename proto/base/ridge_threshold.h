@@ -1,0 +1,10 @@
+#pragma once
+
+namespace affskel::base {
+
+/// Least strengths of the ridge's sheet that can be asked for, in radians per depth.  The core counts
+/// strengths from 1e-6 to 1000; where the gradient of E vanishes they have no bound.
+inline constexpr double kMinRidgeThreshold = 1e-6;
+inline constexpr double kMaxRidgeThreshold = 800;
+
+}  // namespace affskel::base

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+
+#include "client/files/read/read_shape.h"
+#include "core/mesh/perturb.h"
+#include "core/quality/interior_points.h"
+#include "core/quality/similarity.h"
+#include "experiments.h"
+#include "job.h"
+#include "sheet.h"
+
+namespace affskel::experiments {
+namespace {
+
+// Lattice steps along the longest side of the body's box, and voxels of the grid whose diagonal is the
+// radius within which two skeletons count as alike.
+constexpr double kStepsPerHeight = 180, kVoxelsPerHeight = 128;
+
+struct Body {
+  std::string name;
+  core::Mesh mesh;
+};
+
+std::vector<Body> bodies_of(const Setting& setting) {
+  std::vector<Body> bodies;
+  for (const std::string& file : setting.meshes) bodies.push_back({file, client::read_shape(file).mesh()});
+  if (!bodies.empty()) return bodies;
+  for (const std::uint32_t triangles :
+       setting.quick ? std::vector<std::uint32_t>{292} : std::vector<std::uint32_t>{292, 1000, 5000})
+    bodies.push_back({format("body of %u", triangles), setting.body(triangles)});
+  return bodies;
+}
+
+// Shares of points within the radius: of the noisy skeleton near the clean one, and back.
+struct Shares {
+  double there = 0, back = 0;
+};
+
+struct Level {
+  double sigma;  // share of the box's diagonal
+  std::vector<Shares> seeds;
+
+  Shares mean() const {
+    Shares sum;
+    for (const Shares& one : seeds) sum = {sum.there + one.there, sum.back + one.back};
+    const auto count = static_cast<double>(seeds.size());
+    return {sum.there / count, sum.back / count};
+  }
+  Shares worst() const {
+    Shares least{1, 1};
+    for (const Shares& one : seeds)
+      least = {std::min(least.there, one.there), std::min(least.back, one.back)};
+    return least;
+  }
+};
+
+std::string both(const Shares& shares) {
+  return format("%.1f / %.1f %%", 100 * shares.there, 100 * shares.back);
+}
+
+double longest_side(const core::Mesh& mesh) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto [low, high] =
+        std::minmax_element(mesh.points.begin(), mesh.points.end(),
+                            [k](const core::Vec3& a, const core::Vec3& b) { return a[k] < b[k]; });
+    longest = std::max(longest, (*high)[k] - (*low)[k]);
+  }
+  return longest;
+}
+
+void study(const Body& body, const Setting& setting, Table& table, Report& report) {
+  const double height = longest_side(body.mesh), diagonal = core::box_diagonal(body.mesh);
+  const double radius = std::sqrt(3.0) * height / kVoxelsPerHeight;
+  const JobOptions options{height / (setting.quick ? kStepsPerHeight / 5 : kStepsPerHeight), "triangles",
+                           core::FrameKind::kAxis, setting.threads};
+  const Job clean = compute(body.mesh, options);
+  const Sheet sheet = ridge_sheet_of(clean);
+  const core::DistanceCurve chance(core::interior_points(clean.solid), sheet.points.place);
+  for (Level level : {Level{0.005, {}}, Level{0.01, {}}}) {
+    for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed) {
+      const Job noisy = compute(core::perturb(body.mesh, {level.sigma * diagonal, seed}), options);
+      const core::Similarity alike = core::similarity(sheet.points.place, ridge_sheet_of(noisy).points.place);
+      level.seeds.push_back({alike.b_in_a.share_within(radius), alike.a_in_b.share_within(radius)});
+    }
+    table.rows.push_back({body.name, std::to_string(clean.lattice.points),
+                          std::to_string(sheet.points.size()),
+                          format("%llu, %llu", static_cast<unsigned long long>(sheet.betti.components),
+                                 static_cast<unsigned long long>(sheet.betti.holes)),
+                          format("%.1f %%", 100 * chance.share_within(radius)),
+                          format("%.1f %%", 100 * level.sigma), both(level.mean()), both(level.worst())});
+    if (!setting.quick && setting.meshes.empty()) {
+      const Shares mean = level.mean();
+      report.expect(format("%s, noise of %.1f %%: lesser mean share of the ridge", body.name.c_str(),
+                           100 * level.sigma),
+                    std::min(mean.there, mean.back), 0.85, 1);
+    }
+  }
+}
+
+}  // namespace
+
+void steadiness_experiment(const Setting& setting, Report& report) {
+  report.section("The ridge under noise, seed by seed");
+  report.text(
+      format("Not published: 1/%g of the body's height as spacing, %u seeds for each level of noise. Alike "
+             "is what lies "
+             "within the diagonal of a voxel of 1/%g of the height; *there* is the share of the noisy "
+             "skeleton's points near "
+             "the clean one, *back* the reverse; the worst is taken of each by itself. The chance level is "
+             "the share of "
+             "evenly spread inner points that lie as near.",
+             kStepsPerHeight, setting.seeds, kVoxelsPerHeight));
+  Table table{{"body", "sample points", "vertices", "pieces, tunnels", "chance", "noise", "mean there / back",
+               "worst there / back"},
+              {}};
+  for (const Body& body : bodies_of(setting)) study(body, setting, table, report);
+  report.table(table);
+}
+
+}  // namespace affskel::experiments

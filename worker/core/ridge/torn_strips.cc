@@ -1,0 +1,109 @@
+// T, E, V: the numbers of triangles, edges and corners of what lies in a window, C that of its pieces.  Its
+// tunnels less its closed pockets are C - (V - E + T).
+#include "core/ridge/torn_strips.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/require.h"
+#include "core/ridge/curve_feet.h"
+#include "core/ridge/round_stretches.h"
+
+namespace affskel::core {
+namespace {
+
+template <class Value>
+void make_distinct(std::vector<Value>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+bool is_torn(const std::vector<Triangle>& triangles) {
+  if (triangles.empty()) return true;
+  std::vector<std::uint32_t> corners;
+  for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  make_distinct(corners);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  DisjointSets sets(corners.size());
+  std::size_t pieces = corners.size();
+  for (const Triangle& t : triangles) {
+    std::array<std::uint32_t, 3> place{};  // of its corners among all
+    for (std::size_t k = 0; k < 3; ++k)
+      place[k] = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), t[k]) -
+                                            corners.begin());
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.emplace_back(std::minmax(place[k], place[(k + 1) % 3]));
+      if (sets.unite(place[k], place[(k + 1) % 3])) --pieces;
+    }
+  }
+  make_distinct(edges);
+  return pieces + edges.size() != corners.size() + triangles.size();
+}
+
+// The triangles whose corners all lie beside one stretch.
+class TrianglesBeside {
+ public:
+  TrianglesBeside(const RidgeMesh& mesh, const std::vector<CurveVertex>& curve, double reach)
+      : mesh_(mesh), feet_(curve_feet(mesh, curve, reach)), at_(curve.size()) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (is_beside(feet_, curve, mesh.triangles[t])) at_[feet_[mesh.triangles[t][0]].vertex].push_back(t);
+    }
+  }
+
+  // Those with all feet on the vertices begin .. end - 1.
+  std::vector<Triangle> in(std::uint32_t begin, std::uint32_t end) const {
+    std::vector<Triangle> result;
+    for (std::uint32_t v = begin; v < end; ++v) {
+      for (const std::uint32_t t : at_[v]) {
+        const Triangle& corners = mesh_.triangles[t];
+        if (std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+              return feet_[corner].vertex >= begin && feet_[corner].vertex < end;
+            }))
+          result.push_back(corners);
+      }
+    }
+    return result;
+  }
+
+ private:
+  const RidgeMesh& mesh_;
+  std::vector<CurveFoot> feet_;
+  std::vector<std::vector<std::uint32_t>> at_;  // by the foot of the first corner
+};
+
+}  // namespace
+
+std::vector<RidgeCurve> torn_stretches(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+                                       const TornStripOptions& options) {
+  require_within(options.window, 1e-3, 1e6, "the window of a strip must lie between 0.001 and 1e6 radii");
+  require_within(options.step, 1e-3, 1e6, "the step of the windows must lie between 0.001 and 1e6 radii");
+  require_within(options.round_ratio, 0, 1, "the ratio of what is round must lie between 0 and 1");
+  const std::vector<CurveVertex> curve = curve_vertices(stretches);
+  const TrianglesBeside beside(mesh, curve, options.reach);
+  std::vector<RidgeCurve> result;
+  std::uint32_t first = 0;  // vertex of the stretch
+  for (const RidgeCurve& stretch : stretches) {
+    const auto count = static_cast<std::uint32_t>(stretch.vertices.size());
+    std::vector<char> wanted(count, 0);
+    // The first vertex that lies `radii` or more beyond vertex v.
+    const auto beyond = [&](std::uint32_t v, double radii) {
+      std::uint32_t at = v + 1;
+      while (at < count && curve[first + at].arc - curve[first + v].arc < radii * stretch.radius[v]) ++at;
+      return at;
+    };
+    for (std::uint32_t begin = 0, end = 0; end < count; begin = beyond(begin, options.step)) {
+      end = beyond(begin, options.window);
+      if (is_torn(beside.in(first + begin, first + end)))
+        std::fill(wanted.begin() + begin, wanted.begin() + end, char{1});
+    }
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (stretch.vertices[v].ratio >= options.round_ratio) wanted[v] = 1;
+    for (RidgeCurve& part : parts_of_curve(stretch, wanted)) result.push_back(std::move(part));
+    first += count;
+  }
+  return result;
+}
+
+}  // namespace affskel::core
