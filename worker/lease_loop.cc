@@ -11,12 +11,14 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <stop_token>
 #include <utility>
 
 #include "available_memory.h"
 #include "backoff.h"
 #include "base/logfmt.h"
 #include "base/mutex.h"
+#include "base/service_manager.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
 #include "derive/derive.h"
@@ -112,6 +114,7 @@ class LeaseLoop {
                                         {"server", options_.server},
                                         {"threads", options_.threads},
                                         {"memory", request_.worker().memory()}}));
+    base::tell_service_manager(base::ServiceState::kReady);
     Clock::time_point last_work = Clock::now();
     while (!stop_.stop_requested()) {
       const std::optional<v1::Lease> lease = next_lease();
@@ -127,6 +130,8 @@ class LeaseLoop {
         break;
       }
     }
+    // Idle, or with jobs enough; who is asked to leave says so at once, see run_lease_loop().
+    if (!stop_.stop_requested()) base::tell_service_manager(base::ServiceState::kStopping);
     settle_last_report();
     give_back_next();
     return 0;
@@ -391,6 +396,7 @@ class LeaseLoop {
 }  // namespace
 
 int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
+  const std::stop_callback stopping(stop, [] { base::tell_service_manager(base::ServiceState::kStopping); });
   try {
     return LeaseLoop(options, stop).run();
   } catch (const NotAllowed& refused) {

@@ -31,6 +31,8 @@ std::shared_ptr<grpc::Channel> connect(const ServerLinkOptions& options) {
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  // The answers to reports: bounds, and little else.
+  arguments.SetMaxReceiveMessageSize(int{wire::kMostBoundsBytes} + (1 << 20));
   // Come back quickly after a server restart.  The second is how long one attempt may take.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);
@@ -191,6 +193,7 @@ v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
   }
   first.mutable_header()->set_records(count);
   first.mutable_header()->set_bounds_for(options_.worker);
+  first.mutable_header()->set_bounds_bytes(wire::kMostBoundsBytes);
   v1::ReportResponse response;
   with_retries("reporting", [&](grpc::ClientContext& context) {
     response.Clear();

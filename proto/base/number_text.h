@@ -30,6 +30,23 @@ inline std::string rounded(double value, int digits) {
   return to_text(value);
 }
 
+/// Digits of a measured volume that rounding leaves: what sums over a mesh's triangles lose is below 1e-12 of
+/// it.
+inline constexpr int kMeasureDigits = 12;
+
+/// Rounded to `digits` significant digits and without an exponent where that has at most 15 digits before the
+/// point and 6 zeros behind it: a measure for people, 8000000000 and not 8e+09.
+inline std::string plain(double value, int digits) {
+  char buffer[40];
+  const char* end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
+  std::from_chars(buffer, end, value);
+  const double size = value < 0 ? -value : value;
+  if (!(size < 1e15 && size >= 1e-6)) return to_text(value);
+  return std::string(buffer,
+                     std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed).ptr);
+}
+
 /// "1 edge", "2 edges": a count of things for people.  @param many where it is not `one` and an s.
 template <std::integral Count>
 std::string counted(Count count, std::string_view one, std::string_view many = {}) {

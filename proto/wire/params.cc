@@ -10,12 +10,12 @@
 #include "base/direction_set.h"
 #include "base/number_text.h"
 #include "base/published_threshold.h"
+#include "base/ridge_threshold.h"
 #include "wire/words.h"
 
 namespace affskel::wire {
 namespace {
 
-constexpr double kMaxRidgeStrength = 800;  // the core counts strengths up to 1000
 constexpr std::uint64_t kMaxTargetPoints = std::uint64_t{1} << 31;
 
 v1::SurfaceParams with_barrier(v1::SurfaceParams params) {
@@ -99,10 +99,12 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
         "not " +
         base::to_text(params.threshold()));
   }
-  if (result.operator_() == v1::OPERATOR_RIDGE && params.threshold() > kMaxRidgeStrength) {
+  if (result.operator_() == v1::OPERATOR_RIDGE && params.threshold() != 0 &&
+      !(params.threshold() >= base::kMinRidgeThreshold && params.threshold() <= base::kMaxRidgeThreshold)) {
     throw std::invalid_argument(
-        "the threshold of ridge is the least strength of its sheet in radians, between 0 and 800, not " +
-        base::to_text(params.threshold()));
+        "the threshold of ridge is the least strength of its sheet in radians, between " +
+        base::to_text(base::kMinRidgeThreshold) + " and " + base::to_text(base::kMaxRidgeThreshold) +
+        ", not " + base::to_text(params.threshold()));
   }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {

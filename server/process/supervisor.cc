@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -25,7 +26,7 @@ namespace {
 constexpr std::chrono::milliseconds kReapPause{10};
 
 /// The child between fork and exec: only async-signal-safe calls, other threads' locks are lost here.
-[[noreturn]] void become_worker(char* const* arguments, pid_t parent) {
+[[noreturn]] void become_worker(char* const* arguments, char* const* environment, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);  // the server died before the line above
   // A group of its own: Ctrl-C is for the server, which tells its workers.
@@ -37,8 +38,19 @@ constexpr std::chrono::milliseconds kReapPause{10};
   const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (null >= 0) dup2(null, STDIN_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);
-  execv(arguments[0], arguments);
+  execve(arguments[0], arguments, environment);
   _exit(127);
+}
+
+/// That of this process without the socket of its service manager, which asks for the server's state alone.
+std::vector<char*> environment_of_worker() {
+  constexpr std::string_view kNotifySocket = "NOTIFY_SOCKET=";
+  std::vector<char*> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    if (!std::string_view(*entry).starts_with(kNotifySocket)) environment.push_back(*entry);
+  }
+  environment.push_back(nullptr);
+  return environment;
 }
 
 base::LogField describe(int status) {
@@ -82,9 +94,10 @@ void Supervisor::start(Slot& slot) {
   std::vector<char*> arguments;
   for (const std::string& word : options_.command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  const std::vector<char*> environment = environment_of_worker();
   const pid_t self = getpid();
   const pid_t child = fork();
-  if (child == 0) become_worker(arguments.data(), self);
+  if (child == 0) become_worker(arguments.data(), environment.data(), self);
   slot.started = std::chrono::steady_clock::now();
   if (child < 0) {
     slot.delay = std::clamp(slot.delay * 2, options_.first_delay, options_.last_delay);

@@ -18,12 +18,13 @@ std::size_t memory_of(const v1::ErosionBounds& message) {
 }  // namespace
 
 void BoundsExchange::exchange(const std::string& job, const std::string& worker,
-                              const std::vector<wire::PointRecord>& records, v1::ReportResponse& response) {
+                              const std::vector<wire::PointRecord>& records, std::size_t room,
+                              v1::ReportResponse& response) {
   std::vector<Message> theirs;
   {
     const base::MutexLock lock(mutex_);
     if (!enter(job, worker)) return;
-    theirs = collect(job, worker);
+    theirs = collect(job, worker, room);
   }
   const std::vector<Message> ours = pack(records);
   {
@@ -76,7 +77,7 @@ bool BoundsExchange::enter(const std::string& job, const std::string& worker) {
 }
 
 std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& job,
-                                                             const std::string& worker) {
+                                                             const std::string& worker, std::size_t room) {
   std::uint64_t& next = seen_[job][worker];
   next = std::max(next, forgotten_);
   std::vector<Message> messages;
@@ -85,7 +86,7 @@ std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& 
     const Entry& entry = entries_[next - forgotten_];
     if (entry.message == nullptr || entry.job != job || entry.worker == worker) continue;
     bytes += entry.wire_bytes;
-    if (bytes > options_.reply_bytes && !messages.empty()) break;
+    if (bytes > room && !messages.empty()) break;
     messages.push_back(entry.message);
   }
   return messages;

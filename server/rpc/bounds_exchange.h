@@ -15,10 +15,7 @@
 namespace affskel::server {
 
 struct BoundsExchangeOptions {
-  std::size_t kept_bytes = std::size_t{64} << 20;  ///< of all jobs; what is oldest is forgotten
-  /// Of one answer, on the wire: within what gRPC's clients take unless told otherwise.  The rest comes with
-  /// the next.
-  std::size_t reply_bytes = std::size_t{3} << 20;
+  std::size_t kept_bytes = std::size_t{64} << 20;     ///< of all jobs; what is oldest is forgotten
   std::size_t message_points = std::size_t{1} << 16;  ///< per v1::ErosionBounds
   std::size_t jobs = 256;                             ///< whose workers are remembered
 };
@@ -33,8 +30,10 @@ class BoundsExchange {
   /// Passes on a report that is committed, and adds to the answer what other workers on the job reported
   /// since this worker's last one; nothing for its first.
   /// @param records of the report; passed on when in ascending order of points, as our workers send them.
+  /// @param room bytes of bounds that the answer may hold on the wire; the rest comes with the next.
   void exchange(const std::string& job, const std::string& worker,
-                const std::vector<wire::PointRecord>& records, v1::ReportResponse& response);
+                const std::vector<wire::PointRecord>& records, std::size_t room,
+                v1::ReportResponse& response);
 
   /// Passes on a part of a report, committed before the rest of it has come.
   void pass_on(const std::string& job, const std::string& worker,
@@ -57,7 +56,7 @@ class BoundsExchange {
 
   std::vector<Message> pack(const std::vector<wire::PointRecord>& records) const;
   bool enter(const std::string& job, const std::string& worker) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  std::vector<Message> collect(const std::string& job, const std::string& worker)
+  std::vector<Message> collect(const std::string& job, const std::string& worker, std::size_t room)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void keep(const std::string& job, const std::string& worker, const std::vector<Message>& messages)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

@@ -1,5 +1,6 @@
 #include "rpc/worker_calls.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -88,7 +89,10 @@ bool ReportCall::finish() {
   batch_->sort();
   response_ = store_.report(*header_, *batch_);
   if (!header_->bounds_for().empty()) {
-    bounds_.exchange(job_, header_->bounds_for(), batch_->records(), response_);
+    const std::uint32_t room = header_->bounds_bytes() == 0
+                                   ? wire::kUsualBoundsBytes
+                                   : std::min(header_->bounds_bytes(), wire::kMostBoundsBytes);
+    bounds_.exchange(job_, header_->bounds_for(), batch_->records(), room, response_);
     if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(job_);
   }
   return response_.cancelled() || header_->block_done();

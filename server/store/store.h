@@ -23,6 +23,7 @@
 #include "store/figures.h"
 #include "store/rows.h"
 #include "store/submission.h"
+#include "store/time_left.h"
 #include "store/tx.h"
 
 namespace affskel::server {
@@ -219,6 +220,7 @@ class Store final : public TokenSource {
   Database db_ ABSL_GUARDED_BY(mutex_);
   ReaderPool readers_;
   int schema_version_ = 0;
+  TimesLeft times_left_;
   OpenFile identity_;  // of the database and its log; set once
   /// Requests for artefacts that nobody has asked for since the start.
   std::set<std::int64_t> orphans_ ABSL_GUARDED_BY(mutex_);

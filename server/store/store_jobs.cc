@@ -13,7 +13,9 @@
 namespace affskel::server {
 
 v1::Job Store::job(const JobRef& job_ref) {
-  return read([&](Database& db) { return job_message(db, resolve_job(db, job_ref)); });
+  v1::Job job = read([&](Database& db) { return job_message(db, resolve_job(db, job_ref)); });
+  times_left_.tell(job, clock_.lease_ms());
+  return job;
 }
 
 std::string Store::resolve(const JobRef& job_ref) {
@@ -21,7 +23,9 @@ std::string Store::resolve(const JobRef& job_ref) {
 }
 
 JobPage Store::list(const ListFilter& filter) {
-  return read([&](Database& db) { return list_jobs(db, filter); });
+  JobPage page = read([&](Database& db) { return list_jobs(db, filter); });
+  for (v1::Job& job : page.jobs) times_left_.tell(job, clock_.lease_ms());
+  return page;
 }
 
 v1::ListJobEventsResponse Store::events(const JobRef& job_ref, std::int64_t after) {

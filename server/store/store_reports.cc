@@ -125,6 +125,7 @@ auto Store::write_field(const std::string& token, Body&& body) {
 
 v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const RecordBatch& records) {
   std::exception_ptr refusal;
+  JobRow reported;
   const v1::ReportResponse response = write_field(header.token(), [&](Tx& tx) {
     const TaskRow task = erode_task(tx.db, header.token());
     const JobRow job = get_job(tx.db, task.job_id);
@@ -137,6 +138,8 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     const std::vector<Range> ranges = checked_ranges(header, task.block);
     // A report that is repeated after its block was finished finds the field finished, too.
     const Progress progress = add_positions(tx, job, ranges);
+    reported = job;
+    reported.directions_done += progress.added;
     if (!job.finished) merge_records(tx.db, job.erosion_id, job.points, records.records());
     count_report(tx, task, progress);
     if (task.state == "done") return reply(false);
@@ -155,6 +158,8 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     return reply(!job.active() || job.cancel_requested);
   });
   if (refusal) std::rethrow_exception(refusal);
+  times_left_.add(reported.id, clock_.lease_ms(), static_cast<std::uint64_t>(reported.directions_done),
+                  static_cast<std::uint64_t>(reported.directions));
   return response;
 }
 

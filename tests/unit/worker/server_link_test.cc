@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "link_fixture.h"
+#include "wire/limits.h"
 
 namespace affskel::worker {
 namespace {
@@ -58,6 +59,20 @@ TEST_F(LinkTest, SaysOnceThatTheServerIsAway) {
   const std::size_t first = log.find("event=server_away ");
   EXPECT_NE(first, std::string::npos) << log;
   EXPECT_EQ(log.find("event=server_away ", first + 1), std::string::npos) << log;
+}
+
+// More than gRPC takes by itself.
+TEST_F(LinkTest, TakesAsManyBoundsAsItSays) {
+  server_.on_report([](const v1::ReportErosionHeader& header) {
+    v1::ReportResponse response;
+    const std::size_t points = header.bounds_bytes() / 5;  // step and bound
+    v1::ErosionBounds* bounds = response.add_bounds();
+    bounds->mutable_step()->Resize(static_cast<int>(points), 1);
+    bounds->mutable_bound()->Resize(static_cast<int>(points), 1);
+    return response;
+  });
+  const v1::ReportResponse response = link().report({}, {});
+  EXPECT_EQ(response.bounds(0).step_size(), static_cast<int>(wire::kMostBoundsBytes / 5));
 }
 
 TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {

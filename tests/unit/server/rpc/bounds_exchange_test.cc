@@ -7,6 +7,7 @@
 #include <map>
 
 #include "wire/erosion_bound.h"
+#include "wire/limits.h"
 
 namespace affskel::server {
 namespace {
@@ -18,9 +19,10 @@ wire::PointRecord record(std::uint32_t point, double erosion) {
 /// What a worker is told when it reports, by point.
 std::map<std::uint64_t, double> told(BoundsExchange& exchange, const std::string& job,
                                      const std::string& worker,
-                                     const std::vector<wire::PointRecord>& records = {}) {
+                                     const std::vector<wire::PointRecord>& records = {},
+                                     std::size_t room = wire::kUsualBoundsBytes) {
   v1::ReportResponse response;
-  exchange.exchange(job, worker, records, response);
+  exchange.exchange(job, worker, records, room, response);
   std::map<std::uint64_t, double> bounds;
   for (const v1::ErosionBounds& message : response.bounds()) {
     EXPECT_EQ(message.step_size(), message.bound_size());
@@ -101,7 +103,6 @@ TEST(BoundsExchange, PassesNothingOnThatIsOutOfOrder) {
 TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   BoundsExchangeOptions options;
   options.message_points = 10;
-  options.reply_bytes = 2 * 54;
   options.kept_bytes = 3 * (512 + 80);
   BoundsExchange exchange(options);
   told(exchange, "job", "a");
@@ -109,7 +110,9 @@ TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   std::vector<wire::PointRecord> records;
   for (std::uint32_t p = 0; p < 40; ++p) records.push_back(record(p, 1 + p));
   told(exchange, "job", "a", records);
-  const auto first = told(exchange, "job", "b"), second = told(exchange, "job", "b");
+  constexpr std::size_t kTwoMessages = 2 * 54;
+  const auto first = told(exchange, "job", "b", {}, kTwoMessages);
+  const auto second = told(exchange, "job", "b", {}, kTwoMessages);
   EXPECT_EQ(first.size(), 20U);
   EXPECT_EQ(first.begin()->first, 10U) << "the first ten are forgotten";
   EXPECT_EQ(second.size(), 10U);
@@ -117,17 +120,20 @@ TEST(BoundsExchange, SendsInAnswersOfLimitedSizeAndForgetsTheOldest) {
   EXPECT_TRUE(told(exchange, "job", "b").empty());
 }
 
-TEST(BoundsExchange, AnswersFitWhatClientsTakeUnlessToldOtherwise) {
-  BoundsExchange exchange;
-  v1::ReportResponse first, ignored;
-  exchange.exchange("job", "a", {}, ignored);
-  exchange.exchange("job", "b", {}, ignored);
-  std::vector<wire::PointRecord> records;
-  for (std::uint32_t p = 0; p < 2'000'000; ++p) records.push_back(record(p * 2000, 1.0));
-  exchange.exchange("job", "a", records, ignored);
-  exchange.exchange("job", "b", {}, first);
-  EXPECT_GT(first.ByteSizeLong(), std::size_t{2} << 20);
-  EXPECT_LT(first.ByteSizeLong(), std::size_t{4} << 20) << "gRPC's own limit";
+TEST(BoundsExchange, AnswersFitWhatTheirWorkersTake) {
+  for (const std::uint32_t room : {wire::kUsualBoundsBytes, std::uint32_t{8} << 20}) {
+    BoundsExchange exchange;
+    v1::ReportResponse first, ignored;
+    exchange.exchange("job", "a", {}, room, ignored);
+    exchange.exchange("job", "b", {}, room, ignored);
+    std::vector<wire::PointRecord> records;
+    for (std::uint32_t p = 0; p < 2'000'000; ++p) records.push_back(record(p * 2000, 1.0));
+    exchange.exchange("job", "a", records, room, ignored);
+    exchange.exchange("job", "b", {}, room, first);
+    EXPECT_GT(first.ByteSizeLong(), room - (room >> 2));
+    EXPECT_LE(first.ByteSizeLong(), room + 4096);
+  }
+  EXPECT_LT(wire::kUsualBoundsBytes + 4096, std::uint32_t{4} << 20) << "gRPC's own limit";
 }
 
 TEST(BoundsExchange, RemembersTheWorkersOfSoManyJobs) {

@@ -45,6 +45,17 @@ TEST(WatchdogTest, TellsOfAServerThatNeverAnswers) {
   EXPECT_EQ(deaf.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
 }
 
+// The channel went with the end of a call that came late, on a thread of gRPC that then joined itself.
+TEST(WatchdogTest, EndsOnItsOwnThread) {
+  const DeafSocket socket;
+  const WatchdogOptions one_round{std::chrono::milliseconds(1), std::chrono::milliseconds(1), 1};
+  for (int i = 0; i < 300; ++i) {
+    std::promise<void> deaf;
+    const Watchdog watchdog(socket.target(), one_round, [&] { deaf.set_value(); });
+    deaf.get_future().wait();
+  }
+}
+
 class WatchdogServiceTest : public ServiceTest {};
 
 // A strike needs a call without an answer; this server answers all of them.

@@ -117,7 +117,7 @@ TEST_F(DeriveTest, ChordsGiveTheTorusItsAnnulus) {
 TEST_F(DeriveTest, TheRidgeOfATorusIsItsAnnulus) {
   const v1::SkeletonPoints points = skeleton(v1::OPERATOR_RIDGE);
   ASSERT_GT(points.point_size(), 20);
-  EXPECT_EQ(points.quality().threshold(), 5);
+  EXPECT_EQ(points.quality().threshold(), 6);
   EXPECT_EQ(points.quality().inside_share(), 1);
   EXPECT_EQ(points.quality().components(), 1U);
   EXPECT_EQ(points.quality().holes(), 1U);
@@ -137,7 +137,7 @@ TEST_F(DeriveTest, TheRidgeOfATorusIsItsAnnulus) {
   for (int v = 0; v < vertices; ++v) {
     EXPECT_EQ(sheet.xyz(3 * v), points.xyz(3 * v));
     EXPECT_LT(std::abs(sheet.xyz(3 * v + 2)), 0.1 * spacing);
-    EXPECT_GE(sheet.strength(v), 5 - 1e-9);
+    EXPECT_GE(sheet.strength(v), 6 - 1e-9);
     EXPECT_LE(sheet.ratio(v), 1);
     // The level surfaces mirror each other in the plane z = 0.
     EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
