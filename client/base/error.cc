@@ -24,6 +24,8 @@ const char* exit_code_name(ExitCode code) {
       return "NOT_ALLOWED";
     case ExitCode::kLimit:
       return "LIMIT";
+    case ExitCode::kClosedPipe:
+      return "CLOSED_PIPE";
     case ExitCode::kInternal:
       break;
   }
@@ -62,8 +64,8 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise) {
   ExitCode code = otherwise;
-  if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG || error_number == EPIPE)
-    code = ExitCode::kLimit;
+  if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG) code = ExitCode::kLimit;
+  if (error_number == EPIPE) code = ExitCode::kClosedPipe;
   if (error_number == EACCES || error_number == EPERM || error_number == EROFS) code = ExitCode::kNotAllowed;
   return {code, action + ": " + std::strerror(error_number), file};
 }

@@ -22,6 +22,7 @@ enum class ExitCode : int {
   kNotAllowed = 7,
   kLimit = 8,
   kInternal = 70,
+  kClosedPipe = 141,  ///< who read the output is gone: as a shell reports SIGPIPE
 };
 
 /// Stable upper-case name of an exit code for JSON errors, e.g. "BAD_INPUT".
@@ -53,8 +54,8 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
 /// Error for a file that could not be written, as error_from_errno.
 ClientError error_from_file(const base::FileError& error);
 
-/// Error for a failed system call on `file`, by errno: disk full or a pipe that nobody reads 8, no permission
-/// 7, otherwise `otherwise`.
+/// Error for a failed system call on `file`, by errno: disk full 8, a pipe that nobody reads 141, no
+/// permission 7, otherwise `otherwise`.
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise = ExitCode::kUsage);
 

@@ -7,6 +7,7 @@
 
 #include "client/base/error.h"
 #include "client/cli/help_format.h"
+#include "client/cli/value_checks.h"
 
 namespace affskel::client {
 namespace {
@@ -25,21 +26,29 @@ struct CompletedCommand {
   std::string description;
   std::vector<CompletedOption> options;  // its own and the global ones
   std::vector<std::string> positional_values;
-  bool positional_file = false;
+  bool positional_file = false;  // of any kind
+  bool positional_mesh = false;
+  bool positional_job = false;
   std::vector<std::pair<std::string, std::string>> subcommands;  // name, description
 };
 
 bool wants_file(const CLI::Option& option) {
   const std::string type = placeholder(option);
-  return type == "FILE" || type == "DIR" || option.get_name() == "FILE";
+  const std::string name = option.get_name();
+  return type == "FILE" || type == "DIR" || name == "FILE" || name == "A" || name == "B";
 }
 
 void add_options(CompletedCommand& command, const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) {
       for (const std::string& value : possible_values(*option)) command.positional_values.push_back(value);
-      if (option->get_name() == "JOB") command.positional_values.push_back("@last");
-      command.positional_file = command.positional_file || wants_file(*option);
+      if (option->get_name() == "JOB") {
+        command.positional_values.push_back("@last");
+        command.positional_job = true;
+      }
+      const bool mesh = is_mesh_file(*option);
+      command.positional_mesh = command.positional_mesh || mesh;
+      command.positional_file = command.positional_file || (wants_file(*option) && !mesh);
       continue;
     }
     CompletedOption completed;
@@ -68,7 +77,9 @@ void collect(std::vector<CompletedCommand>& all, const CLI::App& app, const std:
       });
     }
   }
-  const auto children = app.get_subcommands([](const CLI::App*) { return true; });
+  // Those of no group are for shells, not for people.
+  const auto children =
+      app.get_subcommands([](const CLI::App* child) { return !child->get_group().empty(); });
   for (const CLI::App* child : children)
     command.subcommands.emplace_back(child->get_name(), child->get_description());
   all.push_back(std::move(command));
@@ -77,6 +88,13 @@ void collect(std::vector<CompletedCommand>& all, const CLI::App& app, const std:
 
 std::string join(const std::vector<std::string>& words, const std::string& between) {
   return CLI::detail::join(words, between);
+}
+
+// The extensions of mesh files, each behind a text.
+std::string mesh_patterns(const std::string& before, const std::string& between) {
+  std::vector<std::string> patterns;
+  for (const char* extension : {"off", "ply", "obj", "stl", "vtp"}) patterns.push_back(before + extension);
+  return join(patterns, between);
 }
 
 std::vector<std::string> subcommand_paths(const std::vector<CompletedCommand>& commands) {
@@ -121,20 +139,37 @@ std::string bash_script(const std::vector<CompletedCommand>& commands) {
       "  case \"$at:$prev\" in\n";
   s += value_cases(commands, "", [](const CompletedOption& o) -> std::string {
     if (!o.values.empty()) return "COMPREPLY=($(compgen -W '" + join(o.values, " ") + "' -- \"$cur\"))";
-    return o.takes_file ? "COMPREPLY=($(compgen -f -- \"$cur\")); compopt -o filenames 2>/dev/null" : "";
+    return o.takes_file ? "mapfile -t COMPREPLY < <(compgen -f -- \"$cur\"); compopt -o filenames 2>/dev/null"
+                        : "";
   });
-  s += "  esac\n  local words= files=\n  case \"$at\" in\n";
+  s += "  esac\n  local words= files= jobs= file\n  case \"$at\" in\n";
   for (const CompletedCommand& c : commands) {
     std::vector<std::string> words = c.positional_values;
     for (const auto& sub : c.subcommands) words.push_back(sub.first);
     std::vector<std::string> options;
     for (const CompletedOption& o : c.options) options.push_back(o.names.back());
     s += "    '" + c.path + "') words='" + join(words, " ") + "'; [[ $cur == -* ]] && words='" +
-         join(options, " ") + "'" + (c.positional_file ? "; files=1" : "") + " ;;\n";
+         join(options, " ") + "'" +
+         (c.positional_file   ? "; files=any"
+          : c.positional_mesh ? "; files=mesh"
+                              : "") +
+         (c.positional_job ? "; jobs=1" : "") + " ;;\n";
   }
   return s +
-         "  esac\n  COMPREPLY=($(compgen -W \"$words\" -- \"$cur\"))\n"
-         "  if [[ $files && $cur != -* ]]; then\n    COMPREPLY+=($(compgen -f -- \"$cur\"))\n"
+         "  esac\n"
+         "  if [[ $jobs && $cur != -* ]]; then\n"
+         "    words+=\" $(\"${COMP_WORDS[0]}\" job-ids --line \"${COMP_LINE:0:COMP_POINT}\" 2>/dev/null | "
+         "cut -f 1)\"\n  fi\n"
+         "  COMPREPLY=($(compgen -W \"$words\" -- \"$cur\"))\n"
+         "  if [[ $files && $cur != -* ]]; then\n"
+         "    while IFS= read -r file; do\n"
+         "      case \"$files:${file,,}\" in\n"
+         "        any:*|" +
+         mesh_patterns("mesh:*.", "|") +
+         ") COMPREPLY+=(\"$file\") ;;\n"
+         "        *) [[ -d $file ]] && COMPREPLY+=(\"$file\") ;;\n"
+         "      esac\n"
+         "    done < <(compgen -f -- \"$cur\")\n"
          "    compopt -o filenames 2>/dev/null\n  fi\n}\n"
          "complete -F _affskel_client affskel-client\n";
 }
@@ -179,7 +214,13 @@ std::string zsh_script(const std::vector<CompletedCommand>& commands) {
       s += ")\n        _describe command found\n";
     }
     if (!c.positional_values.empty()) s += "        compadd -- " + join(c.positional_values, " ") + "\n";
+    if (c.positional_job) {
+      s += "        found=(${(f)\"$(${words[1]} job-ids --line \"$BUFFER\" 2>/dev/null)\"})\n"
+           "        found=(\"${(@)found/$'\\t'/:}\")\n"
+           "        _describe -V job found\n";
+    }
     if (c.positional_file) s += "        _files\n";
+    if (c.positional_mesh) s += "        _files -g '*.(#i)(" + mesh_patterns("", "|") + ")'\n";
     s += "      fi ;;\n";
   }
   return s +
@@ -210,7 +251,10 @@ std::string fish_script(const std::vector<CompletedCommand>& commands) {
       s += head + "-a " + sub.first + " -d '" + quoted(sub.second, false) + "'\n";
     }
     if (!c.positional_values.empty()) s += head + "-a '" + join(c.positional_values, " ") + "'\n";
+    if (c.positional_job)
+      s += head + "-k -a '(affskel-client job-ids --line (commandline -cp) 2>/dev/null)'\n";
     if (c.positional_file) s += head + "-F\n";
+    if (c.positional_mesh) s += head + "-k -a '(__fish_complete_suffix " + mesh_patterns(".", " ") + ")'\n";
     for (const CompletedOption& o : c.options) {
       s += head;
       for (const std::string& name : o.names)

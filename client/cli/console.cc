@@ -1,7 +1,12 @@
 #include "client/cli/console.h"
 
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <system_error>
 
 #include "base/mutex.h"
 #include "client/text/printable.h"
@@ -22,6 +27,12 @@ std::string dump(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+// Of a stream that failed before the console came to it, errno tells nothing any more; the pipe itself does.
+bool nobody_reads_standard_output() {
+  pollfd pipe{STDOUT_FILENO, 0, 0};
+  return poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0;
+}
+
 }  // namespace
 
 void Console::erase_transient() {
@@ -36,17 +47,27 @@ void Console::line(const char* colour, std::string_view label, std::string_view 
   err_ << text << '\n' << std::flush;
 }
 
+// A stream does not keep why it failed, but the failed call has just left it in errno.
+void Console::write_out(std::string_view text) {
+  errno = 0;
+  out_ << text << std::flush;
+  if (out_ || errno == 0) return;
+  if (errno == EPIPE) throw ClientError(ExitCode::kClosedPipe, "nobody reads standard output");
+  throw ClientError(ExitCode::kLimit,
+                    "cannot write to standard output: " + std::generic_category().message(errno));
+}
+
 void Console::result(std::string_view text) {
   if (style_.json) return;
   const base::MutexLock lock(mutex_);
   erase_transient();
-  out_ << text << std::flush;
+  write_out(text);
 }
 
 void Console::document(const ordered_json& value) {
   if (!style_.json) return;
   const base::MutexLock lock(mutex_);
-  out_ << dump(value) << '\n' << std::flush;
+  write_out(dump(value) + '\n');
 }
 
 void Console::transient(std::string_view text) {
@@ -70,6 +91,7 @@ void Console::warning(std::string_view text) {
 }
 
 void Console::error(const ClientError& error) {
+  if (error.exit_code() == ExitCode::kClosedPipe) return;
   if (!style_.json) return line(kRed, "error:", printable(error.for_people()));
   ordered_json body = {{"code", exit_code_name(error.exit_code())}, {"message", error.what()}};
   if (!error.file().empty()) body["file"] = error.file();
@@ -79,10 +101,10 @@ void Console::error(const ClientError& error) {
 
 void Console::finish() {
   const base::MutexLock lock(mutex_);
-  out_.flush();
-  if (!out_)
-    throw ClientError(ExitCode::kLimit,
-                      "cannot write to standard output: it is closed, or there is no room left");
+  write_out("");
+  if (!out_ && nobody_reads_standard_output())
+    throw ClientError(ExitCode::kClosedPipe, "nobody reads standard output");
+  if (!out_) throw ClientError(ExitCode::kLimit, "cannot write to standard output: there is no room left");
 }
 
 }  // namespace affskel::client

@@ -11,13 +11,15 @@
 namespace affskel::client {
 
 struct ConsoleStyle {
-  bool json = false;      ///< results and errors as JSON documents
-  bool quiet = false;     ///< no notes and no progress; warnings and errors stay
-  bool terminal = false;  ///< standard error is a terminal: progress bars
-  bool colour = false;    ///< ANSI colours on standard error
+  bool json = false;        ///< results and errors as JSON documents
+  bool quiet = false;       ///< no notes and no progress; warnings and errors stay
+  bool terminal = false;    ///< standard error is a terminal: progress bars
+  bool colour = false;      ///< ANSI colours on standard error
+  bool out_colour = false;  ///< ANSI colours on standard output
 };
 
-/// Results go to `out`, everything for people to `err`.  Notes may come from any thread, everything else from
+/// Results go to `out`, everything for people to `err`.  Whatever writes to `out` throws ClientError
+/// kClosedPipe when nobody reads it any more.  Notes may come from any thread, everything else from
 /// one.
 class Console {
  public:
@@ -36,12 +38,14 @@ class Console {
 
   void note(std::string_view text);
   void warning(std::string_view text);
+  /// Nothing for kClosedPipe: who closed the pipe knows.
   void error(const ClientError& error);
 
-  /// @throws ClientError when standard output did not take everything (disk full, closed).
+  /// @throws ClientError when standard output did not take everything (disk full).
   void finish();
 
  private:
+  void write_out(std::string_view text) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void line(const char* colour, std::string_view label, std::string_view text);
   void erase_transient() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 

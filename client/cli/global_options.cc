@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client/cli/value_checks.h"
+#include "client/text/shell_quoted.h"
 
 namespace affskel::client {
 
@@ -24,6 +25,19 @@ void add_global_options(CLI::App& app, GlobalOptions& options) {
   add_file("--client-key", options.access.tls_key, "Its key, PEM; else $AFFSKEL_CLIENT_KEY");
   app.add_flag("--json", options.json, "One JSON document on stdout; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.quiet, "No notes and no progress");
+}
+
+std::string next_command(const GlobalOptions& options, const std::string& words) {
+  std::string command = "affskel-client";
+  const auto add = [&command](const char* name, const std::string& value) {
+    if (!value.empty()) command += std::string(" ") + name + " " + shell_quoted(value);
+  };
+  add("--server", options.server);
+  add("--token-file", options.access.token_file);
+  add("--tls-ca", options.access.tls_ca);
+  add("--client-cert", options.access.tls_cert);
+  add("--client-key", options.access.tls_key);
+  return command + " " + words;
 }
 
 }  // namespace affskel::client

@@ -18,4 +18,8 @@ struct GlobalOptions {
 /// Adds --server, what is shown to it, --json and --quiet; parsing fills `options`, which must outlive it.
 void add_global_options(CLI::App& app, GlobalOptions& options);
 
+/// A command to type next, as a shell takes it: the program, what was given to reach the server, and `words`,
+/// which are quoted already.
+std::string next_command(const GlobalOptions& options, const std::string& words);
+
 }  // namespace affskel::client

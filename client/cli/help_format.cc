@@ -1,8 +1,14 @@
 #include "client/cli/help_format.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 namespace affskel::client {
+namespace {
+
+constexpr int kMostSpelt = 2;  // arguments of one name; more are "..."
+
+}  // namespace
 
 HelpFormatter::HelpFormatter() {
   column_width(28);
@@ -17,7 +23,7 @@ std::string placeholder(const CLI::Option& option) {
 }
 
 std::vector<std::string> possible_values(const CLI::Option& option) {
-  // CLI11 shows the values of IsMember as {a,b,c} in the type's name.
+  // one_of() shows its words as {a,b,c} in the type's name.
   const std::string type = option.get_type_name();
   const std::size_t open = type.find('{'), close = type.find('}');
   if (open == std::string::npos || close == std::string::npos || close < open) return {};
@@ -27,6 +33,16 @@ std::vector<std::string> possible_values(const CLI::Option& option) {
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   const std::string name = placeholder(*option);
   return name.empty() || option->get_positional() ? "" : " " + name;
+}
+
+std::string HelpFormatter::make_option_usage(const CLI::Option* positional) const {
+  const std::string name = make_option_name(positional, true);
+  std::string words;
+  for (int i = 0; i < std::min(positional->get_expected_max(), kMostSpelt); ++i) {
+    const bool optional = i >= positional->get_expected_min() || !positional->get_required();
+    words += (i > 0 ? " " : "") + (optional ? "[" + name + "]" : name);
+  }
+  return words + (positional->get_expected_max() > kMostSpelt ? "..." : "");
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/utf8.h"
+#include "client/text/job_text.h"
 #include "client/text/time_text.h"
 #include "client/text/words.h"
 
@@ -33,38 +34,59 @@ std::string rate_text(double per_second) {
   return per_second < 100 ? base::rounded(per_second, 2) : std::to_string(std::llround(per_second));
 }
 
-std::string count_text(const v1::Job& job, const ProgressRate& rate) {
-  std::string text =
-      std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total()) + " directions";
-  if (rate.directions_per_second > 0) text += ", " + rate_text(rate.directions_per_second) + "/s";
-  if (rate.remaining) text += ", " + duration_text(*rate.remaining) + " left";
+double done_share(const v1::Job& job) {
+  if (job.directions_total() == 0) return 0;
+  return std::min(1.0, double(job.directions_done()) / double(job.directions_total()));
+}
+
+std::string left_text(const v1::Job& job) {
+  return job.has_remaining_ms() ? duration_text(std::chrono::milliseconds(job.remaining_ms())) + " left" : "";
+}
+
+// At least so many columns, filled up in front, or behind.
+std::string to_the_right(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+std::string to_the_left(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
   return text;
+}
+
+std::string count_text(const v1::Job& job) {
+  return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total()) + " directions";
+}
+
+// Rates and times come and go and change their length: each has a place of its own.
+std::string steady_text(const v1::Job& job, double per_second) {
+  constexpr std::size_t kShare = 6, kRate = 8, kLeft = 16;  // "123456/s", "23 h 59 min left"
+  const std::string total = std::to_string(job.directions_total());
+  const std::string rate = per_second > 0 ? rate_text(per_second) + "/s" : "";
+  return to_the_right(percent_text(job), kShare) + " " +
+         to_the_right(count_text(job), 2 * total.size() + 1 + std::string(" directions").size()) + " " +
+         to_the_right(rate, kRate) + " " + to_the_left(left_text(job), kLeft);
 }
 
 std::string reason_text(const v1::Job& job) {
   return job.waiting_reason().empty() ? "" : " (" + job.waiting_reason() + ")";
 }
 
-double done_share(const v1::Job& job) {
-  if (job.directions_total() == 0) return 0;
-  return std::min(1.0, double(job.directions_done()) / double(job.directions_total()));
-}
-
 }  // namespace
 
-std::string progress_line(const v1::Job& job, const ProgressRate& rate) {
-  if (job.directions_total() == 0) return label(job) + reason_text(job);
-  return label(job) + reason_text(job) + ": " + count_text(job, rate);
+std::string progress_line(const v1::Job& job, double per_second) {
+  std::string text = label(job) + reason_text(job);
+  if (job.directions_total() == 0) return text;
+  text += ": " + percent_text(job) + ", " + count_text(job);
+  if (per_second > 0) text += ", " + rate_text(per_second) + "/s";
+  return job.has_remaining_ms() ? text + ", " + left_text(job) : text;
 }
 
-std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width) {
-  std::string head = label(job);
-  head.resize(std::max<std::size_t>(head.size(), 9), ' ');
-  const std::string tail =
-      job.directions_total() > 0 ? count_text(job, rate) + reason_text(job) : reason_text(job);
-  const int room = width - static_cast<int>(head.size() + tail.size()) - 5;
+std::string progress_bar(const v1::Job& job, double per_second, int width) {
+  const std::string head = to_the_left(label(job), 9);
+  const bool counts = job.directions_total() > 0;
+  const std::string tail = (counts ? steady_text(job, per_second) : std::string()) + reason_text(job);
+  const int room = width - static_cast<int>(head.size() + tail.size()) - 4;
   std::string line = head;
-  if (room >= 8 && job.directions_total() > 0) {
+  if (room >= 8 && counts) {
     const int cells = std::min(room, kMaxBar);
     const int full = static_cast<int>(std::floor(done_share(job) * cells));
     line += " [" + std::string(static_cast<std::size_t>(full), '#') +
@@ -81,7 +103,7 @@ ProgressView::~ProgressView() {
   console_.clear_transient();
 }
 
-ProgressRate ProgressView::measure(const v1::Job& job) {
+double ProgressView::measure(const v1::Job& job) {
   const Clock::time_point now = now_();
   if (last_time_ && job.directions_done() >= last_done_) {
     const double seconds = std::chrono::duration<double>(now - *last_time_).count();
@@ -93,18 +115,12 @@ ProgressRate ProgressView::measure(const v1::Job& job) {
   }
   last_time_ = now;
   last_done_ = job.directions_done();
-  ProgressRate rate;
-  if (job.stage() != v1::JOB_STAGE_ERODE || rate_ < 1e-6) return rate;
-  rate.directions_per_second = rate_;
-  const double left =
-      double(job.directions_total() - std::min(job.directions_done(), job.directions_total())) / rate_;
-  if (left > 0 && left < 1e8) rate.remaining = std::chrono::milliseconds(std::llround(1000 * left));
-  return rate;
+  return job.stage() == v1::JOB_STAGE_ERODE && rate_ >= 1e-6 ? rate_ : 0;
 }
 
 void ProgressView::update(const v1::Job& job) {
   if (console_.style().quiet) return;
-  const ProgressRate rate = measure(job);
+  const double rate = measure(job);
   if (console_.style().terminal) {
     console_.transient(progress_bar(job, rate, terminal_width() - 1));
   } else {
@@ -112,7 +128,7 @@ void ProgressView::update(const v1::Job& job) {
   }
 }
 
-void ProgressView::print(const v1::Job& job, const ProgressRate& rate) {
+void ProgressView::print(const v1::Job& job, double per_second) {
   const std::string now = label(job) + reason_text(job);
   const auto tenth = static_cast<std::uint64_t>(10 * done_share(job));
   const bool news = tenth != last_tenth_ && (!last_print_ || now_() - *last_print_ >= kMinSilence);
@@ -120,7 +136,7 @@ void ProgressView::print(const v1::Job& job, const ProgressRate& rate) {
   last_label_ = now;
   last_tenth_ = tenth;
   last_print_ = now_();
-  console_.note(progress_line(job, rate));
+  console_.note(progress_line(job, per_second));
 }
 
 }  // namespace affskel::client

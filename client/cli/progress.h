@@ -10,17 +10,13 @@
 
 namespace affskel::client {
 
-/// What a progress line says besides the job itself.
-struct ProgressRate {
-  double directions_per_second = 0;                    ///< 0 = not known yet
-  std::optional<std::chrono::milliseconds> remaining;  ///< until all directions are done
-};
-
-/// The line without colours, at most `width` columns: stage, bar, directions done of total, rate, time left.
-std::string progress_bar(const v1::Job& job, const ProgressRate& rate, int width);
+/// The line without colours, at most `width` columns: stage, bar, share and number of directions done, rate,
+/// time left.  Its length does not change as long as the total and the reason to wait do not.
+/// @param per_second directions, 0 = not known yet.
+std::string progress_bar(const v1::Job& job, double per_second, int width);
 
 /// The same for logs, without a bar.
-std::string progress_line(const v1::Job& job, const ProgressRate& rate);
+std::string progress_line(const v1::Job& job, double per_second);
 
 /// Shows the progress of one job on the console: a bar that is redrawn in place on a terminal, otherwise a
 /// plain line when the stage or state changes and at tenths of the directions, at most one a second; nothing
@@ -36,8 +32,8 @@ class ProgressView {
   void update(const v1::Job& job);
 
  private:
-  ProgressRate measure(const v1::Job& job);
-  void print(const v1::Job& job, const ProgressRate& rate);
+  double measure(const v1::Job& job);
+  void print(const v1::Job& job, double per_second);
 
   Console& console_;
   std::function<Clock::time_point()> now_;

@@ -1,18 +1,33 @@
 #include "client/cli/value_checks.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/cli/number_parsers.h"
+#include "client/text/nearest_word.h"
 #include "wire/params.h"
 
 namespace affskel::client {
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const std::string list = "{" + CLI::detail::join(words, ",") + "}";
+  return CLI::Validator(
+      [words = std::move(words)](std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+        const std::string nearest = nearest_word(text, words);
+        return "must be one of " + CLI::detail::join(words, ", ") + ", not '" + base::to_utf8(text) + "'" +
+               (nearest.empty() ? "" : "; did you mean " + nearest + "?");
+      },
+      list);
+}
 
 CLI::Validator positive_number() {
   return CLI::Validator(
@@ -76,6 +91,25 @@ CLI::Validator direction_set() {
         }
       },
       "");
+}
+
+namespace {
+
+constexpr const char* kMeshFile = "mesh file";
+
+}  // namespace
+
+CLI::Validator mesh_file() {
+  return CLI::Validator([](std::string&) { return std::string(); }, "", kMeshFile);
+}
+
+bool is_mesh_file(const CLI::Option& option) {
+  try {
+    const_cast<CLI::Option&>(option).get_validator(kMeshFile);
+    return true;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
 }
 
 }  // namespace affskel::client

@@ -2,11 +2,15 @@
 
 #include <CLI/App.hpp>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace affskel::client {
 
 // What the values of options may be.
 
+/// One of `words`, which its description lists as "{a,b,c}"; a word that is not is refused with the nearest.
+CLI::Validator one_of(std::vector<std::string> words);
 /// A finite number above 0.
 CLI::Validator positive_number();
 /// "0.1" or "10%", above 0 and below 1; rewrites it to a number.
@@ -19,5 +23,10 @@ CLI::Validator non_empty();
 CLI::Validator utf8_text();
 /// A direction set; rewrites it to its one spelling.
 CLI::Validator direction_set();
+
+/// Takes every text; marks an argument as the file of a mesh, for completions.
+CLI::Validator mesh_file();
+/// Whether mesh_file() marks it.
+bool is_mesh_file(const CLI::Option& option);
 
 }  // namespace affskel::client

@@ -2,11 +2,31 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client/cli/exit_codes.h"
 #include "client/cli/help_format.h"
 #include "client/commands/commands.h"
 #include "wire/version.h"
 
 namespace affskel::client {
+namespace {
+
+std::string exit_codes_text() {
+  constexpr std::size_t kWidth = 100;
+  std::string text, line = "Exit codes:";
+  for (const auto& [code, meaning] : kExitCodes) {
+    const std::string next =
+        std::to_string(code) + " " + std::string(meaning) + (code == kExitCodes.back().first ? "." : ",");
+    if (line.size() + 1 + next.size() > kWidth) {
+      text += line + "\n";
+      line = next;
+    } else {
+      line += " " + next;
+    }
+  }
+  return text + line;
+}
+
+}  // namespace
 
 CommandLine::CommandLine() {
   app_.name("affskel-client");
@@ -23,9 +43,8 @@ CommandLine::CommandLine() {
       "  affskel-client submit body.off --spacing 200 -o OUT\n"
       "  affskel-client render @last -o body.png\n"
       "  affskel-client view @last -o body.html\n"
-      "'affskel-client COMMAND --help' tells more. Exit codes: 0 done, 1 job failed, 2 usage, 3 bad input\n"
-      "file, 4 no such job or artefact, 5 server unreachable, 6 cancelled, 7 not allowed, 8 limit reached,\n"
-      "70 internal error.");
+      "'affskel-client COMMAND --help' tells more, 'affskel-client man | man -l -' all of it.\n" +
+      exit_codes_text());
 }
 
 CLI::App* CommandLine::add(const std::string& name, const std::string& description,

@@ -32,14 +32,17 @@ void add_compare(CommandLine& line);
 void add_transform(CommandLine& line);
 void add_perturb(CommandLine& line);
 void add_server_info(CommandLine& line);
+void add_health(CommandLine& line);
 void add_web(CommandLine& line);
 void add_completions(CommandLine& line);
+void add_man(CommandLine& line);
+void add_job_ids(CommandLine& line);
 
 /// All of them, in the order of the help.
 inline constexpr std::array kCommands = {
-    add_submit,  add_list,      add_status,  add_watch, add_log,         add_cancel,
-    add_resume,  add_delete,    add_pin,     add_unpin, add_fetch,       add_skeleton,
-    add_surface, add_erode,     add_render,  add_view,  add_inspect,     add_make,
-    add_compare, add_transform, add_perturb, add_web,   add_server_info, add_completions};
+    add_submit, add_list,        add_status,  add_watch,       add_log,      add_cancel,    add_resume,
+    add_delete, add_pin,         add_unpin,   add_fetch,       add_skeleton, add_surface,   add_erode,
+    add_render, add_view,        add_inspect, add_make,        add_compare,  add_transform, add_perturb,
+    add_web,    add_server_info, add_health,  add_completions, add_man,      add_job_ids};
 
 }  // namespace affskel::client

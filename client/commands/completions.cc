@@ -4,6 +4,7 @@
 #include <memory>
 #include <ostream>
 
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 
 namespace affskel::client {
@@ -17,7 +18,7 @@ void add_completions(CommandLine& line) {
       [&line, shell](Context& context) { context.out() << completion_script(line.app(), *shell); });
   command->add_option("SHELL", *shell, "Which shell")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->check(one_of({"bash", "zsh", "fish"}))
       ->type_name("");
 }
 

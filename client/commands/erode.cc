@@ -23,8 +23,8 @@ void run(Context& context, const Options& options) {
   if (options.fraction > 0) params.set_fraction(options.fraction);
   if (options.volume > 0) params.set_volume(options.volume);
   const bool surface = options.form.empty() ? holds_eroded_surface(destination) : options.form == "surface";
-  tell_result(context.console(), surface ? transfer_eroded_surface(context, options.job, params, destination)
-                                         : transfer_eroded_points(context, options.job, params, destination));
+  tell_result(context, surface ? transfer_eroded_surface(context, options.job, params, destination)
+                               : transfer_eroded_points(context, options.job, params, destination));
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void add_erode(CommandLine& line) {
       ->type_name("V")
       ->excludes(fraction);
   command->add_option("--as", options->form, "points or surface (default: what the extension can hold)")
-      ->check(CLI::IsMember({"points", "surface"}))
+      ->check(one_of({"points", "surface"}))
       ->type_name("FORM");
   add_output(command, options->output,
              "Points: .csv .ply .off .xyz .vtp; surface: .off .ply .obj .stl .vtp; - is stdout");

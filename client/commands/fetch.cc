@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/artifact_choice.h"
 #include "client/commands/shared/destination.h"
@@ -18,7 +19,7 @@ struct Options {
 
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
-  tell_result(context.console(), transfer_artifact(context, options.choice, destination));
+  tell_result(context, transfer_artifact(context, options.choice, destination));
 }
 
 // Options that only some artefacts have.
@@ -49,7 +50,7 @@ void add_fetch(CommandLine& line) {
   add_job(command, options->choice.job);
   command->add_option("ARTEFACT", options->choice.name, "What to fetch")
       ->required()
-      ->check(CLI::IsMember(artifact_names()))
+      ->check(one_of(artifact_names()))
       ->type_name("");
   std::vector<std::string> with_divergence = operator_words();
   std::erase_if(with_divergence,
@@ -57,7 +58,7 @@ void add_fetch(CommandLine& line) {
   command
       ->add_option("--operator", options->choice.skeleton.operator_name,
                    "Of the divergence (default: the job's)")
-      ->check(CLI::IsMember(with_divergence))
+      ->check(one_of(with_divergence))
       ->type_name("OP");
   add_output(command, options->output, "File to write; the format follows the extension; - is stdout");
   add_format(command, options->format);

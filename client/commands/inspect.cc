@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/number_text.h"
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/inspection.h"
 #include "client/files/read/input_file.h"
@@ -23,7 +25,30 @@ std::string text_of(const ordered_json& value) {
   return text;
 }
 
-std::string facts_text(const ordered_json& facts) {
+std::string measure_text(const ordered_json& measure) {
+  return base::plain(measure.get<double>(), base::kMeasureDigits);
+}
+
+// A difference of coordinates has lost digits: 0.4, not 0.40000000000000036.
+std::string size_text(const ordered_json& size) {
+  return measure_text(size[0]) + " " + measure_text(size[1]) + " " + measure_text(size[2]);
+}
+
+// Each place a line of its own.
+std::string all_places(const ordered_json& defect) {
+  std::string text = key_line("defect", defect["code"].get<std::string>() + ": " + defect["count"].dump() +
+                                            " " + defect["cause"].get<std::string>());
+  for (const ordered_json& place : defect["places"]) text += key_line("place", place["where"]);
+  return text;
+}
+
+std::string few_places(const ordered_json& defect) {
+  const bool more = defect["count"].get<std::uint64_t>() > defect["places"].size();
+  return key_line("defect", defect["code"].get<std::string>() + ": " + defect["message"].get<std::string>() +
+                                (more ? " (--all)" : ""));
+}
+
+std::string facts_text(const ordered_json& facts, bool all) {
   std::string text;
   for (const auto& [key, value] : facts.items()) {
     if (key == "surfaces") {
@@ -32,13 +57,24 @@ std::string facts_text(const ordered_json& facts) {
         text += key_line("surface", std::string(s["cavity"].get<bool>() ? "cavity of" : "outside of") +
                                         " solid " + s["solid"].dump() + ", " + s["triangles"].dump() +
                                         " triangles, genus " + s["genus"].dump() + ", volume " +
-                                        text_of(s["volume"]));
+                                        measure_text(s["volume"]));
       }
-    } else if (key == "notes" || key == "defects") {
+    } else if (key == "notes") {
       for (const ordered_json& entry : value) {
-        const std::string what = key == "defects" ? "defect" : entry["severity"].get<std::string>();
-        text += key_line(what, entry["code"].get<std::string>() + ": " + entry["message"].get<std::string>());
+        text += key_line(entry["severity"],
+                         entry["code"].get<std::string>() + ": " + entry["message"].get<std::string>());
       }
+    } else if (key == "defects") {
+      for (const ordered_json& entry : value) text += all ? all_places(entry) : few_places(entry);
+    } else if (key == "passed_over") {
+      for (const ordered_json& rows : value) {
+        text += key_line("passed_over", rows["rows"].dump() + " of " + rows["word"].get<std::string>() +
+                                            ", first in line " + rows["first_line"].dump());
+      }
+    } else if (key == "volume") {
+      text += key_line(key, measure_text(value));
+    } else if (key == "bbox_size") {
+      text += key_line(key, size_text(value));
     } else {
       text += key_line(key, text_of(value));
     }
@@ -46,27 +82,35 @@ std::string facts_text(const ordered_json& facts) {
   return text;
 }
 
-void show(Console& console, const ordered_json& facts) {
-  console.result(facts_text(facts));
-  console.document(facts);
-}
+struct Options {
+  std::string file;
+  bool all = false;
+};
 
-void run(Console& console, const std::string& file) {
-  const Inspection inspection = inspect(read_input(file));
-  show(console, inspection.facts);
+void run(Console& console, const Options& options) {
+  const std::size_t places = options.all ? std::numeric_limits<std::size_t>::max() : kFewPlaces;
+  const Inspection inspection = inspect(read_named_input(options.file), places);
+  console.result(facts_text(inspection.facts, options.all));
+  console.document(inspection.facts);
   if (inspection.error) throw *inspection.error;
 }
 
 }  // namespace
 
 void add_inspect(CommandLine& line) {
-  const auto file = std::make_shared<std::string>();
+  const auto options = std::make_shared<Options>();
   CLI::App* command = line.add("inspect", "What a mesh is, and every defect with its place; needs no server",
-                               "  affskel-client inspect body.off\n  affskel-client --json inspect scan.stl",
-                               [file](Context& context) { run(context.console(), *file); });
-  command->add_option("FILE", *file, "Geomview OFF text, .ply, .obj, .stl or .vtp")
+                               "  affskel-client inspect body.off\n  affskel-client inspect scan.off --all\n"
+                               "  affskel-client --json inspect scan.stl",
+                               [options](Context& context) { run(context.console(), *options); });
+  command
+      ->add_option("FILE", options->file,
+                   "Geomview OFF text, .ply, .obj, .stl or .vtp; - reads it from stdin")
       ->required()
+      ->check(mesh_file())
       ->type_name("");
+  command->add_flag("--all", options->all,
+                    "Every place of every defect, each on a line; else the first five");
 }
 
 }  // namespace affskel::client

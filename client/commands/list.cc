@@ -28,7 +28,7 @@ void run(Context& context, const ListOptions& options) {
   if (jobs.empty()) {
     context.console().note("no jobs");
   } else {
-    context.console().result(job_table(jobs, unix_now_ms()));
+    context.console().result(job_table(jobs, unix_now_ms(), context.console().style().out_colour));
   }
 }
 
@@ -42,7 +42,7 @@ void add_list(CommandLine& line) {
                "  affskel-client --json list | jq -r .jobs[].id",
                [options](Context& context) { run(context, *options); });
   command->add_option("--state", options->states, "Only jobs in this state; may be repeated")
-      ->check(CLI::IsMember(state_words()))
+      ->check(one_of(state_words()))
       ->type_name("STATE")
       ->allow_extra_args(false);
   command->add_option("--owner", options->owner, "Only this user's jobs")

@@ -111,6 +111,7 @@ void add_perturb(CommandLine& line) {
                "The same seed gives the same noise on every machine.",
                [options](Context& context) { run(context.console(), *options); });
   add_file(command, "FILE", options->file, "Mesh: .off .ply .obj .stl .vtp");
+  command->get_option("FILE")->check(mesh_file());
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");
   add_format(command, options->format);
   CLI::Option* noise =

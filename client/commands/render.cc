@@ -10,25 +10,66 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/picture.h"
 #include "client/commands/shared/skeleton_options.h"
+#include "client/commands/shared/up_option.h"
 
 namespace affskel::client {
 namespace {
 
 struct Options {
   std::string job, output;
-  SkeletonOptions skeleton;  // not given: see shown_skeleton()
-  int width = 1600;          // pixels
+  PictureOptions picture;  // skeleton not given: see shown_skeleton()
+  std::string up, background = "white";
+  std::vector<std::string> cameras;  // empty: the usual ones
+  bool no_mesh = false;
 };
 
+PictureOptions picture_of(const Options& options) {
+  PictureOptions picture = options.picture;
+  picture.up = chosen_up(options.up);
+  picture.render.background = parse_background(options.background);
+  picture.render.mesh = !options.no_mesh;
+  if (!options.cameras.empty()) picture.render.cameras.clear();
+  for (const std::string& camera : options.cameras) picture.render.cameras.push_back(parse_camera(camera));
+  return picture;
+}
+
 void run(Context& context, const Options& options) {
+  const PictureOptions wanted = picture_of(options);
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, picture_formats(), "picture");
   base::AtomicFile file(destination.file);
   const v1::Job job = finished_job(context, options.job);
-  file.write(job_picture(context, job, options.skeleton, options.width));
+  const Picture picture = job_picture(context, job, wanted);
+  file.write(picture.png);
   file.commit();
   context.console().note("wrote " + destination.name());
-  context.console().document({{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}});
+  context.console().document(
+      {{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}, {"shown", picture.shown}});
+}
+
+void add_looks(CLI::App* command, Options& options) {
+  add_up(command, options.up);
+  command
+      ->add_option("--camera", options.cameras,
+                   camera_words() +
+                       ", or azimuth and elevation\nin degrees: 0,0 is the front, 90,0 the side, "
+                       "0,90 the top; given again, up to\n6 times, for more views (default: front, "
+                       "side, top). Orthographic, the whole\nbody in each, all at one scale")
+      ->allow_extra_args(false)
+      ->type_name("VIEW");
+  command
+      ->add_option("--level", options.picture.level,
+                   "Draw the eroded solid at this share of v0, too: 0.05 or 5%")
+      ->transform(proper_share())
+      ->type_name("F");
+  command->add_flag("--no-mesh", options.no_mesh, "Leave out the body's surface");
+  command->add_option("--background", options.background, "white, black, dark, #RGB or #RRGGBB")
+      ->capture_default_str()
+      ->type_name("COLOUR");
+  command->add_option("--width", options.picture.render.width, "Pixels; the height follows from the shape")
+      ->check(whole_number(200, 8000))
+      ->capture_default_str()
+      ->type_name("W");
 }
 
 }  // namespace
@@ -37,15 +78,13 @@ void add_render(CommandLine& line) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = line.add("render", "Picture of the body with its skeleton",
                                "  affskel-client render @last -o body.png --width 2400\n"
+                               "  affskel-client render @last --camera 30,20 --level 5% -o eroded.png\n"
                                "  affskel-client render @last --operator zucker-hummel -o points.png\n"
                                "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
                                [options](Context& context) { run(context, *options); });
   add_job(command, options->job);
-  add_skeleton_options(command, options->skeleton, true);
-  command->add_option("--width", options->width, "Pixels")
-      ->check(whole_number(200, 8000))
-      ->capture_default_str()
-      ->type_name("W");
+  add_skeleton_options(command, options->picture.skeleton, true);
+  add_looks(command, *options);
   add_output(command, options->output, "PNG file to write, or -");
 }
 

@@ -2,51 +2,24 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 
 #include "client/commands/command_line.h"
+#include "client/text/nearest_word.h"
 
 namespace affskel::client {
 namespace {
 
 ConsoleStyle style_for(const GlobalOptions& global, const ClientIo& io) {
-  const bool plain =
-      global.quiet || global.json || !io.err_is_terminal || io.environment.get("TERM").value_or("") == "dumb";
+  const bool plain = global.quiet || global.json || io.environment.get("NO_COLOR") ||
+                     io.environment.get("TERM").value_or("") == "dumb";
   ConsoleStyle style;
   style.json = global.json;
   style.quiet = global.quiet;
-  style.terminal = !plain && !io.environment.get("NO_COLOR");
+  style.terminal = !plain && io.err_is_terminal;
   style.colour = style.terminal;
+  style.out_colour = !plain && io.out_is_terminal;
   return style;
-}
-
-// --help and --version end the parse with a "success"; everything else is wrong usage.
-int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vector<std::string>& arguments,
-                     const ClientIo& io) {
-  if (end.get_exit_code() == 0) {
-    app.exit(end, io.out, io.err);
-    io.out.flush();
-    return 0;
-  }
-  // The command as far as it was understood, for the hint.
-  std::string command = "affskel-client";
-  for (const CLI::App* level = &app; level != nullptr;) {
-    const auto chosen = level->get_subcommands();
-    level = chosen.empty() ? nullptr : chosen.front();
-    if (level != nullptr) command += " " + level->get_name();
-  }
-  GlobalOptions global;
-  global.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
-  if (arguments.empty()) io.err << app.help();
-  const bool no_command =
-      end.get_name() == "RequiredError" && std::string(end.what()).find("subcommand") != std::string::npos;
-  // CLI11 leaves a misspelt command over: naming it helps more than naming what is missing.
-  const std::vector<std::string> unknown = no_command ? app.remaining(true) : std::vector<std::string>();
-  const std::string missing =
-      unknown.empty() ? "no command was given" : "no command '" + unknown.front() + "'";
-  const std::string cause = no_command ? missing : end.what();
-  Console console(io.out, io.err, style_for(global, io));
-  console.error(ClientError(ExitCode::kUsage, cause + "; see " + command + " --help"));
-  return static_cast<int>(ExitCode::kUsage);
 }
 
 // Runs `task`; every failure becomes a message and an exit code.
@@ -71,6 +44,81 @@ int guarded(Console& console, Task&& task) {
   } catch (const std::exception& error) {
     return report(ClientError(ExitCode::kInternal, std::string("internal error: ") + error.what()));
   }
+}
+
+// The command as far as it was understood: the program, its command, the command's own.
+std::vector<const CLI::App*> understood(const CLI::App& app) {
+  std::vector<const CLI::App*> levels = {&app};
+  for (auto chosen = app.get_subcommands(); !chosen.empty(); chosen = levels.back()->get_subcommands())
+    levels.push_back(chosen.front());
+  return levels;
+}
+
+std::string with_nearest(const std::string& text, const std::string& word,
+                         const std::vector<std::string>& known) {
+  const std::string nearest = nearest_word(word, known);
+  return nearest.empty() ? text : text + "; did you mean " + nearest + "?";
+}
+
+std::string unknown_option(const std::string& word, const std::vector<const CLI::App*>& levels) {
+  std::vector<std::string> known;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    for (const CLI::Option* option : (*level)->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) known.push_back("-" + name);
+    }
+  }
+  const std::string name = word.substr(0, word.find('='));
+  return with_nearest("unknown option " + name, name, known);
+}
+
+std::string unknown_command(const std::string& word, const CLI::App& level) {
+  std::vector<std::string> known;
+  for (const CLI::App* child : level.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(child->get_name());
+  return with_nearest("no command '" + word + "'", word, known);
+}
+
+// What is wrong with the usage.  CLI11 leaves a misspelt word over: naming it, and what was probably meant,
+// helps more than naming what is missing without it.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
+                        const std::vector<const CLI::App*>& levels) {
+  const std::vector<std::string> unknown = app.remaining(true);
+  const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
+  const auto option = std::find_if(unknown.begin(), unknown.end(), is_option);
+  const auto word = std::find_if_not(unknown.begin(), unknown.end(), is_option);
+  const bool no_command =
+      end.get_name() == "RequiredError" && std::string(end.what()).find("subcommand") != std::string::npos;
+  // The options of a command that is not known are not known either; below a command CLI11 does not keep
+  // their order.
+  const bool command_first = word != unknown.end() && (word == unknown.begin() || levels.size() > 1);
+  if (no_command && command_first) return unknown_command(*word, *levels.back());
+  if (option != unknown.end()) return unknown_option(*option, levels);
+  return no_command ? "no command was given" : end.what();
+}
+
+// --help and --version end the parse with a "success"; everything else is wrong usage.
+int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vector<std::string>& arguments,
+                     const ClientIo& io) {
+  if (end.get_exit_code() == 0) {
+    Console console(io.out, io.err, {});
+    return guarded(console, [&] {
+      std::ostringstream text;
+      app.exit(end, text, io.err);
+      console.result(text.str());
+    });
+  }
+  const std::vector<const CLI::App*> levels = understood(app);
+  std::string command;
+  for (const CLI::App* level : levels) command += (command.empty() ? "" : " ") + level->get_name();
+  GlobalOptions global;
+  global.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+  if (arguments.empty()) io.err << app.help();
+  Console console(io.out, io.err, style_for(global, io));
+  const std::string wrong = usage_error(app, end, levels);
+  const std::string help = (wrong.ends_with('?') ? " See " : "; see ") + command + " --help";
+  console.error(ClientError(ExitCode::kUsage, wrong + help));
+  return static_cast<int>(ExitCode::kUsage);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct ClientIo {
   bool err_is_terminal = false;
   Environment environment;
   RetryPolicy retry;
+  bool out_is_terminal = false;
 };
 
 /// Runs the client as if from the command line and returns the exit code.

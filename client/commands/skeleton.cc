@@ -17,7 +17,7 @@ struct Options {
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   const ChosenSkeleton chosen = choose_skeleton(context, options.job, options.skeleton);
-  tell_result(context.console(), transfer_skeleton(context, chosen.job, chosen.get(), destination));
+  tell_result(context, transfer_skeleton(context, chosen.job, chosen.get(), destination));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 void run(Context& context, const std::string& name) {
   const v1::Job job = context.session().get_job(name);
-  context.console().result(job_details(job));
+  context.console().result(job_details(job, context.console().style().out_colour));
   context.console().document(to_json(job));
 }
 

@@ -11,6 +11,7 @@
 #include "client/commands/shared/transfer.h"
 #include "client/files/read/input_file.h"
 #include "client/text/message_json.h"
+#include "client/text/summary_text.h"
 #include "client/text/words.h"
 
 namespace affskel::client {
@@ -34,8 +35,9 @@ void prepare_output_dir(const std::string& directory) {
   if (error) throw error_from_errno(error.value(), "cannot create the directory", directory);
 }
 
-std::vector<Written> fetch_results(Context& context, const v1::Job& job, const SubmitOptions& options) {
-  const fs::path stem = fs::path(options.output_dir) / fs::path(options.file).stem();
+std::vector<Written> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
+                                   const fs::path& name) {
+  const fs::path stem = directory / name;
   std::vector<Written> written;
   const std::string field = stem.string() + ".field" + std::string(extension_of(open_field_format(job)));
   written.push_back(transfer_field(context, job.id(), {field}));
@@ -49,39 +51,49 @@ std::vector<Written> fetch_results(Context& context, const v1::Job& job, const S
   return written;
 }
 
-// What a worker would refuse, before anything is sent.
-void check_mesh(const InputFile& input, const Submission& submission, Console& console) {
+// What a worker would refuse, before anything is sent.  Returns what was told of the mesh.
+std::vector<std::string> check_mesh(const InputFile& input, const Submission& submission, Console& console) {
   const core::Solid solid = check_solid(input, submission.repair);
   tell_notes(solid, input, console);
   check_submission(solid, input, submission);
+  std::vector<std::string> told;
+  for (const core::MeshNote& note : solid.notes) told.push_back(note.message);
+  return told;
+}
+
+// That the work was done before, wholly or but for the skeleton.
+void tell_reuse(Console& console, const v1::Job& job, bool existed) {
+  if (existed) {
+    console.note("the same was submitted before: this is that job, name " + job.name());
+  } else if (took_field_over(job)) {
+    console.note("this mesh was eroded with these parameters before: the field is taken over");
+  }
 }
 
 void run(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
-  const InputFile input = read_input(options.file);
+  const InputFile input = read_named_input(options.file);
   tell_conversion(input, console);
   Submission asked = options.asked;
   asked.repair = options.repair == "auto";
-  check_mesh(input, asked, console);
+  const std::vector<std::string> told = check_mesh(input, asked, console);
   prepare_output_dir(options.output_dir);
   const v1::SubmitJobHeader header = submission_header(context, input, asked);
   bool existed = false;
   v1::Job job = context.session().submit(header, input.bytes, existed);
   console.result(job.id() + "\n");
-  if (existed)
-    console.note("the same was submitted before: this is that job, " + std::string("name ") + job.name());
+  tell_reuse(console, job, existed);
   const bool wait = options.wait || !options.output_dir.empty();
   if (wait) job = follow(context, job.id(), false);
   std::vector<Written> written;
-  if (wait && job.state() == v1::JOB_STATE_DONE) {
-    warn_about_skeleton(console, job.skeleton_points(), job.quality(), job);
-    if (!options.output_dir.empty()) written = fetch_results(context, job, options);
+  if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
+    written = fetch_results(context, job, options.output_dir, fs::path(input.path).stem());
   }
   nlohmann::ordered_json document = to_json(job);
   document["existed"] = existed;
   for (const Written& file : written) document["files"][file.kind] = file.destination.file.string();
   console.document(document);
-  if (wait) throw_unless_done(job);
+  if (wait) tell_end(context, job, told);
 }
 
 void add_following_options(CLI::App* command, SubmitOptions& o) {
@@ -110,7 +122,7 @@ void add_field_options(CLI::App* command, SubmitOptions& o) {
       ->add_option("--frame", o.asked.frame,
                    "Axes of the lattice: the mesh's, the principal ones, the least box's, or those that make "
                    "the result affinely invariant")
-      ->check(CLI::IsMember(frame_words()))
+      ->check(one_of(frame_words()))
       ->capture_default_str()
       ->type_name("FRAME");
 }
@@ -129,7 +141,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
       ->check(utf8_text())
       ->type_name("KEY");
   command->add_option("--repair", o.repair, "Weld, turn and drop what needs it, and say so, or refuse")
-      ->check(CLI::IsMember({"auto", "none"}))
+      ->check(one_of({"auto", "none"}))
       ->capture_default_str()
       ->type_name("MODE");
 }
@@ -143,13 +155,16 @@ void add_submit(CommandLine& line) {
       line.add("submit", "Check a mesh and submit it; prints the job id",
                "  affskel-client submit body.off --spacing 200 -o OUT\n"
                "  affskel-client submit cube.off --points 50000 --directions triangles+sphere:1000 --wait\n"
-               "  JOB=$(affskel-client submit body.off --name subject-7)",
+               "  JOB=$(affskel-client submit body.off --name subject-7)\n"
+               "  affskel-client make torus -o - | affskel-client submit - --wait",
                [options](Context& context) { run(context, *options); });
   command
-      ->add_option(
-          "FILE", o.file,
-          "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp, which are submitted as OFF text")
+      ->add_option("FILE", o.file,
+                   "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp, which are submitted as "
+                   "OFF text;\n"
+                   "- reads it from stdin and knows its format by its content")
       ->required()
+      ->check(mesh_file())
       ->type_name("");
   add_following_options(command, o);
   add_field_options(command, o);

@@ -7,6 +7,8 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/skeleton_options.h"
 #include "client/commands/shared/transfer.h"
+#include "client/text/words.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -19,6 +21,22 @@ struct Options {
   double min_barrier = 0;
 };
 
+// The barrier is one of sheets.  --alpha and --threshold are for the job's own skeleton, which may be points.
+void require_sheet(Context& context, const Options& options, const ChosenSkeleton& chosen) {
+  if (!options.barrier && options.min_barrier == 0) return;
+  if (!options.skeleton.operator_name.empty()) return;  // the server names what does not go with it
+  const v1::Operator which = chosen.params ? chosen.params->operator_()
+                                           : context.session().get_job(chosen.job).skeleton().operator_();
+  if (wire::gives_sheet(which)) return;
+  const std::string points = "the job's own skeleton, the points of " + operator_word(which);
+  const std::string without =
+      options.alpha > 0 ? "--alpha without --operator is for " + points + "; leave it out for the ridge"
+      : options.skeleton.threshold > 0 ? "--threshold without --operator is for " + points +
+                                             "; add --operator ridge, whose threshold is 5 radians"
+                                       : "without --operator this is " + points + "; add --operator ridge";
+  throw ClientError(ExitCode::kUsage, "barriers are for the sheets of ridge and chords, and " + without);
+}
+
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   v1::SurfaceParams params;
@@ -26,11 +44,12 @@ void run(Context& context, const Options& options) {
   const ChosenSkeleton chosen = options.alpha > 0
                                     ? choose_skeleton(context, options.job, options.skeleton)
                                     : choose_shown_skeleton(context, options.job, options.skeleton);
+  require_sheet(context, options, chosen);
   if (chosen.params) *params.mutable_skeleton() = *chosen.params;
   params.set_alpha(options.alpha);
   params.set_barrier(options.barrier || options.min_barrier > 0);
   params.set_min_barrier(options.min_barrier);
-  tell_result(context.console(), transfer_surface(context, chosen.job, params, destination));
+  tell_result(context, transfer_surface(context, chosen.job, params, destination));
 }
 
 }  // namespace

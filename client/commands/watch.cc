@@ -11,8 +11,7 @@ namespace {
 void run(Context& context, const std::string& name) {
   const v1::Job job = follow(context, name, true);
   context.console().result(state_word(job.state()) + "\n");
-  throw_unless_done(job);
-  warn_about_skeleton(context.console(), job.skeleton_points(), job.quality(), job);
+  tell_end(context, job);
 }
 
 }  // namespace

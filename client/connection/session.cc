@@ -9,6 +9,7 @@
 
 #include "client/connection/call_errors.h"
 #include "client/connection/embedded_server.h"
+#include "client/connection/health.h"
 #include "wire/address.h"
 #include "wire/limits.h"
 #include "wire/sha256.h"
@@ -18,9 +19,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kUnaryDeadline{30};
 // How long to wait for the first answer of an embedded server.
 constexpr std::chrono::milliseconds kStartPatience{10000};
+// Shorter than what supervisors of containers give a health check.
+constexpr std::chrono::milliseconds kHealthDeadline{3000};
 constexpr int kMaxMessageBytes = 64 << 20;  // long job lists; pieces of streams are far smaller
 // Servers refuse pings more often than every five minutes.
 constexpr int kKeepaliveMs = 330 * 1000;
@@ -227,7 +229,7 @@ Response Session::unary(const Request& request,
   run([&](Stub& stub) {
     grpc::ClientContext context;
     const CancelOnStop cancel(context, policy_.stop);
-    context.set_deadline(std::chrono::system_clock::now() + kUnaryDeadline);
+    context.set_deadline(std::chrono::system_clock::now() + policy_.call_deadline);
     response.Clear();
     return (stub.*method)(&context, request, &response);
   });
@@ -272,11 +274,17 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   const CancelOnStop cancel(context, policy_.stop);
   const auto reader = stub.WatchJob(&context, request);
   bool any = false;
-  for (v1::Job now; reader->Read(&now);) {
-    any = proven_ = true;
-    told_away_ = false;
-    last = now;
-    seen(last);
+  try {
+    for (v1::Job now; reader->Read(&now);) {
+      any = proven_ = true;
+      told_away_ = false;
+      last = now;
+      seen(last);
+    }
+  } catch (...) {
+    context.TryCancel();  // the stream must be finished before it is destroyed
+    reader->Finish();
+    throw;
   }
   grpc::Status status = reader->Finish();
   if (is_final(last.state())) return grpc::Status::OK;
@@ -333,6 +341,15 @@ std::string Session::delete_job(const std::string& job) {
 
 v1::ServerInfo Session::server_info() {
   return unary(v1::GetServerInfoRequest(), &Stub::GetServerInfo);
+}
+
+void Session::require_health() {
+  if (!stub_) connect();
+  bool serving = false;
+  if (const grpc::Status status = check_health(channel_, kHealthDeadline, serving); !status.ok()) {
+    fail(status, ExitCode::kNotAllowed);
+  }
+  if (!serving) throw ClientError(ExitCode::kUnreachable, "the server at " + target_ + " is not serving");
 }
 
 v1::ArtifactHeader Session::fetch(const v1::FetchArtifactRequest& request,

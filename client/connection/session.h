@@ -24,7 +24,8 @@ struct RetryPolicy {
   std::chrono::milliseconds patience{5 * 60 * 1000};  ///< without any success
   /// Longest that a fetch waits for a worker and for all bytes; 0 = as long as it takes.
   std::chrono::milliseconds artifact_patience{0};
-  std::stop_token stop = {};  ///< ends the calls and the pauses between them
+  std::chrono::milliseconds call_deadline{30000};  ///< of calls that answer at once
+  std::stop_token stop = {};                       ///< ends the calls and the pauses between them
 };
 
 /// Receives one artefact.  A transfer that breaks off starts again with a new sink.
@@ -63,6 +64,9 @@ class Session {
   /// What happened to the job, oldest first.
   v1::ListJobEventsResponse job_events(const std::string& job);
   v1::ServerInfo server_info();
+  /// Asks the server's health service, once: for a check that is repeated by others.
+  /// @throws ClientError kUnreachable when it does not answer within 3 s, or answers that it does not serve.
+  void require_health();
   /// Checks size and SHA-256 of what arrives.
   v1::ArtifactHeader fetch(const v1::FetchArtifactRequest& request,
                            const std::function<std::unique_ptr<ArtifactSink>()>& make_sink);

@@ -12,12 +12,10 @@ namespace {
 using core::Vec3;
 
 constexpr double kCreaseCosine = 0.643;       // of 50 degrees
-constexpr double kFacetShade = 0.4;           // brightness where no light falls
-constexpr double kSheetShade = 0.65;          // less deep: colours must be told from each other
+constexpr double kSheetShade = 0.65;          // where no light falls: colours must be told from each other
 constexpr double kProfile = Panel::kSamples;  // thickness of a line of one pixel, in samples
-constexpr float kProfileLight = 0.9f;         // what is seen from its edge has no side to be lit
-constexpr Rgb kSurfaceDark{0.30f, 0.38f, 0.50f};
-constexpr Rgb kSurfaceLight{0.80f, 0.86f, 0.93f};
+constexpr double kEdgeOn = 0.2;      // cosine between view and normal: below, it is seen from its edge
+constexpr float kCurveLight = 0.9f;  // a curve has no side to be lit
 
 Vec3 unit(const Vec3& v) {
   const double length = core::norm(v);
@@ -86,6 +84,19 @@ void Panel::draw_ball(const Ball& ball, double radius) {
   }
 }
 
+void Panel::draw_disc(const Vec3& centre, Rgb colour, double radius) {
+  const Projected c = project(centre);
+  const double r = radius * kSamples;
+  const int x_end = std::min(columns_ - 1, static_cast<int>(std::ceil(c.x + r)));
+  const int y_end = std::min(rows_ - 1, static_cast<int>(std::ceil(c.y + r)));
+  for (int y = std::max(0, static_cast<int>(std::floor(c.y - r))); y <= y_end; ++y) {
+    for (int x = std::max(0, static_cast<int>(std::floor(c.x - r))); x <= x_end; ++x) {
+      const double dx = x + 0.5 - c.x, dy = y + 0.5 - c.y;
+      if (dx * dx + dy * dy <= r * r) cover(at(x, y), static_cast<float>(c.depth), colour);
+    }
+  }
+}
+
 void Panel::draw_ellipsoid(const Ball& ball, const std::array<Vec3, 3>& half_axes) {
   std::array<Vec3, 3> axis{};  // in samples: right, up, towards the viewer
   for (std::size_t a = 0; a < 3; ++a) {
@@ -123,28 +134,29 @@ void Panel::draw_ellipsoid(const Ball& ball, const std::array<Vec3, 3>& half_axe
   }
 }
 
-void Panel::draw_facets(const core::Mesh& mesh, Rgb colour) {
-  for (const core::Triangle& corners : mesh.triangles) {
-    draw_facet({mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]},
-               {colour, colour, colour}, kFacetShade);
-  }
-}
-
 void Panel::draw_sheet(const core::Mesh& mesh, const std::vector<Rgb>& colours) {
   for (const core::Triangle& c : mesh.triangles) {
     const std::array<Vec3, 3> places = {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
     const std::array<Rgb, 3> paint = {colours[c[0]], colours[c[1]], colours[c[2]]};
-    if (!draw_profile(places, paint)) draw_facet(places, paint, kSheetShade);
+    if (!draw_profile(places, paint)) draw_facet(places, paint);
   }
 }
 
-void Panel::draw_facet(const std::array<Vec3, 3>& corners, const std::array<Rgb, 3>& colours,
-                       double darkest) {
-  const std::array<Projected, 3> p = {project(corners[0]), project(corners[1]), project(corners[2])};
+// Two sides meet where a facet is seen from its edge: their mean there, so that a wavy sheet does not
+// flicker.
+float Panel::light_on(const std::array<Vec3, 3>& corners) const {
   const Vec3 n = unit(core::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double right = core::dot(n, view_.right), up = core::dot(n, view_.up);
   const double facing = core::dot(n, view_.toward), side = facing < 0 ? -1 : 1;
-  const double lit = lambert(side * core::dot(n, view_.right), side * core::dot(n, view_.up), side * facing);
-  const auto light = static_cast<float>(darkest + (1 - darkest) * lit);
+  const double near = lambert(side * right, side * up, side * facing);
+  const double far = lambert(-side * right, -side * up, side * facing);
+  const double own = 0.5 * (1 + std::min(1.0, std::fabs(facing) / kEdgeOn));
+  return static_cast<float>(kSheetShade + (1 - kSheetShade) * (own * near + (1 - own) * far));
+}
+
+void Panel::draw_facet(const std::array<Vec3, 3>& corners, const std::array<Rgb, 3>& colours) {
+  const std::array<Projected, 3> p = {project(corners[0]), project(corners[1]), project(corners[2])};
+  const float light = light_on(corners);
   const std::array<ScreenPoint, 3> screen = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
   for_each_sample(screen, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
     const Rgb colour = static_cast<float>(w0) * colours[0] + static_cast<float>(w1) * colours[1] +
@@ -154,7 +166,11 @@ void Panel::draw_facet(const std::array<Vec3, 3>& corners, const std::array<Rgb,
   });
 }
 
+// A facet that looks thin because it is small or a sliver lies among others that cover its place: a line
+// along it would lie over them.
 bool Panel::draw_profile(const std::array<Vec3, 3>& corners, const std::array<Rgb, 3>& colours) {
+  const Vec3 normal = unit(core::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  if (std::fabs(core::dot(normal, view_.toward)) >= kEdgeOn) return false;
   const std::array<Projected, 3> p = {project(corners[0]), project(corners[1]), project(corners[2])};
   // The longest side of the projection; its height over that side is how thick the facet looks.
   std::size_t a = 0, b = 1;
@@ -168,7 +184,8 @@ bool Panel::draw_profile(const std::array<Vec3, 3>& corners, const std::array<Rg
       std::fabs((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
   if (longest == 0) return true;  // nothing to be seen of it
   if (doubled >= kProfile * longest) return false;
-  draw_line(p[a], p[b], colours[a], colours[b], kProfile);
+  const float light = light_on(corners);
+  draw_line(p[a], p[b], light * colours[a], light * colours[b], kProfile);
   return true;
 }
 
@@ -182,7 +199,7 @@ void Panel::draw_line(const Projected& a, const Projected& b, Rgb colour_a, Rgb 
   // t: the share of the way from a to b.
   const auto paint = [&](int x, int y, double t) {
     const auto depth = static_cast<float>((1 - t) * a.depth + t * b.depth);
-    cover(at(x, y), depth, kProfileLight * mix(colour_a, colour_b, static_cast<float>(t)));
+    cover(at(x, y), depth, mix(colour_a, colour_b, static_cast<float>(t)));
   };
   for_each_sample({a0, b0, b1}, columns_, rows_,
                   [&](int x, int y, double, double w1, double w2) { paint(x, y, w1 + w2); });
@@ -193,13 +210,14 @@ void Panel::draw_line(const Projected& a, const Projected& b, Rgb colour_a, Rgb 
 void Panel::draw_curves(const std::vector<Vec3>& points, const std::vector<core::Segment>& segments,
                         const std::vector<Rgb>& colours, double width) {
   for (const auto& [a, b] : segments) {
-    draw_line(project(points[a]), project(points[b]), colours[a], colours[b], kSamples * width);
-    // Round joints; also what is seen from its end.
-    for (const std::uint32_t end : {a, b}) draw_ball({points[end], colours[end]}, width / 2);
+    draw_line(project(points[a]), project(points[b]), kCurveLight * colours[a], kCurveLight * colours[b],
+              kSamples * width);
+    // Round joints; also what is seen from its end.  As flat as the lines: balls would look like beads.
+    for (const std::uint32_t end : {a, b}) draw_disc(points[end], kCurveLight * colours[end], width / 2);
   }
 }
 
-void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normals) {
+void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normals, const Glass& glass) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<Projected, 3> p{};
     for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[mesh.triangles[t][c]]);
@@ -212,17 +230,17 @@ void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normal
       facing *= side;
       const double light =
           lambert(side * core::dot(normal, view_.right), side * core::dot(normal, view_.up), facing);
-      // Glass: clear where it faces the viewer, denser towards the outline.
-      const float opacity = clamp01(0.10 + 0.42 * std::pow(1 - facing, 2.5));
+      // Clear where it faces the viewer, denser towards the outline.
+      const float opacity = clamp01(glass.clear + glass.rim * std::pow(1 - facing, 2.5));
       const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
       Sample& sample = at(x, y);
       Layers& layers = sample.covered && depth > sample.depth ? sample.front : sample.back;
-      layers.add(opacity, mix(kSurfaceDark, kSurfaceLight, clamp01(light)));
+      layers.add(opacity, mix(glass.dark, glass.light, clamp01(light)));
     });
   }
 }
 
-Image Panel::resolve() const {
+Image Panel::resolve(Rgb background) const {
   Image image(columns_ / kSamples, rows_ / kSamples);
   constexpr float kShare = 1.0f / (kSamples * kSamples);
   for (int y = 0; y < image.height(); ++y) {
@@ -230,7 +248,7 @@ Image Panel::resolve() const {
       Rgb sum;
       for (int s = 0; s < kSamples * kSamples; ++s) {
         const Sample& sample = at(x * kSamples + s % kSamples, y * kSamples + s / kSamples);
-        const Rgb behind = sample.covered ? sample.solid : sample.back.over(kWhite);
+        const Rgb behind = sample.covered ? sample.solid : sample.back.over(background);
         sum = sum + sample.front.over(behind);
       }
       image.at(x, y) = kShare * sum;

@@ -22,9 +22,22 @@ struct Ball {
   Rgb colour;
 };
 
-/// Draws one view: opaque balls, facets, sheets and curves, depth-buffered, inside a translucent surface.
-/// Works on a grid of 2 x 2 samples per pixel.  The surface is composed without sorting: each of its layers
-/// takes a share of the light, and the layers in front of a ball and those behind it are kept apart.
+/// How a translucent surface looks.
+struct Glass {
+  Rgb dark, light;  ///< where no light falls, and where all does
+  float clear = 0;  ///< opacity where it faces the viewer, 0 .. 1
+  float rim = 0;    ///< added to that at its outline, 0 .. 1
+};
+
+/// A body on a light background, and on a dark one.
+inline constexpr Glass kGlassOnLight{{0.30f, 0.38f, 0.50f}, {0.80f, 0.86f, 0.93f}, 0.10f, 0.42f};
+inline constexpr Glass kGlassOnDark{{0.42f, 0.50f, 0.62f}, {0.86f, 0.91f, 0.97f}, 0.08f, 0.42f};
+/// An eroded solid inside it.
+inline constexpr Glass kErodedGlass{{0.62f, 0.33f, 0.10f}, {0.98f, 0.66f, 0.36f}, 0.28f, 0.50f};
+
+/// Draws one view: opaque balls, sheets and curves, depth-buffered, inside translucent surfaces.  Works on a
+/// grid of 2 x 2 samples per pixel.  Surfaces are composed without sorting: each of their layers takes a
+/// share of the light, and the layers in front of a ball and those behind it are kept apart.
 class Panel {
  public:
   static constexpr int kSamples = 2;  ///< per pixel and axis
@@ -32,24 +45,24 @@ class Panel {
   /// @param scale pixels per mesh unit; @param centre is shown in the middle of the picture.
   Panel(int width, int height, const View& view, const core::Vec3& centre, double scale);
 
-  /// All balls, ellipsoids and facets first, then the surface.
+  /// All that is opaque first, then the surfaces.
   void draw_ball(const Ball& ball, double radius);
   /// An ellipsoid about the ball's centre: the image of the unit ball when the unit vectors become
   /// `half_axes`, mesh units.  Nothing when these lie in a plane.
   void draw_ellipsoid(const Ball& ball, const std::array<core::Vec3, 3>& half_axes);
-  /// The mesh's triangles, opaque and flat, seen from either side.
-  void draw_facets(const core::Mesh& mesh, Rgb colour);
-  /// The same with a colour per vertex, blended in between; facets that look thinner than a pixel are drawn
-  /// as lines of one, so that a sheet does not vanish where it is seen from its edge.
+  /// The mesh's triangles, opaque and flat, seen from either side, with a colour per vertex that is blended
+  /// in between; facets that are seen from their edge and look thinner than a pixel are drawn as lines of
+  /// one, so that a sheet does not vanish there.
   void draw_sheet(const core::Mesh& mesh, const std::vector<Rgb>& colours);
   /// The segments of curves, opaque and lit alike all round.  @param width of the lines, pixels.
   void draw_curves(const std::vector<core::Vec3>& points, const std::vector<core::Segment>& segments,
                    const std::vector<Rgb>& colours, double width);
   /// @param normals one per triangle and corner, unit or zero.
-  void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals);
+  void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals,
+                    const Glass& glass = kGlassOnLight);
 
-  /// The finished picture on white.
-  Image resolve() const;
+  /// The finished picture.
+  Image resolve(Rgb background = kWhite) const;
 
  private:
   struct Layers {
@@ -70,12 +83,16 @@ class Panel {
     double x, y, depth;
   };
   Projected project(const core::Vec3& point) const;
-  // Flat, lit on the side that the viewer sees.  `darkest`: brightness where no light falls.
-  void draw_facet(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours,
-                  double darkest);
+  // How bright a flat facet is.
+  float light_on(const std::array<core::Vec3, 3>& corners) const;
+  // Flat, lit on the side that the viewer sees.
+  void draw_facet(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours);
+  // Flat, towards the viewer.  @param radius pixels.
+  void draw_disc(const core::Vec3& centre, Rgb colour, double radius);
   // A line of `width` samples from a to b.
   void draw_line(const Projected& a, const Projected& b, Rgb colour_a, Rgb colour_b, double width);
-  // Draws a facet that looks thinner than a pixel as a line along its longest side; false for any other.
+  // Draws a facet that is seen from its edge, thinner than a pixel, as a line along its longest side; false
+  // for any other.
   bool draw_profile(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours);
   // Keeps what is nearer.
   static void cover(Sample& sample, float depth, Rgb colour);

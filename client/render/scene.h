@@ -2,15 +2,21 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "affskel/v1/types.pb.h"
+#include "client/base/up_axis.h"
+#include "client/render/camera.h"
 #include "client/render/image.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::client {
 
 struct RenderOptions {
-  int width = 1600;  ///< pixels, 200 .. 8000; the height follows from the shape
+  int width = 1600;                               ///< pixels, 200 .. 8000; the height follows from the shape
+  std::vector<Camera> cameras = usual_cameras();  ///< one view each, 1 .. 6
+  bool mesh = true;                               ///< draw the body
+  Rgb background = kWhite;
 };
 
 /// What is on the picture.
@@ -19,14 +25,23 @@ struct RenderInput {
   v1::SkeletonPoints skeleton;  ///< drawn as balls, stretched like the cells, coloured by E; may be empty
   v1::TriangleMesh
       sheet;  ///< of `chords` or `ridge`, drawn as a surface, with curves, coloured by E; may be empty
+  v1::TriangleMesh eroded;         ///< the eroded solid's surface, drawn translucent; may be empty
+  std::string level;               ///< what the eroded solid is, for the legend; with one
   std::array<core::Vec3, 3> cell;  ///< steps of the lattice, mesh units; give the balls' size and shape
   double volume = 0;               ///< v0, mesh units cubed; E is labelled as a share of it
-  std::string title;               ///< one line above the panels
+  UpAxis up = UpAxis::kZ;          ///< of the body
+  std::string title;               ///< one line above the views
 };
 
-/// Three orthographic views at one scale, from the front (looking along +y), from the side (looking along -x)
-/// and from above, with a scale bar in mesh units and a colour bar for E.
-/// @throws ClientError kUsage when the width is out of range, kBadInput when the mesh is empty.
+/// Orthographic views at one scale, with a scale bar in mesh units and the scale of colours for E, arranged
+/// so that they fill the picture.
+/// @throws ClientError kUsage when the width or the number of cameras is out of range, kBadInput when the
+/// mesh
+///   is empty.
 Image render_scene(const RenderInput& input, const RenderOptions& options = {});
+
+/// The colour of "#RGB", "#RRGGBB", "white", "black" or "dark" (that of pages).
+/// @throws ClientError kUsage for anything else.
+Rgb parse_background(const std::string& text);
 
 }  // namespace affskel::client

@@ -14,6 +14,35 @@ namespace affskel::client {
 namespace {
 
 constexpr std::size_t kShortId = 12;
+constexpr std::size_t kStateColumn = 1;  // of the table
+
+// A word and its colour behind what is `before` it; control characters are out of both by now.
+std::string coloured(const std::string& text, const char* colour) {
+  return *colour == '\0' ? text : colour + text + "\033[0m";
+}
+
+const char* state_colour(v1::JobState state) {
+  switch (state) {
+    case v1::JOB_STATE_DONE:
+      return "\033[32m";  // green
+    case v1::JOB_STATE_RUNNING:
+      return "\033[36m";  // cyan
+    case v1::JOB_STATE_QUEUED:
+    case v1::JOB_STATE_CANCELLED:
+      return "\033[33m";  // yellow
+    case v1::JOB_STATE_FAILED:
+      return "\033[31m";  // red
+    default:
+      return "";
+  }
+}
+
+// A line of `key: value` all in one colour.
+std::string coloured_line(const std::string& key, const std::string& value, const char* colour) {
+  std::string line = key_line(key, value);
+  line.pop_back();
+  return coloured(line, colour) + "\n";
+}
 
 std::string triple(const google::protobuf::RepeatedField<double>& values) {
   std::string text;
@@ -35,11 +64,11 @@ std::string frame_text(const google::protobuf::RepeatedField<double>& frame) {
   return text;
 }
 
-std::string prepared_details(const v1::PreparedSummary& p) {
+std::string prepared_details(const v1::PreparedSummary& p, bool colour) {
   std::string text;
   text += key_line("points", std::to_string(p.points()));
   text += key_line("spacing", base::to_text(p.spacing()));
-  text += key_line("v0", base::to_text(p.volume()));
+  text += key_line("v0", base::plain(p.volume(), base::kMeasureDigits));
   text += key_line("triangles", std::to_string(p.triangles()));
   text += key_line("vertices", std::to_string(p.vertices()));
   text += key_line("solids", std::to_string(p.solids()));
@@ -52,7 +81,8 @@ std::string prepared_details(const v1::PreparedSummary& p) {
   text += key_line("bbox_min", triple(p.bbox_min()));
   text += key_line("bbox_max", triple(p.bbox_max()));
   for (const v1::MeshNote& note : p.notes()) {
-    text += key_line(note.severity(), note.code() + ": " + note.message());
+    const bool warns = colour && note.severity() == "warning";
+    text += coloured_line(note.severity(), note.code() + ": " + note.message(), warns ? "\033[33m" : "");
   }
   return text;
 }
@@ -81,17 +111,20 @@ std::string progress_text(const v1::Job& job) {
   return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total());
 }
 
-// Columns in bytes; names with multi-byte characters stand last, where alignment does not matter.
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+// Columns in bytes, before colours; names with multi-byte characters stand last, where alignment does not
+// matter.
+std::string aligned(const std::vector<std::vector<std::string>>& rows,
+                    const std::vector<const char*>& state_colours) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
   }
   std::string text;
-  for (const auto& row : rows) {
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto& row = rows[r];
     for (std::size_t c = 0; c < row.size(); ++c) {
-      text += row[c];
+      text += coloured(row[c], c == kStateColumn ? state_colours[r] : "");
       if (c + 1 < row.size()) text.append(widths[c] - row[c].size() + 2, ' ');
     }
     text.push_back('\n');
@@ -101,12 +134,23 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 
 }  // namespace
 
-std::string job_details(const v1::Job& job) {
+std::string short_id(const v1::Job& job) {
+  return job.id().substr(0, kShortId);
+}
+
+std::string percent_text(const v1::Job& job) {
+  // In tenths of a percent, cut off; a number of directions has 24 bits at most.
+  const std::uint64_t tenths =
+      job.directions_total() == 0 ? 0 : 1000 * job.directions_done() / job.directions_total();
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "%";
+}
+
+std::string job_details(const v1::Job& job, bool colour) {
   std::string text;
   text += key_line("job", job.id());
   text += key_line("name", job.name());
   text += key_line("owner", job.owner());
-  text += key_line("state", state_word(job.state()));
+  text += coloured_line("state", state_word(job.state()), colour ? state_colour(job.state()) : "");
   text += key_line("stage", stage_word(job.stage()));
   if (job.state() == v1::JOB_STATE_FAILED) text += key_line("reason", failure_text(job.error()));
   if (!job.waiting_reason().empty()) text += key_line("reason", job.waiting_reason());
@@ -123,13 +167,17 @@ std::string job_details(const v1::Job& job) {
   if (job.memory_needed() > 0) text += key_line("memory_needed", std::to_string(job.memory_needed()));
   if (job.cancel_requested()) text += key_line("cancel_requested", "yes");
   text += key_line("directions", progress_text(job));
+  if (job.state() == v1::JOB_STATE_RUNNING && job.directions_total() > 0)
+    text += key_line("progress", percent_text(job));
+  if (job.has_remaining_ms())
+    text += key_line("remaining", "about " + duration_text(std::chrono::milliseconds(job.remaining_ms())));
   if (job.state() == v1::JOB_STATE_DONE) {
     text += key_line("skeleton_points", std::to_string(job.skeleton_points()));
     for (const auto& [key, value] : quality_lines(job.quality())) {
       if (job.has_quality() && key != "points") text += key_line("skeleton_" + key, value);
     }
   }
-  if (job.has_prepared()) text += prepared_details(job.prepared());
+  if (job.has_prepared()) text += prepared_details(job.prepared(), colour);
   text += key_line("asked_sampling", asked_sampling(job.params().sampling()));
   text += key_line("asked_directions",
                    job.params().directions().empty() ? "triangles" : job.params().directions());
@@ -145,22 +193,24 @@ std::string job_details(const v1::Job& job) {
   text += key_line("started", utc_time(job.started_ms()));
   text += key_line("finished", utc_time(job.finished_ms()));
   if (job.started_ms() > 0 && job.finished_ms() >= job.started_ms()) {
-    text += key_line("took", age_text(job.started_ms(), job.finished_ms()));
+    text += key_line("took", took_text(std::chrono::milliseconds(job.finished_ms() - job.started_ms())));
   }
   return text + counters_details(job.counters());
 }
 
-std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms) {
+std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bool colour) {
+  std::vector<const char*> colours = {""};
   std::vector<std::vector<std::string>> rows = {
       {"JOB", "STATE", "STAGE", "DIRECTIONS", "POINTS", "SKELETON", "AGE", "OWNER", "NAME"}};
   for (const v1::Job& job : jobs) {
-    rows.push_back({printable(job.id().substr(0, kShortId)), state_word(job.state()), stage_word(job.stage()),
+    rows.push_back({printable(short_id(job)), state_word(job.state()), stage_word(job.stage()),
                     progress_text(job), job.has_prepared() ? std::to_string(job.prepared().points()) : "-",
                     job.state() == v1::JOB_STATE_DONE ? std::to_string(job.skeleton_points()) : "-",
                     age_text(job.created_ms(), now_ms), printable(job.owner()), printable(job.name())});
+    colours.push_back(colour ? state_colour(job.state()) : "");
     for (std::string& cell : rows.back()) std::replace(cell.begin(), cell.end(), '\n', ' ');
   }
-  return aligned(rows);
+  return aligned(rows, colours);
 }
 
 std::string failure_text(const v1::JobError& error) {

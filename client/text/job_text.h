@@ -8,11 +8,18 @@
 
 namespace affskel::client {
 
-/// `key: value` lines for `status`.
-std::string job_details(const v1::Job& job);
+/// The first 12 digits of the id, which `list` shows.
+std::string short_id(const v1::Job& job);
 
-/// Aligned columns for `list`, newest first as given. @param now_ms for the ages.
-std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms);
+/// The share of the directions that is done, "41.3%": 100.0% only when all are.
+std::string percent_text(const v1::Job& job);
+
+/// `key: value` lines for `status`. @param colour states and warnings in ANSI colours.
+std::string job_details(const v1::Job& job, bool colour = false);
+
+/// Aligned columns for `list`, newest first as given. @param now_ms for the ages; @param colour states in
+/// ANSI colours.
+std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bool colour = false);
 
 /// Reason of a FAILED job for people: "CODE: message (line N)".
 std::string failure_text(const v1::JobError& error);

@@ -37,6 +37,14 @@ std::string duration_text(std::chrono::milliseconds duration) {
   return text.data();
 }
 
+std::string took_text(std::chrono::milliseconds duration) {
+  const auto ms = static_cast<unsigned long long>(std::max<std::int64_t>(0, duration.count()));
+  if (ms >= 60000) return duration_text(duration);
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%llu.%03llu s", ms / 1000, ms % 1000);
+  return text.data();
+}
+
 std::uint64_t unix_now_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());

@@ -11,6 +11,9 @@ std::string utc_time(std::uint64_t unix_ms);
 /// "0.4 s", "12 s", "3 min 05 s", "2 h 07 min", "5 d 03 h".
 std::string duration_text(std::chrono::milliseconds duration);
 
+/// A time as it was measured: with milliseconds below a minute, above as duration_text.
+std::string took_text(std::chrono::milliseconds duration);
+
 /// Now, as Unix milliseconds.
 std::uint64_t unix_now_ms();
 

@@ -1,15 +1,18 @@
-// Writes the page.  Lengths in the page are scaled so that the body's box lies about the origin and its
-// longest side goes from -1 to 1: "page units".  Numbers are read by client/view/web/decode.js.
+// Writes the page.  Lengths in the page are scaled so that each body's box lies about the origin and the
+// longest side of all goes from -1 to 1: "page units".  Numbers are read by client/view/web/decode.js.
 #include "client/view/page.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
+#include "client/base/scale_words.h"
 #include "client/text/markup_text.h"
+#include "client/text/summary_text.h"
 #include "client/text/words.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
@@ -23,7 +26,6 @@ namespace {
 using core::Vec3;
 using nlohmann::ordered_json;
 
-constexpr double kClearlyLonger = 1.25;  // a body's height against its arm span is below
 constexpr std::uint16_t kQuantum = 65535;
 
 std::array<double, 3> components(const Vec3& v) {
@@ -39,13 +41,11 @@ struct Scale {
   std::array<double, 3> place(const Vec3& v) const { return length(v - centre); }
 };
 
-Scale scale_of(const Box& box) {
-  return {box.centre(), 0.5 * box.longest_side()};
-}
-
-// The arrays of a page, one after the other, each at a multiple of 4 bytes.
+// The arrays of a page, one after the other, each at a multiple of 4 bytes; a directory for each model.
 class Arrays {
  public:
+  void begin_model() { directory_ = ordered_json::object(); }
+
   // type: u16, u32, f32 or i8.
   template <typename Number>
   void add(const char* name, const char* type, const std::vector<Number>& values) {
@@ -63,28 +63,37 @@ class Arrays {
 };
 
 // Vertices to 1/65535 of the box, which no screen shows.
-ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
+std::vector<std::uint16_t> steps_in(const Box& box, const std::vector<Vec3>& points) {
   const std::array<double, 3> low = components(box.low), size = components(box.size());
   std::vector<std::uint16_t> steps;
-  steps.reserve(3 * mesh.points.size());
-  for (const Vec3& point : mesh.points) {
+  steps.reserve(3 * points.size());
+  for (const Vec3& point : points) {
     const std::array<double, 3> at = components(point);
     for (std::size_t a = 0; a < 3; ++a) {
-      const double part = size[a] > 0 ? (at[a] - low[a]) / size[a] : 0;
+      const double part = size[a] > 0 ? std::clamp((at[a] - low[a]) / size[a], 0.0, 1.0) : 0;
       steps.push_back(static_cast<std::uint16_t>(std::lround(kQuantum * part)));
     }
   }
+  return steps;
+}
+
+void add_corners(Arrays& arrays, const char* name, const std::vector<std::uint32_t>& corners,
+                 std::size_t vertices) {
+  if (vertices <= kQuantum) {
+    arrays.add(name, "u16", std::vector<std::uint16_t>(corners.begin(), corners.end()));
+  } else {
+    arrays.add(name, "u32", corners);
+  }
+}
+
+ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
   std::vector<std::uint32_t> corners;
   corners.reserve(3 * mesh.triangles.size());
-  for (const core::Triangle& triangle : mesh.triangles) {
+  for (const core::Triangle& triangle : mesh.triangles)
     corners.insert(corners.end(), triangle.begin(), triangle.end());
-  }
-  arrays.add("meshSteps", "u16", steps);
-  if (mesh.points.size() <= kQuantum) {
-    arrays.add("meshCorners", "u16", std::vector<std::uint16_t>(corners.begin(), corners.end()));
-  } else {
-    arrays.add("meshCorners", "u32", corners);
-  }
+  arrays.add("meshSteps", "u16", steps_in(box, mesh.points));
+  add_corners(arrays, "meshCorners", corners, mesh.points.size());
+  const std::array<double, 3> size = components(box.size());
   ordered_json axes = ordered_json::array();
   for (std::size_t a = 0; a < 3; ++a) {
     std::array<double, 3> axis{};
@@ -94,39 +103,76 @@ ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, co
   return {{"origin", scale.place(box.low)}, {"axes", axes}};
 }
 
+// The eroded solids, in the mesh's grid: they lie in it.
+ordered_json add_eroded(Arrays& arrays, const ViewModel& model, const Box& box) {
+  ordered_json facts = ordered_json::array();
+  for (std::size_t level = 0; level < model.eroded.size(); ++level) {
+    const v1::TriangleMesh& surface = model.eroded[level];
+    std::vector<Vec3> points;
+    for (int v = 0; v < surface.xyz_size() / 3; ++v)
+      points.push_back({surface.xyz(3 * v), surface.xyz(3 * v + 1), surface.xyz(3 * v + 2)});
+    const std::string name = "eroded" + std::to_string(level);
+    arrays.add((name + "Steps").c_str(), "u16", steps_in(box, points));
+    add_corners(arrays, (name + "Corners").c_str(), {surface.corners().begin(), surface.corners().end()},
+                points.size());
+    arrays.add((name + "Slopes").c_str(), "f32",
+               std::vector<float>(surface.area().begin(), surface.area().end()));
+    facts.push_back({{"volume", surface.volume()}, {"triangles", surface.corners_size() / 3}});
+  }
+  return facts;
+}
+
 std::int8_t quantised(double component) {
   return static_cast<std::int8_t>(std::lround(127 * std::clamp(component, -1.0, 1.0)));
 }
 
-ordered_json add_points(Arrays& arrays, const ViewInput& input, const Scale& scale) {
+ordered_json add_points(Arrays& arrays, const ViewModel& model, const Scale& scale) {
   std::vector<std::uint16_t> steps;
-  std::vector<float> shares, divergences;
+  std::vector<float> shares, divergences, slopes;
   std::vector<std::int8_t> inward;
-  for (const ViewPoint& point : input.points) {
+  for (const ViewPoint& point : model.points) {
     steps.insert(steps.end(), point.step.begin(), point.step.end());
     shares.push_back(point.share);
     divergences.push_back(point.divergence);
+    slopes.push_back(point.slope);
     for (const double c : components(point.inward)) inward.push_back(quantised(c));
   }
   arrays.add("pointSteps", "u16", steps);
   arrays.add("pointShares", "f32", shares);
   arrays.add("pointDivergences", "f32", divergences);
+  arrays.add("pointSlopes", "f32", slopes);
   arrays.add("pointInward", "i8", inward);
   ordered_json axes = ordered_json::array();
-  for (const Vec3& axis : input.grid.axes) axes.push_back(scale.length(axis));
-  return {{"origin", scale.place(input.grid.origin)}, {"axes", axes}};
+  for (const Vec3& axis : model.grid.axes) axes.push_back(scale.length(axis));
+  return {{"origin", scale.place(model.grid.origin)}, {"axes", axes}};
 }
 
-void add_sheet(Arrays& arrays, const ViewInput& input, const Scale& scale) {
-  const v1::TriangleMesh& sheet = input.sheet;
+using Doubles = google::protobuf::RepeatedField<double>;
+
+std::vector<float> floats(const Doubles& values) {
+  return {values.begin(), values.end()};
+}
+
+std::vector<std::int8_t> bytes_of(const Doubles& unit_vectors) {
+  std::vector<std::int8_t> bytes;
+  for (const double c : unit_vectors) bytes.push_back(quantised(c));
+  return bytes;
+}
+
+void add_sheet(Arrays& arrays, const ViewModel& model, const Scale& scale) {
+  const v1::TriangleMesh& sheet = model.sheet;
   std::vector<float> positions, shares;
   for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
     const Vec3 at{sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)};
     for (const double c : scale.place(at)) positions.push_back(static_cast<float>(c));
-    shares.push_back(view_share(sheet.erosion(v), input.job.prepared().volume()));
+    shares.push_back(view_share(sheet.erosion(v), model.job.prepared().volume()));
   }
   arrays.add("sheetPositions", "f32", positions);
   arrays.add("sheetShares", "f32", shares);
+  arrays.add("sheetStrengths", "f32", floats(sheet.strength()));
+  arrays.add("sheetSlopes", "f32", floats(sheet.area()));
+  arrays.add("sheetNormalsA", "i8", bytes_of(sheet.normal_a()));
+  arrays.add("sheetNormalsB", "i8", bytes_of(sheet.normal_b()));
   arrays.add("sheetCorners", "u32",
              std::vector<std::uint32_t>(sheet.corners().begin(), sheet.corners().end()));
   arrays.add("sheetSegments", "u32",
@@ -144,35 +190,86 @@ ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
   return cell;
 }
 
-float highest_share(const ViewInput& input) {
-  float highest = 0;
-  for (const ViewPoint& point : input.points) highest = std::max(highest, point.share);
-  return highest;
+// What was found in the mesh and of the lattice, and what the skeleton's quality advises.
+ordered_json warnings_of(const ViewModel& model) {
+  ordered_json warnings = ordered_json::array();
+  for (const v1::MeshNote& note : model.job.prepared().notes()) warnings.push_back(note.message());
+  for (const std::string& warning : skeleton_warnings(model.job.prepared(), model.quality))
+    warnings.push_back(warning);
+  if (!model.quality.advice().empty()) warnings.push_back(model.quality.advice());
+  return warnings;
 }
 
-ordered_json facts_of(const ViewInput& input, const Box& box, const Scale& scale) {
-  const v1::PreparedSummary& prepared = input.job.prepared();
+// How the skeleton hangs together, beside the solid: names and texts.
+ordered_json pieces_of(const ViewModel& model) {
+  const v1::SkeletonQuality& q = model.quality;
+  ordered_json pieces = ordered_json::array();
+  if (q.points() == 0) return pieces;
+  const auto beside = [&](const char* name, std::uint64_t skeleton, std::uint64_t solid) {
+    pieces.push_back({name, std::to_string(skeleton) + " (solid: " + std::to_string(solid) + ")"});
+  };
+  beside("pieces", q.components(), q.solid_components());
+  beside("tunnels", q.holes(), static_cast<std::uint64_t>(q.solid_genus()));
+  return pieces;
+}
+
+ordered_json facts_of(const ViewModel& model, const Box& box, const Scale& scale) {
+  const v1::PreparedSummary& prepared = model.job.prepared();
   const Vec3 size = box.size();
-  return {{"name", input.job.name()},
-          {"job", input.job.id()},
-          {"operator", input.operator_name},
-          {"frame", frame_word(input.job.params().frame())},
-          {"threshold", input.threshold},
-          {"lowestThreshold", input.selection.lowest_threshold},
-          {"thinning", input.selection.thinning},
-          {"triangles", input.mesh.triangles.size()},
+  return {{"name", model.job.name()},
+          {"job", model.job.id()},
+          {"operator", model.operator_name},
+          {"frame", frame_word(model.job.params().frame())},
+          {"threshold", model.threshold},
+          {"lowestThreshold", model.selection.lowest_threshold},
+          {"triangles", model.mesh.triangles.size()},
           {"points", prepared.points()},
-          {"pointsHere", input.points.size()},
+          {"pointsHere", model.points.size()},
           {"directions", prepared.directions()},
           {"spacing", prepared.spacing()},
           {"volume", prepared.volume()},
-          {"highestShare", highest_share(input)},
           {"box", components(size)},
-          {"up", std::string(1, up_axis(size))},
-          {"unit", scale.unit},
           {"centre", components(scale.centre)},
           {"halfBox", scale.length(0.5 * size)},
-          {"cell", cell_of(input.grid, scale)}};
+          {"cell", cell_of(model.grid, scale)},
+          {"warnings", warnings_of(model)},
+          {"pieces", pieces_of(model)}};
+}
+
+// @param unit of all models, mesh units per page unit.
+ordered_json add_model(Arrays& arrays, const ViewModel& model, double unit) {
+  arrays.begin_model();
+  const Box box = mesh_box(model.mesh);
+  const Scale scale{box.centre(), unit};
+  ordered_json facts = facts_of(model, box, scale);
+  facts["meshGrid"] = add_mesh(arrays, model.mesh, box, scale);
+  facts["pointGrid"] = add_points(arrays, model, scale);
+  if (model.sheet_is_skeleton) add_sheet(arrays, model, scale);
+  facts["eroded"] = add_eroded(arrays, model, box);
+  facts["arrays"] = arrays.directory();
+  return facts;
+}
+
+ordered_json page_facts(const ViewInput& input, double unit) {
+  const Stance stands = stance(input.up);
+  return {{"up", std::string(1, up_letter(input.up))},
+          {"stance",
+           {{"right", components(stands.right)},
+            {"up", components(stands.up)},
+            {"front", components(stands.front)}}},
+          {"unit", unit},
+          {"highestShare", view_share(highest_share(input.models), 1)},
+          {"scaleTitle", kScaleTitle},
+          {"scaleNote", kScaleNote},
+          {"levels", input.levels},
+          {"firstLevel", input.first_level},
+          {"showLevel", input.show_level}};
+}
+
+std::string name_of(const ViewInput& input) {
+  std::string name;
+  for (const ViewModel& model : input.models) name += (name.empty() ? "" : " and ") + model.job.name();
+  return name;
 }
 
 // JSON that no HTML parser takes for the end of its element, whatever names it holds.
@@ -221,25 +318,35 @@ std::string view_page_policy() {
   return "default-src 'none'; script-src " + policy_hash(page_script()) + "; style-src " +
          policy_hash(style) +
          "; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'; sandbox "
-         "allow-scripts";
+         "allow-scripts allow-downloads";
 }
 
-char up_axis(const Vec3& box_size) {
-  return box_size.y > kClearlyLonger * std::max(box_size.x, box_size.z) ? 'y' : 'z';
+double highest_share(const std::vector<ViewModel>& models) {
+  double highest = 0;
+  for (const ViewModel& model : models) {
+    for (const ViewPoint& point : model.points) {
+      if (point.divergence > model.threshold) highest = std::max(highest, double{point.share});
+    }
+    const double volume = model.job.prepared().volume();
+    for (const double e : model.sheet.erosion()) highest = std::max(highest, e / volume);
+  }
+  return highest;
 }
 
 std::string view_page(const ViewInput& input) {
-  if (input.mesh.triangles.empty())
-    throw ClientError(ExitCode::kBadInput, "the mesh has no triangles to draw");
-  const Box box = mesh_box(input.mesh);
-  const Scale scale = scale_of(box);
+  if (input.models.empty() || input.models.size() > 2)
+    throw std::logic_error("a page shows one or two models");
+  double longest = 0;
+  for (const ViewModel& model : input.models) {
+    if (model.mesh.triangles.empty())
+      throw ClientError(ExitCode::kBadInput, "the mesh has no triangles to draw");
+    longest = std::max(longest, mesh_box(model.mesh).longest_side());
+  }
+  const double unit = 0.5 * longest;
+  ordered_json facts = page_facts(input, unit);
   Arrays arrays;
-  ordered_json facts = facts_of(input, box, scale);
-  facts["meshGrid"] = add_mesh(arrays, input.mesh, box, scale);
-  facts["pointGrid"] = add_points(arrays, input, scale);
-  if (input.sheet_is_skeleton) add_sheet(arrays, input, scale);
-  facts["arrays"] = arrays.directory();
-  const std::string name = markup_text(input.job.name()), data = json_for_html(facts),
+  for (const ViewModel& model : input.models) facts["models"].push_back(add_model(arrays, model, unit));
+  const std::string name = markup_text(name_of(input)), data = json_for_html(facts),
                     block = core::base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
                                 {"version", wire::kVersion},

@@ -15,6 +15,7 @@ namespace affskel::client {
 struct ViewPoint {
   std::array<std::uint16_t, 3> step{};  ///< place in the ViewGrid
   float share = 0;                      ///< E / v0
+  float slope = 0;                      ///< of E: the section's area, mesh units squared
   float divergence = 0;                 ///< |H|, 0 without an operator that gives it
   core::Vec3 inward;                    ///< the optimal direction, unit
 };
@@ -36,19 +37,15 @@ float view_share(double erosion, double volume);
 /// The grid in which a lattice's steps are stored.
 ViewGrid view_grid(const LatticePoints& lattice);
 
-/// Which points a page holds.
+/// Which points a page holds: those with |H| above a threshold, the lowest that its slider may take.
 struct ViewSelection {
-  float lowest_threshold = 0;  ///< every point with |H| above this is held
-  std::uint32_t thinning = 1;  ///< of all others one in this many, a power of two; evenly spread
-
-  bool keeps(float divergence, std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
+  float lowest_threshold = 0;
 };
 
-/// All points when there are at most `most`; otherwise the skeleton at `threshold` whole, the candidates
-/// below it as far as there is room for half of the page, and the others thinned.
-/// @param divergences |H| of all points, as view_divergence; empty = no skeleton points at all.
-ViewSelection select_view_points(std::uint64_t points, const std::vector<float>& divergences,
-                                 double threshold, std::uint64_t most);
+/// A tenth of the threshold at which the slider begins or, where that would leave more than `most` points,
+/// what leaves `most`; but the skeleton at `threshold` is held whole.
+/// @param divergences |H| of all points, as view_divergence.
+ViewSelection select_view_points(const std::vector<float>& divergences, double threshold, std::uint64_t most);
 
 /// Gathers a page's points from a field.
 class ViewPointCollector : public FieldReceiver {

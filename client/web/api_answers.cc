@@ -26,6 +26,7 @@ int status_of(ExitCode code) {
       return 503;
     case ExitCode::kLimit:
       return 507;
+    case ExitCode::kClosedPipe:
     case ExitCode::kInternal:
       return 500;
   }

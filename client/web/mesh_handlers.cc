@@ -47,10 +47,11 @@ std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::s
   RenderInput input;
   input.mesh = mesh;
   input.cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  input.up = up_axis(mesh);
   input.title = name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".png"));
   base::AtomicFile out(file->path());
-  out.write(encode_png(render_scene(input, {kPictureWidth})));
+  out.write(encode_png(render_scene(input, {.width = kPictureWidth})));
   out.commit();
   return call.keep({std::move(file), "mesh.png", "image/png", true, {}});
 }

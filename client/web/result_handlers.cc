@@ -95,7 +95,12 @@ struct Made {
 Made make_picture(Backend::Call& server, const nlohmann::json& body, const std::string& job,
                   const std::filesystem::path& path) {
   Made made{finished_job(server.context(), job)};
-  write_whole(path, job_picture(server.context(), made.job, skeleton_of(body), kPictureWidth));
+  PictureOptions options;
+  options.skeleton = skeleton_of(body);
+  options.render.width = kPictureWidth;
+  const Picture picture = job_picture(server.context(), made.job, options);
+  write_whole(path, picture.png);
+  made.facts["shown"] = picture.shown;
   return made;
 }
 
@@ -103,7 +108,7 @@ Made make_view(Backend::Call& server, const nlohmann::json& body, const std::str
                const std::filesystem::path& path) {
   Made made{finished_job(server.context(), job)};
   const v1::SkeletonParams params = shown_skeleton(skeleton_of(body), made.job);
-  write_whole(path, view_page(fetch_view(server.context(), made.job, params)));
+  write_whole(path, view_page(fetch_view(server.context(), {{made.job, params}})));
   return made;
 }
 

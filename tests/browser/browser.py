@@ -11,7 +11,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
+from selenium.webdriver.support.ui import Select, WebDriverWait
 
 PATIENCE = 60  # seconds, for a loaded machine; nothing waits for it when all is well
 
@@ -49,10 +49,12 @@ def chromium(width, height, phone=False, gl=True):
 class Page:
     """A page of affskel-client view."""
 
-    def __init__(self, driver, file):
+    def __init__(self, driver, file, fragment=""):
         self.driver = driver
         self.file = file
-        self.driver.get("file://" + file)
+        if fragment:
+            self.driver.get("about:blank")  # else only the fragment would change
+        self.driver.get("file://" + file + fragment)
 
     def script(self, text, *arguments):
         return self.driver.execute_script(text, *arguments)
@@ -76,6 +78,14 @@ class Page:
         box.send_keys(Keys.CONTROL, "a")
         box.send_keys(str(value), Keys.ENTER)
 
+    def choose(self, name, value):
+        """An option of a select element."""
+        Select(self.element(name)).select_by_value(value)
+
+    def slide(self, name, value):
+        self.script("const range = document.getElementById(arguments[0]); range.value = arguments[1];"
+                    "range.dispatchEvent(new Event('input', { bubbles: true }))", name, value)
+
     def drawn(self):
         """Waits until what was asked for so far is on the screen."""
         self.driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
@@ -83,9 +93,9 @@ class Page:
     def canvas_picture(self):
         """The screenshot where nothing lies over the canvas."""
         self.drawn()
-        self.script("document.querySelectorAll('nav, .foot, #tick-numbers').forEach((e) => (e.style.opacity = 0))")
+        self.script("document.querySelectorAll('nav, .foot, #panes').forEach((e) => (e.style.opacity = 0))")
         picture = Image.open(io.BytesIO(self.element("canvas").screenshot_as_png)).convert("RGB")
-        self.script("document.querySelectorAll('nav, .foot, #tick-numbers').forEach((e) => (e.style.opacity = ''))")
+        self.script("document.querySelectorAll('nav, .foot, #panes').forEach((e) => (e.style.opacity = ''))")
         return picture
 
     def errors(self):
@@ -95,7 +105,7 @@ class Page:
         """Addresses of everything that the page asked for, itself included."""
         messages = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         asked = [m["params"] for m in messages if m["method"] == "Network.requestWillBeSent"]
-        return [a["request"]["url"] for a in asked if a["documentURL"] == "file://" + self.file]
+        return [a["request"]["url"] for a in asked if a["documentURL"].split("#")[0] == "file://" + self.file]
 
 
 def colours(picture):

@@ -19,8 +19,6 @@ class Job:
         mesh = self.path("body.off")
         self.id = self.run("submit", mesh, "--points", "12000", "--name", NAME, "--wait").strip()
         self.volume = json.loads(self.run("--json", "status", self.id))["prepared"]["volume"]
-        self.run("fetch", self.id, "field", "-o", self.path("field.csv"))
-        self.levels = [float(row["E"]) for row in self.rows("field.csv")]
         self.page = self.path("page.html")
         self.run("view", self.id, "--operator", "zucker-hummel", "-o", self.page)
 
@@ -37,11 +35,16 @@ class Job:
 
     def skeleton_points(self, threshold):
         """As the skeleton command counts them."""
-        self.run("skeleton", self.id, "--threshold", str(threshold), "-o", self.path("s.csv"))
-        return len(self.rows("s.csv"))
+        return len(self.skeleton_rows(threshold))
 
-    def eroded_points(self, share):
-        return sum(1 for level in self.levels if level / self.volume >= share)
+    def skeleton_rows(self, threshold):
+        self.run("skeleton", self.id, "--threshold", str(threshold), "-o", self.path("s.csv"))
+        return self.rows("s.csv")
+
+    def eroded(self, share):
+        """Triangles and volume, as the erode command tells them."""
+        told = json.loads(self.run("--json", "erode", self.id, "--fraction", repr(share), "-o", self.path("e.stl")))
+        return told["triangles"], told["volume"]
 
     def close(self):
         pid = json.loads(self.run("--json", "server-info"))["pid"]

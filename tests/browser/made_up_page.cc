@@ -10,11 +10,18 @@
 // affskel_made_up_page stretched FILE: the skeleton is a column of six points through the middle, of a
 // lattice with steps of 1/8 along x and y and 1/2 along z.
 //
-// affskel_made_up_page thinned N FILE: of 31^3 sample points, none of them of the skeleton, one in N is left.
-#include <algorithm>
+// affskel_made_up_page eroded FILE: the point in the middle, and eroded solids at 2, 5 and 10 % of v0 that
+// are cubes of edge 3, 2 and 1 about it.
+//
+// affskel_made_up_page two FILE: that page's cube beside one of half the edge with the first strip of the
+// sheet.
+//
+// affskel_made_up_page many FILE: 47^3 points, all of them of the skeleton.
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,16 +32,16 @@
 namespace {
 
 using affskel::client::ViewInput;
+using affskel::client::ViewModel;
 using affskel::client::ViewPoint;
-using affskel::client::ViewPointCollector;
 
 constexpr double kEdge = 4, kVolume = kEdge * kEdge * kEdge;
 constexpr double kHighestShare = 0.125;
 constexpr unsigned kSquares = 8;
 
 // A lattice of so many steps along an edge.
-ViewInput cube(unsigned steps) {
-  ViewInput input;
+ViewModel cube(unsigned steps) {
+  ViewModel input;
   input.job.set_id("0123456789abcdef0123456789abcdef");
   input.job.mutable_prepared()->set_volume(kVolume);
   input.job.mutable_prepared()->set_spacing(kEdge / steps);
@@ -55,6 +62,9 @@ void add_strip(affskel::v1::TriangleMesh& sheet, unsigned begin, unsigned end, d
       const double place = double(column) / kSquares;
       for (const double c : {kEdge * place, kEdge * row / kSquares, kEdge / 2}) sheet.add_xyz(c);
       sheet.add_strength(strength);
+      sheet.add_area(2.5);
+      for (const double c : {1., 0., 0.}) sheet.add_normal_a(c);
+      for (const double c : {0., 0., -1.}) sheet.add_normal_b(c);
       sheet.add_erosion(kVolume * kHighestShare * place * place * place);
     }
   }
@@ -66,8 +76,8 @@ void add_strip(affskel::v1::TriangleMesh& sheet, unsigned begin, unsigned end, d
   }
 }
 
-ViewInput sheet_page() {
-  ViewInput input = cube(kSquares);
+ViewModel sheet_model() {
+  ViewModel input = cube(kSquares);
   input.job.set_name("sheet");
   input.operator_name = "chords";
   input.sheet_is_skeleton = true;
@@ -84,8 +94,8 @@ ViewInput sheet_page() {
 }
 
 // The first strip, and from its upper end a curve on the same line.
-ViewInput curve_page() {
-  ViewInput input = sheet_page();
+ViewModel curve_model() {
+  ViewModel input = sheet_model();
   input.job.set_name("curve");
   input.operator_name = "ridge";
   input.sheet.Clear();
@@ -99,6 +109,9 @@ ViewInput curve_page() {
     for (const double c : at) input.sheet.add_xyz(c);
     input.sheet.add_erosion(kVolume * kHighestShare);
     input.sheet.add_strength(8);
+    input.sheet.add_area(2.5);
+    for (const double c : {1., 0., 0.}) input.sheet.add_normal_a(c);
+    for (const double c : {0., 0., -1.}) input.sheet.add_normal_b(c);
     input.sheet.add_segments(last);
     last = static_cast<unsigned>(input.sheet.xyz_size() / 3 - 1);
     input.sheet.add_segments(last);
@@ -106,8 +119,8 @@ ViewInput curve_page() {
   return input;
 }
 
-ViewInput stretched_page() {
-  ViewInput input = cube(32);
+ViewModel stretched_model() {
+  ViewModel input = cube(32);
   input.job.set_name("stretched");
   input.grid.axes[2] = {0, 0, kEdge / 8};
   for (std::uint16_t k = 1; k <= 6; ++k) {
@@ -122,48 +135,104 @@ ViewInput stretched_page() {
   return input;
 }
 
-ViewInput thinned_page(unsigned thinning) {
-  constexpr unsigned kSteps = 32;
-  ViewInput input = cube(kSteps);
-  input.job.set_name("thinned");
-  input.selection.thinning = thinning;
-  const std::vector<float> divergences((kSteps - 1) * (kSteps - 1) * (kSteps - 1), 0.0f);
-  input.job.mutable_prepared()->set_points(divergences.size());
-  ViewPointCollector collector(input.grid, input.selection, divergences, kVolume, input.points);
-  affskel::client::FieldPoint point;
-  point.normal = {0, 0, 1};
-  for (point.i = 1; point.i < kSteps; ++point.i) {
-    for (point.j = 1; point.j < kSteps; ++point.j) {
-      for (point.k = 1; point.k < kSteps; ++point.k) {
-        point.erosion = kVolume * kHighestShare * std::min({point.i, point.j, point.k}) / kSteps;
-        collector.put(point);
+// A cube about the middle, as an eroded solid.
+affskel::v1::TriangleMesh middle_cube(double edge) {
+  affskel::v1::TriangleMesh surface;
+  const affskel::core::Mesh box = affskel::core::make_box(edge, edge, edge);
+  for (const affskel::core::Vec3& p : box.points) {
+    for (const double c : {p.x, p.y, p.z}) surface.add_xyz(c + (kEdge - edge) / 2);
+    surface.add_area(edge * edge);
+  }
+  for (const affskel::core::Triangle& t : box.triangles) {
+    for (const std::uint32_t v : t) surface.add_corners(v);
+  }
+  surface.set_volume(edge * edge * edge);
+  return surface;
+}
+
+ViewModel eroded_model() {
+  ViewModel input = cube(kSquares);
+  input.job.set_name("eroded");
+  ViewPoint centre;
+  centre.step = {kSquares / 2, kSquares / 2, kSquares / 2};
+  centre.share = kHighestShare;
+  centre.divergence = 9;
+  centre.slope = 1.5;
+  centre.inward = {0, 0, 1};
+  input.points = {centre};
+  input.job.mutable_prepared()->set_points(1);
+  for (const double edge : {3., 2., 1.}) input.eroded.push_back(middle_cube(edge));
+  input.job.mutable_prepared()->add_notes()->set_message("made up");
+  input.quality.set_points(1);
+  input.quality.set_components(1);
+  input.quality.set_solid_components(1);
+  return input;
+}
+
+ViewInput page_of(const ViewModel& model) {
+  ViewInput input;
+  input.models = {model};
+  return input;
+}
+
+ViewInput eroded_page() {
+  ViewInput input = page_of(eroded_model());
+  input.levels = {0.02, 0.05, 0.1};
+  input.first_level = 1;
+  return input;
+}
+
+ViewInput two_page() {
+  ViewInput input = eroded_page();
+  ViewModel half = sheet_model();
+  half.job.set_name("half");
+  half.mesh = affskel::core::make_box(kEdge / 2, kEdge / 2, kEdge / 2);
+  half.sheet.Clear();
+  add_strip(half.sheet, 0, 1, 0.5);
+  for (int level = 0; level < 3; ++level) half.eroded.push_back(middle_cube(0.5));
+  input.models.push_back(half);
+  return input;
+}
+
+ViewModel many_model() {
+  constexpr std::uint16_t kSteps = 48;
+  ViewModel input = cube(kSteps);
+  input.job.set_name("many");
+  for (std::uint16_t i = 1; i < kSteps; ++i) {
+    for (std::uint16_t j = 1; j < kSteps; ++j) {
+      for (std::uint16_t k = 1; k < kSteps; ++k) {
+        ViewPoint point;
+        point.step = {i, j, k};
+        point.share = static_cast<float>(kHighestShare * k / kSteps);
+        point.divergence = 9;
+        point.inward = {0, 0, 1};
+        input.points.push_back(point);
       }
     }
   }
-  collector.finish();
+  input.job.mutable_prepared()->set_points(input.points.size());
   return input;
 }
+
+const std::map<std::string, std::function<ViewInput()>> kPages = {
+    {"sheet", [] { return page_of(sheet_model()); }},
+    {"curve", [] { return page_of(curve_model()); }},
+    {"stretched", [] { return page_of(stretched_model()); }},
+    {"eroded", eroded_page},
+    {"two", two_page},
+    {"many", [] { return page_of(many_model()); }}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const std::string kind = arguments.size() == 2 || arguments.size() == 3 ? arguments[0] : "";
-  const bool known = kind == "thinned" ? arguments.size() == 3
-                                       : arguments.size() == 2 &&
-                                             (kind == "sheet" || kind == "curve" || kind == "stretched");
-  if (!known) {
-    std::cerr << "usage: affskel_made_up_page sheet FILE | curve FILE | stretched FILE | thinned N FILE\n";
+  const auto page = argc == 3 ? kPages.find(argv[1]) : kPages.end();
+  if (page == kPages.end()) {
+    std::cerr << "usage: affskel_made_up_page sheet|curve|stretched|eroded|two|many FILE\n";
     return 2;
   }
   try {
-    const ViewInput input = kind == "sheet"   ? sheet_page()
-                            : kind == "curve" ? curve_page()
-                            : kind == "stretched"
-                                ? stretched_page()
-                                : thinned_page(static_cast<unsigned>(std::stoul(arguments[1])));
-    affskel::base::AtomicFile file(arguments.back());
-    file.write(affskel::client::view_page(input));
+    affskel::base::AtomicFile file(argv[2]);
+    file.write(affskel::client::view_page(page->second()));
     file.commit();
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

@@ -1,6 +1,6 @@
 """Uses the page of affskel-client web in Chromium, on a real server with its worker.
 
-Usage: web_test.py AFFSKEL-CLIENT AFFSKEL-SERVER
+Usage: web_test.py AFFSKEL-CLIENT AFFSKEL-SERVER [TEST...]
 """
 import json
 import os
@@ -88,8 +88,10 @@ class Desktop(OnThePage):
         job = page.driver.current_url.split("/")[-1]
         status = json.loads(bench.run("--json", "status", job))
         self.assertEqual(status["state"], "done")
-        self.assertIn(f"{status['skeleton_points']:,} skeleton points", page.text())
+        self.assertIn(f"{status['skeleton_points']:,} skeleton points (Zucker–Hummel, as published)", page.text())
         page.picture_is_drawn()
+        self.assertRegex(page.wait(lambda: [e.text for e in page.all(".card [role=status]") if "Shown" in e.text])[0],
+                         r"Shown: sheet of [0-9]+ triangles .*\(ridge, threshold 6\)")
         page.shown("#history summary").click()
         happened = page.wait(lambda: [line.text for line in page.all(".history li")])
         self.assertIn("submitted", happened[0])
@@ -123,7 +125,7 @@ class Desktop(OnThePage):
         # What cannot be made is said beside the buttons.
         self.page.type("#download-level", 99.9)
         self.page.find("button[data-file='eroded.stl']").click()
-        self.page.wait(lambda: "eroded" in self.page.shown(".card [role=status]").text or
+        self.page.wait(lambda: any("eroded" in e.text for e in self.page.all(".card [role=status]")) or
                        self.page.all(".card .error:not([hidden])"))
 
     def test_turns_the_skeleton(self):
@@ -132,7 +134,8 @@ class Desktop(OnThePage):
         frame = self.page.shown("dialog iframe")
         self.page.driver.switch_to.frame(frame)
         state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
-        self.assertGreater(state["pointsHere"], 4000)
+        self.assertGreater(state["skeletonShown"], 100, "the ridge's sheet")
+        self.assertGreaterEqual(len(state["levels"]), 3)
         self.page.find("#view-front").click()
         front = self.page.script("return affskel.state().camera.position")
         self.page.find("#canvas").send_keys(Keys.ARROW_LEFT)
@@ -238,7 +241,7 @@ class SigningIn(unittest.TestCase):
         page.skeleton_is_drawn()
         page.shown("#interactive").click()
         page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().pointsHere > 0"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
         page.driver.switch_to.default_content()
         page.shown("#close-interactive").click()
         page.wait(lambda: not page.all("dialog"))
@@ -363,7 +366,7 @@ class Phone(OnThePage):
         page.screenshot("phone-2-done")
         page.shown("#interactive").click()
         page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().pointsHere > 0"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
         page.driver.switch_to.default_content()
         page.screenshot("phone-3-turned")
         page.shown("#close-interactive").click()

@@ -19,8 +19,8 @@ from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader, vtkXMLStructuredGridReader
 
-from expected import (DIVERGENCE_ARRAYS, FIELD_ARRAYS, LEVEL, POINT_ARRAYS, POINTS_ALONE, Job, ball_level_radius,
-                      check_facts, facts_of_comments)
+from expected import (DIVERGENCE_ARRAYS, FIELD_ARRAYS, LEVEL, POINT_ARRAYS, POINTS_ALONE, RADIUS_OF_CURVES, Job,
+                      ball_level_radius, check_facts, facts_of_comments)
 
 DIRECTORY = sys.argv[1]
 READERS = {".vti": vtkXMLImageDataReader, ".vts": vtkXMLStructuredGridReader, ".vtp": vtkXMLPolyDataReader,
@@ -119,9 +119,8 @@ def check_divergence(job, extension):
 
 def check_poly_data(job, kind, arrays):
     data = opened(job.path(kind + ".vtp"))
-    # The radius of the sections of curves, where there are some.
     curves = data.GetNumberOfLines()
-    assert arrays_of(data) == arrays | ({"radius"} if curves else set()), (kind, arrays_of(data))
+    assert arrays_of(data) == arrays | (RADIUS_OF_CURVES if curves else set()), (kind, arrays_of(data))
     cells = data.GetNumberOfVerts() if kind in POINTS_ALONE else data.GetNumberOfPolys()
     assert cells > 0 and data.GetNumberOfCells() == cells + curves, kind
     assert curves == 0 or kind == "ridge", kind

@@ -27,6 +27,9 @@ class Context {
   Console& console() { return console_; }
   std::ostream& out() { return out_; }
   const Environment& environment() const { return environment_; }
+  const GlobalOptions& global() const { return global_; }
+  /// See client::next_command.
+  std::string next_command(const std::string& words) const { return client::next_command(global_, words); }
 
   /// @throws ClientError as choose_server.
   Session& session();

@@ -43,13 +43,22 @@ class WaitingNote {
   std::thread thread_;
 };
 
+bool in_range(const google::protobuf::RepeatedField<std::uint32_t>& indices, int vertices) {
+  return std::all_of(indices.begin(), indices.end(),
+                     [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); });
+}
+
+// With E at every vertex.
+bool is_surface(const v1::TriangleMesh& mesh) {
+  const int vertices = mesh.xyz_size() / 3;
+  return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices && mesh.corners_size() % 3 == 0 &&
+         in_range(mesh.corners(), vertices);
+}
+
 bool is_sheet(const v1::TriangleMesh& mesh) {
   const int vertices = mesh.xyz_size() / 3;
-  const auto in_range = [&](std::uint32_t v) { return v < static_cast<std::uint32_t>(vertices); };
-  return mesh.xyz_size() == 3 * vertices && mesh.erosion_size() == vertices &&
-         mesh.strength_size() == vertices && mesh.corners_size() % 3 == 0 && mesh.segments_size() % 2 == 0 &&
-         std::all_of(mesh.corners().begin(), mesh.corners().end(), in_range) &&
-         std::all_of(mesh.segments().begin(), mesh.segments().end(), in_range);
+  return is_surface(mesh) && mesh.strength_size() == vertices && mesh.segments_size() % 2 == 0 &&
+         in_range(mesh.segments(), vertices);
 }
 
 }  // namespace
@@ -84,6 +93,18 @@ v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1:
     throw ClientError(ExitCode::kInternal, "the server sent a damaged sheet");
   }
   return sheet;
+}
+
+v1::TriangleMesh fetch_eroded_surface(Context& context, const std::string& job, double level) {
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_SURFACE);
+  request.mutable_eroded()->set_fraction(level);
+  v1::ArtifactHeader header;
+  v1::TriangleMesh surface;
+  if (!surface.ParseFromString(fetch_patiently(context, request, header, "eroded solid")) ||
+      !is_surface(surface) || surface.area_size() != surface.erosion_size()) {
+    throw ClientError(ExitCode::kInternal, "the server sent a damaged eroded solid");
+  }
+  return surface;
 }
 
 core::Mesh fetch_mesh(Context& context, const std::string& job) {

@@ -43,4 +43,9 @@ core::Mesh fetch_mesh(Context& context, const std::string& job);
 /// @throws ClientError kInternal when a corner is out of range or a vertex lacks E or its strength.
 v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params);
 
+/// The surface of the eroded solid at a level, as `erode` writes it.  Waits while it is computed.
+/// @param level as a share of v0, 0 < level < 1.
+/// @throws ClientError kInternal when a corner is out of range or a vertex lacks E or its slope.
+v1::TriangleMesh fetch_eroded_surface(Context& context, const std::string& job, double level);
+
 }  // namespace affskel::client

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "base/coding.h"
+#include "base/number_text.h"
+#include "client/artifacts/skeleton_points.h"
 #include "client/commands/shared/fetch_artifact.h"
 #include "client/commands/shared/follow.h"
 #include "client/text/words.h"
@@ -17,23 +20,25 @@
 namespace affskel::client {
 namespace {
 
-// Beyond this a phone takes long to open the page; about 19 bytes each.
+// Beyond this a phone takes long to open the page; about 23 bytes each.
 constexpr std::uint64_t kMaxPoints = 400000;
+// Eroded solids: at 100,000 points their surfaces take about 600 kB each.
+constexpr double kMostLevels = 8, kFewestLevels = 3, kPointsOfMost = 1e5;
 
 // A field on its way into a page; a transfer that breaks off begins again from nothing.
 class PointSink : public ArtifactSink {
  public:
   PointSink(const LatticePoints& lattice, const v1::Directions& directions,
-            const std::vector<float>& divergences, double volume, ViewInput& input)
-      : input_(input),
-        collector_(input.grid, input.selection, divergences, volume, input.points),
+            const std::vector<float>& divergences, double volume, ViewModel& model)
+      : model_(model),
+        collector_(model.grid, model.selection, divergences, volume, model.points),
         decoder_(lattice, directions, collector_) {}
-  void begin(const v1::ArtifactHeader&) override { input_.points.clear(); }
+  void begin(const v1::ArtifactHeader&) override { model_.points.clear(); }
   void data(std::string_view bytes) override { decoder_.data(bytes); }
   void end() override { decoder_.finish(); }
 
  private:
-  ViewInput& input_;
+  ViewModel& model_;
   ViewPointCollector collector_;
   FieldDecoder decoder_;
 };
@@ -83,38 +88,104 @@ std::vector<float> fetch_divergences(Context& context, const std::string& job,
   return divergences;
 }
 
-}  // namespace
-
-ViewInput fetch_view(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
-  ViewInput input;
-  input.job = job;
-  input.operator_name = operator_word(params.operator_());
-  input.sheet_is_skeleton = wire::gives_sheet(params.operator_());
-  input.threshold = first_threshold(params, job.prepared().spacing());
-  const LatticePoints lattice(
-      fetch_message<v1::Lattice>(context, job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
-  std::vector<float> divergences;
-  if (input.sheet_is_skeleton) {
-    input.sheet = fetch_sheet(context, job.id(), params);
-  } else {
-    divergences = fetch_divergences(context, job.id(), params, lattice.count());
-  }
-  const auto kept = std::count_if(divergences.begin(), divergences.end(),
-                                  [&](float h) { return double{h} > input.threshold; });
-  warn_about_skeleton(
-      context.console(),
-      static_cast<std::uint64_t>(
-          input.sheet_is_skeleton ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2 : kept),
-      input.sheet.quality(), job);
-  input.grid = view_grid(lattice);
-  input.selection = select_view_points(lattice.count(), divergences, input.threshold, kMaxPoints);
+void fetch_points(Context& context, const v1::Job& job, const LatticePoints& lattice,
+                  const std::vector<float>& divergences, ViewModel& model) {
   const auto directions =
       fetch_message<v1::Directions>(context, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
   context.session().fetch(
       request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), input);
+        return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), model);
       });
-  input.mesh = fetch_mesh(context, job.id());
+}
+
+// Of a skeleton of points.
+v1::SkeletonQuality fetch_quality(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
+  if (job.has_quality() && params.operator_() == job.skeleton().operator_() &&
+      params.threshold() == job.skeleton().threshold()) {
+    return job.quality();
+  }
+  v1::FetchArtifactRequest request = request_for(job.id(), v1::ARTIFACT_KIND_SKELETON);
+  *request.mutable_skeleton() = params;
+  v1::ArtifactHeader header;
+  return parse_skeleton(fetch_patiently(context, request, header, "skeleton")).quality();
+}
+
+// The skeleton: a sheet, or the points with large |H|.
+void fetch_skeleton(Context& context, const ViewSubject& subject, const LatticePoints& lattice,
+                    ViewModel& model) {
+  const std::string& job = subject.job.id();
+  std::uint64_t items = 0;
+  if (model.sheet_is_skeleton) {
+    model.sheet = fetch_sheet(context, job, subject.params);
+    model.quality = model.sheet.quality();
+    items = static_cast<std::uint64_t>(model.sheet.corners_size() / 3 + model.sheet.segments_size() / 2);
+  } else {
+    const auto divergences = fetch_divergences(context, job, subject.params, lattice.count());
+    model.selection = select_view_points(divergences, model.threshold, kMaxPoints);
+    fetch_points(context, subject.job, lattice, divergences, model);
+    model.quality = fetch_quality(context, subject.job, subject.params);
+    items = static_cast<std::uint64_t>(std::count_if(divergences.begin(), divergences.end(),
+                                                     [&](float h) { return double{h} > model.threshold; }));
+  }
+  warn_about_skeleton(context, items, model.quality, subject.job);
+}
+
+ViewModel fetch_model(Context& context, const ViewSubject& subject) {
+  ViewModel model;
+  model.job = subject.job;
+  model.operator_name = operator_word(subject.params.operator_());
+  model.sheet_is_skeleton = wire::gives_sheet(subject.params.operator_());
+  model.threshold = first_threshold(subject.params, subject.job.prepared().spacing());
+  const LatticePoints lattice(
+      fetch_message<v1::Lattice>(context, subject.job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+  model.grid = view_grid(lattice);
+  fetch_skeleton(context, subject, lattice, model);
+  model.mesh = fetch_mesh(context, subject.job.id());
+  return model;
+}
+
+}  // namespace
+
+std::vector<double> view_levels(double highest, double wanted, std::uint64_t points) {
+  std::vector<double> levels;
+  const double room =
+      kMostLevels * std::cbrt(std::pow(kPointsOfMost / double(std::max<std::uint64_t>(1, points)), 2));
+  const int count = static_cast<int>(std::clamp(room, kFewestLevels, kMostLevels));
+  constexpr double kFirst = 0.2, kLast = 0.94;  // of the highest depth: beyond, little is taken or left
+  for (int l = 0; l < count && highest > 0; ++l) {
+    const double depth = kFirst + (kLast - kFirst) * l / (count - 1);
+    const double share = depth * depth * depth * highest;
+    const double digit = std::pow(10.0, std::floor(std::log10(share)) - 1);
+    levels.push_back(std::stod(base::rounded(std::round(share / digit) * digit, 2)));
+  }
+  if (wanted > 0) levels.push_back(wanted);
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  return levels;
+}
+
+ViewInput fetch_view(Context& context, const std::vector<ViewSubject>& subjects, const ViewOptions& options) {
+  ViewInput input;
+  std::uint64_t points = 0;
+  for (const ViewSubject& subject : subjects) {
+    input.models.push_back(fetch_model(context, subject));
+    points = std::max(points, subject.job.prepared().points());
+  }
+  input.up = options.up.value_or(up_axis(input.models.front().mesh));
+  const double highest = highest_share(input.models);
+  input.levels = view_levels(highest, options.level, points);
+  const double first = options.level > 0 ? options.level : 0.1 * highest;
+  for (std::size_t l = 0; l < input.levels.size(); ++l) {
+    if (std::fabs(input.levels[l] - first) < std::fabs(input.levels[input.first_level] - first))
+      input.first_level = l;
+  }
+  input.show_level = options.level > 0;
+  for (ViewModel& model : input.models) {
+    for (const double level : input.levels) {
+      model.eroded.push_back(fetch_eroded_surface(context, model.job.id(), level));
+      if (level == options.level) warn_about_eroded(context, model.eroded.back());
+    }
+  }
   return input;
 }
 

@@ -1,6 +1,5 @@
 #include "client/commands/shared/inspection.h"
 
-#include "client/files/read/mesh_defects.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -25,6 +24,12 @@ ordered_json file_facts(const InputFile& input) {
   facts["polygons"] = input.off.polygons;
   facts["polygons_cut"] = input.off.polygons_cut;
   facts["triangles"] = input.off.mesh.triangles.size();
+  if (!input.off.passed_over.empty()) {
+    ordered_json rows = ordered_json::array();
+    for (const core::PassedOver& one : input.off.passed_over)
+      rows.push_back({{"word", one.word}, {"rows", one.rows}, {"first_line", one.first_line}});
+    facts["passed_over"] = std::move(rows);
+  }
   return facts;
 }
 
@@ -67,17 +72,24 @@ ordered_json notes_json(const core::Solid& solid) {
 ordered_json defects_json(const std::vector<MeshDefect>& defects) {
   ordered_json list = ordered_json::array();
   for (const MeshDefect& defect : defects) {
+    ordered_json places = ordered_json::array();
+    for (const DefectPlace& place : defect.places) {
+      places.push_back({{"line", place.line > 0 ? ordered_json(place.line) : ordered_json(nullptr)},
+                        {"triangle", place.triangle},
+                        {"where", place_text(place)}});
+    }
     list.push_back({{"code", defect.code},
                     {"count", defect.count},
-                    {"message", defect.message},
-                    {"lines", defect.lines}});
+                    {"cause", defect.cause},
+                    {"message", defect_text(defect)},
+                    {"places", std::move(places)}});
   }
   return list;
 }
 
 }  // namespace
 
-Inspection inspect(const InputFile& input) {
+Inspection inspect(const InputFile& input, std::size_t max_places) {
   Inspection inspection;
   inspection.facts = file_facts(input);
   try {
@@ -87,7 +99,7 @@ Inspection inspect(const InputFile& input) {
     inspection.facts["notes"] = notes_json(*inspection.solid);
   } catch (const ClientError& error) {
     inspection.facts["computable"] = false;
-    inspection.facts["defects"] = defects_json(find_defects(input.off));
+    inspection.facts["defects"] = defects_json(find_defects(input.off, max_places));
     inspection.error = error;
   }
   return inspection;

@@ -5,6 +5,7 @@
 
 #include "client/base/error.h"
 #include "client/files/read/input_file.h"
+#include "client/files/read/mesh_defects.h"
 
 namespace affskel::client {
 
@@ -16,7 +17,8 @@ struct Inspection {
   std::optional<ClientError> error;  ///< then: why
 };
 
-/// Counts what is in the file, mends the mesh as `submit` does and looks for every defect.
-Inspection inspect(const InputFile& input);
+/// Counts what is in the file, mends the mesh as `submit` does and looks for every kind of defect.
+/// @param max_places of each kind that are listed.
+Inspection inspect(const InputFile& input, std::size_t max_places = kFewPlaces);
 
 }  // namespace affskel::client

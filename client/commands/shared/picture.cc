@@ -28,15 +28,19 @@ std::string curves_text(const v1::TriangleMesh& sheet) {
   return " and " + base::counted(sheet.segments_size() / 2, "segment") + " of curves";
 }
 
-std::string title_of(const RenderInput& input, const v1::Job& job, const v1::SkeletonParams& params) {
+// The skeleton, and by which parameters.
+std::string shown_text(const RenderInput& input, const v1::SkeletonParams& params) {
   const std::string skeleton =
       wire::gives_sheet(params.operator_())
           ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle") + curves_text(input.sheet)
           : base::counted(input.skeleton.point_size(), "skeleton point");
+  return skeleton + " (" + skeleton_params_text(params) + ")";
+}
+
+std::string title_of(const RenderInput& input, const v1::Job& job, const std::string& shown) {
   return job.name() + ": " + std::to_string(input.mesh.triangles.size()) + " triangles, " +
          base::counted(job.prepared().points(), "sample point") + " at spacing " +
-         base::rounded(job.prepared().spacing(), 4) + ", " + skeleton + " (" + skeleton_params_text(params) +
-         ")";
+         base::rounded(job.prepared().spacing(), 4) + ", " + shown;
 }
 
 // @param own whether the parameters are the job's, whose skeleton is stored.
@@ -61,22 +65,31 @@ double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonPa
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
   const int items =
       sheet ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2 : input.skeleton.point_size();
-  warn_about_skeleton(context.console(), static_cast<std::uint64_t>(items), quality, job);
+  warn_about_skeleton(context, static_cast<std::uint64_t>(items), quality, job);
   return quality.threshold();
+}
+
+void fetch_eroded(Context& context, const v1::Job& job, double level, RenderInput& input) {
+  input.eroded = fetch_eroded_surface(context, job.id(), level);
+  input.level = "eroded solid, E >= " + base::rounded(100 * level, 4) + " % of v0";
+  warn_about_eroded(context, input.eroded);
 }
 
 }  // namespace
 
-std::string job_picture(Context& context, const v1::Job& job, const SkeletonOptions& skeleton, int width) {
-  v1::SkeletonParams params = shown_skeleton(skeleton, job);
+Picture job_picture(Context& context, const v1::Job& job, const PictureOptions& options) {
+  v1::SkeletonParams params = shown_skeleton(options.skeleton, job);
   RenderInput input;
-  const double applied = fetch_skeleton(context, job, params, !skeleton.given(), input);
+  const double applied = fetch_skeleton(context, job, params, !options.skeleton.given(), input);
   if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
+  if (options.level > 0) fetch_eroded(context, job, options.level, input);
   input.mesh = fetch_mesh(context, job.id());
+  input.up = options.up.value_or(up_axis(input.mesh));
   input.cell = lattice_cell(job.prepared());
   input.volume = job.prepared().volume();
-  input.title = title_of(input, job, params);
-  return encode_png(render_scene(input, {width}));
+  const std::string shown = shown_text(input, params);
+  input.title = title_of(input, job, shown);
+  return {encode_png(render_scene(input, options.render)), shown};
 }
 
 }  // namespace affskel::client

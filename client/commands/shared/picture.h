@@ -1,15 +1,30 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "client/base/up_axis.h"
 #include "client/commands/shared/context.h"
 #include "client/commands/shared/skeleton_options.h"
+#include "client/render/scene.h"
 
 namespace affskel::client {
 
-/// The picture of a finished job: the body with its skeleton as points, of `chords` with its sheet.  Fetches
-/// what it needs, and warns when there is no skeleton.
-/// @param width pixels, see RenderOptions.  @return the bytes of a PNG file.
-std::string job_picture(Context& context, const v1::Job& job, const SkeletonOptions& skeleton, int width);
+/// What a picture is to show.
+struct PictureOptions {
+  SkeletonOptions skeleton;
+  double level = 0;          ///< of the eroded solid that is drawn, as a share of v0; 0 = none
+  std::optional<UpAxis> up;  ///< absent: see up_axis
+  RenderOptions render;
+};
+
+struct Picture {
+  std::string png;    ///< bytes of the file
+  std::string shown;  ///< the skeleton in words: "sheet of 2123 triangles (ridge, threshold 5)"
+};
+
+/// The picture of a finished job: the body with its skeleton as points, of `chords` and `ridge` with its
+/// sheet.  Fetches what it needs, and warns when there is no skeleton or no eroded solid.
+Picture job_picture(Context& context, const v1::Job& job, const PictureOptions& options);
 
 }  // namespace affskel::client

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "client/files/read/input_file.h"
 #include "client/files/write/shape_writer.h"
 
 namespace affskel::client {
@@ -44,6 +45,8 @@ void tell_what_is_lost(Console& console, const ShapeFile& shape, FileFormat form
   }
   tell_lost_curves(console, shape, format, output);
   if (holds_columns(format)) tell_renamed(console, shape, output);
+  if (const std::string text = passed_over_text(shape.off); !text.empty())
+    console.note(shape.path + ": passed over " + text);
   if (shape.off.polygons_cut > 0) {
     console.note(shape.path + ": " + base::counted(shape.off.polygons_cut, "face") +
                  " of more than three sides " + (shape.off.polygons_cut == 1 ? "was" : "were") +

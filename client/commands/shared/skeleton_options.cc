@@ -15,7 +15,7 @@ void add_skeleton_options(CLI::App* command, SkeletonOptions& skeleton, bool sho
                                 : "";
   CLI::Option* name =
       command->add_option("--operator", skeleton.operator_name, std::string("How shocks are found") + preset)
-          ->check(CLI::IsMember(operator_words()))
+          ->check(one_of(operator_words()))
           ->type_name("OP");
   if (!of_job) name->capture_default_str();
   command

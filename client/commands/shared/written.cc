@@ -11,7 +11,9 @@ namespace {
 
 std::string volume_text(const Written& written) {
   if (!written.volume) return "";
-  return (written.unit == "point" ? ", volume about " : ", volume ") + base::rounded(*written.volume, 6);
+  // Counting points tells three digits at best; what a surface encloses is known as exactly as its vertices.
+  return written.unit == "point" ? ", volume about " + base::plain(*written.volume, 3)
+                                 : ", volume " + base::plain(*written.volume, base::kMeasureDigits);
 }
 
 // A sheet comes with its quality, an alpha shape does not.
@@ -25,9 +27,10 @@ std::string advice_for_empty_surface(const Written& written) {
 
 }  // namespace
 
-void tell_result(Console& console, const Written& written) {
+void tell_result(Context& context, const Written& written) {
+  Console& console = context.console();
   if (written.kind == "skeleton") {
-    warn_about_skeleton(console, written.items, written.quality.value_or(v1::SkeletonQuality()), written.job);
+    warn_about_skeleton(context, written.items, written.quality.value_or(v1::SkeletonQuality()), written.job);
   }
   if (written.kind == "surface" && written.items + written.segments == 0) {
     console.warning("the surface is empty: " + advice_for_empty_surface(written));

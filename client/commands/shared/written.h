@@ -7,6 +7,7 @@
 
 #include "affskel/v1/types.pb.h"
 #include "client/cli/console.h"
+#include "client/commands/shared/context.h"
 #include "client/files/format.h"
 
 namespace affskel::client {
@@ -28,7 +29,7 @@ struct Written {
 
 /// Ends a command that wrote one artefact: warns when it is empty, and tells people and scripts what was
 /// written.
-void tell_result(Console& console, const Written& written);
+void tell_result(Context& context, const Written& written);
 
 /// Tells people and scripts what was written.
 nlohmann::ordered_json written_json(const Written& written);

@@ -1,8 +1,12 @@
 #include "client/files/read/input_file.h"
 
+#include <algorithm>
+#include <array>
 #include <new>
+#include <string_view>
 #include <utility>
 
+#include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/files/format.h"
 #include "client/files/read/read_file.h"
@@ -12,12 +16,40 @@
 namespace affskel::client {
 namespace {
 
+// What rows of OBJ hold beside a mesh.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kMeanings = {
+    {{"vn", "normals"},
+     {"vt", "texture coordinates"},
+     {"vp", "parameters"},
+     {"mtllib", "materials"},
+     {"usemtl", "materials"},
+     {"o", "names of objects"},
+     {"g", "groups"},
+     {"s", "smoothing"},
+     {"p", "points"}}};
+
 // The server stores OFF text: what the file holds beside its surface (colours, normals) has no place there.
-void parse(InputFile& input) {
-  core::MeshFile file = core::parse_mesh_file(lower_extension(input.path), input.bytes);
+void parse(InputFile& input, std::string_view extension) {
+  core::MeshFile file = core::parse_mesh_file(extension, input.bytes);
   input.format = extension_of(file.format).substr(1);
   input.off = std::move(file.off);
   if (input.converted()) input.bytes = core::write_off(input.off.mesh);
+}
+
+InputFile parsed_input(const std::string& path, std::string bytes, const std::string& extension) {
+  InputFile input;
+  input.path = path;
+  input.bytes = std::move(bytes);
+  input.file_bytes = input.bytes.size();
+  input.file_sha256 = wire::sha256_hex(input.bytes);
+  try {
+    parse(input, extension);
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, path);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
+  }
+  return input;
 }
 
 }  // namespace
@@ -33,22 +65,30 @@ core::OffMesh parse_mesh(const std::string& bytes, const std::string& path) {
 }
 
 InputFile read_input(const std::string& path) {
-  InputFile input;
-  input.path = path;
-  input.bytes = read_file(path);
-  input.file_bytes = input.bytes.size();
-  input.file_sha256 = wire::sha256_hex(input.bytes);
-  try {
-    parse(input);
-  } catch (const core::CoreError& error) {
-    throw error_from_core(error, path);
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory(path);
+  return parsed_input(path, read_file(path), lower_extension(path));
+}
+
+InputFile read_named_input(const std::string& name) {
+  if (name != "-") return read_input(name);
+  std::string bytes = read_standard_input("stdin");
+  const std::string extension(core::extension_of_content(bytes));
+  return parsed_input("stdin", std::move(bytes), extension);
+}
+
+std::string passed_over_text(const core::OffMesh& off) {
+  std::string text;
+  for (const core::PassedOver& one : off.passed_over) {
+    const auto known = std::find_if(kMeanings.begin(), kMeanings.end(),
+                                    [&](const auto& meaning) { return meaning.first == one.word; });
+    const std::string meaning = known == kMeanings.end() ? "" : " (" + std::string(known->second) + ")";
+    text += (text.empty() ? "" : ", ") + base::counted(one.rows, "row") + " of " + one.word + meaning;
   }
-  return input;
+  return text;
 }
 
 void tell_conversion(const InputFile& input, Console& console) {
+  if (const std::string text = passed_over_text(input.off); !text.empty())
+    console.note(input.path + ": passed over " + text);
   if (!input.converted()) return;
   console.note(input.path + ": read as " + input.format + " and submitted as OFF text, " +
                std::to_string(input.off.mesh.points.size()) + " vertices and " +

@@ -5,8 +5,8 @@
 
 #include "client/base/error.h"
 #include "client/cli/console.h"
-#include "core/text/off_file.h"
 #include "core/solid/solid.h"
+#include "core/text/off_file.h"
 
 namespace affskel::client {
 
@@ -26,13 +26,20 @@ struct InputFile {
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path);
 
+/// The same of what a command line names: "-" is standard input, whose format its content tells (see
+/// core::extension_of_content) and whose path becomes "stdin".
+InputFile read_named_input(const std::string& name);
+
 /// Parses bytes that came from `path`, or from the server when `path` names no file.
 core::OffMesh parse_mesh(const std::string& bytes, const std::string& path);
 
 /// Checks that the mesh bounds a solid. @throws ClientError kBadInput with the place.
 core::Solid check_solid(const InputFile& input, bool repair);
 
-/// Tells when the file is not what is submitted.
+/// What of a file was passed over: "1204 rows of vn (normals), 2 rows of g (groups)"; empty when nothing was.
+std::string passed_over_text(const core::OffMesh& off);
+
+/// Tells when the file is not what is submitted, and what of it was passed over.
 void tell_conversion(const InputFile& input, Console& console);
 
 /// Tells the notes of the solid: repairs as notes, oddities as warnings.

@@ -55,6 +55,19 @@ std::string read_all(int fd, const std::string& path, std::uint64_t announced, s
   return bytes;
 }
 
+std::string read_open(int fd, const std::string& path, std::uint64_t max_bytes) {
+  struct stat info {};
+  if (fstat(fd, &info) != 0) unreadable(path);
+  if (S_ISREG(info.st_mode) && static_cast<std::uint64_t>(info.st_size) > max_bytes)
+    throw too_large(path, max_bytes);
+  const std::uint64_t announced = S_ISREG(info.st_mode) ? static_cast<std::uint64_t>(info.st_size) : 0;
+  try {
+    return read_all(fd, path, announced, max_bytes);
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
+  }
+}
+
 }  // namespace
 
 ClientError out_of_memory(const std::string& path) {
@@ -64,16 +77,11 @@ ClientError out_of_memory(const std::string& path) {
 std::string read_file(const std::string& path, std::uint64_t max_bytes) {
   const OpenFile file(path);
   if (file.fd() < 0) unreadable(path);
-  struct stat info {};
-  if (fstat(file.fd(), &info) != 0) unreadable(path);
-  if (S_ISREG(info.st_mode) && static_cast<std::uint64_t>(info.st_size) > max_bytes)
-    throw too_large(path, max_bytes);
-  const std::uint64_t announced = S_ISREG(info.st_mode) ? static_cast<std::uint64_t>(info.st_size) : 0;
-  try {
-    return read_all(file.fd(), path, announced, max_bytes);
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory(path);
-  }
+  return read_open(file.fd(), path, max_bytes);
+}
+
+std::string read_standard_input(const std::string& name, std::uint64_t max_bytes) {
+  return read_open(STDIN_FILENO, name, max_bytes);
 }
 
 }  // namespace affskel::client

@@ -30,7 +30,11 @@ void write_obj(const ShapeFile& shape, const std::vector<std::string>& comments,
   for (const core::Vec3& p : mesh.points) {
     write("v " + base::to_text(p.x) + " " + base::to_text(p.y) + " " + base::to_text(p.z) + "\n");
   }
+  // Objects of their own: Open3D and others that read by Assimp leave out an object that holds both.
+  const bool both = !mesh.triangles.empty() && !shape.segments.empty();
+  if (both) write("o sheet\n");
   for (const core::Triangle& t : mesh.triangles) write(row_of('f', t));
+  if (both) write("o curves\n");
   for (const auto& line : core::polylines(mesh.points.size(), shape.segments)) write(row_of('l', line));
 }
 

@@ -25,8 +25,10 @@ class View:
         return f"<affskel.View, {len(self.page)} characters; save(FILE) it for a browser>"
 
     def _repr_html_(self) -> str:
-        # The page has a sandbox of its own: it runs its script and reaches nothing of the notebook.
-        return (f'<iframe sandbox="allow-scripts" width="100%" height="{self.height}" style="border: 0" '
+        # The page has a sandbox of its own: it runs its script, hands out a picture and reaches nothing of the
+        # notebook.
+        return (f'<iframe sandbox="allow-scripts allow-downloads" allow="fullscreen *" width="100%" '
+                f'height="{self.height}" style="border: 0" '
                 f'srcdoc="{html.escape(self.page)}"></iframe>')
 
     def save(self, file: Union[str, "os.PathLike[str]"]) -> Path:

@@ -31,9 +31,6 @@ export const kOnEllipsoid = `
     return normalize((at + along * ((sqrt(rest) - middle) / dot(along, along))) * unstretch);
   }`;
 
-// The edges of a cell whose volume is `count` times as large.
-export const widened = (cell, count) => cell.map((edge) => edge.map((c) => c * Math.cbrt(count)));
-
 export class CellShape {
   // cell: three edges, page units; share: the ellipsoid's half axes in edges.
   constructor(cell, share) {

@@ -19,11 +19,11 @@ export function viridis(t) {
   return kViridis[low].map((value, c) => value + fraction * (kViridis[low + 1][c] - value));
 }
 
-// For CSS.  lift: how far the colours are mixed with white, 0 .. 1.
-export function gradient(lift) {
-  const stops = kViridis.map((colour) => `rgb(${colour.map((c) => Math.round(c + lift * (255 - c)))})`);
-  return `linear-gradient(to right, ${stops.join(', ')})`;
-}
+// Colours at equal distances, for CSS.  lift: how far they are mixed with white, 0 .. 1.
+export const gradientStops = (lift) =>
+  kViridis.map((colour) => `rgb(${colour.map((c) => Math.round(c + lift * (255 - c)))})`);
+
+export const gradient = (lift) => `linear-gradient(to right, ${gradientStops(lift).join(', ')})`;
 
 // E is a volume and varies over orders of magnitude; its cube root is a length and varies evenly.
 export const colourPosition = (share, highest) => (highest > 0 ? Math.cbrt(Math.max(0, share) / highest) : 0);
@@ -43,22 +43,16 @@ export function coloursOf(shares, highest) {
 const kDark = {
   background: 0x14181f,
   ink: 0xe8ecf1,
-  glassDark: [0.42, 0.5, 0.62],
-  glassLight: [0.86, 0.91, 0.97],
-  glass: 0.075,
-  rim: 0.42,
+  body: { dark: [0.42, 0.5, 0.62], light: [0.86, 0.91, 0.97], clear: 0.075, rim: 0.42 },
+  eroded: { dark: [0.7, 0.4, 0.16], light: [1, 0.68, 0.4], clear: 0.28, rim: 0.5 },
   lift: 0.12,
-  skin: [1, 0.65, 0.36],
 };
 const kLight = {
   background: 0xffffff,
   ink: 0x20252c,
-  glassDark: [0.3, 0.38, 0.5],
-  glassLight: [0.72, 0.79, 0.88],
-  glass: 0.1,
-  rim: 0.42,
+  body: { dark: [0.3, 0.38, 0.5], light: [0.72, 0.79, 0.88], clear: 0.1, rim: 0.42 },
+  eroded: { dark: [0.62, 0.33, 0.1], light: [0.98, 0.66, 0.36], clear: 0.28, rim: 0.5 },
   lift: 0,
-  skin: [0.93, 0.56, 0.28],
 };
 
 export const themeColours = (name) => (name === 'dark' ? kDark : kLight);

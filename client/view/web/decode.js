@@ -9,18 +9,21 @@ function bytesOf(base64) {
   return bytes;
 }
 
-// The facts of the job, with its arrays under `arrays`; absent arrays are empty.
+// The facts of the page; those of each of its models with arrays under `arrays`, absent ones empty.
 export function decodePage(document) {
   const facts = JSON.parse(document.getElementById('facts').textContent);
   const bytes = bytesOf(document.getElementById('arrays').textContent.trim());
-  const arrays = {};
-  for (const [name, [type, offset, count]] of Object.entries(facts.arrays)) {
-    arrays[name] = new kTypes[type](bytes.buffer, offset, count);
-  }
-  return { ...facts, arrays };
+  const models = facts.models.map((model) => {
+    const arrays = {};
+    for (const [name, [type, offset, count]] of Object.entries(model.arrays)) {
+      arrays[name] = new kTypes[type](bytes.buffer, offset, count);
+    }
+    return { ...model, arrays };
+  });
+  return { ...facts, models };
 }
 
-// Positions in page coordinates: the body's box about the origin, its longest side from -1 to 1.
+// Positions in page coordinates: the body's box about the origin, the longest side of all from -1 to 1.
 function positionsOf(steps, { origin, axes }) {
   const positions = new Float32Array(steps.length);
   for (let p = 0; p < steps.length; p += 3) {
@@ -32,8 +35,10 @@ function positionsOf(steps, { origin, axes }) {
   return positions;
 }
 
-export const meshPositions = (page) => positionsOf(page.arrays.meshSteps, page.meshGrid);
-export const pointPositions = (page) => positionsOf(page.arrays.pointSteps, page.pointGrid);
+export const meshPositions = (model) => positionsOf(model.arrays.meshSteps, model.meshGrid);
+export const pointPositions = (model) => positionsOf(model.arrays.pointSteps, model.pointGrid);
+// Of the eroded solid at a level, by its place among the levels.
+export const erodedPositions = (model, level) => positionsOf(model.arrays[`eroded${level}Steps`], model.meshGrid);
 
 // How many of `values`, taken in `order`, satisfy `inside`, when all that do come first (binary search).
 export function prefixLength(values, order, inside) {

@@ -1,4 +1,4 @@
-// The body as glass: clear where it faces the viewer, denser towards the outline.
+// A closed surface as glass: clear where it faces the viewer, denser towards the outline.
 import {
   BackSide,
   BufferAttribute,
@@ -9,25 +9,32 @@ import {
   Mesh,
   ShaderMaterial,
 } from 'three';
+import { kClipFragment, kClipVertex } from './clip.js';
+import { firstHit } from './ray.js';
 
 const kCreaseCosine = 0.643; // of 50 degrees: sharper edges stay sharp
 
 const kVertexShader = `
   varying vec3 vNormal;
+  ${kClipVertex}
   void main() {
     vNormal = normalMatrix * normal;
+    vPlace = position;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }`;
 
 const kFragmentShader = `
   uniform vec3 dark, light;
-  uniform float clear, rim, fade;
+  uniform float clear, rim, fade, solid;
   varying vec3 vNormal;
+  ${kClipFragment}
   void main() {
+    if (clipped()) discard;
     vec3 n = normalize(vNormal);
     if (n.z < 0.0) n = -n;
     float lit = clamp(dot(n, vec3(-0.42, 0.55, 0.72)), 0.0, 1.0);
-    gl_FragColor = vec4(mix(dark, light, lit), fade * (clear + rim * pow(1.0 - n.z, 2.5)));
+    float glass = fade * (clear + rim * pow(1.0 - n.z, 2.5));
+    gl_FragColor = vec4(mix(dark, light, lit), mix(glass, 1.0, solid));
   }`;
 
 // Twice the area times the normal, per triangle.
@@ -78,8 +85,9 @@ function cornerNormals(points, corners) {
 }
 
 export class Glass {
-  // points: 3 per vertex, page units; corners: 3 per triangle.
-  constructor(points, corners) {
+  // points: 3 per vertex, page units; corners: 3 per triangle; order: of drawing, two numbers from it on.
+  constructor(points, corners, clip, order) {
+    Object.assign(this, { points, corners, clip });
     const positions = new Float32Array(3 * corners.length);
     corners.forEach((v, c) => positions.set(points.subarray(3 * v, 3 * v + 3), 3 * c));
     const geometry = new BufferGeometry();
@@ -91,13 +99,12 @@ export class Glass {
       clear: { value: 0 },
       rim: { value: 0 },
       fade: { value: 1 },
+      solid: { value: 0 },
+      clip: clip.uniform,
     };
     this.object = new Group();
     // The far wall first, so that triangles need no sorting.
-    for (const [side, order] of [
-      [BackSide, 3],
-      [FrontSide, 4],
-    ]) {
+    [BackSide, FrontSide].forEach((side, place) => {
       const material = new ShaderMaterial({
         vertexShader: kVertexShader,
         fragmentShader: kFragmentShader,
@@ -107,20 +114,28 @@ export class Glass {
         depthWrite: false,
       });
       const mesh = new Mesh(geometry, material);
-      mesh.renderOrder = order;
+      mesh.renderOrder = order + place;
       this.object.add(mesh);
-    }
+    });
   }
 
-  paint(theme) {
-    this.uniforms.dark.value.setRGB(...theme.glassDark);
-    this.uniforms.light.value.setRGB(...theme.glassLight);
-    this.uniforms.clear.value = theme.glass;
-    this.uniforms.rim.value = theme.rim;
+  // look: how dark, light, clear and dense at its rim it is.
+  paint({ dark, light, clear, rim }) {
+    this.uniforms.dark.value.setRGB(...dark);
+    this.uniforms.light.value.setRGB(...light);
+    this.uniforms.clear.value = clear;
+    this.uniforms.rim.value = rim;
   }
 
-  // factor: 1 = as usual, less = fainter.
-  fade(factor) {
-    this.uniforms.fade.value = factor;
+  // glass: 1 = as usual, less = fainter; solid: from glass (0) to opaque (1).
+  fade(glass, solid) {
+    this.uniforms.fade.value = glass;
+    this.uniforms.solid.value = solid;
+    for (const { material } of this.object.children) material.depthWrite = solid >= 1;
+  }
+
+  // Where a ray meets it first, see firstHit.
+  pick(ray) {
+    return firstHit(this.points, this.corners, this.corners.length, ray, (...at) => this.clip.hides(...at));
   }
 }

@@ -48,11 +48,13 @@ export function paintLegend(element, lift) {
 }
 
 // Labels in per cent of v0, at equal distances of the cube root, as the colours are.
-export function labelLegend(element, highest) {
+export function labelLegend(element, { highestShare, scaleTitle, scaleNote }) {
+  element.querySelector('.heading').textContent = scaleTitle;
+  element.querySelector('.note').textContent = scaleNote;
   const numbers = element.querySelector('.numbers');
   for (const tick of kTicks) {
     const label = numbers.ownerDocument.createElement('span');
-    label.textContent = tick === 0 ? '0' : rounded(100 * shareAt(tick, highest), 2);
+    label.textContent = tick === 0 ? '0' : rounded(100 * shareAt(tick, highestShare), 2);
     numbers.append(label);
   }
 }

@@ -1,13 +1,17 @@
 // The skeleton as a triangulated sheet, for the operators `chords` and `ridge`, with the curves of the latter as
 // tubes.
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial, Vector3 } from 'three';
+import { kClipFragment, kClipVertex } from './clip.js';
 import { descending } from './decode.js';
+import { firstHit } from './ray.js';
 
 const kVertexShader = `
   attribute vec4 colour;
   varying vec3 vColour, vAt;
+  ${kClipVertex}
   void main() {
     vColour = colour.rgb;
+    vPlace = position;
     vec4 at = modelViewMatrix * vec4(position, 1.0);
     vAt = at.xyz;
     gl_Position = projectionMatrix * at;
@@ -16,7 +20,9 @@ const kVertexShader = `
 const kFragmentShader = `
   uniform float lift;
   varying vec3 vColour, vAt;
+  ${kClipFragment}
   void main() {
+    if (clipped()) discard;
     vec3 n = normalize(cross(dFdx(vAt), dFdy(vAt)));
     if (n.z < 0.0) n = -n;
     float lit = max(0.0, dot(n, vec3(-0.42, 0.55, 0.72)));
@@ -76,7 +82,8 @@ function tubeCorners(first) {
 export class Sheet {
   // The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
   // 0.  radius: of the tubes, page units.
-  constructor(positions, colours, pieces, corners, segments, radius) {
+  constructor(positions, colours, pieces, corners, segments, radius, clip) {
+    this.clip = clip;
     // Lightest pieces last: the slider moves the end of what is drawn.
     this.order = descending(Int32Array.from(pieces, (piece) => -piece));
     const triangles = corners.length / 3;
@@ -91,10 +98,14 @@ export class Sheet {
     this.isTriangle = (place) => this.order[place] < triangles;
     this.geometry = new BufferGeometry();
     const places = tubePositions(positions, segments, radius);
+    this.places = places;
+    // Which vertex of the sheet a vertex of what is drawn stands for.
+    this.vertexOf = onTubes(Uint32Array.from({ length: first }, (_, v) => v), 1, segments, (vertex) => [vertex]);
+    this.index = Uint32Array.from(index);
     this.geometry.setAttribute('position', new BufferAttribute(places, 3));
     this.geometry.setAttribute('colour', new BufferAttribute(tubeColours(colours, segments), 4, true));
-    this.geometry.setIndex(new BufferAttribute(Uint32Array.from(index), 1));
-    this.uniforms = { lift: { value: 0 } };
+    this.geometry.setIndex(new BufferAttribute(this.index, 1));
+    this.uniforms = { lift: { value: 0 }, clip: clip.uniform };
     this.object = new Mesh(
       this.geometry,
       new ShaderMaterial({
@@ -109,10 +120,19 @@ export class Sheet {
   }
 
   showFirst(elements) {
-    this.geometry.setDrawRange(0, this.ends[elements]);
+    this.drawn = this.ends[elements];
+    this.geometry.setDrawRange(0, this.drawn);
+  }
+
+  // Where a ray meets it first, see firstHit; the vertices are those of the sheet.
+  pick(ray) {
+    const hit = firstHit(this.places, this.index, this.drawn, ray, (...at) => this.clip.hides(...at));
+    return hit && { ...hit, vertices: hit.vertices.map((v) => this.vertexOf[v]) };
   }
 
   look() {}
+
+  thin() {}
 
   paint(theme) {
     this.uniforms.lift.value = theme.lift;

@@ -1,24 +1,34 @@
 // The two kinds of skeleton that a page can hold, behind one interface: sample points with their |H|, or a
 // sheet in pieces with their shares of its weight.  Both are sorted by the value that the threshold slider
-// compares, descending.
+// compares, descending.  `at(ray)` gives what a ray meets first: null, or its place (page units), the values
+// there and the directions.
 import { Vector3 } from 'three';
 import { BallCloud } from './clouds.js';
 import { coloursOf } from './colours.js';
-import { descending, prefixLength } from './decode.js';
+import { prefixLength } from './decode.js';
 import { whole } from './numbers.js';
 import { Sheet } from './sheet.js';
-import { sublattice } from './neighbours.js';
 
 const kTube = 0.3; // radius of a curve, lattice spacings
 
+// Unit vectors are kept as bytes.
+const direction = (bytes, p) => {
+  const v = new Vector3(...bytes.subarray(3 * p, 3 * p + 3));
+  return v.lengthSq() > 0 ? v.normalize().toArray() : null;
+};
+
+// The mean of the values at a hit's vertices; null where there are none.
+export const weighted = (values, { vertices, weights }) =>
+  values && values.length ? vertices.reduce((sum, v, i) => sum + weights[i] * values[v], 0) : null;
+
 // Like the operator's significance, the slider drops pieces with a smaller share.
-function makeSheet({ arrays, highestShare, threshold, cell }) {
+function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
   const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
-  const colours = coloursOf(arrays.sheetShares, highestShare);
+  const colours = coloursOf(arrays.sheetShares, highest);
   const [a, b, c] = cell.map((step) => new Vector3(...step));
   const spacing = Math.cbrt(Math.abs(a.dot(b.cross(c))));
   const { sheetPositions, sheetCorners, sheetSegments } = arrays;
-  const sheet = new Sheet(sheetPositions, colours, pieceOf, sheetCorners, sheetSegments, kTube * spacing);
+  const sheet = new Sheet(sheetPositions, colours, pieceOf, sheetCorners, sheetSegments, kTube * spacing, clip);
   const values = Float32Array.from(sheet.order, (t) => shares[pieceOf[t]]);
   return {
     drawn: sheet,
@@ -39,14 +49,29 @@ function makeSheet({ arrays, highestShare, threshold, cell }) {
       const pieces = shares.length === 1 ? 'one piece' : `${whole(kept)} of ${whole(shares.length)} pieces`;
       return shares.length === 0 ? 'the sheet is empty' : `${whole(triangles)} triangles${curves} in ${pieces}`;
     },
+    at(ray) {
+      const hit = sheet.pick(ray);
+      if (!hit) return null;
+      const nearest = hit.vertices[hit.weights.indexOf(Math.max(...hit.weights))];
+      const sides = [arrays.sheetNormalsA, arrays.sheetNormalsB].filter(Boolean);
+      return {
+        what: `skeleton (${operator})`,
+        place: hit.place,
+        share: weighted(arrays.sheetShares, hit),
+        slope: weighted(arrays.sheetSlopes, hit),
+        strength: weighted(arrays.sheetStrengths, hit),
+        directions: sides.map((bytes) => direction(bytes, nearest)).filter(Boolean),
+      };
+    },
   };
 }
 
-function makeBalls({ arrays, highestShare, cell, lowestThreshold, threshold }, positions) {
-  const colours = coloursOf(arrays.pointShares, highestShare);
+function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highest, clip, positions) {
+  const colours = coloursOf(arrays.pointShares, highest);
   const values = arrays.pointDivergences; // descending, see page.cc
+  const cloud = new BallCloud(positions, colours, cell, clip);
   return {
-    drawn: new BallCloud(positions, colours, cell),
+    drawn: cloud,
     values,
     name: 'Shock threshold',
     symbol: '|H| >',
@@ -55,35 +80,35 @@ function makeBalls({ arrays, highestShare, cell, lowestThreshold, threshold }, p
     first: threshold,
     keeps: (value, least) => value > least,
     describe: (points) => `${whole(points)} skeleton points`,
+    at(ray) {
+      const p = cloud.pick(ray);
+      if (p < 0) return null;
+      return {
+        what: `skeleton point (${operator})`,
+        place: Array.from(positions.subarray(3 * p, 3 * p + 3)),
+        share: arrays.pointShares[p],
+        slope: arrays.pointSlopes[p],
+        divergence: values[p],
+        directions: [direction(arrays.pointInward, p)].filter(Boolean),
+      };
+    },
   };
 }
 
-// positions: of the sample points, page units.
-export function makeSkeleton(page, positions) {
-  const made = page.arrays.sheetCorners ? makeSheet(page) : makeBalls(page, positions);
+// highest: E of the last colour, as a share of v0.  positions: of the sample points, page units.
+export function makeSkeleton(model, highest, clip, positions) {
+  const made = model.arrays.sheetCorners
+    ? makeSheet(model, highest, clip)
+    : makeBalls(model, highest, clip, positions);
   const { drawn, values, low, keeps } = made;
   return {
     ...made,
     high: values.length ? Math.max(values[0], low) : low,
-    total: values.length,
     // Returns how many points, or triangles and segments, are shown.
     show(threshold) {
       const count = prefixLength(values, null, (value) => keeps(value, threshold));
       drawn.showFirst(count);
       return count;
     },
-  };
-}
-
-// The points of the eroded solid by descending E; on a thinned page only the evenly spread ones.
-// `count(share)`: how many have E >= share of v0.
-export function makeErosion({ arrays, thinning }) {
-  const { pointShares: shares, pointSteps: steps } = arrays;
-  const { holds } = sublattice(thinning);
-  const order = descending(shares).filter((p) => holds(steps[3 * p], steps[3 * p + 1], steps[3 * p + 2]));
-  return {
-    order,
-    total: order.length,
-    count: (share) => prefixLength(shares, order, (value) => value >= share),
   };
 }

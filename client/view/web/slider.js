@@ -39,3 +39,35 @@ export class Slider {
     this.range.value = Math.round(kSteps * share ** (1 / this.curve));
   }
 }
+
+// A slider that stands at given values only; what is typed into its field goes to the nearest of them.
+export class Stops {
+  // root: as for Slider.  values: ascending, at least one.  changed(place): after every change by the user.
+  constructor(root, { values, changed }) {
+    this.range = root.querySelector('input[type=range]');
+    this.field = root.querySelector('input[type=number]');
+    this.values = values;
+    this.range.max = values.length - 1;
+    this.range.addEventListener('input', () => {
+      this.put(this.range.valueAsNumber);
+      changed(this.place);
+    });
+    this.field.addEventListener('change', () => {
+      const typed = this.field.valueAsNumber;
+      this.put(Number.isFinite(typed) ? this.nearest(typed) : this.place);
+      changed(this.place);
+    });
+  }
+
+  nearest(value) {
+    const away = this.values.map((v) => Math.abs(v - value));
+    return away.indexOf(Math.min(...away));
+  }
+
+  put(place) {
+    this.place = place;
+    this.range.value = place;
+    this.field.value = String(Number(this.values[place].toPrecision(5)));
+    this.range.setAttribute('aria-valuetext', this.field.value);
+  }
+}

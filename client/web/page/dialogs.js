@@ -37,7 +37,7 @@ export function showInteractive(href, name) {
       h('a', { href, target: '_blank', rel: 'noopener' }, 'Open in a tab of its own'),
       h('button', { type: 'button', id: 'close-interactive', onclick: () => dialog.close(), autofocus: true }, 'Close'),
     ),
-    h('iframe', { src: href, sandbox: 'allow-scripts', title: `${name}: body and skeleton` }),
+    h('iframe', { src: href, sandbox: 'allow-scripts allow-downloads', allow: 'fullscreen *', title: `${name}: body and skeleton` }),
   );
   dialog.addEventListener('close', () => dialog.remove());
   document.body.append(dialog);

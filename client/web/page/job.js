@@ -173,7 +173,7 @@ export class JobView {
       const result = await downloads.made('picture');
       picture.onload = () => {
         picture.hidden = false;
-        waiting.textContent = result.warnings.join('; ');
+        waiting.textContent = [`Shown: ${result.shown}`, ...result.warnings].join('; ');
       };
       picture.src = result.href;
     } catch (error) {

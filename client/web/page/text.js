@@ -79,7 +79,8 @@ export function activity(job) {
   if (job.state === 'queued') return 'waits for a worker';
   if (job.state === 'running') return named(STAGES, job.stage);
   if (isRemoved(job)) return 'its results were removed by the server’s retention; resume computes them again';
-  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')}`;
+  // Of the job's own operator; the picture may show another's, and says so.
+  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')} (${named(OPERATORS, job.skeleton.operator || 'zucker-hummel')})`;
   return 'progress is kept; resume goes on from here';
 }
 

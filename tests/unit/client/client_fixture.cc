@@ -39,6 +39,7 @@ ClientTest::ClientTest() : server_(service_) {
   v1::TriangleMesh surface = sample_sheet();
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = surface.SerializeAsString();
   surface.set_volume(8e8);
+  for (const double v : {7., 8., 9.}) surface.add_area(v);
   service_.artifacts[v1::ARTIFACT_KIND_ERODED_SURFACE] = surface.SerializeAsString();
   v1::SkeletonPoints eroded = sample_skeleton();
   eroded.clear_divergence();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
@@ -158,6 +159,7 @@ class FakeService final : public v1::ErosionService::Service {
 class FakeServer {
  public:
   explicit FakeServer(FakeService& service) {
+    grpc::EnableDefaultHealthCheckService(true);
     grpc::ServerBuilder builder;
     builder.AddListeningPort(address(), grpc::InsecureServerCredentials());
     builder.RegisterService(&service);
@@ -165,6 +167,8 @@ class FakeServer {
   }
   ~FakeServer() { server_->Shutdown(); }
   std::string address() const { return "unix:" + (dir_ / "s"); }
+  /// What the health service tells from now on.
+  void set_serving(bool serving) { server_->GetHealthCheckService()->SetServingStatus(serving); }
 
  private:
   tests::TemporaryDirectory dir_;

@@ -51,6 +51,7 @@ TEST(ExitCodes, AreTheFixedNumbers) {
   EXPECT_EQ(static_cast<int>(ExitCode::kNotAllowed), 7);
   EXPECT_EQ(static_cast<int>(ExitCode::kLimit), 8);
   EXPECT_EQ(static_cast<int>(ExitCode::kInternal), 70);
+  EXPECT_EQ(static_cast<int>(ExitCode::kClosedPipe), 141);
 }
 
 TEST(ErrorFromCore, TellsThePlaceOnce) {
@@ -65,6 +66,7 @@ TEST(ErrorFromCore, TellsThePlaceOnce) {
 
 TEST(ErrorFromErrno, TellsFullDisksAndForbiddenPlaces) {
   EXPECT_EQ(error_from_errno(ENOSPC, "cannot write", "f").exit_code(), ExitCode::kLimit);
+  EXPECT_EQ(error_from_errno(EPIPE, "cannot write", "f").exit_code(), ExitCode::kClosedPipe);
   EXPECT_EQ(error_from_errno(EACCES, "cannot write", "f").exit_code(), ExitCode::kNotAllowed);
   EXPECT_EQ(error_from_errno(ENOENT, "cannot write", "f").exit_code(), ExitCode::kUsage);
   EXPECT_EQ(error_from_errno(ENOENT, "cannot write", "f").for_people(),
@@ -114,6 +116,13 @@ TEST(Console, ALineReplacesTheTransientOne) {
   console.note("hello");
   console.note("again");
   EXPECT_EQ(err.str(), "\r\033[K50 %\r\033[Khello\nagain\n");
+}
+
+TEST(Console, SaysNothingOfAPipeThatNobodyReads) {
+  std::ostringstream out, err;
+  Console console(out, err, {});
+  console.error(error_from_errno(EPIPE, "cannot write", "f"));
+  EXPECT_EQ(err.str(), "");
 }
 
 TEST(Console, NoticesThatStandardOutputIsGone) {

@@ -58,7 +58,7 @@ TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
   } catch (const base::FileError& failure) {
     const ClientError error = error_from_file(failure);
     const bool told = error.for_people() == "standard output: cannot write: Broken pipe";
-    _exit(told && error.exit_code() == ExitCode::kLimit ? 0 : 1);
+    _exit(told && error.exit_code() == ExitCode::kClosedPipe ? 0 : 1);
   }
   _exit(2);
 }

@@ -255,7 +255,7 @@ TEST_F(ClientTest, StatusIsKeyValueLines) {
   const Outcome outcome = run({"status", "@last"});
   for (const char* line :
        {"job:                  0123456789abcdef0123456789abcdef\n", "state:                done\n",
-        "directions:           12/12\n", "v0:                   8e+09\n", "spacing:              200\n",
+        "directions:           12/12\n", "v0:                   8000000000\n", "spacing:              200\n",
         "points:               5\n"}) {
     EXPECT_NE(outcome.out.find(line), std::string::npos) << line << outcome.out;
   }
@@ -315,6 +315,26 @@ TEST_F(ClientTest, JobCommandsPrintTheState) {
 TEST_F(ClientTest, ServerInfo) {
   EXPECT_NE(run({"server-info"}).out.find("version:              9.8.7\n"), std::string::npos);
   EXPECT_EQ(json::parse(run({"--json", "server-info"}).out).at("workers").at(0).at("id"), "0123456789abcdef");
+}
+
+TEST_F(ClientTest, HealthIsWhatTheHealthServiceTells) {
+  const Outcome serving = run({"health"});
+  EXPECT_EQ(serving.out, "serving\n") << serving.err;
+  EXPECT_EQ(serving.exit_code, 0);
+  EXPECT_EQ(json::parse(run({"--json", "health"}).out).at("health"), "serving");
+  server_.set_serving(false);
+  const Outcome draining = run({"health"});
+  EXPECT_EQ(draining.exit_code, 5);
+  EXPECT_EQ(draining.out, "");
+  EXPECT_NE(draining.err.find("is not serving"), std::string::npos) << draining.err;
+  server_.set_serving(true);
+  EXPECT_EQ(run({"health"}).exit_code, 0);
+}
+
+TEST_F(ClientTest, HealthOfAServerThatIsAwayIsToldAtOnce) {
+  const Outcome away = run({"health"}, "unix:/nowhere/s");
+  EXPECT_EQ(away.exit_code, 5);
+  EXPECT_NE(away.err.find("unix:/nowhere/s"), std::string::npos) << away.err;
 }
 
 TEST_F(ClientTest, InspectNeedsNoServer) {

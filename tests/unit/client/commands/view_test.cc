@@ -1,9 +1,11 @@
 // The command `view` against a server in this process; what is on the page is tested in page_test.cc.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "client/commands/shared/fetch_view.h"
 #include "client_fixture.h"
 #include "sample_data.h"
 #include "tools/files.h"
@@ -15,10 +17,8 @@ using nlohmann::json;
 
 class ViewTest : public ClientTest {
  protected:
-  // The page is made of the field and of the divergence or the sheet; in the folder there is only what `view`
-  // leaves there.
+  // In the folder there is only what `view` leaves there.
   ViewTest() {
-    service_.artifacts.erase(v1::ARTIFACT_KIND_SKELETON);
     for (const std::string& name : dir_.names()) std::filesystem::remove(dir_ / name);
   }
 
@@ -30,7 +30,9 @@ class ViewTest : public ClientTest {
   json facts() const {
     const std::string page = tests::read_file(dir_ / "p.html"), open = "id=\"facts\">";
     const std::size_t begin = page.find(open) + open.size();
-    return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    json all = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    all.update(json(all.at("models").at(0)));
+    return all;
   }
 
   v1::FetchArtifactRequest fetched(v1::ArtifactKind kind) const {
@@ -49,11 +51,14 @@ TEST_F(ViewTest, WritesThePage) {
   EXPECT_EQ(all.at("name"), "cube");
   EXPECT_EQ(all.at("operator"), "ridge");
   EXPECT_EQ(all.at("threshold"), 0.001);
-  EXPECT_EQ(all.at("pointsHere"), 5);
-  EXPECT_EQ(all.at("thinning"), 1);
+  EXPECT_EQ(all.at("pointsHere"), 0) << "a sheet needs none";
+  EXPECT_EQ(all.at("up"), "z");
+  EXPECT_EQ(all.at("showLevel"), false);
+  EXPECT_EQ(all.at("eroded").size(), all.at("levels").size());
   const json told = json::parse(run({"--json", "-o", dir_ / "p.html"}).out);
   EXPECT_EQ(told.at("file"), dir_ / "p.html");
-  EXPECT_EQ(told.at("points"), 5);
+  EXPECT_EQ(told.at("points"), 0);
+  EXPECT_EQ(told.at("levels"), all.at("levels"));
   EXPECT_EQ(told.at("bytes"), tests::read_file(dir_ / "p.html").size());
 }
 
@@ -69,6 +74,55 @@ TEST_F(ViewTest, TakesTheJobsSkeletonOrAnother) {
   EXPECT_EQ(facts().at("operator"), "central") << "a threshold alone is for the job's operator";
   EXPECT_EQ(facts().at("threshold"), 5);
   EXPECT_EQ(fetched(v1::ARTIFACT_KIND_DIVERGENCE).skeleton().operator_(), v1::OPERATOR_CENTRAL);
+}
+
+TEST_F(ViewTest, CarriesTheLevelThatIsAskedForAndShowsIt) {
+  ASSERT_EQ(run({"--level", "12.5%", "--up", "x", "-o", dir_ / "p.html"}).exit_code, 0);
+  const json all = facts();
+  EXPECT_EQ(all.at("levels").at(all.at("firstLevel").get<std::size_t>()), 0.125);
+  EXPECT_EQ(all.at("showLevel"), true);
+  EXPECT_EQ(all.at("up"), "x");
+  EXPECT_EQ(run({"--level", "2", "-o", dir_ / "p.html"}).exit_code, 2);
+  EXPECT_EQ(run({"--up", "w", "-o", dir_ / "p.html"}).exit_code, 2);
+}
+
+TEST_F(ViewTest, WarnsWhereNothingIsLeftAtTheLevelThatIsAskedFor) {
+  v1::TriangleMesh nothing;
+  nothing.mutable_quality()->set_advice("the largest E is 16 % of v0");
+  service_.artifacts[v1::ARTIFACT_KIND_ERODED_SURFACE] = nothing.SerializeAsString();
+  const Outcome outcome = run({"--level", "50%", "-o", dir_ / "p.html"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("the eroded solid is empty: the largest E is 16 % of v0"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(run({"-o", dir_ / "p.html"}).err.find("eroded solid is empty"), std::string::npos)
+      << "the page's own levels";
+}
+
+TEST(ViewLevels, LieEvenlyInTheCubeRootOfE) {
+  const std::vector<double> levels = view_levels(0.16, 0, 1000);
+  ASSERT_EQ(levels.size(), 8u);
+  for (std::size_t l = 0; l < levels.size(); ++l)
+    EXPECT_NEAR(std::cbrt(levels[l] / 0.16), 0.2 + 0.74 / 7 * double(l), 0.02);
+  EXPECT_EQ(view_levels(0.16, 0, 100'000'000).size(), 3u) << "large surfaces";
+  EXPECT_EQ(view_levels(0.16, 0.0331, 1000).size(), 9u);
+  EXPECT_EQ(view_levels(0, 0, 1000).size(), 0u);
+  EXPECT_EQ(view_levels(0, 0.25, 1000), std::vector<double>{0.25});
+}
+
+TEST_F(ViewTest, ShowsTwoJobsOrTwoSkeletonsOfOne) {
+  ASSERT_EQ(
+      run({"--operator", "ridge", "--operator", "zucker-hummel", "--threshold", "4", "-o", dir_ / "p.html"})
+          .exit_code,
+      0);
+  const json models = facts().at("models");
+  ASSERT_EQ(models.size(), 2u);
+  EXPECT_EQ(models[0].at("operator"), "ridge");
+  EXPECT_EQ(models[1].at("operator"), "zucker-hummel");
+  EXPECT_EQ(models[1].at("threshold"), 4);
+  const json told = json::parse(run({"@last", "--json", "-o", dir_ / "p.html"}).out);
+  EXPECT_EQ(told.at("jobs").size(), 2u);
+  EXPECT_EQ(facts().at("models")[1].at("operator"), "ridge");
+  EXPECT_EQ(run({"@last", "@last", "-o", dir_ / "p.html"}).exit_code, 2) << "three";
 }
 
 TEST_F(ViewTest, AnEmptySkeletonIsAWarning) {

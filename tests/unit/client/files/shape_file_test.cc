@@ -310,6 +310,16 @@ TEST_F(ShapeFileTest, ObjAndStlText) {
       read("t.obj", "# c\nmtllib m\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3 -1\n");
   EXPECT_EQ(obj.mesh().points.size(), 4u);
   EXPECT_EQ(obj.mesh().triangles.size(), 2u);
+  ASSERT_EQ(obj.off.passed_over.size(), 2u);
+  EXPECT_EQ(obj.off.passed_over[0].word, "mtllib");
+  EXPECT_EQ(obj.off.passed_over[1].word, "vn");
+  EXPECT_EQ(obj.off.passed_over[1].first_line, 7u);
+  const ShapeFile continued =
+      read("t.obj",
+           "v 0 0 \\\n0\nv 1 0 \\\r\n0\nv 1 1 0\n\\\n\nv 0 1 0\nf 1 \\\n2 \\\n 3\nf 1 3 4\\\n\nv 5 5 5 \\");
+  EXPECT_EQ(continued.mesh().points.size(), 5u) << "an empty line ends a statement, too";
+  EXPECT_EQ(continued.mesh().triangles.size(), 2u);
+  EXPECT_EQ(continued.off.triangle_line[0], 9u) << "where the statement begins";
   expect_bad("t.obj", "v 0 0 0\nf 1 2 3\n", 2, "vertex '2'");
   expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nf 1 2 1\n", 3, "twice");
   expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", 3, "needs 3");

@@ -9,10 +9,8 @@
 #include "client/base/error.h"
 #include "client/render/image.h"
 #include "client/render/panel.h"
-#include "client/render/scene.h"
 #include "client/render/stroke_text.h"
 #include "core/shapes/shapes.h"
-#include "sample_data.h"
 
 namespace affskel::client {
 namespace {
@@ -166,7 +164,7 @@ TEST(Panel, TheSurfaceVeilsOnlyWhatIsBehindIt) {
   EXPECT_GT(middle(5).r, 0.5f);
 }
 
-TEST(Panel, FacetsAreOpaqueFromEitherSideAndHideWhatIsBehind) {
+TEST(Panel, SheetsAreOpaqueFromEitherSideAndHideWhatIsBehind) {
   // A square in the plane y = 0, seen from -y, in either orientation.
   for (const bool turned : {false, true}) {
     const core::Triangle one = turned ? core::Triangle{0, 2, 1} : core::Triangle{0, 1, 2};
@@ -175,7 +173,7 @@ TEST(Panel, FacetsAreOpaqueFromEitherSideAndHideWhatIsBehind) {
     const auto middle = [&](double ball_y) {
       Panel panel(20, 20, kFront, {0, 0, 0}, 1);
       panel.draw_ball({{0, ball_y, 0}, kRed}, 3);
-      panel.draw_facets(square, kBlue);
+      panel.draw_sheet(square, {kBlue, kBlue, kBlue, kBlue});
       return panel.resolve().at(10, 10);
     };
     EXPECT_EQ(middle(5).r, 0) << "a ball behind is hidden";
@@ -218,6 +216,42 @@ TEST(Panel, ASheetSeenFromItsEdgeIsALineOfAPixel) {
       EXPECT_NEAR(covered, 1, 0.51) << x;
     }
     EXPECT_GT(image.at(4, 10).r + image.at(4, 9).r, image.at(4, 10).b + image.at(4, 9).b);
+  }
+}
+
+TEST(Panel, CurvesHaveNoBeads) {
+  const std::vector<core::Vec3> points = {{-8, 0, 0}, {-2, 0, 0}, {3, 0, 0}, {8, 0, 0}};
+  Panel panel(20, 20, kFront, {0, 0, 0}, 1);
+  panel.draw_curves(points, {{0, 1}, {1, 2}, {2, 3}}, std::vector<Rgb>(4, kBlue), 4);
+  const Image image = panel.resolve();
+  for (int x = 4; x < 16; ++x) {
+    for (int y = 9; y < 11; ++y) EXPECT_NEAR(image.at(x, y).b, image.at(10, 10).b, 1e-6) << x << "," << y;
+  }
+}
+
+// A flat sheet with a band of slivers, each thinner than a pixel, between wide strips.
+TEST(Panel, SliversLeaveNoSpecksInASheet) {
+  core::Mesh sheet;
+  std::vector<double> heights = {-8};
+  for (int r = 0; r <= 20; ++r) heights.push_back(-0.5 + 0.05 * r);
+  heights.push_back(8);
+  const auto rows = static_cast<unsigned>(heights.size() - 1);
+  for (const double z : heights) {
+    for (const double x : {-8., 8.}) sheet.points.push_back({x, 0, z});
+  }
+  for (unsigned r = 0; r < rows; ++r) {
+    sheet.triangles.push_back({2 * r, 2 * r + 1, 2 * r + 2});
+    sheet.triangles.push_back({2 * r + 1, 2 * r + 3, 2 * r + 2});
+  }
+  // Turned from the light, so that a line of another light would show.
+  const View view{{0.8, -0.6, 0}, {0, 0, 1}, {-0.6, -0.8, 0}};
+  Panel panel(20, 20, view, {0, 0, 0}, 1);
+  panel.draw_sheet(sheet, std::vector<Rgb>(sheet.points.size(), kBlue));
+  const Image image = panel.resolve();
+  const Rgb middle = image.at(10, 6);  // of a wide strip
+  EXPECT_LT(middle.b, 0.85f);
+  for (int y = 4; y < 16; ++y) {
+    for (int x = 6; x < 14; ++x) EXPECT_NEAR(image.at(x, y).b, middle.b, 1e-6) << x << "," << y;
   }
 }
 
@@ -297,72 +331,6 @@ TEST(Viridis, RunsFromVioletToYellow) {
   EXPECT_NEAR(viridis(1).g, 231 / 255.0, 1e-6);
   EXPECT_EQ(viridis(-3), viridis(0));
   EXPECT_EQ(viridis(7), viridis(1));
-}
-
-TEST(RenderScene, IsAPngOfTheWidthAskedFor) {
-  RenderInput input;
-  input.mesh = core::make_sphere(100, 80);
-  input.skeleton = sample_skeleton();
-  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
-  input.volume = 4e6;
-  input.title = "ball";
-  const Image image = render_scene(input, {400});
-  EXPECT_EQ(image.width(), 400);
-  EXPECT_GT(image.height(), 100);
-  const std::string png = encode_png(image);
-  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
-  EXPECT_THROW(render_scene(input, {10}), ClientError);
-  input.mesh = {};
-  EXPECT_THROW(render_scene(input, {400}), ClientError);
-}
-
-TEST(RenderScene, ASheetIsColouredByItsErosion) {
-  RenderInput input;
-  input.mesh = core::make_box(100, 100, 100);
-  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
-  const Image without = render_scene(input, {1600});
-  for (const double c : {10., 10., 50., 90., 10., 50., 90., 90., 50.}) input.sheet.add_xyz(c);
-  for (const unsigned v : {0u, 1u, 2u}) input.sheet.add_corners(v);
-  for (const double e : {5., 5., 5.}) input.sheet.add_erosion(e);  // the highest: yellow
-  const Image with = render_scene(input, {1600});
-  int yellow = 0;
-  const int panels = with.width() / 3;  // from above is the last
-  for (int y = 0; y < with.height() * 4 / 5; ++y) {
-    for (int x = 2 * panels; x < with.width(); ++x) {
-      const Rgb c = with.at(x, y);
-      yellow += c != without.at(x, y) && c.r > 1.5f * c.b ? 1 : 0;
-    }
-  }
-  // Half of a square whose side is 0.8 of the box's, which fills a third of the picture less its margins.
-  const double side = 0.8 * (1600 - 4 * 32) / 3;
-  EXPECT_NEAR(yellow, side * side / 2, 0.02 * side * side);
-}
-
-// How many pixels a point without erosion makes dark, in all three views.
-int pixels_of_a_point(const std::array<core::Vec3, 3>& cell) {
-  RenderInput input;
-  input.mesh = core::make_sphere(100, 80);
-  input.cell = cell;
-  const Image without = render_scene(input, {1600});
-  for (const double c : {0., 0., 0.}) input.skeleton.add_xyz(c);
-  input.skeleton.add_point(0);
-  input.skeleton.add_erosion(0);
-  const Image with = render_scene(input, {1600});
-  int count = 0;
-  for (int y = 0; y < with.height(); ++y) {
-    for (int x = 0; x < with.width(); ++x) {
-      count += with.at(x, y).g < 0.5f && without.at(x, y).g > 0.5f ? 1 : 0;
-    }
-  }
-  return count;
-}
-
-TEST(RenderScene, PointsAreAsLargeAsTheirCells) {
-  const int cube = pixels_of_a_point({{{12, 0, 0}, {0, 12, 0}, {0, 0, 12}}});
-  // The same volume: from the front and from the side twice as large, from above a quarter.
-  const int tall = pixels_of_a_point({{{6, 0, 0}, {0, 6, 0}, {0, 0, 48}}});
-  EXPECT_GT(cube, 50);
-  EXPECT_NEAR(double(tall) / cube, (2 + 2 + 0.25) / 3, 0.1);
 }
 
 }  // namespace

@@ -4,9 +4,15 @@
 
 #include <sstream>
 
+#include "base/number_text.h"
+#include "client/cli/global_options.h"
 #include "client/cli/progress.h"
+#include "client/cli/shell_words.h"
 #include "client/text/message_json.h"
+#include "client/text/nearest_word.h"
 #include "client/text/server_text.h"
+#include "client/text/shell_quoted.h"
+#include "client/text/summary_text.h"
 #include "client/text/time_text.h"
 #include "client/text/words.h"
 
@@ -52,6 +58,67 @@ TEST(DurationText, PicksItsUnits) {
   EXPECT_EQ(duration_text(milliseconds(185000)), "3 min 05 s");
   EXPECT_EQ(duration_text(milliseconds(7620000)), "2 h 07 min");
   EXPECT_EQ(duration_text(std::chrono::hours(123)), "5 d 03 h");
+}
+
+TEST(TookText, HasTheMillisecondsThatWereMeasured) {
+  EXPECT_EQ(took_text(milliseconds(34)), "0.034 s");
+  EXPECT_EQ(took_text(milliseconds(59999)), "59.999 s");
+  EXPECT_EQ(took_text(milliseconds(185000)), "3 min 05 s");
+}
+
+TEST(Plain, HasNoExponentAndNoMoreDigitsThanAreKnown) {
+  EXPECT_EQ(base::plain(8e9, 12), "8000000000");
+  EXPECT_EQ(base::plain(4188790204.7863907, 12), "4188790204.79");
+  EXPECT_EQ(base::plain(0.1 + 0.2, 12), "0.3");
+  EXPECT_EQ(base::plain(123456, 3), "123000");
+  EXPECT_EQ(base::plain(-2.5e-5, 12), "-0.000025");
+  EXPECT_EQ(base::plain(1e18, 12), "1e+18");
+  EXPECT_EQ(base::plain(1e-9, 12), "1e-09");
+  EXPECT_EQ(base::plain(0, 12), "0");
+}
+
+TEST(NearestWord, FindsWhatWasMeant) {
+  const std::vector<std::string> known = {"--spacing", "--points", "--priority",
+                                          "-o",        "--output", "--directions"};
+  EXPECT_EQ(nearest_word("--spcing", known), "--spacing");
+  EXPECT_EQ(nearest_word("--piority", known), "--priority");
+  EXPECT_EQ(nearest_word("--ouptut", known), "--output");
+  EXPECT_EQ(nearest_word("--dir", known), "--directions") << "it begins so";
+  EXPECT_EQ(nearest_word("--banana", known), "");
+  EXPECT_EQ(nearest_word("-x", known), "") << "one letter is near to all others";
+}
+
+TEST(ShellQuoted, ReadsBackInAShell) {
+  EXPECT_EQ(shell_quoted("unix:/run/a.sock"), "unix:/run/a.sock");
+  EXPECT_EQ(shell_quoted("my scan"), "'my scan'");
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_quoted(""), "''");
+  for (const std::string word : {"a b", "it's", "$HOME", "x;y", "tab\there", "\\"})
+    EXPECT_EQ(shell_words("c " + shell_quoted(word)), (std::vector<std::string>{"c", word}));
+}
+
+TEST(ShellWords, TakesALineThatIsBeingTyped) {
+  EXPECT_EQ(shell_words("a  b\\ c 'd e"), (std::vector<std::string>{"a", "b c", "d e"}));
+  EXPECT_EQ(shell_words("a \"b 'c\" ''"), (std::vector<std::string>{"a", "b 'c", ""}));
+  EXPECT_TRUE(shell_words("  ").empty());
+}
+
+TEST(NextCommand, RepeatsWhatReachesTheServer) {
+  GlobalOptions options;
+  EXPECT_EQ(next_command(options, "list"), "affskel-client list");
+  options.server = "lab:7060";
+  options.access.token_file = "my token";
+  options.access.tls_ca = "ca.pem";
+  options.json = options.quiet = true;
+  EXPECT_EQ(next_command(options, "list"),
+            "affskel-client --server lab:7060 --token-file 'my token' --tls-ca ca.pem list");
+}
+
+TEST(FileStem, IsAName) {
+  EXPECT_EQ(file_stem("body"), "body");
+  EXPECT_EQ(file_stem("a/b\n"), "a_b_");
+  EXPECT_EQ(file_stem("-o"), "./-o");
+  EXPECT_EQ(file_stem(""), "skeleton");
 }
 
 TEST(JobTable, AlignsAndCannotBreakTheTerminal) {
@@ -127,19 +194,33 @@ v1::Job eroding(std::uint64_t done) {
 }
 
 TEST(ProgressBar, ShowsTheShareAndFits) {
-  const ProgressRate rate{123.4, milliseconds(2500)};
-  EXPECT_EQ(progress_bar(eroding(100), rate, 90),
-            "erode     [#########..............................] 100/400 directions, 123/s, 2.5 s left");
+  v1::Job job = eroding(100);
+  job.set_remaining_ms(2500);
+  EXPECT_EQ(progress_bar(job, 123.4, 90),
+            "erode     [######....................]  25.0% 100/400 directions    123/s 2.5 s left      ");
   for (int width = 0; width < 100; ++width) {
-    EXPECT_LE(progress_bar(eroding(100), rate, width).size(), std::size_t(width)) << width;
+    EXPECT_LE(progress_bar(job, 123.4, width).size(), std::size_t(width)) << width;
+  }
+}
+
+TEST(ProgressBar, KeepsItsWidth) {
+  const std::size_t width = progress_bar(eroding(0), 0, 100).size();
+  for (const std::uint64_t done : {1u, 99u, 399u, 400u}) {
+    for (const std::uint64_t ms : {0ull, 9900ull, 3599000ull, 86399000ull, 86400000ull * 99}) {
+      for (const double rate : {0.0, 0.012, 3.4, 99999.0}) {
+        v1::Job job = eroding(done);
+        if (ms > 0) job.set_remaining_ms(ms);
+        EXPECT_EQ(progress_bar(job, rate, 100).size(), width) << progress_bar(job, rate, 100);
+      }
+    }
   }
 }
 
 TEST(ProgressBar, TellsWhyARunningJobGetsNoFurther) {
   v1::Job stuck = eroding(100);
   stuck.set_waiting_reason("the disk is full");
-  EXPECT_EQ(progress_bar(stuck, {}, 60), "erode     [##.......] 100/400 directions (the disk is full)");
-  EXPECT_EQ(progress_line(stuck, {}), "erode (the disk is full): 100/400 directions");
+  EXPECT_TRUE(progress_bar(stuck, 0, 120).ends_with(" (the disk is full)")) << progress_bar(stuck, 0, 120);
+  EXPECT_EQ(progress_line(stuck, 0), "erode (the disk is full): 25.0%, 100/400 directions");
 }
 
 class ProgressViewTest : public ::testing::Test {
@@ -161,15 +242,22 @@ TEST_F(ProgressViewTest, PlainLinesComeAtStagesAndTenths) {
   queued.set_state(v1::JOB_STATE_QUEUED);
   show({}, {queued, queued, eroding(0), eroding(10), eroding(39), eroding(40), eroding(400)});
   EXPECT_EQ(err_.str(),
-            "queued\nerode: 0/400 directions\nerode: 40/400 directions, 10/s, 34 s left\n"
-            "erode: 400/400 directions, 180/s\n");
+            "queued\nerode: 0.0%, 0/400 directions\nerode: 10.0%, 40/400 directions, 10/s\n"
+            "erode: 100.0%, 400/400 directions, 180/s\n");
 }
 
 TEST_F(ProgressViewTest, ASteadyRateIsMeasuredExactly) {
   show({}, {eroding(0), eroding(100), eroding(200)});
   EXPECT_EQ(err_.str(),
-            "erode: 0/400 directions\nerode: 100/400 directions, 100/s, 3.0 s left\n"
-            "erode: 200/400 directions, 100/s, 2.0 s left\n");
+            "erode: 0.0%, 0/400 directions\nerode: 25.0%, 100/400 directions, 100/s\n"
+            "erode: 50.0%, 200/400 directions, 100/s\n");
+}
+
+TEST_F(ProgressViewTest, TheTimeLeftIsTheServers) {
+  v1::Job job = eroding(200);
+  job.set_remaining_ms(65000);
+  show({}, {job});
+  EXPECT_EQ(err_.str(), "erode: 50.0%, 200/400 directions, 1 min 05 s left\n");
 }
 
 TEST_F(ProgressViewTest, OnATerminalTheLineIsRedrawnAndRemoved) {

@@ -17,8 +17,8 @@ namespace {
 using nlohmann::json;
 
 // A box of 2 x 4 x 10 whose two points lie at its corner and at its centre.
-ViewInput sample_input() {
-  ViewInput input;
+ViewModel sample_model() {
+  ViewModel input;
   input.job.set_name("box");
   input.job.set_id("0123456789abcdef0123456789abcdef");
   input.job.mutable_prepared()->set_volume(80);
@@ -33,11 +33,32 @@ ViewInput sample_input() {
   centre.step = {1, 1, 1};
   centre.share = 0.5f;
   centre.divergence = 9;
+  centre.slope = 3.5f;
   centre.inward = {0, 0, -1};
   corner.divergence = 1;
   corner.inward = {1, 0, 0};
   input.points = {centre, corner};
   return input;
+}
+
+// A surface in its middle, at one level.
+v1::TriangleMesh sample_eroded() {
+  v1::TriangleMesh surface;
+  for (const double v : {0., 0., 0., 2., 4., 10., 1., 2., 5.}) surface.add_xyz(v);
+  for (const unsigned c : {0u, 1u, 2u}) surface.add_corners(c);
+  for (const double a : {3., 4., 5.}) surface.add_area(a);
+  surface.set_volume(12);
+  return surface;
+}
+
+ViewInput page_of(const ViewModel& model) {
+  ViewInput input;
+  input.models = {model};
+  return input;
+}
+
+ViewInput sample_input() {
+  return page_of(sample_model());
 }
 
 std::string element(const std::string& page, const std::string& id) {
@@ -46,8 +67,15 @@ std::string element(const std::string& page, const std::string& id) {
   return page.substr(begin, page.find("</script>", begin) - begin);
 }
 
-json facts(const std::string& page) {
+json page_facts(const std::string& page) {
   return json::parse(element(page, "facts"));
+}
+
+// Of its first model, with the page's own.
+json facts(const std::string& page) {
+  json all = page_facts(page);
+  all.update(json(all.at("models").at(0)));
+  return all;
 }
 
 std::string decoded(const std::string& text) {
@@ -99,6 +127,7 @@ TEST(Page, PointsComeBackInPageUnits) {
   EXPECT_EQ(place(all.at("pointGrid"), steps, 1), (std::array<double, 3>{-0.2, -0.4, -1}));
   EXPECT_EQ(array_of<float>(page, "pointShares", "f32"), (std::vector<float>{0.5f, 0}));
   EXPECT_EQ(array_of<float>(page, "pointDivergences", "f32"), (std::vector<float>{9, 1}));
+  EXPECT_EQ(array_of<float>(page, "pointSlopes", "f32"), (std::vector<float>{3.5f, 0}));
   EXPECT_EQ(array_of<std::int8_t>(page, "pointInward", "i8"),
             (std::vector<std::int8_t>{0, 0, -127, 127, 0, 0}));
   EXPECT_EQ(all.at("highestShare"), 0.5);
@@ -108,15 +137,15 @@ TEST(Page, PointsComeBackInPageUnits) {
 }
 
 TEST(Page, TheCellIsTheLatticesAlsoWhereTheGridIsCoarser) {
-  ViewInput input = sample_input();
+  ViewModel input = sample_model();
   input.grid.axes = {{{1, 0.5, 0}, {0, 2, 0}, {0, 0, 5}}};
   input.grid.lattice_steps = {1, 2, 1};
-  EXPECT_EQ(facts(view_page(input)).at("cell"), json({{0.2, 0.1, 0}, {0, 0.2, 0}, {0, 0, 1}}));
+  EXPECT_EQ(facts(view_page(page_of(input))).at("cell"), json({{0.2, 0.1, 0}, {0, 0.2, 0}, {0, 0, 1}}));
 }
 
 TEST(Page, TheMeshComesBack) {
-  const ViewInput input = sample_input();
-  const std::string page = view_page(input);
+  const ViewModel input = sample_model();
+  const std::string page = view_page(page_of(input));
   const auto steps = array_of<std::uint16_t>(page, "meshSteps", "u16");
   ASSERT_EQ(steps.size(), 3 * input.mesh.points.size());
   for (std::size_t v = 0; v < input.mesh.points.size(); ++v) {
@@ -134,14 +163,21 @@ TEST(Page, TheMeshComesBack) {
 }
 
 TEST(Page, TheSheetOfChordsComesBack) {
-  ViewInput input = sample_input();
-  EXPECT_FALSE(facts(view_page(input)).at("arrays").contains("sheetCorners"));
+  ViewModel input = sample_model();
+  EXPECT_FALSE(facts(view_page(page_of(input))).at("arrays").contains("sheetCorners"));
   input.sheet_is_skeleton = true;
   for (const double v : {1., 2., 5., 2., 2., 5., 0., 0., 0.}) input.sheet.add_xyz(v);
   for (const unsigned c : {2u, 0u, 1u}) input.sheet.add_corners(c);
   for (const double e : {40., 20., 10.}) input.sheet.add_erosion(e);
   for (const double s : {1., 0.75, 0.5}) input.sheet.add_strength(s);
-  const std::string page = view_page(input);
+  for (const double a : {6., 7., 8.}) input.sheet.add_area(a);
+  for (const double c : {1., 0., 0., 0., 1., 0., 0., 0., -1.}) input.sheet.add_normal_a(c);
+  const std::string page = view_page(page_of(input));
+  EXPECT_EQ(array_of<float>(page, "sheetSlopes", "f32"), (std::vector<float>{6, 7, 8}));
+  EXPECT_EQ(array_of<float>(page, "sheetStrengths", "f32"), (std::vector<float>{1, 0.75f, 0.5f}));
+  EXPECT_EQ(array_of<std::int8_t>(page, "sheetNormalsA", "i8"),
+            (std::vector<std::int8_t>{127, 0, 0, 0, 127, 0, 0, 0, -127}));
+  EXPECT_TRUE(array_of<std::int8_t>(page, "sheetNormalsB", "i8").empty());
   EXPECT_EQ(array_of<float>(page, "sheetPositions", "f32"),
             (std::vector<float>{0, 0, 0, 0.2f, 0, 0, -0.2f, -0.4f, -1}));
   EXPECT_EQ(array_of<float>(page, "sheetShares", "f32"), (std::vector<float>{0.5f, 0.25f, 0.125f}));
@@ -150,15 +186,76 @@ TEST(Page, TheSheetOfChordsComesBack) {
   EXPECT_EQ(array_of<std::uint32_t>(page, "sheetCorners", "u32"), (std::vector<std::uint32_t>{2, 0, 1}));
   EXPECT_TRUE(array_of<std::uint32_t>(page, "sheetSegments", "u32").empty());
   for (const unsigned v : {1u, 2u}) input.sheet.add_segments(v);
-  const std::string with_curve = view_page(input);
+  const std::string with_curve = view_page(page_of(input));
   EXPECT_EQ(array_of<std::uint32_t>(with_curve, "sheetSegments", "u32"), (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(array_of<std::uint32_t>(with_curve, "sheetPieces", "u32"), (std::vector<std::uint32_t>{0, 0}));
+}
+
+TEST(Page, TheErodedSolidsComeBackWithTheirLevels) {
+  ViewModel model = sample_model();
+  model.eroded = {sample_eroded()};
+  ViewInput input = page_of(model);
+  input.levels = {0.25};
+  input.show_level = true;
+  const std::string page = view_page(input);
+  const json all = facts(page);
+  EXPECT_EQ(all.at("levels"), json({0.25}));
+  EXPECT_EQ(all.at("showLevel"), true);
+  EXPECT_EQ(all.at("eroded"), json::array({{{"volume", 12.0}, {"triangles", 1}}}));
+  const auto steps = array_of<std::uint16_t>(page, "eroded0Steps", "u16");
+  const std::array<double, 3> low = place(all.at("meshGrid"), steps, 0),
+                              middle = place(all.at("meshGrid"), steps, 2);
+  EXPECT_NEAR(low[2], -1, 1e-5);
+  EXPECT_NEAR(middle[0], 0, 1e-5);
+  EXPECT_NEAR(middle[2], 0, 2e-5);
+  EXPECT_EQ(array_of<std::uint16_t>(page, "eroded0Corners", "u16"), (std::vector<std::uint16_t>{0, 1, 2}));
+  EXPECT_EQ(array_of<float>(page, "eroded0Slopes", "f32"), (std::vector<float>{3, 4, 5}));
+}
+
+TEST(Page, TwoModelsHaveOneScaleAndOneScaleOfColours) {
+  ViewModel half = sample_model(), whole = sample_model();
+  half.mesh = core::make_box(1, 2, 5);
+  half.points[0].share = 0.25f;
+  ViewInput input;
+  input.models = {half, whole};
+  const json all = page_facts(view_page(input));
+  ASSERT_EQ(all.at("models").size(), 2u);
+  EXPECT_EQ(all.at("unit"), 5);
+  EXPECT_EQ(all.at("models")[0].at("halfBox"), json({0.1, 0.2, 0.5}));
+  EXPECT_EQ(all.at("models")[1].at("halfBox"), json({0.2, 0.4, 1.0}));
+  EXPECT_EQ(all.at("highestShare"), 0.5);
+  input.models.push_back(half);
+  EXPECT_THROW(view_page(input), std::logic_error);
+}
+
+TEST(Page, TellsWarningsAndPieces) {
+  ViewModel model = sample_model();
+  model.job.mutable_prepared()->set_points(2000);
+  EXPECT_TRUE(facts(view_page(page_of(model))).at("warnings").empty());
+  model.job.mutable_prepared()->set_points(1999);
+  EXPECT_TRUE(facts(view_page(page_of(model))).at("pieces").empty());
+  model.job.mutable_prepared()->add_notes()->set_message("faces were turned");
+  model.quality.set_points(2);
+  model.quality.set_components(13);
+  model.quality.set_solid_components(1);
+  model.quality.set_holes(3);
+  model.quality.set_solid_genus(2);
+  model.quality.set_advice("a lower threshold joins the pieces");
+  const json all = facts(view_page(page_of(model)));
+  const json& warnings = all.at("warnings");
+  ASSERT_EQ(warnings.size(), 4u);
+  EXPECT_EQ(warnings[0], "faces were turned");
+  EXPECT_NE(warnings[1].get<std::string>().find("coarse, 1999 points"), std::string::npos);
+  EXPECT_NE(warnings[2].get<std::string>().find("in 13 pieces, the solid in 1"), std::string::npos);
+  EXPECT_EQ(warnings[3], "a lower threshold joins the pieces");
+  EXPECT_EQ(all.at("pieces"), json::array({json::array({"pieces", "13 (solid: 1)"}),
+                                           json::array({"tunnels", "3 (solid: 2)"})}));
 }
 
 TEST(Page, NoNameBreaksOutOfItsElement) {
   ViewInput input = sample_input();
   const std::string name = "</script><script>alert(\"1\")</script> & 'x' <!-- {{script}} \\u003c ü€𝄞";
-  input.job.set_name(name);
+  input.models[0].job.set_name(name);
   const std::string page = view_page(input);
   EXPECT_EQ(facts(page).at("name"), name);
   EXPECT_EQ(element(page, "facts").find_first_of("<>&"), std::string::npos);
@@ -172,7 +269,7 @@ TEST(Page, NoNameBreaksOutOfItsElement) {
 
 TEST(Page, NamesThatAreNoUtf8AreShownAsFarAsTheyAre) {
   ViewInput input = sample_input();
-  input.job.set_name("c\xFF");
+  input.models[0].job.set_name("c\xFF");
   EXPECT_EQ(facts(view_page(input)).at("name"), "c\xEF\xBF\xBD");
 }
 
@@ -199,16 +296,19 @@ TEST(Page, KeepsTheLicenceOfThreeJs) {
   EXPECT_NE(page.find("THE SOFTWARE IS PROVIDED \"AS IS\""), std::string::npos);
 }
 
-TEST(Page, UpIsZUnlessTheBodyStandsAlongY) {
-  EXPECT_EQ(up_axis({1, 1, 3}), 'z');
-  EXPECT_EQ(up_axis({12, 12, 4}), 'z') << "a lying torus";
-  EXPECT_EQ(up_axis({2, 0.4, 1.7}), 'z') << "arms spread";
-  EXPECT_EQ(up_axis({1.2, 3, 0.5}), 'y');
+TEST(Page, SaysHowBodiesStandAndThatColoursAreNotLinear) {
+  ViewInput input = sample_input();
+  input.up = UpAxis::kY;
+  const json all = page_facts(view_page(input));
+  EXPECT_EQ(all.at("up"), "y");
+  EXPECT_EQ(all.at("stance").at("front"), json({0., 0., 1.}));
+  EXPECT_EQ(all.at("scaleTitle"), "Erosion level E, % of v0");
+  EXPECT_EQ(all.at("scaleNote"), "Not linear: the colour follows the cube root of E");
 }
 
 TEST(Page, NothingToDrawIsAnError) {
   ViewInput input = sample_input();
-  input.mesh.triangles.clear();
+  input.models[0].mesh.triangles.clear();
   EXPECT_THROW(view_page(input), ClientError);
 }
 

@@ -34,49 +34,27 @@ TEST(ViewPoints, RoundingKeepsEveryComparisonWithAFloat) {
   }
 }
 
-TEST(ViewPoints, AllAreKeptWhileThereIsRoom) {
+TEST(ViewPoints, TheSliderReachesDownToATenthOfItsThreshold) {
   const std::vector<float> divergences(1000, 1.0f);
-  const ViewSelection selection = select_view_points(1000, divergences, 7, 1000);
-  EXPECT_EQ(selection.thinning, 1u);
-  EXPECT_EQ(selection.lowest_threshold, 0.0f);
-  EXPECT_TRUE(selection.keeps(0, 1, 2, 3));
+  const ViewSelection selection = select_view_points(divergences, 7, 1000);
+  EXPECT_NEAR(selection.lowest_threshold, 0.7, 1e-6);
+  EXPECT_LE(double{selection.lowest_threshold}, 0.7);
 }
 
-TEST(ViewPoints, TheSkeletonIsNeverThinned) {
-  // 10 to 1: more skeleton points than fit.
-  std::vector<float> divergences(8000, 9.0f);
-  for (std::size_t p = 0; p < divergences.size(); p += 2) divergences[p] = 0.5f;
-  const ViewSelection selection = select_view_points(divergences.size(), divergences, 7.3, 800);
+TEST(ViewPoints, TheSkeletonIsHeldWhole) {
+  const std::vector<float> divergences(8000, 9.0f);  // ten times as many as there is room for
+  const ViewSelection selection = select_view_points(divergences, 7.3, 800);
   EXPECT_LE(double{selection.lowest_threshold}, 7.3);
-  EXPECT_GT(selection.thinning, 1u);
-  EXPECT_TRUE(selection.keeps(9.0f, 1, 2, 3));
-  EXPECT_FALSE(selection.keeps(0.5f, 1, 2, 3));
+  EXPECT_NEAR(selection.lowest_threshold, 7.3, 1e-6);
 }
 
-TEST(ViewPoints, CandidatesBelowTheThresholdFillHalfOfThePage) {
+TEST(ViewPoints, NoMoreAreHeldThanThereIsRoomFor) {
   std::vector<float> divergences;
   for (int p = 0; p < 10000; ++p) divergences.push_back(static_cast<float>(p) / 1000);  // 0 .. 9.999
-  const ViewSelection selection = select_view_points(divergences.size(), divergences, 9.5, 2000);
-  const auto candidates = std::count_if(divergences.begin(), divergences.end(),
-                                        [&](float h) { return h > selection.lowest_threshold; });
-  EXPECT_EQ(candidates, 1000);
-  EXPECT_LE((10000 - 1000) / selection.thinning, 1000u);
-}
-
-TEST(ViewPoints, ThinningTakesOneInSoManyEverywhere) {
-  for (const std::uint32_t thinning : {2u, 4u, 8u, 16u, 32u, 64u, 128u}) {
-    ViewSelection selection;
-    selection.thinning = thinning;
-    selection.lowest_threshold = 1;
-    // Every cube of eight steps holds the same number.
-    for (const std::uint32_t corner : {0u, 8u, 24u}) {
-      std::uint32_t kept = 0;
-      for (std::uint32_t i = 0; i < 512; ++i) {
-        kept += selection.keeps(0, corner + i / 64, corner + i / 8 % 8, corner + i % 8) ? 1 : 0;
-      }
-      EXPECT_EQ(kept, 512 / thinning) << thinning;
-    }
-  }
+  const ViewSelection selection = select_view_points(divergences, 9.5, 2000);
+  EXPECT_EQ(std::count_if(divergences.begin(), divergences.end(),
+                          [&](float h) { return h > selection.lowest_threshold; }),
+            2000);
 }
 
 TEST(ViewPoints, AGridOfFewStepsIsTheLattice) {
@@ -93,32 +71,34 @@ TEST(ViewPoints, ALongAxisIsCoarsenedToSixteenBits) {
   EXPECT_EQ(grid.lattice_steps[2], 3u);
   EXPECT_EQ(grid.axes[2].z, 1.5);
   const ViewSelection all;
-  const std::vector<float> none;
+  const std::vector<float> one = {1};
   std::vector<ViewPoint> points;
-  ViewPointCollector collector(grid, all, none, 1, points);
+  ViewPointCollector collector(grid, all, one, 1, points);
   FieldPoint last;
   last.k = 149999;
   collector.put(last);
   EXPECT_EQ(points.at(0).step[2], 49999);
 }
 
-TEST(ViewPoints, AreSortedByDivergenceThenByPlace) {
-  const LatticePoints lattice(full_lattice(1, 1, 4));
+TEST(ViewPoints, AboveTheLowestThresholdAreSortedByDivergenceThenByPlace) {
+  const LatticePoints lattice(full_lattice(1, 1, 5));
   const ViewGrid grid = view_grid(lattice);
-  const ViewSelection all;
-  const std::vector<float> divergences = {2, 7, 2, 9};
+  const ViewSelection above_one{1};
+  const std::vector<float> divergences = {2, 7, 2, 9, 1};
   std::vector<ViewPoint> points;
-  ViewPointCollector collector(grid, all, divergences, 10, points);
-  for (std::uint32_t k = 0; k < 4; ++k) {
+  ViewPointCollector collector(grid, above_one, divergences, 10, points);
+  for (std::uint32_t k = 0; k < 5; ++k) {
     FieldPoint point;
     point.k = k;
     point.erosion = k;
+    point.area = 10 * k;
     collector.put(point);
   }
   collector.finish();
   std::vector<int> places;
   for (const ViewPoint& point : points) places.push_back(point.step[2]);
   EXPECT_EQ(places, (std::vector<int>{3, 1, 0, 2}));
+  EXPECT_EQ(points[1].slope, 10);
   EXPECT_EQ(points[1].share, 0.1f > 0.1 ? std::nextafter(0.1f, 0.0f) : 0.1f);
 }
 

@@ -231,7 +231,7 @@ TEST_F(WebServiceTest, TheInteractivePageRunsInASandboxOfItsOwn) {
   EXPECT_EQ(answer.header("Content-Security-Policy"), view_page_policy());
   const std::string policy = view_page_policy();
   EXPECT_EQ(policy.find("unsafe"), std::string::npos);
-  EXPECT_NE(policy.find("sandbox allow-scripts"), std::string::npos);
+  EXPECT_NE(policy.find("sandbox allow-scripts allow-downloads"), std::string::npos);
   EXPECT_TRUE(answer.header("Content-Disposition").starts_with("inline"));
   EXPECT_NE(answer.body.find("<canvas"), std::string::npos);
 }

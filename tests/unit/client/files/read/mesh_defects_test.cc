@@ -16,20 +16,24 @@ core::OffMesh tetrahedron() {
   return off;
 }
 
+// The same with vertices of its own for each triangle.
+core::OffMesh soup(core::OffMesh off) {
+  core::Mesh apart;
+  for (const core::Triangle& t : off.mesh.triangles) {
+    const auto base = static_cast<std::uint32_t>(apart.points.size());
+    for (const std::uint32_t corner : t) apart.points.push_back(off.mesh.points[corner]);
+    apart.triangles.push_back({base, base + 1, base + 2});
+  }
+  off.mesh = apart;
+  return off;
+}
+
 TEST(FindDefects, AClosedMeshHasNone) {
   EXPECT_TRUE(find_defects(tetrahedron()).empty());
 }
 
 TEST(FindDefects, VerticesAtOnePlaceCountAsOne) {
-  core::OffMesh off = tetrahedron();
-  core::Mesh soup;
-  for (const core::Triangle& t : off.mesh.triangles) {
-    const auto base = static_cast<std::uint32_t>(soup.points.size());
-    for (const std::uint32_t corner : t) soup.points.push_back(off.mesh.points[corner]);
-    soup.triangles.push_back({base, base + 1, base + 2});
-  }
-  off.mesh = soup;
-  EXPECT_TRUE(find_defects(off).empty());
+  EXPECT_TRUE(find_defects(soup(tetrahedron())).empty());
 }
 
 TEST(FindDefects, AHoleNamesItsEdgesAndLines) {
@@ -39,11 +43,30 @@ TEST(FindDefects, AHoleNamesItsEdgesAndLines) {
   ASSERT_EQ(defects.size(), 1u);
   EXPECT_EQ(defects[0].code, "open-edges");
   EXPECT_EQ(defects[0].count, 3u);
-  for (const std::uint64_t line : defects[0].lines) {
-    EXPECT_GE(line, 7u);
-    EXPECT_LE(line, 9u);
+  for (const DefectPlace& place : defects[0].places) {
+    EXPECT_GE(place.line, 7u);
+    EXPECT_LE(place.line, 9u);
   }
-  EXPECT_NE(defects[0].message.find("line "), std::string::npos);
+  EXPECT_TRUE(
+      defect_text(defects[0]).starts_with("3 edges have a triangle on one side only (a hole): line "));
+}
+
+// As in files that give every triangle corners of its own.
+TEST(FindDefects, AnEdgeHasTheVerticesOfItsTriangle) {
+  core::OffMesh off = soup(tetrahedron());
+  off.mesh.triangles.pop_back();
+  const std::vector<MeshDefect> defects = find_defects(off);
+  ASSERT_EQ(defects.size(), 1u);
+  ASSERT_EQ(defects[0].count, 3u);
+  for (const DefectPlace& place : defects[0].places) {
+    const auto first = 3 * place.triangle, second = first + 1, third = first + 2;
+    const auto vertices = [](std::uint32_t a, std::uint32_t b) {
+      return ", vertices " + std::to_string(a) + " and " + std::to_string(b);
+    };
+    EXPECT_TRUE(place.detail == vertices(first, second) || place.detail == vertices(second, third) ||
+                place.detail == vertices(first, third))
+        << place_text(place);
+  }
 }
 
 TEST(FindDefects, ARepeatedTriangleCrowdsItsEdges) {
@@ -55,7 +78,8 @@ TEST(FindDefects, ARepeatedTriangleCrowdsItsEdges) {
   EXPECT_EQ(defects[0].code, "crowded-edges");
   EXPECT_EQ(defects[0].count, 3u);
   EXPECT_EQ(defects[1].code, "repeated-triangles");
-  EXPECT_EQ(defects[1].lines, std::vector<std::uint64_t>{11});
+  ASSERT_EQ(defects[1].places.size(), 1u);
+  EXPECT_EQ(defects[1].places[0].line, 11u);
 }
 
 TEST(FindDefects, LongListsAreCut) {
@@ -66,8 +90,12 @@ TEST(FindDefects, LongListsAreCut) {
   ASSERT_EQ(defects.size(), 1u);
   EXPECT_EQ(defects[0].code, "degenerate-triangles");
   EXPECT_EQ(defects[0].count, 9u);
-  EXPECT_EQ(defects[0].lines.size(), 5u);
-  EXPECT_EQ(defects[0].message.substr(defects[0].message.size() - 3), "...");
+  EXPECT_EQ(defects[0].places.size(), 5u);
+  EXPECT_TRUE(defect_text(defects[0]).ends_with("; line 7, triangle 4; and 4 more"))
+      << defect_text(defects[0]);
+  const std::vector<MeshDefect> all = find_defects(off, 100);
+  EXPECT_EQ(all[0].places.size(), 9u);
+  EXPECT_TRUE(defect_text(all[0]).ends_with("; line 7, triangle 8")) << defect_text(all[0]);
 }
 
 }  // namespace

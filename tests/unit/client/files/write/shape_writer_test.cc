@@ -81,6 +81,24 @@ TEST(MeshWriter, CurvesReadBackWhereThereIsAPlaceForThem) {
   }
 }
 
+// As one object, Assimp and what reads by it (Open3D) would leave out the triangles, too.
+TEST(MeshWriter, TrianglesAndCurvesAreObjectsOfTheirOwnInObj) {
+  ShapeFile shape = shape_of(sample_mesh());
+  const auto objects = [&shape] {
+    std::string bytes;
+    write_surface(FileFormat::kObj, shape, {}, [&](std::string_view piece) { bytes += piece; });
+    std::istringstream rows(bytes);
+    std::vector<std::string> kinds;  // of rows, one for neighbours of a kind
+    for (std::string row; std::getline(rows, row);) {
+      if (kinds.empty() || kinds.back() != row.substr(0, 1)) kinds.push_back(row.substr(0, 1));
+    }
+    return kinds;
+  };
+  EXPECT_EQ(objects(), (std::vector<std::string>{"v", "f"}));
+  shape.segments = {{0, 1}};
+  EXPECT_EQ(objects(), (std::vector<std::string>{"v", "o", "f", "o", "l"}));
+}
+
 TEST(MeshWriter, ACurveIsOneLine) {
   ShapeFile shape = shape_of(sample_mesh());
   shape.segments = {{0, 1}, {2, 1}, {2, 3}};

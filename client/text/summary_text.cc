@@ -1,0 +1,72 @@
+#include "client/text/summary_text.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/number_text.h"
+#include "client/text/time_text.h"
+
+namespace affskel::client {
+namespace {
+
+bool is_torn(const v1::SkeletonQuality& quality) {
+  return quality.components() > quality.solid_components();
+}
+
+}  // namespace
+
+std::string file_stem(const std::string& name) {
+  std::string stem = name;
+  for (char& c : stem) {
+    if (c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  }
+  if (stem.empty() || stem == "." || stem == "..") return "skeleton";
+  return (stem.front() == '-' ? "./" : "") + stem;
+}
+
+std::vector<std::string> job_warnings(const v1::Job& job) {
+  std::vector<std::string> warnings;
+  for (const v1::MeshNote& note : job.prepared().notes()) {
+    if (note.severity() == "warning") warnings.push_back(note.message());
+  }
+  if (job.skeleton_points() == 0) return warnings;
+  for (std::string& warning : skeleton_warnings(job.prepared(), job.quality()))
+    warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+std::vector<std::string> skeleton_warnings(const v1::PreparedSummary& prepared,
+                                           const v1::SkeletonQuality& quality) {
+  std::vector<std::string> warnings;
+  if (prepared.points() < kCoarseLattice) {
+    warnings.push_back("the lattice is coarse, " + base::counted(prepared.points(), "point") +
+                       " in the solid; submit again with a smaller --spacing than " +
+                       base::rounded(prepared.spacing(), 3));
+  }
+  if (is_torn(quality)) {
+    warnings.push_back("the skeleton is in " + base::counted(quality.components(), "piece") +
+                       ", the solid in " + std::to_string(quality.solid_components()) +
+                       "; a smaller --spacing or --threshold may join them");
+  }
+  return warnings;
+}
+
+std::string summary_text(const v1::Job& job) {
+  const std::uint64_t took = job.finished_ms() - std::min(job.started_ms(), job.finished_ms());
+  std::string text = job.started_ms() > 0 ? "done in " + took_text(std::chrono::milliseconds(took)) : "done";
+  if (took_field_over(job)) text += ", its field being there already";
+  text += ": " + base::counted(job.prepared().points(), "point") + ", " +
+          base::counted(job.directions_total(), "direction") + ", skeleton of " +
+          base::counted(job.skeleton_points(), "point");
+  if (!job.has_quality() || job.skeleton_points() == 0) return text;
+  return text + " in " + base::counted(job.quality().components(), "piece") +
+         (is_torn(job.quality()) ? " (the solid: " + std::to_string(job.quality().solid_components()) + ")"
+                                 : "");
+}
+
+bool took_field_over(const v1::Job& job) {
+  const bool eroded = job.stage() == v1::JOB_STAGE_DERIVE || job.stage() == v1::JOB_STAGE_COMPLETE;
+  return eroded && job.directions_total() > 0 && job.counters().directions_reported() == 0;
+}
+
+}  // namespace affskel::client

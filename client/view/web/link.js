@@ -1,0 +1,69 @@
+// The address of what is seen: camera, sliders and layers in the fragment of the page's address.
+const kZooms = [1e-3, 1e3], kFarthest = 1e3; // what anybody looks at, in heights of the body
+const kDelay = 200; // milliseconds after the last change: browsers refuse hundreds of changes at once
+
+const number = (text) => (text !== null && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : null);
+const numbers = (text, count) => {
+  const parts = (text || '').split(',').map(number);
+  return parts.length === count && parts.every((part) => part !== null) ? parts : null;
+};
+const short = (value) => String(Number(value.toPrecision(6)));
+
+// State as text, without the #.
+export function writeLink(state) {
+  const link = new URLSearchParams();
+  if (state.view) link.set('view', state.view);
+  else {
+    link.set('camera', [state.azimuth, state.elevation, state.zoom].map(short).join(','));
+    if (state.target.some((c) => Math.abs(c) > 1e-6)) link.set('at', state.target.map(short).join(','));
+  }
+  link.set('threshold', state.thresholds.map(short).join(','));
+  link.set('level', short(state.level));
+  link.set('show', state.shown.join(','));
+  if (state.opacity !== null) link.set('opacity', short(state.opacity));
+  if (state.clip) link.set('clip', state.clip);
+  return link.toString().replace(/%2C/g, ',');
+}
+
+// What of a state the text says; anything else in it is passed over.
+export function readLink(text) {
+  const link = new URLSearchParams(text.replace(/^#/, ''));
+  const state = {};
+  const camera = numbers(link.get('camera'), 3);
+  if (['front', 'side', 'top', 'start'].includes(link.get('view'))) state.view = link.get('view');
+  else if (camera && Math.abs(camera[1]) <= 90 && camera[2] >= kZooms[0] && camera[2] <= kZooms[1]) {
+    [state.azimuth, state.elevation, state.zoom] = camera;
+    const target = numbers(link.get('at'), 3);
+    state.target = target && target.every((c) => Math.abs(c) <= kFarthest) ? target : [0, 0, 0];
+  }
+  const thresholds = (link.get('threshold') || '').split(',').map(number);
+  if (thresholds.every((value) => value !== null)) state.thresholds = thresholds;
+  const level = number(link.get('level'));
+  if (level !== null) state.level = level;
+  if (link.has('show')) state.shown = link.get('show').split(',');
+  const opacity = number(link.get('opacity'));
+  if (opacity !== null) state.opacity = opacity;
+  const clip = /^([xyz])([<>])(-?[0-9.e-]+)$/.exec(link.get('clip') || '');
+  if (clip && number(clip[3]) !== null) state.clip = { axis: clip[1], beyond: clip[2], at: number(clip[3]) };
+  return state;
+}
+
+export class Link {
+  // state(): the text of what is seen now; changed(text): the user has opened another.
+  constructor(state, changed) {
+    this.state = state;
+    window.addEventListener('hashchange', () => changed(window.location.hash));
+  }
+
+  // Soon puts what is seen into the address.
+  update() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      try {
+        window.history.replaceState(null, '', `#${this.state()}`);
+      } catch (error) {
+        if (error.name !== 'SecurityError') throw error; // a frame of a notebook has no address of its own
+      }
+    }, kDelay);
+  }
+}

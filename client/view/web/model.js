@@ -1,0 +1,88 @@
+// One body of the page with its skeleton and eroded solids: the layers that are drawn, and what the pointer
+// finds on them.
+import { Group } from 'three';
+import { erodedPositions, meshPositions, pointPositions } from './decode.js';
+import { Glass } from './glass.js';
+import { makeSkeleton, weighted } from './skeleton.js';
+import { TickedBox } from './ticked_box.js';
+
+const kFaint = 0.45; // of the body, when an eroded solid is shown in it
+const kUsual = 20; // per cent on the slider of the body's opacity: the usual glass
+
+export class Model {
+  // facts: of the model; page: of all; clip: see Clip.
+  constructor(facts, page, clip) {
+    Object.assign(this, { facts, page, clip });
+    this.skeleton = makeSkeleton(facts, page.highestShare, clip, pointPositions(facts));
+    this.glass = new Glass(meshPositions(facts), facts.arrays.meshCorners, clip, 3);
+    this.box = new TickedBox(facts.halfBox, facts.centre, page.unit);
+    this.eroded = new Group();
+    this.surfaces = []; // of the eroded solid, by level; made when they are first shown
+    this.layers = {
+      mesh: this.glass.object,
+      skeleton: this.skeleton.drawn.object,
+      eroded: this.eroded,
+      axes: this.box.object,
+    };
+    this.level = -1;
+  }
+
+  paint(theme) {
+    this.theme = theme;
+    this.glass.paint(theme.body);
+    this.skeleton.drawn.paint(theme);
+    this.box.paint(theme);
+    for (const surface of this.surfaces.filter(Boolean)) surface.paint(theme.eroded);
+  }
+
+  // Shows the eroded solid at a level, by its place among the page's levels.
+  showLevel(level) {
+    this.level = level;
+    if (!this.surfaces[level]) {
+      const corners = this.facts.arrays[`eroded${level}Corners`];
+      const surface = new Glass(erodedPositions(this.facts, level), corners, this.clip, 1);
+      surface.paint(this.theme.eroded);
+      this.surfaces[level] = surface;
+      this.eroded.add(surface.object);
+    }
+    this.surfaces.forEach((surface, l) => (surface.object.visible = l === level));
+  }
+
+  // opacity: of the body, per cent.
+  fade(opacity) {
+    this.opacity = opacity;
+    const faint = this.eroded.visible ? kFaint : 1;
+    this.glass.fade(faint * Math.min(1, opacity / kUsual), Math.max(0, (opacity - kUsual) / (100 - kUsual)));
+  }
+
+  // What of the body a ray finds: the skeleton, else the eroded solid, else the body's surface; an opaque body
+  // hides the others.
+  at(ray) {
+    const body = this.layers.mesh.visible && this.glass.pick(ray);
+    if (body && this.opacity >= 100) return this.onBody(body);
+    const skeleton = this.layers.skeleton.visible && this.skeleton.at(ray);
+    if (skeleton) return skeleton;
+    const eroded = this.eroded.visible && this.surfaces[this.level].pick(ray);
+    if (eroded) return this.onEroded(eroded);
+    return body ? this.onBody(body) : null;
+  }
+
+  onBody({ place }) {
+    return { what: 'surface of the body', place, share: 0, directions: [] };
+  }
+
+  onEroded(hit) {
+    return {
+      what: 'eroded solid',
+      place: hit.place,
+      share: this.page.levels[this.level],
+      slope: weighted(this.facts.arrays[`eroded${this.level}Slopes`], hit),
+      directions: [],
+    };
+  }
+
+  // From page to mesh units.
+  coordinates(place) {
+    return place.map((c, axis) => this.facts.centre[axis] + this.page.unit * c);
+  }
+}

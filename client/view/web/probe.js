@@ -1,0 +1,85 @@
+// Values under the pointer: on hover with a mouse, on a tap with a finger.
+import { coordinate, rounded } from './numbers.js';
+
+const kTap = 8; // pixels that a finger may move
+const kGap = 14; // pixels from the pointer
+
+const vector = (v, digits) => `(${v.map((c) => coordinate(Number(c.toPrecision(digits)))).join(', ')})`;
+
+// Name and text of all that is known of a place: see Model.at.
+export function valuesOf(model, found) {
+  const { volume } = model.facts;
+  const e = found.share * volume;
+  const values = [
+    ['E', `${rounded(e, 4)}`],
+    ['share of v0', `${rounded(100 * found.share, 4)} %`],
+  ];
+  if (found.slope != null) values.push(['slope |∇E|', rounded(found.slope, 4)]);
+  if (found.strength != null) values.push(['strength', rounded(found.strength, 4)]);
+  if (found.divergence != null) values.push(['|H|', rounded(found.divergence, 4)]);
+  values.push(['place', vector(model.coordinates(found.place), 6)]);
+  found.directions.forEach((d, i) => {
+    const name = found.directions.length > 1 ? `direction, side ${i + 1}` : 'direction';
+    values.push([name, vector(d.map((c) => Number(c.toFixed(2))), 3)]);
+  });
+  return values;
+}
+
+export class Probe {
+  // box: the element to fill; canvas; find(x, y): what lies there, pixels of the canvas: null, or model and
+  // found.
+  constructor(box, canvas, find) {
+    Object.assign(this, { box, canvas, find });
+    canvas.addEventListener('pointermove', (event) => this.move(event));
+    canvas.addEventListener('pointerleave', (event) => event.pointerType === 'mouse' && this.hide());
+    canvas.addEventListener('pointerdown', (event) => this.press(event));
+    canvas.addEventListener('pointerup', (event) => this.release(event));
+    canvas.addEventListener('wheel', () => this.hide());
+  }
+
+  move(event) {
+    if (event.pointerType !== 'mouse' || event.buttons) return;
+    this.at = event;
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      if (this.at) this.show(this.at.clientX, this.at.clientY);
+    });
+  }
+
+  press(event) {
+    this.pressed = event.isPrimary ? event : null;
+    this.hide();
+  }
+
+  release(event) {
+    const from = this.pressed;
+    this.pressed = null;
+    if (!from || Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > kTap) return;
+    this.show(event.clientX, event.clientY);
+  }
+
+  hide() {
+    this.at = null;
+    this.box.hidden = true;
+  }
+
+  // x, y: pixels of the window.
+  show(x, y) {
+    const room = this.canvas.getBoundingClientRect();
+    const result = this.find(x - room.left, y - room.top);
+    this.box.hidden = !result;
+    if (!result) return;
+    const element = (name, textContent) => Object.assign(document.createElement(name), { textContent });
+    const values = valuesOf(result.model, result.found);
+    const list = document.createElement('dl');
+    for (const [name, text] of values) list.append(element('dt', name), element('dd', text));
+    this.box.replaceChildren(element('strong', result.found.what), list);
+    const { offsetWidth: width, offsetHeight: height } = this.box;
+    const beside = x - room.left + kGap + width > room.width ? x - room.left - kGap - width : x - room.left + kGap;
+    const below = y - room.top + kGap + height > room.height ? y - room.top - kGap - height : y - room.top + kGap;
+    this.box.style.left = `${Math.max(4, Math.min(beside, room.width - width - 4))}px`;
+    this.box.style.top = `${Math.max(4, Math.min(below, room.height - height - 4))}px`;
+  }
+}

@@ -1,0 +1,49 @@
+"""A page of affskel-client view in Chromium, for the tests of one; ends the program where there is no browser."""
+import os
+import sys
+import unittest
+
+if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
+    print("no chromium or chromedriver: skipped")
+    sys.exit(77)
+
+from browser import Page, chromium
+
+
+def number(text):
+    """A number as pages write it."""
+    mantissa, *power = text.replace("−", "-").replace(",", "").split(" × 10")
+    digits = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+    return float(mantissa) * 10 ** int(power[0].translate(digits)) if power else float(mantissa)
+
+
+def tick_numbers(page):
+    """The numbers at the box that are shown: axis, text, sides and height of the letters, pixels."""
+    return page.script("""
+        return Array.from(document.querySelectorAll('.tick-numbers span'), (span) => {
+          const { left, top, right, bottom } = span.getBoundingClientRect();
+          return { axis: span.className, text: span.textContent, shown: !span.hidden, left, top, right, bottom,
+                   size: parseFloat(getComputedStyle(span).fontSize) };
+        }).filter((span) => span.shown)""")
+
+
+class WithPage(unittest.TestCase):
+    window = dict(width=1200, height=800)
+
+    def setUp(self):
+        self.driver = self.enterContext(chromium(**self.window))
+        self.page = Page(self.driver, self.file())
+
+    def file(self):
+        """The page's place."""
+        raise NotImplementedError
+
+    def tearDown(self):
+        self.assertEqual(self.page.errors(), [])
+        asked = self.page.requests()
+        self.assertIn("file://" + self.page.file, asked)
+        self.assertEqual([url for url in asked if not url.startswith(("file:///", "data:"))], [])
+
+    def touch(self, kind, *points):
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {
+            "type": kind, "touchPoints": [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]})
