@@ -16,18 +16,55 @@ as_root() {
   fi
 }
 
+# say TEXT...: a line for the reader, apart from what the tools print.
+say() { printf '== %s\n' "$*"; }
+
+# missing_packages LIST...: what these files of this folder list and is not there yet, one to a line.
+missing_packages() {
+  local package
+  for package in $(cd "$project_dir/deploy" && sed -e 's/#.*//' "$@"); do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  done
+}
+
+# check_machine ROOM LIST...: says all at once why this machine cannot do it, before anything is begun.  ROOM is what the
+# build takes, in MB; the packages of the lists must be there, or can be installed.
+check_machine() {
+  local room=$1 faults=() there
+  shift
+  if ! grep -q '^VERSION_ID="12"' /etc/os-release 2>/dev/null; then
+    echo "$0: this is not Debian 12, for which the packages are named; going on" >&2
+  fi
+  if [ -n "$(missing_packages "$@")" ]; then
+    command -v apt-get >/dev/null || faults+=("packages are missing and there is no apt-get: $(missing_packages "$@" | tr '\n' ' ')")
+    if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+      faults+=("installing packages needs root: run this as root or install sudo")
+    fi
+  fi
+  there=$(df -Pm "$project_dir" | awk 'NR == 2 { print $4 }')
+  if [ ! -e "$build_dir/build.ninja" ] && [ "$there" -lt "$room" ]; then
+    faults+=("$project_dir has $there MB free, the build takes $room")
+  fi
+  [ -w "$project_dir" ] || faults+=("$project_dir is not writable")
+  local memory
+  memory=$(awk '/^MemTotal:/ { print int($2 / 1000) }' /proc/meminfo)
+  [ "$memory" -ge 1900 ] || faults+=("$memory MB of memory, compiling takes 2000")
+  getent hosts localhost >/dev/null ||
+    faults+=("the name localhost has no address: /etc/hosts needs the line '127.0.0.1 localhost'")
+  [ "${#faults[@]}" -eq 0 ] && return
+  printf "$0: %s\n" "${faults[@]}" >&2
+  return 1
+}
+
 # install_packages LIST...: what these files of this folder list and is not there yet.
 install_packages() {
-  local wanted missing=() package
-  wanted=$(cd "$project_dir/deploy" && sed -e 's/#.*//' "$@")
-  for package in $wanted; do
-    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
-  done
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
   if [ "${#missing[@]}" -eq 0 ]; then
-    echo "All packages are installed."
+    say "All packages are installed."
     return
   fi
-  echo "Installing: ${missing[*]}"
+  say "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
   as_root apt-get update -q
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
@@ -41,8 +78,14 @@ build_jobs() {
   echo $((cores < by_memory ? cores : by_memory))
 }
 
-# build TARGET...: configure and build the release preset.
+# build [-DNAME=VALUE...] TARGET...: configure and build the release preset.
 build() {
-  cmake -S "$project_dir" --preset release >/dev/null
+  local settings=()
+  while [[ ${1:-} == -D* ]]; do
+    settings+=("$1")
+    shift
+  done
+  say "Building, $(build_jobs) at a time; [done/all] at the left."
+  cmake -S "$project_dir" --preset release "${settings[@]}" >/dev/null
   cmake --build "$build_dir" --parallel "$(build_jobs)" --target "$@"
 }

@@ -33,6 +33,9 @@ bool run_turns(const LoadOptions& options);
 /// gone, and what is left of the database's file.
 bool run_retention(const LoadOptions& options);
 
+/// What workers cost the server, working, idle, and a thousand of them by simulation.
+bool run_scale(const LoadOptions& options);
+
 /// Many small jobs with real workers, one after the other; prints what server and workers hold meanwhile.
 bool run_soak(const LoadOptions& options);
 

@@ -1,7 +1,11 @@
 #include "made_up_worker.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "tools/let_pass.h"
 #include "wire/direction_order.h"
+#include "wire/limits.h"
 #include "wire/sha256.h"
 
 namespace affskel::load {
@@ -92,8 +96,8 @@ class MadeUpWorker {
     for (const v1::PositionRange& range : lease.positions()) left += range.end() - range.begin();
     for (const v1::PositionRange& range : lease.positions()) {
       for (std::uint64_t p = range.begin(); p < range.end() && !stop_.stop_requested(); ++p) {
-        tests::let_pass(options_.pause / 8, stop_);  // eight directions a second, say
-        if (p % 8 == 7 || left == 1) {
+        tests::let_pass(options_.pause / options_.positions, stop_);
+        if ((p + 1) % options_.positions == 0 || left == 1) {
           if (!report(lease, range.begin(), p + 1, left == 1)) return;
         }
         --left;
@@ -102,29 +106,45 @@ class MadeUpWorker {
   }
 
   bool report(const v1::Lease& lease, std::uint64_t begin, std::uint64_t end, bool last) {
-    v1::ReportErosionRequest header, records;
+    v1::ReportErosionRequest header;
     header.mutable_header()->set_token(lease.token());
     v1::PositionRange* done = header.mutable_header()->add_positions_done();
     done->set_begin(begin);
     done->set_end(end);
     header.mutable_header()->set_block_done(last);
-    for (std::uint32_t point = 0; point < options_.points; ++point) {
-      records.mutable_records()->add_point(point);
-      records.mutable_records()->add_direction(
-          static_cast<std::uint32_t>((point + end) % options_.directions));
-      records.mutable_records()->add_erosion(1.0 / static_cast<double>(end + 1) + point);
-      records.mutable_records()->add_area(1);
-    }
-    header.mutable_header()->set_records(options_.points);
-    return calls_.timed("report", [&] {
+    const std::vector<v1::ReportErosionRequest> records = improved(end);
+    std::size_t bytes = 0;
+    for (const v1::ReportErosionRequest& message : records) bytes += message.ByteSizeLong();
+    header.mutable_header()->set_records(std::min(options_.records, options_.points));
+    const bool taken = calls_.timed("report", [&] {
       grpc::ClientContext context;
       v1::ReportResponse response;
       const auto writer = stub_->ReportErosion(&context, &response);
       writer->Write(header);
-      writer->Write(records);
+      for (const v1::ReportErosionRequest& message : records) writer->Write(message);
       writer->WritesDone();
       return writer->Finish();
     });
+    if (taken) options_.acknowledged(bytes + header.ByteSizeLong());
+    return taken;
+  }
+
+  /// Points all over the lattice, which every later position improves.
+  std::vector<v1::ReportErosionRequest> improved(std::uint64_t end) const {
+    std::vector<v1::ReportErosionRequest> messages;
+    const std::uint32_t step = std::max(1U, options_.points / std::max(1U, options_.records));
+    v1::FieldRecords* records = nullptr;
+    for (std::uint32_t n = 0; n < std::min(options_.records, options_.points); ++n) {
+      if (records == nullptr || records->point_size() == wire::kRecordsPerMessage) {
+        records = messages.emplace_back().mutable_records();
+      }
+      const std::uint32_t point = n * step;
+      records->add_point(point);
+      records->add_direction(static_cast<std::uint32_t>((point + end) % options_.directions));
+      records->add_erosion(1.0 / static_cast<double>(end + 1) + point);
+      records->add_area(1);
+    }
+    return messages;
   }
 
   const MadeUpWorkerOptions& options_;

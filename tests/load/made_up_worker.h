@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <stop_token>
 #include <string>
 
@@ -14,6 +16,10 @@ struct MadeUpWorkerOptions {
   std::uint32_t points = 2000;  ///< of every job that it prepares
   std::uint32_t directions = 64;
   std::chrono::milliseconds pause{1000};  ///< between two reports, as real workers have it
+  std::uint32_t positions = 8;            ///< finished directions in a report
+  std::uint32_t records = 2000;           ///< improved points in a report, at most all
+  /// Called after each report, with its bytes on the wire.
+  std::function<void(std::size_t bytes)> acknowledged = [](std::size_t) {};
 };
 
 /// Leases tasks and reports made-up results until told to stop: the traffic of a worker without its sums, so

@@ -11,9 +11,11 @@ int main(int argc, char** argv) {
   LoadOptions options;
   CLI::App app("Loads on a real server: how fast it answers, what it holds");
   app.add_option("--clients", options.clients, "crowd: clients at once")->capture_default_str();
-  app.add_option("--workers", options.workers, "crowd: made-up workers; soak, turns: real ones, at most 2")
+  app.add_option("--workers", options.workers,
+                 "crowd, scale: made-up workers; scale: idle ones, too; soak, turns: real ones, at most 2")
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "crowd: how long; turns: roughly, alone on one worker")->capture_default_str();
+  app.add_option("--seconds", options.seconds, "crowd, scale: how long; turns: roughly, alone on one worker")
+      ->capture_default_str();
   app.add_option("--jobs", options.jobs, "queue, soak, turns, retention: number of jobs")
       ->capture_default_str();
   app.add_option("--megabytes", options.megabytes, "restart: size of the database")->capture_default_str();
@@ -32,10 +34,12 @@ int main(int argc, char** argv) {
   app.add_subcommand("queue", "A long queue: leases and lists")->callback(run(run_queue));
   app.add_subcommand("restart", "A server of a large database is killed")->callback(run(run_restart));
   app.add_subcommand("kills", "The only worker is killed at random moments")->callback(run(run_kills));
+  app.add_subcommand("scale", "What workers cost the server, and what a thousand would")
+      ->callback(run(run_scale));
   app.add_subcommand("soak", "Many small jobs, one after the other")->callback(run(run_soak));
   app.add_subcommand("turns", "One owner's long queue and another's single job")->callback(run(run_turns));
   app.add_subcommand("retention", "Many finished jobs are removed by age")->callback(run(run_retention));
-  app.add_subcommand("all", "All of them")->callback([&] {
+  app.add_subcommand("all", "All of them but scale, which takes minutes")->callback([&] {
     for (auto* load : {run_crowd, run_queue, run_restart, run_kills, run_turns, run_soak, run_retention})
       run(load)();
   });

@@ -12,6 +12,7 @@ struct ProcessStats {
   std::int64_t peak_kib = 0;
   std::int64_t threads = 0;
   std::int64_t descriptors = 0;
+  double cpu_s = 0;  ///< processor time so far, user and system
 };
 
 /// All zero when it is gone.

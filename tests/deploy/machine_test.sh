@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# check_machine names everything that stands in the way, before anything is installed or built.  What it asks the machine
+# by is replaced by functions.  Usage: machine_test.sh DEPLOY-FOLDER
+set -euo pipefail
+deploy=$1
+
+# try SETUP: check_machine on a machine that SETUP makes; a build from nothing takes 500 MB.
+try() {
+  bash -c "set -euo pipefail; source '$deploy/common.sh'; build_dir=/nowhere
+    getent() { :; }; dpkg-query() { printf installed; }; df() { printf 'x\\nfs 1 1 5000 1%% /\\n'; }; id() { echo 1000; }
+    awk() { case \$1 in *MemTotal*) echo 4000 ;; *) command awk \"\$@\" ;; esac; }
+    $1
+    check_machine 500 packages.txt" 2>&1
+}
+
+# refused SETUP WORDS: that machine is refused with these words.
+refused() {
+  local said
+  if said=$(try "$1"); then
+    echo "not refused: $1" >&2
+    exit 1
+  fi
+  if [[ $said != *"$2"* ]]; then
+    echo "'$2' is not said: $said" >&2
+    exit 1
+  fi
+}
+
+try : || { echo "a good machine is refused" >&2; exit 1; }
+refused 'getent() { return 2; }' "the name localhost has no address: /etc/hosts"
+refused 'df() { printf "x\nfs 1 1 300 1%% /\n"; }' "has 300 MB free, the build takes 500"
+refused 'awk() { case $1 in *MemTotal*) echo 900 ;; *) command awk "$@" ;; esac; }' "900 MB of memory"
+refused 'dpkg-query() { return 1; }; command() { [ "$2" != sudo ] && builtin command "$@"; }' "installing packages needs root"
+# Everything at once.
+all='getent() { return 2; }; df() { printf "x\nfs 1 1 300 1%% /\n"; }'
+refused "$all" "the name localhost has no address"
+refused "$all" "has 300 MB free"
+# A build that is there needs no more room.
+there=$(mktemp -d)
+trap 'rm -r "$there"' EXIT
+touch "$there/build.ninja"
+export there
+try 'df() { printf "x\nfs 1 1 300 1%% /\n"; }; build_dir=$there' ||
+  { echo "a second run is refused" >&2; exit 1; }
