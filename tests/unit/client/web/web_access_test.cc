@@ -49,7 +49,7 @@ TEST_F(WebServiceTest, PeopleSignInWithTheirTokens) {
   EXPECT_EQ(ask("POST", "/api/session", json({{"key", web_->new_key()}}).dump()).status, 403)
       << "keys are no tokens";
   sign_in("ada's");
-  EXPECT_EQ(cookie_.find("ada"), std::string::npos) << "the token stays here";
+  EXPECT_EQ(cookie_.find("ada's"), std::string::npos) << "the token stays here";
   const json ada = ask("GET", "/api/session").object();
   EXPECT_EQ(ada["owner"], "ada");
   EXPECT_EQ(ada["admin"], false);
