@@ -39,7 +39,9 @@ namespace affskel::worker {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::uint32_t kLeaseWaitMs = 2000;
+// For work, in one call: what idle workers cost the server.  Work that comes is given to whoever waits at
+// once.
+constexpr auto kLongestWait = std::chrono::milliseconds(10000), kLeastWait = std::chrono::milliseconds(1);
 constexpr int kExitServerGone = 5;
 constexpr int kExitNotAllowed = 7;
 // Pauses after a task that failed but may be tried again.  They must be shorter than the silence after which
@@ -115,17 +117,16 @@ class LeaseLoop {
                                         {"threads", options_.threads},
                                         {"memory", request_.worker().memory()}}));
     base::tell_service_manager(base::ServiceState::kReady);
-    Clock::time_point last_work = Clock::now();
     while (!stop_.stop_requested()) {
       const std::optional<v1::Lease> lease = next_lease();
       if (lease) {
         if (!accept(*lease)) break;
         work_on(*lease);
-        last_work = Clock::now();
+        last_work_ = Clock::now();
         continue;
       }
       settle_last_report();
-      if (options_.idle_exit.count() > 0 && Clock::now() - last_work >= options_.idle_exit) {
+      if (options_.idle_exit.count() > 0 && idle_time_left().count() <= 0) {
         spdlog::info(base::logfmt("leaving", {{"worker", request_.worker().id()}, {"reason", "idle"}}));
         break;
       }
@@ -141,8 +142,15 @@ class LeaseLoop {
   std::optional<v1::Lease> next_lease() {
     if (next_) return std::exchange(next_, std::nullopt);
     request_.set_preferred_job(job_id_);
-    request_.set_wait_ms(kLeaseWaitMs);
+    const auto wait = options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kLeastWait, kLongestWait)
+                                                     : kLongestWait;
+    request_.set_wait_ms(static_cast<std::uint32_t>(wait.count()));
     return link_.lease(request_);
+  }
+
+  // Until the worker leaves for want of work, rounded up.
+  std::chrono::milliseconds idle_time_left() const {
+    return std::chrono::ceil<std::chrono::milliseconds>(last_work_ + options_.idle_exit - Clock::now());
   }
 
   // Takes the next lease, if there is one, while the present task is still computed.
@@ -381,6 +389,7 @@ class LeaseLoop {
   ServerLink link_;
   v1::LeaseTaskRequest request_;
   std::set<std::string> jobs_;
+  Clock::time_point last_work_ = Clock::now();
   // Kept between tasks of the same job, on the shelf while it is others' turn.  Dropped whenever the
   // erosion's field may hold work that the server did not acknowledge: such points would not be reported
   // again.

@@ -233,6 +233,24 @@ TEST_F(LoopTest, GivesALeaseBackBeyondMaxJobs) {
   EXPECT_EQ(server_.completions().size(), 1U);
 }
 
+// A call that outlasted the time would hold a batch system's node for nothing.
+TEST_F(LoopTest, WaitsNoLongerForWorkThanUntilItLeaves) {
+  LeaseLoopOptions options;
+  options.server = server_.address();
+  options.idle_exit = std::chrono::seconds(1);
+  EXPECT_EQ(run_lease_loop(options, {}), 0);
+  const std::vector<v1::LeaseTaskRequest> asked = server_.lease_requests();
+  EXPECT_TRUE(std::is_sorted(asked.rbegin(), asked.rend(),
+                             [](const auto& a, const auto& b) { return a.wait_ms() < b.wait_ms(); }));
+  EXPECT_LE(asked.front().wait_ms(), 1000U);
+  EXPECT_GE(asked.back().wait_ms(), 1U) << "without a wait it would ask again and again";
+}
+
+TEST_F(LoopTest, AsksSeldomWhileThereIsNoWork) {
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(server_.lease_requests().front().wait_ms(), 10000U);
+}
+
 TEST(LeaseLoop, LeavesWhenTheServerStaysAway) {
   LeaseLoopOptions options;
   options.server = "unix:/nonexistent/affskel.sock";
