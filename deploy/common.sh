@@ -19,6 +19,16 @@ as_root() {
 # say TEXT...: a line for the reader, apart from what the tools print.
 say() { printf '== %s\n' "$*"; }
 
+# answer_help SCRIPT ARGUMENT: ends with the comment at the script's head when that is asked for.
+answer_help() {
+  case $2 in
+    -h | --help)
+      sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$1"
+      exit 0
+      ;;
+  esac
+}
+
 # missing_packages LIST...: what these files of this folder list and is not there yet, one to a line.
 missing_packages() {
   local package

@@ -42,3 +42,12 @@ touch "$there/build.ninja"
 export there
 try 'df() { printf "x\nfs 1 1 300 1%% /\n"; }; build_dir=$there' ||
   { echo "a second run is refused" >&2; exit 1; }
+# Who asks for help gets it, and nothing is installed.
+for script in quickstart run-tests; do
+  said=$("$deploy/$script" --help)
+  [[ $said == *"Usage: deploy/$script"* && $said != *"#"* && $said != *"=="* ]] || { echo "no help: $said" >&2; exit 1; }
+done
+if said=$("$deploy/quickstart" --fast 2>&1) || [[ $said != *"no option --fast"* ]]; then
+  echo "--fast is taken: $said" >&2
+  exit 1
+fi
