@@ -104,6 +104,14 @@ void sort_by_chunk(std::vector<PointRecord>& records) {
   records.swap(sorted);
 }
 
+/// Whether the records, sorted by chunk, are at least every second point of the chunks that they touch.  Such are
+/// written once when they are merged at once, and twice when they are logged first: a job's first reports.
+bool is_dense(const std::vector<PointRecord>& records) {
+  std::size_t chunks = 1;
+  for (std::size_t i = 1; i < records.size(); ++i) chunks += ByChunk{}(records[i - 1], records[i]) ? 1 : 0;
+  return 2 * records.size() >= chunks * static_cast<std::size_t>(kChunkPoints);
+}
+
 std::int64_t log_limit(std::int64_t points) {
   return std::min(kMaxLogBytes, points * static_cast<std::int64_t>(kRecordBytes));
 }
@@ -214,6 +222,7 @@ std::string log_bytes(const std::vector<PointRecord>& records) {
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                    const std::vector<PointRecord>& records) {
   if (records.empty()) return;
+  if (is_dense(records)) return merge_into_chunks(db, erosion_id, points, records);
   const std::int64_t logged = logged_bytes(db, erosion_id);
   if (logged + static_cast<std::int64_t>(records.size() * wire::kPointRecordBytes) <= log_limit(points)) {
     insert_log(db, erosion_id, log_bytes(records));

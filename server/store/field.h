@@ -47,8 +47,8 @@ class RecordBatch {
 };
 
 /// Merges records, sorted by chunk, into the field of `points` points: per point the lexicographic minimum of
-/// (E, direction), the area travelling with it.  Few records are only logged; many, or a log grown long, are
-/// merged into the stored chunks, of which only what they touch is loaded and rewritten.
+/// (E, direction), the area travelling with it.  Scattered records are only logged; dense ones, or a log grown
+/// long, are merged into the stored chunks, of which only what they touch is loaded and rewritten.
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                    const std::vector<wire::PointRecord>& records);
 

@@ -122,6 +122,29 @@ TEST_F(ReportTest, LoggedRecordsAreInTheField) {
   EXPECT_EQ(whole.substr(8999 * 20), before.substr(8999 * 20));
 }
 
+// Written to the log first, a job's first reports would be written twice.
+TEST_F(ReportTest, DenseRecordsAreMergedAtOnce) {
+  constexpr std::uint32_t kPoints = 9000, kDirections = 16;
+  const v1::Job job = submit();
+  prepare(kPoints, kDirections);
+  const v1::Lease block = lease();
+  v1::FieldRecords one;
+  one.add_point(8999);
+  one.add_direction(0);
+  one.add_erosion(made_up_erosion(8999, 0));
+  one.add_area(made_up_area(8999, 0));
+  const auto logged = [this] {
+    Database db(database(), Database::Mode::kReadOnly);
+    return db.integer("SELECT sum(length(data)) FROM field_log").value_or(0);
+  };
+  report(block, {}, one);
+  EXPECT_EQ(logged(), 24);
+  report(block, 0, 15);
+  EXPECT_EQ(logged(), 24) << "all points, fifteen times";
+  report(block, 15, 16, true);
+  EXPECT_EQ(field(job.id()), expected_field(kPoints, kDirections));
+}
+
 TEST_F(ReportTest, SameReportTwiceChangesOnlyCounters) {
   const v1::Job job = submit();
   prepare(100, 16);
