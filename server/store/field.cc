@@ -104,8 +104,9 @@ void sort_by_chunk(std::vector<PointRecord>& records) {
   records.swap(sorted);
 }
 
-/// Whether the records, sorted by chunk, are at least every second point of the chunks that they touch.  Such are
-/// written once when they are merged at once, and twice when they are logged first: a job's first reports.
+/// Whether the records, sorted by chunk, are at least every second point of the chunks that they touch.  Such
+/// are written once when they are merged at once, and twice when they are logged first: a job's first
+/// reports.
 bool is_dense(const std::vector<PointRecord>& records) {
   std::size_t chunks = 1;
   for (std::size_t i = 1; i < records.size(); ++i) chunks += ByChunk{}(records[i - 1], records[i]) ? 1 : 0;
