@@ -29,10 +29,13 @@ answer_help() {
   esac
 }
 
-# missing_packages LIST...: what these files of this folder list and is not there yet, one to a line.
+# missing_packages LIST...: what these files of this folder list and is not there yet, one to a line.  An entry
+# PACKAGE/PROGRAM is there, too, when the program is: from elsewhere, it may exclude Debian's package.
 missing_packages() {
-  local package
-  for package in $(cd "$project_dir/deploy" && sed -e 's/#.*//' "$@"); do
+  local entry package
+  for entry in $(cd "$project_dir/deploy" && sed -e 's/#.*//' "$@"); do
+    package=${entry%/*}
+    [ "$package" = "$entry" ] || ! command -v "${entry#*/}" >/dev/null || continue
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
   done
 }

@@ -31,6 +31,16 @@ refused 'getent() { return 2; }' "the name localhost has no address: /etc/hosts"
 refused 'df() { printf "x\nfs 1 1 300 1%% /\n"; }' "has 300 MB free, the build takes 500"
 refused 'awk() { case $1 in *MemTotal*) echo 900 ;; *) command awk "$@" ;; esac; }' "900 MB of memory"
 refused 'dpkg-query() { return 1; }; command() { [ "$2" != sudo ] && builtin command "$@"; }' "installing packages needs root"
+# A program that somebody installed from elsewhere is enough where the list says so.
+for program in kubectl ''; do
+  said=$(bash -c "set -euo pipefail; source '$deploy/common.sh'; dpkg-query() { return 1; }
+    command() { if [ \"\$2\" = kubectl ]; then [ -n '$program' ]; else builtin command \"\$@\"; fi; }
+    missing_packages container-packages.txt")
+  if [[ $said == *kubernetes-client* && -n $program || $said != *kubernetes-client* && -z $program || $said != *podman* ]]; then
+    echo "with the program '$program' these are missing: $said" >&2
+    exit 1
+  fi
+done
 # Everything at once.
 all='getent() { return 2; }; df() { printf "x\nfs 1 1 300 1%% /\n"; }'
 refused "$all" "the name localhost has no address"
