@@ -37,6 +37,7 @@ class SolidBuilder {
   Solid run() {
     if (solid_.mesh.triangles.empty()) refuse("the mesh has no triangles");
     check_points();
+    drop_lines();
     drop_unused_vertices();
     throw_if_stopped(options_.context);
     const TrianglePlace where = [this](std::uint32_t t) { return place(t); };
@@ -104,8 +105,18 @@ class SolidBuilder {
         if (v >= mesh.points.size())
           refuse(place(t) + " uses vertex " + std::to_string(v) + ", which is missing");
       }
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) refuse(place(t) + " uses a vertex twice");
     }
+  }
+
+  // Triangles that name a vertex twice: without them, what was closed is closed.
+  void drop_lines() {
+    const std::vector<Triangle>& triangles = solid_.mesh.triangles;
+    const auto first = std::find_if(triangles.begin(), triangles.end(), is_collapsed);
+    if (first == triangles.end()) return;
+    const std::string where = place(static_cast<std::uint32_t>(first - triangles.begin()));
+    const std::size_t dropped = drop_collapsed();
+    repaired("degenerate-triangles", "left out " + base::counted(dropped, "triangle") +
+                                         " with the same vertex at two corners, the first: " + where);
   }
 
   void drop_unused_vertices() {
@@ -130,27 +141,29 @@ class SolidBuilder {
     for (Triangle& t : mesh.triangles) {
       for (std::uint32_t& v : t) v = first[v];
     }
-    drop_collapsed();
+    if (const std::size_t dropped = drop_collapsed(); dropped != 0) {
+      note(MeshNote::Severity::kRepaired, "degenerate-triangles",
+           "left out " + base::counted(dropped, "triangle") + " with two corners in one place");
+    }
     drop_unused_points(mesh);
   }
 
-  void drop_collapsed() {
+  static bool is_collapsed(const Triangle& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
+
+  // Returns how many there were.
+  std::size_t drop_collapsed() {
     Mesh& mesh = solid_.mesh;
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& c = mesh.triangles[t];
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+      if (is_collapsed(mesh.triangles[t])) continue;
       triangle_source_[kept] = triangle_source_[t];
-      mesh.triangles[kept++] = c;
+      mesh.triangles[kept++] = mesh.triangles[t];
     }
     const std::size_t dropped = mesh.triangles.size() - kept;
     mesh.triangles.resize(kept);
     triangle_source_.resize(kept);
     if (kept == 0) refuse("the mesh bounds no volume: all its triangles collapse to points or lines");
-    if (dropped != 0) {
-      note(MeshNote::Severity::kRepaired, "degenerate-triangles",
-           "left out " + base::counted(dropped, "triangle") + " with two corners in one place");
-    }
+    return dropped;
   }
 
   void make_orientation_agree(HalfEdges& mates, const TrianglePlace& where) {

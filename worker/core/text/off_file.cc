@@ -161,6 +161,8 @@ class OffReader {
       }
       corners_.push_back(static_cast<std::uint32_t>(v));
     }
+    // A triangle with a corner twice has no area, which is for whoever uses the mesh to judge.
+    if (sides == 3) return;
     if (const auto twice = repeated_corner()) {
       fail_at_line(rows_.line(),
                    "face " + std::to_string(f) + " uses vertex " + std::to_string(*twice) + " twice");
@@ -168,10 +170,6 @@ class OffReader {
   }
 
   std::optional<std::uint32_t> repeated_corner() {
-    if (corners_.size() == 3 && corners_[0] != corners_[1] && corners_[1] != corners_[2] &&
-        corners_[2] != corners_[0]) {
-      return std::nullopt;
-    }
     sorted_ = corners_;
     std::sort(sorted_.begin(), sorted_.end());
     const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());

@@ -37,7 +37,8 @@ struct OffMesh {
 /// Reads a Geomview OFF file in text form, strictly: header [ST][C][N]OFF, counts on the same or on the
 /// next line (the edge count may be absent), `#` comments, LF or CRLF; per vertex three finite numbers
 /// plus what the header promises; per face its size, indices and optional colours.  Polygons are cut into
-/// triangles (see cut_polygon).  The file must end after the last face.
+/// triangles (see cut_polygon).  A triangle may name a vertex twice, a larger polygon not.  The file must end
+/// after the last face.
 /// @throws CoreError kBadInput with line and cause for everything else (binary, 4OFF, nOFF, decimal
 ///   commas, NUL bytes, lone CR, trailing rows, indices out of range or not integral, NaN, infinity);
 ///   kLimit when a count exceeds the options; kCancelled when the context asks to stop.

@@ -321,7 +321,7 @@ TEST_F(ShapeFileTest, ObjAndStlText) {
   EXPECT_EQ(continued.mesh().triangles.size(), 2u);
   EXPECT_EQ(continued.off.triangle_line[0], 9u) << "where the statement begins";
   expect_bad("t.obj", "v 0 0 0\nf 1 2 3\n", 2, "vertex '2'");
-  expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nf 1 2 1\n", 3, "twice");
+  expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 1\n", 4, "twice");
   expect_bad("t.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", 3, "needs 3");
   expect_bad("t.obj", "v 0 0 inf\n", 1, "not finite");
   const std::string facet =

@@ -118,6 +118,21 @@ TEST(MakeSolid, WeldsSeamsAndDropsUnusedVertices) {
   EXPECT_NE(refusal(soup, false), "");
 }
 
+TEST(MakeSolid, LeavesOutTrianglesThatNameAVertexTwice) {
+  const Mesh whole = make_sphere(1, 80);
+  Mesh mesh = whole;
+  const auto [a, b, c] = mesh.triangles[7];
+  mesh.triangles.insert(mesh.triangles.begin() + 3, {{a, b, a}, {b, a, b}, {c, c, c}});
+  const Solid solid = make_solid(mesh);
+  EXPECT_TRUE(has_note(solid, "degenerate-triangles"));
+  EXPECT_EQ(solid.mesh.triangles, make_solid(whole).mesh.triangles);
+  EXPECT_EQ(solid.volume, make_solid(whole).volume);
+  EXPECT_NE(
+      refusal(mesh, false).find("3 triangles with the same vertex at two corners, the first: triangle 3"),
+      std::string::npos);
+  EXPECT_NE(refusal({whole.points, {{0, 1, 0}, {1, 2, 2}}}).find("bounds no volume"), std::string::npos);
+}
+
 TEST(MakeSolid, SplitsVerticesWhereSurfacesTouch) {
   // Two boxes that share one corner vertex.
   Mesh mesh = joined(make_box(1, 1, 1), moved(make_box(1, 1, 1), {1, 1, 1}));

@@ -102,11 +102,17 @@ TEST(ReadOff, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "3 0 1 4")), 8U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "3 0 1 -1")), 8U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "3 0 1 0.5")), 8U);
-  EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "3 0 1 1")), 8U);
+  EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "4 0 1 3 1")), 8U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "2 0 1")), 8U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "4 0 1 3")), 8U);
   EXPECT_EQ(line_refused(kTetrahedron + "3 0 1 2\n"), 11U);
   EXPECT_EQ(line_refused("OFF\r4 4 6\r"), 1U);
+}
+
+TEST(ReadOff, TakesTrianglesWithoutArea) {
+  const OffMesh off = read_off(replaced(kTetrahedron, "3 0 1 3", "3 0 1 1"));
+  EXPECT_EQ(off.mesh.triangles.size(), 4U);
+  EXPECT_EQ(std::count(off.mesh.triangles.begin(), off.mesh.triangles.end(), Triangle{0, 1, 1}), 1);
 }
 
 TEST(ReadOff, SaysWhereATruncatedFileEnds) {

@@ -135,7 +135,7 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
   }
   std::vector<std::uint32_t> sorted = indices;
   std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+  if (indices.size() > 3 && std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
     fail_at(line, place + " uses a vertex twice");
   }
   if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));

@@ -26,7 +26,8 @@ bool is_normal_column(std::string_view name);
 
 /// Cuts a polygon into triangles of `file`.
 /// @param place names it in messages, @param line of it, 0 = none.
-/// @throws CoreError kBadInput when it has less than three corners, or one twice or out of range.
+/// @throws CoreError kBadInput when it has less than three corners, one out of range, or, of more than three,
+///   one twice.
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line);
 

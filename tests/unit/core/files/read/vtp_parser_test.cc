@@ -226,7 +226,7 @@ TEST(VtpParser, ErrorsNameTheCellWithinItsPiece) {
     expect_bad_pieces(first + piece_of_points(4, second), 13, cause);
   };
   bad(cells("Polys", "0 1 2 0 1 4", "3 6"), "polygon 1 uses a vertex that does not exist");
-  bad(cells("Polys", "0 1 2 0 1 0", "3 6"), "polygon 1 uses a vertex twice");
+  bad(cells("Polys", "0 1 2 0 1 2 1", "3 7"), "polygon 1 uses a vertex twice");
   bad(cells("Strips", "0 1 2 0 1 2 4", "3 7"), "strip 1, triangle 1 uses a vertex that does not exist");
   bad(cells("Strips", "0 1 2 4 4 4", "3 6"), "strip 1, triangle 0 uses a vertex that does not exist");
   bad(cells("Strips", "0 1 2 0 1", "3 5"), "strip 1 has 2 corners");
