@@ -10,7 +10,14 @@
 namespace affskel::server {
 namespace {
 
-using ReportTest = StoreTest;
+class ReportTest : public StoreTest {
+ protected:
+  // Bytes of the records that wait to be merged.
+  std::int64_t logged() const {
+    Database db(database(), Database::Mode::kReadOnly);
+    return db.integer("SELECT sum(length(data)) FROM field_log").value_or(0);
+  }
+};
 
 v1::PositionRange range(std::uint64_t begin, std::uint64_t end) {
   v1::PositionRange result;
@@ -75,10 +82,6 @@ TEST_F(ReportTest, LoggedRecordsAreInTheField) {
   constexpr std::uint32_t kPoints = 9000, kDirections = 32;
   const v1::Job job = submit();
   prepare(kPoints, kDirections);
-  const auto logged = [this] {
-    Database db(database(), Database::Mode::kReadOnly);
-    return db.integer("SELECT sum(length(data)) FROM field_log").value_or(0);
-  };
   const auto one_by_one = [&](const v1::Lease& block, std::uint64_t begin, std::uint64_t end) {
     std::int64_t most = 0;
     for (std::uint64_t p = begin; p < end; ++p) {
@@ -133,10 +136,6 @@ TEST_F(ReportTest, DenseRecordsAreMergedAtOnce) {
   one.add_direction(0);
   one.add_erosion(made_up_erosion(8999, 0));
   one.add_area(made_up_area(8999, 0));
-  const auto logged = [this] {
-    Database db(database(), Database::Mode::kReadOnly);
-    return db.integer("SELECT sum(length(data)) FROM field_log").value_or(0);
-  };
   report(block, {}, one);
   EXPECT_EQ(logged(), 24);
   report(block, 0, 15);
