@@ -150,7 +150,7 @@ class LeaseLoop {
 
   // Until the worker leaves for want of work, rounded up.
   std::chrono::milliseconds idle_time_left() const {
-    return std::chrono::ceil<std::chrono::milliseconds>(last_work_ + options_.idle_exit - Clock::now());
+    return options_.idle_exit - std::chrono::floor<std::chrono::milliseconds>(Clock::now() - last_work_);
   }
 
   // Takes the next lease, if there is one, while the present task is still computed.

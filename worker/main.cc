@@ -123,7 +123,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 60).description(""))
       ->type_name("BYTES");
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
       ->capture_default_str();
   app.add_option("--max-jobs", flags.loop.max_jobs,
                  "leave when work on one more job than this is offered; 0 = never")
