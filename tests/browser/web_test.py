@@ -79,7 +79,14 @@ class Desktop(OnThePage):
         page.screenshot("desktop-2-new")
         page.type("#spacing", 2 * spacing)
         page.wait(lambda: 2000 < float(page.find("#points").get_attribute("value")) < 3000)
-        page.type("#points", 100000)
+        # The lattice is counted later, and leaves alone what is selected to be typed over.
+        counted = page.find("#lattice").text
+        page.script("const [spacing, points] = ['spacing', 'points'].map((id) => document.getElementById(id));"
+                    f"spacing.value = {1.5 * spacing}; spacing.dispatchEvent(new Event('input'));"
+                    "points.focus(); points.select();")
+        page.wait(lambda: page.find("#lattice").text != counted)
+        page.find("#points").send_keys("100000")
+        self.assertEqual(page.find("#points").get_attribute("value"), "100000")
         page.type("#name", "Subject <b>7</b> ü")
         page.shown("#submit").click()
         page.heading("Subject <b>7</b> ü")

@@ -219,8 +219,9 @@ class SubmitForm {
     const query = new URLSearchParams({ [which]: value, frame: this.frame.value });
     try {
       const found = await call('GET', `/api/meshes/${this.mesh.mesh}/lattice?${query}`, undefined, this.counting.signal);
-      if (which === 'points') this.spacing.value = editable(found.spacing);
-      else this.points.value = String(found.points);
+      const other = which === 'points' ? this.spacing : this.points;
+      // Whoever is in it is about to type: what they have selected must not change below them.
+      if (other !== document.activeElement) other.value = which === 'points' ? editable(found.spacing) : String(found.points);
       const about = found.counted ? '' : 'about ';
       setText(this.lattice, `${about}${counted(found.points, 'sample point')} at spacing ${measure(found.spacing)}`);
     } catch (error) {
