@@ -155,7 +155,7 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
   const std::optional<Prepared> parts =
       header.has_prepared() ? std::optional(checked_prepared(header, data)) : std::nullopt;
   return write([&](Tx& tx) {
-    const TaskRow task = task_of_token(tx.db, header.token());
+    const TaskRow task = held_task(tx, header.token());
     if (task.state == "done") return reply(false);
     tx.require_room();
     if (parts && task.on_request) {
@@ -206,7 +206,7 @@ v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& err
   known.set_message(base::shortened(error.message(), kMaxReasonBytes));
   if (known.message().empty()) known.set_message("the worker gave no reason");
   return write([&](Tx& tx) {
-    const TaskRow task = task_of_token(tx.db, token);
+    const TaskRow task = held_task(tx, token);
     if (task.state == "done") return reply(false);
     add_event(tx, task.job_id,
               task_event("task_failed", task,

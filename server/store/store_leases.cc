@@ -73,8 +73,9 @@ bool adopt_instead(Tx& tx, const TaskRow& task, const std::string& core_version)
 void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool supervised,
            const std::string& token) {
   tx.db.run(
-      "UPDATE tasks SET state = 'leased', token = ?, worker = ?, host = ?, pid = ?, supervised = ?,"
-      " core_version = ?, granted_ms = ?, reported_ms = NULL, deadline_ms = ?, stalled_ms = ?,"
+      "UPDATE tasks SET state = 'leased', token = ?, late_token = NULL, worker = ?, host = ?, pid = ?,"
+      " supervised = ?, core_version = ?, granted_ms = ?, reported_ms = NULL, deadline_ms = ?, stalled_ms = "
+      "?,"
       " lease_directions = 0 WHERE id = ?",
       token, worker.id(), worker.host(), worker.pid(), supervised, worker.core_version(), tx.lease_ms,
       tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
@@ -118,13 +119,13 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
 }
 
 /// Loses the leases that a query names by task id.
-int lose_all(Tx& tx, Statement&& ids, const std::string& why) {
+int lose_all(Tx& tx, Statement&& ids, const std::string& why, bool may_come_back = false) {
   std::vector<std::int64_t> lost;
   while (ids.step()) lost.push_back(ids.integer(0));
   for (std::int64_t id : lost) {
     // An earlier loss of this round may have failed the whole job; the lease is lost all the same.
     if (const std::optional<TaskRow> task = find_task(tx.db, id); task && task->state == "leased") {
-      lose_lease(tx, *task, why);
+      lose_lease(tx, *task, why, may_come_back);
     }
   }
   return static_cast<int>(lost.size());
@@ -133,7 +134,7 @@ int lose_all(Tx& tx, Statement&& ids, const std::string& why) {
 int expire(Tx& tx) {
   const int silent = lose_all(
       tx, tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND deadline_ms < ?", tx.lease_ms),
-      "silent for longer than its lease");
+      "silent for longer than its lease", true);
   return silent +
          lose_all(tx,
                   tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND stalled_ms < ?", tx.lease_ms),
@@ -194,7 +195,7 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
 
 v1::ReportResponse Store::renew(const std::string& token) {
   return write([&](Tx& tx) {
-    const TaskRow task = task_of_token(tx.db, token);
+    const TaskRow task = held_task(tx, token);
     if (task.state == "done") return reply(false);
     const JobRow job = get_job(tx.db, task.job_id);
     if (!task.on_request && (!job.active() || job.cancel_requested)) {
@@ -209,7 +210,7 @@ v1::ReportResponse Store::renew(const std::string& token) {
 
 v1::ReportResponse Store::give_back(const std::string& token) {
   return write([&](Tx& tx) {
-    const TaskRow task = task_of_token(tx.db, token);
+    const TaskRow task = held_task(tx, token);
     if (task.state == "done") return reply(false);
     release_task(tx, task);
     add_event(tx, task.job_id, task_event("returned", task));

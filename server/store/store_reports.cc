@@ -13,8 +13,7 @@ namespace {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
 
-TaskRow erode_task(Database& db, const std::string& token) {
-  TaskRow task = task_of_token(db, token);
+TaskRow of_erosion(TaskRow task) {
   if (task.kind != v1::TASK_KIND_ERODE) refuse("the lease is for a " + wire::word(task.kind) + " task");
   return task;
 }
@@ -103,7 +102,7 @@ std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job
 
 Store::ErodeLease Store::erode_lease(const std::string& token) {
   return read([&](Database& db) {
-    const JobRow job = get_job(db, erode_task(db, token).job_id);
+    const JobRow job = get_job(db, of_erosion(task_of_token(db, token)).job_id);
     return ErodeLease{job.id, job.points, job.directions};
   });
 }
@@ -127,7 +126,7 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
   std::exception_ptr refusal;
   JobRow reported;
   const v1::ReportResponse response = write_field(header.token(), [&](Tx& tx) {
-    const TaskRow task = erode_task(tx.db, header.token());
+    const TaskRow task = of_erosion(held_task(tx, header.token()));
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
     if (!tx.room) {
@@ -166,7 +165,7 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
 void Store::report_part(const std::string& token, const RecordBatch& records) {
   std::exception_ptr refusal;
   write_field(token, [&](Tx& tx) {
-    const TaskRow task = erode_task(tx.db, token);
+    const TaskRow task = of_erosion(held_task(tx, token));
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
     if (!tx.room) {

@@ -57,10 +57,9 @@ constexpr std::int64_t kFailedRequestMs = 60'000;
 
 void clear_lease(Tx& tx, const TaskRow& task, const char* state) {
   tx.db.run(
-      "UPDATE tasks SET state = ?, token = NULL, worker = NULL, host = NULL, pid = NULL, supervised = NULL,"
-      " core_version = NULL, granted_ms = NULL, reported_ms = NULL, deadline_ms = NULL, stalled_ms = NULL,"
-      " lease_directions = 0"
-      " WHERE id = ?",
+      "UPDATE tasks SET state = ?, token = NULL, late_token = NULL, worker = NULL, host = NULL, pid = NULL,"
+      " supervised = NULL, core_version = NULL, granted_ms = NULL, reported_ms = NULL, deadline_ms = NULL,"
+      " stalled_ms = NULL, lease_directions = 0 WHERE id = ?",
       state, task.id);
   tx.changes.jobs.insert(task.job_id);
   tx.changes.work = true;
@@ -169,7 +168,7 @@ std::optional<TaskRow> find_task(Database& db, std::int64_t id) {
 }
 
 TaskRow task_of_token(Database& db, const std::string& token) {
-  static const std::string sql = std::string(kTaskColumns) + "WHERE token = ?";
+  static const std::string sql = std::string(kTaskColumns) + "WHERE token = ?1 OR late_token = ?1";
   Statement row = db.query(sql.c_str(), token);
   if (!row.step())
     throw StoreError(StoreError::Code::kFenced, "the lease has ended; its work goes on elsewhere");
@@ -248,6 +247,19 @@ std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
   return std::max({tx.options.stall_ms, kGapsWithoutProgress * longest_gap, points / kPointsPerPatientMs});
 }
 
+TaskRow held_task(Tx& tx, const std::string& token) {
+  TaskRow task = task_of_token(tx.db, token);
+  if (task.state != "pending") return task;
+  tx.db.run(
+      "UPDATE tasks SET state = 'leased', token = late_token, late_token = NULL, deadline_ms = ?,"
+      " stalled_ms = ? WHERE id = ?",
+      tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
+  task.state = "leased";
+  tx.changes.jobs.insert(task.job_id);
+  add_event(tx, task.job_id, task_event("lease_resumed", task, "its worker was late, and still first"));
+  return task;
+}
+
 void renew_lease(Tx& tx, const TaskRow& task) {
   tx.db.run("UPDATE tasks SET deadline_ms = ? WHERE id = ?", tx.lease_ms + tx.options.lease_ms, task.id);
 }
@@ -262,15 +274,41 @@ void finish_task(Tx& tx, const TaskRow& task) {
       [kind = wire::word(task.kind), time](Metrics& metrics) { metrics.task_finished(kind, time); });
 }
 
+namespace {
+
+/// Finishes a block of which nothing is left.
+bool finish_if_whole(Tx& tx, const TaskRow& task) {
+  if (task.kind != v1::TASK_KIND_ERODE) return false;
+  const JobRow job = get_job(tx.db, task.job_id);
+  if (!remaining_ranges(tx.db, job.erosion_id, task.block).empty()) return false;
+  finish_task(tx, task);
+  return true;
+}
+
+/// Offers the work of a silent worker to all, with its lease left in the row: see held_task().
+void offer_to_others(Tx& tx, const TaskRow& task) {
+  if (finish_if_whole(tx, task)) return;
+  tx.db.run(
+      "UPDATE tasks SET state = 'pending', late_token = token, token = NULL, deadline_ms = NULL,"
+      " stalled_ms = NULL WHERE id = ?",
+      task.id);
+  tx.changes.jobs.insert(task.job_id);
+  tx.changes.work = true;
+}
+
+/// The lease has ended without progress.
+void count_ended(Tx& tx, const TaskRow& task, const v1::JobError& error) {
+  // Nothing counts against a block that turned out to be finished.
+  const bool left =
+      tx.db.run("UPDATE tasks SET losses = losses + 1 WHERE id = ? AND state = 'pending'", task.id) > 0;
+  if (left && task.losses + 1 >= tx.options.max_losses) give_up(tx, task, error);
+  settle_job(tx, task.job_id);
+}
+
+}  // namespace
+
 void release_task(Tx& tx, const TaskRow& task) {
-  if (task.kind == v1::TASK_KIND_ERODE) {
-    const JobRow job = get_job(tx.db, task.job_id);
-    if (remaining_ranges(tx.db, job.erosion_id, task.block).empty()) {
-      finish_task(tx, task);
-      return;
-    }
-  }
-  clear_lease(tx, task, "pending");
+  if (!finish_if_whole(tx, task)) clear_lease(tx, task, "pending");
 }
 
 void release_all_leases(Tx& tx) {
@@ -281,11 +319,12 @@ void release_all_leases(Tx& tx) {
     while (row.step()) leased.push_back(read_task(row));
   }
   for (const TaskRow& task : leased) release_task(tx, task);
-  // A report that is repeated must not be taken for one that is known already.
-  tx.db.run("UPDATE tasks SET token = NULL WHERE state = 'done'");
+  // A report that is repeated must not be taken for one that is known already, nor a late worker come back.
+  tx.db.run(
+      "UPDATE tasks SET token = NULL, late_token = NULL WHERE token IS NOT NULL OR late_token IS NOT NULL");
 }
 
-void lose_lease(Tx& tx, const TaskRow& task, const std::string& why) {
+void lose_lease(Tx& tx, const TaskRow& task, const std::string& why, bool may_come_back) {
   tx.db.run(
       "UPDATE jobs SET leases_lost = leases_lost + 1, directions_lost = directions_lost + ? WHERE id = ?",
       lost_directions(tx, task), task.job_id);
@@ -296,16 +335,13 @@ void lose_lease(Tx& tx, const TaskRow& task, const std::string& why) {
   error.set_message("the " + wire::word(task.kind) + " task lost its worker " +
                     std::to_string(task.losses + 1) + " times in a row without any progress (last: " + why +
                     "); see the workers' logs, a worker may run out of memory");
-  count_loss(tx, task, error);
+  may_come_back ? offer_to_others(tx, task) : release_task(tx, task);
+  count_ended(tx, task, error);
 }
 
 void count_loss(Tx& tx, const TaskRow& task, const v1::JobError& error) {
   release_task(tx, task);
-  // Nothing counts against a block that turned out to be finished.
-  const bool left =
-      tx.db.run("UPDATE tasks SET losses = losses + 1 WHERE id = ? AND state = 'pending'", task.id) > 0;
-  if (left && task.losses + 1 >= tx.options.max_losses) give_up(tx, task, error);
-  settle_job(tx, task.job_id);
+  count_ended(tx, task, error);
 }
 
 void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error) {

@@ -31,8 +31,13 @@ struct TaskRow {
 
 std::optional<TaskRow> find_task(Database& db, std::int64_t id);
 
-/// The task that holds this token, leased or done.  @throws StoreError kFenced when there is none.
+/// The task that holds this token: leased, done, or pending when its worker was silent and no other has
+/// taken it since.  @throws StoreError kFenced when there is none.
 TaskRow task_of_token(Database& db, const std::string& token);
+
+/// The same for a worker that calls: what is still pending is leased to it again, with what it has computed.
+/// A machine that was overloaded for a moment so loses nothing.  @throws StoreError kFenced
+TaskRow held_task(Tx& tx, const std::string& token);
 
 /// Adds a pending task in its place in the queue.  `block` for ERODE, `params` and `params_key` for the
 /// derived kinds.
@@ -58,8 +63,9 @@ void release_task(Tx& tx, const TaskRow& task);
 /// Ends every lease, with no fault of its worker.
 void release_all_leases(Tx& tx);
 
-/// The lease was lost: counts it, releases it, and gives the task up after too many losses in a row.
-void lose_lease(Tx& tx, const TaskRow& task, const std::string& why);
+/// The lease was lost: counts it, releases it, and gives the task up after too many losses in a row.  A
+/// worker that `may_come_back` keeps its token until another takes the task.
+void lose_lease(Tx& tx, const TaskRow& task, const std::string& why, bool may_come_back);
 
 /// Counts a failed attempt without progress; gives the task up with `error` when it was one too many.
 void count_loss(Tx& tx, const TaskRow& task, const v1::JobError& error);

@@ -48,6 +48,7 @@ export const EVENTS = {
   removal_planned: 'to be removed',
   task_failed: 'a task failed',
   lease_lost: 'a worker was lost',
+  lease_resumed: 'its worker went on',
   leased: 'given to a worker',
   returned: 'given back by a worker',
   adopted: 'took over what was computed before',

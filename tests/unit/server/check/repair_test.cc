@@ -200,7 +200,10 @@ TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
 TEST_F(RepairTest, LeasesAndHeldFieldsEndWithARepairAndWithACopyPutBack) {
   submit();
   prepare(kPoints, kDirections);
-  const v1::Lease before = lease();
+  const v1::Lease before = lease(), late = lease("late");
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  EXPECT_NO_THROW(store_->renew(before.token()));
   open();
   EXPECT_NO_THROW(store_->renew(before.token())) << "a restart alone ends no lease";
   store_.reset();
@@ -209,6 +212,7 @@ TEST_F(RepairTest, LeasesAndHeldFieldsEndWithARepairAndWithACopyPutBack) {
   std::filesystem::rename(copy, database());
   open();
   EXPECT_STORE_ERROR(store_->renew(before.token()), kFenced);
+  EXPECT_STORE_ERROR(store_->renew(late.token()), kFenced);
   const v1::Lease after = lease();
   EXPECT_EQ(after.positions(0).begin(), before.positions(0).begin());
   EXPECT_NE(after.field(), before.field());

@@ -62,11 +62,16 @@ TEST_F(JobEventsTest, ALostLeaseAndAFailureTellTheirReasons) {
   EXPECT_EQ(last(job.id()).event(), "lease_lost");
   EXPECT_EQ(last(job.id()).worker(), "worker-a");
   EXPECT_EQ(last(job.id()).message(), "silent for longer than its lease");
+  store_->renew(first.token());
+  EXPECT_EQ(last(job.id()).event(), "lease_resumed");
+  EXPECT_EQ(last(job.id()).worker(), "worker-a");
+  clock_.advance(options_.lease_ms + 1);
   v1::JobError error;
   error.set_code("BAD_INPUT");
   error.set_message("line 3: a hole \"here\"");
   store_->fail(lease("worker-b").token(), error, false);
-  EXPECT_EQ(names(job.id()), (Names{"submitted", "leased", "lease_lost", "leased", "task_failed", "failed"}));
+  EXPECT_EQ(names(job.id()), (Names{"submitted", "leased", "lease_lost", "lease_resumed", "lease_lost",
+                                    "leased", "task_failed", "failed"}));
   EXPECT_EQ(last(job.id()).message(), "BAD_INPUT: line 3: a hole \"here\"");
 }
 

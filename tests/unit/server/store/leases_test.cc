@@ -135,9 +135,69 @@ TEST_F(LeaseTest, SilentWorkerLosesItsLease) {
   EXPECT_EQ(store_->expire_leases(), 0) << "the deadline itself is still in time";
   clock_.advance(1);
   EXPECT_EQ(store_->expire_leases(), 1);
-  EXPECT_STORE_ERROR(store_->renew(lost.token()), kFenced);
   EXPECT_EQ(lease("worker-b").kind(), v1::TASK_KIND_PREPARE);
+  EXPECT_STORE_ERROR(store_->renew(lost.token()), kFenced);
   EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 1U);
+}
+
+// A machine that stood still for a moment has computed all the same.
+TEST_F(LeaseTest, LateWorkerGoesOnWhereNoOtherHasTakenItsTask) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease block = lease();
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    clock_.advance(options_.lease_ms + 1);
+    EXPECT_EQ(store_->expire_leases(), 1);
+    if (i == 8) open();
+    EXPECT_FALSE(report(block, i, i + 1, i == 15).cancelled());
+    EXPECT_EQ(has_work("worker-b"), i == 15) << "it holds its block again";
+  }
+  const v1::Job eroded = store_->job(job.id());
+  EXPECT_EQ(eroded.stage(), v1::JOB_STAGE_DERIVE);
+  EXPECT_EQ(eroded.counters().leases_lost(), 16U);
+  derive();
+  EXPECT_EQ(field(job.id()), expected_field(4, 16));
+}
+
+TEST_F(LeaseTest, LateWorkerHandsInItsResultOrItsLease) {
+  submit();
+  const v1::Lease first = lease();
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  store_->give_back(first.token());
+  EXPECT_STORE_ERROR(store_->renew(first.token()), kFenced);
+  const v1::Lease second = lease();
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  const PrepareResult result = prepare_result(second.token(), 4, 16);
+  EXPECT_FALSE(store_->complete(result.header, result.data).cancelled());
+  EXPECT_EQ(lease("worker-b").kind(), v1::TASK_KIND_ERODE);
+}
+
+TEST_F(LeaseTest, LateWorkerOfACancelledJobIsTold) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease block = lease();
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  EXPECT_EQ(store_->cancel(job.id()).state(), v1::JOB_STATE_CANCELLED);
+  EXPECT_TRUE(report(block, 0, 5).cancelled());
+  EXPECT_EQ(store_->job(job.id()).directions_done(), 5U);
+  EXPECT_STORE_ERROR(store_->renew(block.token()), kFenced);
+}
+
+TEST_F(LeaseTest, LateWithoutProgressIsALossEachTime) {
+  const v1::Job job = submit();
+  const v1::Lease late = lease();
+  for (std::int64_t i = 1; i < options_.max_losses; ++i) {
+    clock_.advance(options_.lease_ms + 1);
+    store_->expire_leases();
+    EXPECT_FALSE(store_->renew(late.token()).cancelled());
+  }
+  clock_.advance(options_.lease_ms + 1);
+  store_->expire_leases();
+  EXPECT_EQ(store_->job(job.id()).error().code(), "WORKER_LOST");
+  EXPECT_STORE_ERROR(store_->renew(late.token()), kFenced);
 }
 
 TEST_F(LeaseTest, ExpiryIsNoticedWhenLeasing) {
