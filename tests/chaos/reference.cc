@@ -12,7 +12,9 @@ namespace {
 
 std::string fetch(const Api& api, const std::string& id, v1::ArtifactKind kind) {
   std::string bytes;
-  const grpc::Status status = api.fetch(artefact(id, kind), bytes, kPatience);
+  // Also of a healthy server: it closes connections that were idle while the reference was computed.
+  const grpc::Status status =
+      until_answered("the reference", [&] { return api.fetch(artefact(id, kind), bytes, kPatience); });
   if (!status.ok()) throw std::runtime_error("no reference: " + status.error_message());
   return bytes;
 }
@@ -36,8 +38,9 @@ void make_references(const Programs& programs, const std::string& dir, Catalogue
   stage.wait_for_server();
   for (std::size_t recipe = 0; recipe < recipes().size(); ++recipe) {
     v1::SubmitJobResponse answer;
-    const grpc::Status status = stage.api().submit(
-        catalogue.next(recipe, std::string("reference-") + recipes()[recipe].name), answer, kPatience);
+    const Submission submission = catalogue.next(recipe, std::string("reference-") + recipes()[recipe].name);
+    const grpc::Status status =
+        until_answered("the reference", [&] { return stage.api().submit(submission, answer, kPatience); });
     if (!status.ok()) throw std::runtime_error("no reference: " + status.error_message());
     const std::string id = answer.job().id();
     const v1::Job job = stage.api().follow(id, [](const v1::Job&) { return false; });

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 constexpr const char* kPoints = "100000";
 constexpr const char* kDirections = "triangles+sphere:8000";
 
-// Small reports, so that the backup falls into the middle of the job.
-const std::vector<std::string> kQuickReports = {"--lease-ms", "1000", "--report-interval-ms", "50"};
+// Small reports, so that the backup falls into the middle of the job; no lease ends by itself.
+const std::vector<std::string> kQuickReports = {"--lease-ms", "60000", "--report-interval-ms", "50"};
 
 class ServerCommandsTest : public testing::Test {
  protected:

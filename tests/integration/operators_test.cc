@@ -77,8 +77,7 @@ class OperatorsTest : public testing::Test {
 TEST_F(OperatorsTest, EveryLineOfARealRunParses) {
   std::string good, bad;
   {
-    Process server = lab_.server(
-        {"--workers", "2", "--lease-ms", "1000", "--report-interval-ms", "100", "--log-level", "debug"});
+    Process server = lab_.server({"--workers", "2", "--report-interval-ms", "100", "--log-level", "debug"});
     good = lab_.submit({"--points", "300000", "--name", "a \"name\" = \\ x"});
     lab_.follow_to_share(good, 0.1);
     v1::ServerInfo info;
