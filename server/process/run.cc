@@ -24,6 +24,7 @@
 #include "process/file_limit.h"
 #include "process/maintenance.h"
 #include "process/supervisor.h"
+#include "process/time_limit.h"
 #include "rpc/server.h"
 #include "rpc/watchdog.h"
 #include "wire/grpc_log.h"
@@ -41,6 +42,10 @@ constexpr std::chrono::milliseconds kWorkerGrace{5000};
 
 // Calls that are under way by then.
 constexpr std::chrono::milliseconds kCallGrace{2000};
+
+// Both, and the rest of it on a slow disk.  Before a unit or a container loses patience, so that the log says
+// why.
+constexpr std::chrono::milliseconds kLongestEnd{15000};
 
 void log_for_grpc(bool is_error, const std::string& entry) {
   spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, entry);
@@ -181,6 +186,15 @@ void leave_if_deaf() {
   std::_Exit(static_cast<int>(ExitCode::kInternal));
 }
 
+/// What gRPC lost when memory was short it would wait for without end.  All that was acknowledged is on the
+/// disk.
+void leave_if_stuck() {
+  spdlog::critical(
+      base::logfmt("stuck", {{"message", "the end takes too long; leaving without it, nothing is lost"}}));
+  spdlog::default_logger()->flush();
+  std::_Exit(static_cast<int>(ExitCode::kInternal));
+}
+
 void run_server(const Options& options) {
   umask(0077);  // meshes and results are this user's alone
   keep_memory_small();
@@ -233,6 +247,7 @@ void run_server(const Options& options) {
   data_dir.withdraw();
   // First whoever works may finish what is in hand, then what is left is cut off: 10 s at most.  A second
   // signal ends the first stage.
+  const TimeLimit limit(kLongestEnd, leave_if_stuck);
   server.drain();
   bool hurried = false;
   supervisor.terminate(kWorkerGrace, [&] { return hurried = hurried || told_again(signals); });

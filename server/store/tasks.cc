@@ -255,6 +255,8 @@ TaskRow held_task(Tx& tx, const std::string& token) {
       " stalled_ms = ? WHERE id = ?",
       tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
   task.state = "leased";
+  tx.db.run("UPDATE jobs SET directions_lost = max(0.0, directions_lost - ?) WHERE id = ?",
+            lost_directions(tx, task), task.job_id);
   tx.changes.jobs.insert(task.job_id);
   add_event(tx, task.job_id, task_event("lease_resumed", task, "its worker was late, and still first"));
   return task;
