@@ -155,6 +155,7 @@ TEST_F(LeaseTest, LateWorkerGoesOnWhereNoOtherHasTakenItsTask) {
   const v1::Job eroded = store_->job(job.id());
   EXPECT_EQ(eroded.stage(), v1::JOB_STAGE_DERIVE);
   EXPECT_EQ(eroded.counters().leases_lost(), 16U);
+  EXPECT_NEAR(eroded.counters().directions_lost_estimate(), 0, 1e-9);
   derive();
   EXPECT_EQ(field(job.id()), expected_field(4, 16));
 }
