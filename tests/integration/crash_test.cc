@@ -73,6 +73,23 @@ TEST_F(CrashTest, OneOfTwoWorkersIsKilledThreeTimes) {
   expect_undisturbed_field(id);
 }
 
+// For longer than its lease, and nobody else takes its work.
+TEST_F(CrashTest, TheOnlyWorkerStandsStillThreeTimes) {
+  const Process server = lab_.server(kShortLeases);
+  const Process worker = lab_.worker();
+  const std::string id = submit();
+  for (double moment : kMoments) {
+    const v1::Job job = lab_.follow_to_share(id, moment);
+    ASSERT_EQ(job.state(), v1::JOB_STATE_RUNNING) << "the job was over before the blow";
+    worker.send(SIGSTOP);
+    lab_.follow(id,
+                [&](const v1::Job& j) { return j.counters().leases_lost() > job.counters().leases_lost(); });
+    worker.send(SIGCONT);
+  }
+  expect_undisturbed_field(id);
+  EXPECT_NE(lab_.client({"--json", "log", id}).out.find("lease_resumed"), std::string::npos);
+}
+
 TEST_F(CrashTest, TheServerIsKilledThreeTimes) {
   Process server = lab_.server(kQuickReports);
   const Process worker = lab_.worker();
