@@ -258,7 +258,8 @@ TaskRow held_task(Tx& tx, const std::string& token) {
   tx.db.run("UPDATE jobs SET directions_lost = max(0.0, directions_lost - ?) WHERE id = ?",
             lost_directions(tx, task), task.job_id);
   tx.changes.jobs.insert(task.job_id);
-  add_event(tx, task.job_id, task_event("lease_resumed", task, "its worker was late, and still first"));
+  add_event(tx, task.job_id,
+            task_event("lease_resumed", task, "its worker is back, and no other had taken it"));
   return task;
 }
 
@@ -337,7 +338,11 @@ void lose_lease(Tx& tx, const TaskRow& task, const std::string& why, bool may_co
   error.set_message("the " + wire::word(task.kind) + " task lost its worker " +
                     std::to_string(task.losses + 1) + " times in a row without any progress (last: " + why +
                     "); see the workers' logs, a worker may run out of memory");
-  may_come_back ? offer_to_others(tx, task) : release_task(tx, task);
+  if (may_come_back) {
+    offer_to_others(tx, task);
+  } else {
+    release_task(tx, task);
+  }
   count_ended(tx, task, error);
 }
 
