@@ -23,18 +23,16 @@ class Continuation {
         nearest_(band.places(), kUnknown),
         result_(band.places(), 0.0F),
         place_(value.size()) {
-    front_.reserve(value.size());
     for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       const auto at = static_cast<std::size_t>(band.at(i, j, k));
       nearest_[at] = rank;
       result_[at] = static_cast<float>(value[rank]);
       place_[rank] = {i, j, k};
-      front_.push_back({i, j, k});
     });
   }
 
   std::vector<float> run(std::span<const std::uint8_t> reach) {
-    const std::int32_t steps = std::min(band_.margin(), steps_asked_for(reach));
+    const std::int32_t steps = std::min(band_.margin(), find_front(reach));
     for (std::int32_t step = 0; step < steps && !front_.empty(); ++step) advance();
     return std::move(result_);
   }
@@ -42,15 +40,18 @@ class Continuation {
  private:
   // How far from the nearest sample point the places lie that are asked for.  About a point that has the
   // depth n, n steps from the nearest place outside, a cube of n - 1 steps holds sample points alone; of a
-  // way of `reach` steps out of it, straight along all axes at once, so many end outside.
-  std::int32_t steps_asked_for(std::span<const std::uint8_t> reach) {
+  // way of `reach` steps out of it, straight along all axes at once, so many end outside.  Those of depth 1
+  // are the first front.
+  std::int32_t find_front(std::span<const std::uint8_t> reach) {
     std::vector<char> reached(reach.size(), 0);
     std::vector<std::uint32_t> layer;
     for (std::uint32_t rank = 0; rank < reach.size(); ++rank) {
       for_each_neighbour(place_[rank], [&](const Place&, std::int64_t at) {
         if (nearest_[static_cast<std::size_t>(at)] == kUnknown) reached[rank] = 1;
       });
-      if (reached[rank]) layer.push_back(rank);
+      if (!reached[rank]) continue;
+      layer.push_back(rank);
+      front_.push_back(place_[rank]);
     }
     std::int32_t steps = 0;
     for (std::int32_t depth = 1; !layer.empty(); ++depth) {

@@ -245,12 +245,14 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   check(options);
   std::vector<PointDerivatives> result(field.erosion.size());
   double widest = options.min_width;
-  const std::vector<float> depth = local_depth(lattice, field);
-  for (std::size_t p = 0; p < result.size(); ++p) {
-    const double width =
-        std::clamp(options.width * static_cast<double>(depth[p]), options.min_width, options.max_width);
-    result[p].width = static_cast<float>(width);
-    widest = std::max(widest, static_cast<double>(result[p].width));
+  {
+    const std::vector<float> depth = local_depth(lattice, field);
+    for (std::size_t p = 0; p < result.size(); ++p) {
+      const double width =
+          std::clamp(options.width * static_cast<double>(depth[p]), options.min_width, options.max_width);
+      result[p].width = static_cast<float>(width);
+      widest = std::max(widest, static_cast<double>(result[p].width));
+    }
   }
   throw_if_stopped(options.context);
   std::vector<double> ladder{options.min_width};
