@@ -1,8 +1,11 @@
 #include "derive/ridge_skeleton.h"
 
+#include <vector>
+
 #include "core/quality/skeleton_advice.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
+#include "core/ridge/smoothed_derivatives.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
 #include "derive/sheet_barriers.h"
@@ -23,9 +26,28 @@ core::RidgeSheetOptions options_for(const FinishedField& field, double threshold
   return options;
 }
 
-core::RidgeSheet sheet_of(const FinishedField& field, const core::FrameField& in_frame, double threshold) {
-  return core::ridge_sheet(field.job().solid(), field.lattice(), in_frame, options_for(field, threshold));
-}
+// Of a field, at any threshold.  Most of its time goes into the derivatives, which all thresholds share.
+class Ridge {
+ public:
+  explicit Ridge(const FinishedField& field) : field_(field), in_frame_(field.in_frame()) {
+    core::SmoothedDerivativesOptions smoothing = core::RidgeSheetOptions().derivatives;
+    smoothing.context = field.context();
+    derivatives_ = core::smoothed_derivatives(field.lattice(), in_frame_, smoothing);
+  }
+
+  const core::FrameField& in_frame() const { return in_frame_; }
+
+  core::RidgeSheet sheet(double threshold) const {
+    core::RidgeSheetOptions options = options_for(field_, threshold);
+    options.known_derivatives = derivatives_;
+    return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
+  }
+
+ private:
+  const FinishedField& field_;
+  const core::FrameField in_frame_;
+  std::vector<core::PointDerivatives> derivatives_;
+};
 
 core::Mesh mesh_of(const core::RidgeSheet& sheet) {
   core::Mesh mesh;
@@ -34,9 +56,8 @@ core::Mesh mesh_of(const core::RidgeSheet& sheet) {
   return mesh;
 }
 
-v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
-                               const core::RidgeSheet& sheet, double threshold,
-                               const SheetBarriers& barriers = {}) {
+v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
+                               double threshold, const SheetBarriers& barriers = {}) {
   const core::RidgeRimOptions rims = options_for(field, threshold).rims;
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
@@ -46,7 +67,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
   core::Mesh other;
   core::RidgeSheet other_sheet;
   if (next <= kMaxThreshold && !barriers.cut) {
-    other_sheet = sheet_of(field, in_frame, next);
+    other_sheet = ridge.sheet(next);
     other = mesh_of(other_sheet);
     options.other_segments = other_sheet.segments;
     options.other = &other;
@@ -63,25 +84,25 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
 }  // namespace
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
-  const core::FrameField in_frame = field.in_frame();
-  const core::RidgeSheet sheet = sheet_of(field, in_frame, params.threshold());
+  const Ridge ridge(field);
+  const core::RidgeSheet sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
   for (const core::RidgeVertex& vertex : sheet.vertices) {
     message.add_point(vertex.point);
     append(field.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
     append(field.normal(vertex.point), message.mutable_normal());
-    message.add_direction(in_frame.direction[vertex.point]);
+    message.add_direction(ridge.in_frame().direction[vertex.point]);
     message.add_divergence(vertex.strength);
   }
-  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold());
+  *message.mutable_quality() = quality_of(field, ridge, sheet, params.threshold());
   return message;
 }
 
 v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
   const double threshold = params.skeleton().threshold();
-  const core::FrameField in_frame = field.in_frame();
-  core::RidgeSheet sheet = sheet_of(field, in_frame, threshold);
+  const Ridge ridge(field);
+  core::RidgeSheet sheet = ridge.sheet(threshold);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
   for (const core::RidgeVertex& vertex : sheet.vertices) {
@@ -98,7 +119,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   for (const core::Segment& segment : sheet.segments) {
     for (const std::uint32_t end : segment) message.add_segments(end);
   }
-  *message.mutable_quality() = quality_of(field, in_frame, sheet, threshold, barriers);
+  *message.mutable_quality() = quality_of(field, ridge, sheet, threshold, barriers);
   return message;
 }
 

@@ -16,7 +16,7 @@ struct Place {
 class Continuation {
  public:
   Continuation(const Lattice& lattice, const RowBand& band, std::span<const double> value,
-               std::span<const Vec3> gradient)
+               const std::function<Vec3(std::uint32_t)>& gradient)
       : band_(band),
         value_(value),
         gradient_(gradient),
@@ -116,7 +116,7 @@ class Continuation {
     const Place& from = place_[rank];
     const Vec3 way{static_cast<double>(to.i - from.i), static_cast<double>(to.j - from.j),
                    static_cast<double>(to.k - from.k)};
-    return std::clamp(value_[rank] + dot(gradient_[rank], way), 0.0, value_[rank]);
+    return std::clamp(value_[rank] + dot(gradient_(rank), way), 0.0, value_[rank]);
   }
 
   static std::int32_t squared_distance(const Place& a, const Place& b) {
@@ -142,7 +142,7 @@ class Continuation {
 
   const RowBand& band_;
   std::span<const double> value_;
-  std::span<const Vec3> gradient_;
+  const std::function<Vec3(std::uint32_t)>& gradient_;
   std::vector<std::uint32_t> nearest_;  // per place: a sample point, kPending or kUnknown
   std::vector<float> result_;
   std::vector<Place> place_;  // per sample point
@@ -152,7 +152,8 @@ class Continuation {
 }  // namespace
 
 std::vector<float> continued_field(const Lattice& lattice, const RowBand& band, std::span<const double> value,
-                                   std::span<const Vec3> gradient, std::span<const std::uint8_t> reach) {
+                                   const std::function<Vec3(std::uint32_t)>& gradient,
+                                   std::span<const std::uint8_t> reach) {
   return Continuation(lattice, band, value, gradient).run(reach);
 }
 

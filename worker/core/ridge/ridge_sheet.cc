@@ -2,7 +2,9 @@
 
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "core/base/error.h"
 #include "core/base/require.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -45,21 +47,30 @@ RidgeMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<con
   return mesh;
 }
 
+std::vector<PointDerivatives> derivatives_of(const Lattice& lattice, const FrameField& field,
+                                             const RidgeSheetOptions& options) {
+  SmoothedDerivativesOptions smoothing = options.derivatives;
+  smoothing.context = options.context;
+  std::vector<PointDerivatives> result = smoothed_derivatives(lattice, field, smoothing);
+  throw_if_stopped(options.context);
+  return result;
+}
+
 }  // namespace
 
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const RidgeSheetOptions& options) {
   require_within(options.weak_share, 1e-3, 1, "the share of the weak sheet must lie between 0.001 and 1");
+  if (!options.known_derivatives.empty() && options.known_derivatives.size() != lattice.points)
+    throw CoreError(CoreError::Code::kBadInput, "the known derivatives are not those of this lattice");
   const SolidParts parts(solid, lattice);
-  SmoothedDerivativesOptions smoothing = options.derivatives;
-  smoothing.context = options.context;
   std::vector<RidgeCrossing> crossings;
   std::vector<RidgeCurve> curves;
   {
-    const std::vector<PointDerivatives> derivatives = smoothed_derivatives(lattice, field, smoothing);
-    throw_if_stopped(options.context);
-    const RidgeValues values(lattice, parts, field, derivatives, options.weak_share * options.rims.low,
-                             options.min_erosion);
+    std::vector<PointDerivatives> computed;
+    if (options.known_derivatives.empty()) computed = derivatives_of(lattice, field, options);
+    const RidgeValues values(lattice, parts, field, computed.empty() ? options.known_derivatives : computed,
+                             options.weak_share * options.rims.low, options.min_erosion);
     crossings = ridge_crossings(lattice, values);
     throw_if_stopped(options.context);
     curves = ridge_curves(lattice, parts, values, options.context);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/execution_context.h"
@@ -23,6 +24,9 @@ namespace affskel::core {
 
 struct RidgeSheetOptions {
   SmoothedDerivativesOptions derivatives;
+  /// What smoothed_derivatives() gave for this field with `derivatives`, for several sheets of one field;
+  /// empty: they are computed.
+  std::span<const PointDerivatives> known_derivatives;
   RidgeRimOptions rims;  ///< its `low` is the threshold of `ridge`
   RidgeFlapOptions flaps;
   RidgeHoleOptions holes;
@@ -57,7 +61,9 @@ struct RidgeSheet {
 /// lattice and field alone.
 /// @param lattice of this solid.
 /// @param field of this lattice.
-/// @throws CoreError kBadInput when an option is not finite or out of range; kLimit for 2^30 crossings and
+/// @throws CoreError kBadInput when an option is not finite or out of range, or known derivatives are not as
+/// many
+///   as the points; kLimit for 2^30 crossings and
 ///   more; kCancelled when the context asks to stop.
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const RidgeSheetOptions& options = {});

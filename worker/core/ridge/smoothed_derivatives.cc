@@ -187,27 +187,29 @@ class LadderStep {
 };
 
 // P and its exact gradient, per spacing, where E may be of any size.
-struct ScaledField {
-  std::vector<double> value;
-  std::vector<Vec3> gradient;
-};
-
-ScaledField scaled_field(const FrameField& field) {
-  double highest = 0;
-  for (const double e : field.erosion)
-    if (std::isfinite(e)) highest = std::max(highest, e);
-  ScaledField result;
-  result.value.reserve(field.erosion.size());
-  result.gradient.reserve(field.erosion.size());
-  for (std::size_t p = 0; p < field.erosion.size(); ++p) {
-    const double e = std::isfinite(field.erosion[p]) && highest > 0 ? field.erosion[p] / highest : 0;
-    const double value = std::sqrt(e);
-    result.value.push_back(value);
-    result.gradient.push_back(value > 0 ? (0.5 / value) * ((field.spacing / highest) * field.gradient[p])
-                                        : Vec3{});
+class ScaledField {
+ public:
+  explicit ScaledField(const FrameField& field) : field_(field) {
+    for (const double e : field.erosion)
+      if (std::isfinite(e)) highest_ = std::max(highest_, e);
+    value_.reserve(field.erosion.size());
+    for (const double e : field.erosion)
+      value_.push_back(std::sqrt(std::isfinite(e) && highest_ > 0 ? e / highest_ : 0));
   }
-  return result;
-}
+
+  const std::vector<double>& values() const { return value_; }
+
+  // Not kept: three numbers a point where memory is tightest.
+  Vec3 gradient(std::uint32_t p) const {
+    if (value_[p] <= 0) return {};
+    return (0.5 / value_[p]) * ((field_.spacing / highest_) * field_.gradient[p]);
+  }
+
+ private:
+  const FrameField& field_;
+  double highest_ = 0;
+  std::vector<double> value_;
+};
 
 void check(const SmoothedDerivativesOptions& options) {
   require_within(options.width, 1e-3, 10, "the width of the derivatives must lie between 0.001 and 10");
@@ -260,9 +262,11 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   const RowBand band(lattice, reach_of(ladder.back()));
   std::vector<float> values;
   {
-    const ScaledField scaled = scaled_field(field);
-    for (std::size_t p = 0; p < result.size(); ++p) result[p].value = static_cast<float>(scaled.value[p]);
-    values = continued_field(lattice, band, scaled.value, scaled.gradient, reaches(result, ladder));
+    const ScaledField scaled(field);
+    for (std::size_t p = 0; p < result.size(); ++p) result[p].value = static_cast<float>(scaled.values()[p]);
+    values = continued_field(
+        lattice, band, scaled.values(), [&](std::uint32_t p) { return scaled.gradient(p); },
+        reaches(result, ladder));
   }
   std::vector<float> weight(result.size());
   for (std::size_t step = 0; step < ladder.size(); ++step) {

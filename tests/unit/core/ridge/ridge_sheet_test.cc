@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/chords/chord_fields.h"
@@ -232,6 +234,30 @@ TEST(RidgeSheet, OfTwoSolidsIsThatOfEach) {
   const RidgeSheet sheet = ridge_sheet(both.solid, both.lattice, both.field);
   EXPECT_EQ(topology(sheet).betti, (BettiNumbers{2, 0, 0}));
   EXPECT_EQ(sheet.pieces.shares.size(), 2U);
+}
+
+TEST(RidgeSheet, OfKnownDerivativesIsTheSameAtEveryThreshold) {
+  const ErodedSolid box(make_box(4, 2, 1, 1), axes(0.2), "sphere:320");
+  const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, box.field);
+  for (const double share : {1.0, 1.5}) {
+    RidgeSheetOptions options;
+    options.rims.low *= share;
+    options.rims.high *= share;
+    const RidgeSheet expected = ridge_sheet(box.solid, box.lattice, box.field, options);
+    options.known_derivatives = derivatives;
+    const RidgeSheet found = ridge_sheet(box.solid, box.lattice, box.field, options);
+    ASSERT_FALSE(found.triangles.empty());
+    EXPECT_EQ(found.triangles, expected.triangles);
+    EXPECT_EQ(found.segments, expected.segments);
+    ASSERT_EQ(found.vertices.size(), expected.vertices.size());
+    for (std::size_t v = 0; v < found.vertices.size(); ++v) {
+      EXPECT_EQ(found.vertices[v].position, expected.vertices[v].position);
+      EXPECT_EQ(found.vertices[v].strength, expected.vertices[v].strength);
+    }
+  }
+  RidgeSheetOptions others;
+  others.known_derivatives = std::span(derivatives).first(derivatives.size() - 1);
+  EXPECT_THROW(ridge_sheet(box.solid, box.lattice, box.field, others), CoreError);
 }
 
 TEST(RidgeSheet, StopsWhenItsContextAsks) {

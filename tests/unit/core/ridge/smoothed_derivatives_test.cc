@@ -120,7 +120,7 @@ TEST(ContinuedField, GoesOnLinearlyButNeitherBelowZeroNorUp) {
   const RowBand band(box.lattice, 3);
   // 5 at z = 3, falling outwards by 2 a step there; rising by 1 a step towards z = 0 and beyond.
   std::vector<double> value(64);
-  std::vector<Vec3> gradient(64, Vec3{0, 0, -2});
+  const auto gradient = [](std::uint32_t) { return Vec3{0, 0, -2}; };
   for_each_point(box.lattice, [&](std::int32_t, std::int32_t, std::int32_t k, std::uint32_t rank) {
     value[rank] = 11 - 2 * k;
   });
@@ -147,9 +147,9 @@ TEST(ContinuedField, TakesTheMeanOfPointsEquallyNear) {
   for_each_point(boxes.lattice, [&](std::int32_t, std::int32_t, std::int32_t k, std::uint32_t rank) {
     if (k > 3) value[rank] = 2;
   });
-  const std::vector<float> found =
-      continued_field(boxes.lattice, band, value, std::vector<Vec3>(value.size()),
-                      std::vector<std::uint8_t>(value.size(), 2));
+  const std::vector<float> found = continued_field(
+      boxes.lattice, band, value, [](std::uint32_t) { return Vec3{}; },
+      std::vector<std::uint8_t>(value.size(), 2));
   ASSERT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 2))], 8);
   ASSERT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 4))], 2);
   EXPECT_EQ(found[static_cast<std::size_t>(band.at(1, 1, 3))], 5);
@@ -168,7 +168,7 @@ TEST(ContinuedField, GoesAsFarAsAnyPointReaches) {
     value[p] = 1 + (p * 7919) % 101;
     reach[p] = static_cast<std::uint8_t>((p * 31) % 97 == 0 ? 5 : 1);
   }
-  const std::vector<Vec3> gradient(count, Vec3{0.25, -0.5, 0.125});
+  const auto gradient = [](std::uint32_t) { return Vec3{0.25, -0.5, 0.125}; };
   const auto whole =
       continued_field(boxes.lattice, band, value, gradient, std::vector<std::uint8_t>(count, 6));
   const auto bounded = continued_field(boxes.lattice, band, value, gradient, reach);
