@@ -23,7 +23,7 @@ struct Hang : std::runtime_error {
 
 /// For whatever must come in the end: long enough for a loaded machine, and for a server that tries a full
 /// disk again once a minute.
-constexpr Milliseconds kPatience{100000};
+constexpr Milliseconds kPatience{300000};
 
 /// A submission as the driver makes it.  Names and request ids are never used for two of them.
 struct Submission {

@@ -15,7 +15,7 @@
 
 namespace affskel::chaos {
 
-constexpr Milliseconds kLease{700};  ///< of the servers here: what "beyond the lease" means
+constexpr Milliseconds kLease{1500};  ///< of the servers here: what "beyond the lease" means
 constexpr std::size_t kWorkers = 2;
 
 /// A control page in a file, mapped here and in the process that it is for.
