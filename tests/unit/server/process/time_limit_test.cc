@@ -15,7 +15,9 @@ TEST(TimeLimitTest, TellsOfWhatIsLate) {
 
 TEST(TimeLimitTest, IsSilentAndOverAtOnceInTime) {
   bool late = false;
-  { const TimeLimit limit(std::chrono::hours(1), [&] { late = true; }); }
+  {
+    const TimeLimit limit(std::chrono::hours(1), [&] { late = true; });
+  }
   EXPECT_FALSE(late);
 }
 
