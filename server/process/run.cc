@@ -176,22 +176,22 @@ void keep_memory_small() {
   mallopt(M_TRIM_THRESHOLD, 32 << 20);
 }
 
-/// A server that does not answer would keep everybody waiting; one that exits is restarted, at the cost of a
-/// second of work.
-void leave_if_deaf() {
-  spdlog::critical(
-      base::logfmt("deaf", {{"message", "no answer to its own calls; leaving, to be started again"}}));
+/// All that was acknowledged is on the disk.
+void leave_at_once(const char* event, const char* why) {
+  spdlog::critical(base::logfmt(event, {{"message", why}}));
   spdlog::default_logger()->flush();
   std::_Exit(static_cast<int>(ExitCode::kInternal));
 }
 
-/// What gRPC lost when memory was short it would wait for without end.  All that was acknowledged is on the
-/// disk.
+/// A server that does not answer would keep everybody waiting; one that exits is restarted, at the cost of a
+/// second of work.
+void leave_if_deaf() {
+  leave_at_once("deaf", "no answer to its own calls; leaving, to be started again");
+}
+
+/// What gRPC lost when memory was short it would wait for without end.
 void leave_if_stuck() {
-  spdlog::critical(
-      base::logfmt("stuck", {{"message", "the end takes too long; leaving without it, nothing is lost"}}));
-  spdlog::default_logger()->flush();
-  std::_Exit(static_cast<int>(ExitCode::kInternal));
+  leave_at_once("stuck", "the end takes too long; leaving without it, nothing is lost");
 }
 
 void run_server(const Options& options) {

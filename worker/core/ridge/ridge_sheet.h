@@ -61,10 +61,8 @@ struct RidgeSheet {
 /// lattice and field alone.
 /// @param lattice of this solid.
 /// @param field of this lattice.
-/// @throws CoreError kBadInput when an option is not finite or out of range, or known derivatives are not as
-/// many
-///   as the points; kLimit for 2^30 crossings and
-///   more; kCancelled when the context asks to stop.
+/// @throws CoreError kBadInput when an option is not finite or out of range, or there are not as many known
+///   derivatives as points; kLimit for 2^30 crossings and more; kCancelled when the context asks to stop.
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const RidgeSheetOptions& options = {});
 
