@@ -42,6 +42,9 @@ class LastReport {
     }
   }
 
+  /// The lease of a report that may not be acknowledged yet; empty when there is none.
+  std::string token() const { return sent_.valid() ? token_ : std::string(); }
+
   /// Waits for the report without regard to how it ends.
   void drop() { sent_ = {}; }  // the destructor of what std::async gave waits
 

@@ -141,11 +141,21 @@ class LeaseLoop {
  private:
   std::optional<v1::Lease> next_lease() {
     if (next_) return std::exchange(next_, std::nullopt);
-    request_.set_preferred_job(job_id_);
+    describe_hands({});
     const auto wait = options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kLeastWait, kLongestWait)
                                                      : kLongestWait;
     request_.set_wait_ms(static_cast<std::uint32_t>(wait.count()));
     return link_.lease(request_);
+  }
+
+  // Tells in the request what the worker has in hand: a job, and leases.  One of them may have ended without
+  // this worker's knowledge, and it must not be given its task as a new one.
+  void describe_hands(const std::string& present) {
+    request_.set_preferred_job(job_id_);
+    request_.clear_held();
+    for (const std::string& token : {present, last_report_.token()}) {
+      if (!token.empty()) request_.add_held(token);
+    }
   }
 
   // Until the worker leaves for want of work, rounded up.
@@ -153,9 +163,9 @@ class LeaseLoop {
     return options_.idle_exit - std::chrono::floor<std::chrono::milliseconds>(Clock::now() - last_work_);
   }
 
-  // Takes the next lease, if there is one, while the present task is still computed.
-  void look_ahead() {
-    request_.set_preferred_job(job_id_);
+  // Takes the next lease, if there is one, while the present one's task is still computed.
+  void look_ahead(const v1::Lease& present) {
+    describe_hands(present.token());
     request_.set_wait_ms(0);
     next_ = link_.lease(request_);
   }
@@ -312,7 +322,7 @@ class LeaseLoop {
       core::throw_if_stopped(&context);
       erosion = &job.erosion(options_.threads, stored);
     }
-    switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [this] { look_ahead(); })) {
+    switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [&] { look_ahead(lease); })) {
       case ErodeEnd::kBlockDone:
         break;
       case ErodeEnd::kStopped:

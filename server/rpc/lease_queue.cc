@@ -193,7 +193,8 @@ void LeaseQueue::serve(const std::list<PollPtr>& polls) {
     const v1::LeaseTaskRequest& request = poll->request();
     const grpc::Status status = guarded([&] {
       lease =
-          store_.lease(request.worker(), request.preferred_job(), registry_.is_supervised(request.worker()));
+          store_.lease(request.worker(), request.preferred_job(), registry_.is_supervised(request.worker()),
+                       {request.held().begin(), request.held().end()});
     });
     if (status.ok() && !lease) continue;
     {

@@ -124,9 +124,9 @@ class Store final : public TokenSource {
   // For workers: store_leases.cc, store_reports.cc, store_complete.cc
 
   /// Grants the task whose turn it is (store/turn.h), or nothing.  `preferred_job` is the one that the worker
-  /// holds mesh and field of.
+  /// holds mesh and field of; the leases of the tokens `held` are renewed first.
   std::optional<v1::Lease> lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
-                                 bool supervised);
+                                 bool supervised, const std::vector<std::string>& held = {});
 
   struct ErodeLease {
     std::string job;

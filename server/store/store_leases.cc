@@ -26,6 +26,8 @@ void check_worker(const v1::WorkerIdentity& worker) {
 
 namespace {
 
+constexpr std::size_t kMaxHeldTokens = 16;
+
 void remember_core_version(Tx& tx, const std::string& version) {
   if (current_core_version(tx.db) == version) return;
   tx.db.run(
@@ -140,6 +142,18 @@ int expire(Tx& tx) {
                   "no progress for longer than its job gives reason for");
 }
 
+bool is_cancelled(const TaskRow& task, const JobRow& job) {
+  return !task.on_request && (!job.active() || job.cancel_requested);
+}
+
+/// Renews a lease of a worker that asks for more.  That it has ended, or its job was cancelled, the worker
+/// hears when it speaks of that lease.
+void renew_held(Tx& tx, const std::string& token) {
+  const std::optional<TaskRow> task = find_task_of_token(tx.db, token);
+  if (!task || task->state == "done" || is_cancelled(*task, get_job(tx.db, task->job_id))) return;
+  renew_lease(tx, held_task(tx, token));
+}
+
 /// Requests for artefacts that nobody waits for any more, or whose failure nobody asks for.
 void drop_old_requests(Tx& tx, const std::set<std::int64_t>& orphans) {
   for (const std::int64_t id : orphans) {
@@ -169,11 +183,17 @@ std::optional<std::int64_t> Store::choose_task(Database& db, const Seeker& seeke
 }
 
 std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
-                                      bool supervised) {
+                                      bool supervised, const std::vector<std::string>& held_tokens) {
   check_worker(worker);
+  if (held_tokens.size() > kMaxHeldTokens) {
+    throw StoreError(StoreError::Code::kInvalid,
+                     "a worker that asks for work names at most " + std::to_string(kMaxHeldTokens) +
+                         " leases that it holds, not " + std::to_string(held_tokens.size()));
+  }
   return write([&](Tx& tx) -> std::optional<v1::Lease> {
     mutex_.assert_held();
     expire(tx);
+    for (const std::string& token : held_tokens) renew_held(tx, token);
     if (!tx.room) return std::nullopt;  // what would come of it could not be stored
     remember_core_version(tx, worker.core_version());
     const std::int64_t held =
@@ -196,8 +216,7 @@ v1::ReportResponse Store::renew(const std::string& token) {
   return write([&](Tx& tx) {
     const TaskRow task = held_task(tx, token);
     if (task.state == "done") return reply(false);
-    const JobRow job = get_job(tx.db, task.job_id);
-    if (!task.on_request && (!job.active() || job.cancel_requested)) {
+    if (is_cancelled(task, get_job(tx.db, task.job_id))) {
       release_task(tx, task);
       settle_job(tx, task.job_id);
       return reply(true);

@@ -167,12 +167,16 @@ std::optional<TaskRow> find_task(Database& db, std::int64_t id) {
   return read_task(row);
 }
 
-TaskRow task_of_token(Database& db, const std::string& token) {
+std::optional<TaskRow> find_task_of_token(Database& db, const std::string& token) {
   static const std::string sql = std::string(kTaskColumns) + "WHERE token = ?1 OR late_token = ?1";
   Statement row = db.query(sql.c_str(), token);
-  if (!row.step())
-    throw StoreError(StoreError::Code::kFenced, "the lease has ended; its work goes on elsewhere");
+  if (!row.step()) return std::nullopt;
   return read_task(row);
+}
+
+TaskRow task_of_token(Database& db, const std::string& token) {
+  if (std::optional<TaskRow> task = find_task_of_token(db, token)) return *std::move(task);
+  throw StoreError(StoreError::Code::kFenced, "the lease has ended; its work goes on elsewhere");
 }
 
 namespace {

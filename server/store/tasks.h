@@ -32,7 +32,9 @@ struct TaskRow {
 std::optional<TaskRow> find_task(Database& db, std::int64_t id);
 
 /// The task that holds this token: leased, done, or pending when its worker was silent and no other has
-/// taken it since.  @throws StoreError kFenced when there is none.
+/// taken it since.
+std::optional<TaskRow> find_task_of_token(Database& db, const std::string& token);
+/// The same.  @throws StoreError kFenced when there is none.
 TaskRow task_of_token(Database& db, const std::string& token);
 
 /// The same for a worker that calls: what is still pending is leased to it again, with what it has computed.

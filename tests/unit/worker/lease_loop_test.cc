@@ -84,6 +84,21 @@ TEST_F(LoopTest, ErodesBlockAfterBlock) {
   EXPECT_EQ(server_.calls("ReturnLease"), 0);
 }
 
+TEST_F(LoopTest, NamesTheLeasesThatItHoldsWhenItAsksForMore) {
+  const std::vector<std::string> tokens = {"a", "b", "c"};
+  for (std::size_t i = 0; i < tokens.size(); ++i)
+    offer(erode_lease(prepared_, tokens[i], 80 * i, 80 * i + 80));
+  EXPECT_EQ(run(), 0);
+  const std::vector<v1::LeaseTaskRequest> requests = server_.lease_requests();
+  ASSERT_GT(requests.size(), tokens.size());
+  EXPECT_EQ(requests[0].held_size(), 0);
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const auto& held = requests[i + 1].held();
+    EXPECT_NE(std::find(held.begin(), held.end(), tokens[i]), held.end())
+        << "its report may not be acknowledged: " << tokens[i];
+  }
+}
+
 // The report that fails is the first block's, on its way while the second is computed.
 TEST_F(LoopTest, AFailedLastReportFailsItsOwnTask) {
   server_.fail_next("ReportErosion", {grpc::StatusCode::INVALID_ARGUMENT, "the numbers do not add up"});

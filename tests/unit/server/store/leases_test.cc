@@ -187,6 +187,38 @@ TEST_F(LeaseTest, LateWorkerOfACancelledJobIsTold) {
   EXPECT_STORE_ERROR(store_->renew(block.token()), kFenced);
 }
 
+TEST_F(LeaseTest, LateWorkerIsNotGivenItsOwnTaskAsANewOne) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease late = lease();
+  clock_.advance(options_.lease_ms + 1);
+  EXPECT_FALSE(store_->lease(worker_identity(), "", false, {late.token(), "ended long ago"}));
+  EXPECT_FALSE(report(late, 0, 16, true).cancelled());
+  EXPECT_EQ(store_->job(job.id()).stage(), v1::JOB_STAGE_DERIVE);
+  EXPECT_EQ(store_->job(job.id()).counters().leases_granted(), 2U) << "prepared, eroded";
+}
+
+TEST_F(LeaseTest, AskingForWorkRenewsWhatIsHeld) {
+  submit();
+  const v1::Lease held = lease();
+  for (int i = 0; i < 3; ++i) {
+    clock_.advance(options_.lease_ms);
+    EXPECT_FALSE(store_->lease(worker_identity(), "", false, {held.token()}));
+  }
+  EXPECT_EQ(store_->expire_leases(), 0);
+  EXPECT_STORE_ERROR(store_->lease(worker_identity(), "", false, std::vector<std::string>(17)), kInvalid);
+}
+
+TEST_F(LeaseTest, AskingForWorkDoesNotEndWhatWasCancelled) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease block = lease();
+  store_->cancel(job.id());
+  EXPECT_FALSE(store_->lease(worker_identity(), "", false, {block.token()}));
+  EXPECT_TRUE(report(block, 0, 5).cancelled()) << "it has to be told";
+  EXPECT_EQ(store_->job(job.id()).directions_done(), 5U);
+}
+
 TEST_F(LeaseTest, LateWithoutProgressIsALossEachTime) {
   const v1::Job job = submit();
   const v1::Lease late = lease();
