@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -9,7 +10,6 @@
 #include "client/text/job_text.h"
 #include "client/text/printable.h"
 #include "client/text/words.h"
-#include "wire/address.h"
 
 namespace affskel::client {
 namespace {
@@ -35,15 +35,17 @@ GlobalOptions options_in(const std::string& line) {
   return options;
 }
 
-// The private server only where it runs already.
-std::optional<ServerChoice> server_in_reach(const GlobalOptions& options, const Environment& environment) {
+// The private server only where it has been before: then it is started again if it has left.
+std::optional<ServerChoice> server_in_reach(const GlobalOptions& options, Context& context) {
+  const Environment& environment = context.environment();
   ServerChoice choice = choose_server(options.server, environment, options.access);
   if (!choice.embedded) return choice;
   const EmbeddedPaths paths = embedded_paths(environment);
-  if (!wire::socket_answers(paths.socket)) return std::nullopt;
+  if (!std::filesystem::exists(paths.home / "affskel.db")) return std::nullopt;
+  EmbeddedOptions start;
+  start.patience = kPatience;
+  choice.address = ensure_embedded_server(paths, start, environment, context.console());
   choice.embedded = false;
-  choice.address.is_unix = true;
-  choice.address.path = paths.socket;
   return choice;
 }
 
@@ -63,7 +65,7 @@ void run(Context& context, const std::string& line) {
   policy.patience = std::chrono::milliseconds(0);
   policy.call_deadline = kPatience;
   try {
-    const auto choice = server_in_reach(options_in(line), context.environment());
+    const auto choice = server_in_reach(options_in(line), context);
     if (!choice) return;
     Session session(*choice, context.environment(), context.console(), policy);
     context.console().result(lines_of(session.list_jobs({}, kMaxJobs)));

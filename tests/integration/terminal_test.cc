@@ -271,7 +271,7 @@ TEST_F(TerminalTest, TabCompletesJobsAndMeshFiles) {
   EXPECT_NE(bash.read_until("ended\r\n").find("status " + id.substr(0, 12) + " "), std::string::npos);
   bash.type("affskel-client inspect bo\t; echo en''ded\r");
   EXPECT_NE(bash.read_until("ended\r\n").find("inspect box.off "), std::string::npos);
-  // No server: nothing comes, nothing is said, and none is started.
+  // Neither a server nor the data of one: nothing comes, nothing is said, and none is started.
   bash.type("affskel-client status " + id.substr(0, 6) + "\t; echo en''ded\r");
   const std::string none = bash.read_until("ended\r\n");
   EXPECT_EQ(none.find(id.substr(0, 12)), std::string::npos) << none;

@@ -82,6 +82,20 @@ TEST_F(EmbeddedTest, MeshInSkeletonOut) {
   EXPECT_EQ(client({"status", id}).exit_code, 4);
 }
 
+TEST_F(EmbeddedTest, TabOffersTheJobsOfAServerThatHasLeft) {
+  const std::string id = [this] {
+    const Process server = lab_.server({"--workers", "1"});
+    EXPECT_EQ(lab_.client({"make", "box", "--size", "3000,2000,1000", "-o", lab_.path("m.off")}).exit_code,
+              0);
+    return lab_.submit({"--points", "500"});
+  }();
+  std::filesystem::rename(lab_.path("data"), lab_.path("home"));
+  // The first time, a slow machine may take longer to start the server than a person waits for TAB.
+  std::string offered;
+  for (int time = 0; time < 30 && offered.empty(); ++time) offered = client({"job-ids"}).out;
+  EXPECT_NE(offered.find(id.substr(0, 12) + "\t"), std::string::npos) << offered;
+}
+
 TEST_F(EmbeddedTest, ABadMeshIsRefusedWithFileLineAndCause) {
   lab_.write("bad.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 nan 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   const Output refused = client({"--json", "submit", lab_.path("bad.off")});
