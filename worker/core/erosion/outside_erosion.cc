@@ -16,7 +16,9 @@
 // Measured against eroded_surface at 100,000 sample points: volumes at the levels 1, 3, 5 and 10 % of v0
 // differ by +0.4, -0.5, -0.9 and +0.1 % of themselves on a body, in its affine frame by -0.1, -1.0, -1.4 and
 // -0.6 %, on a torus by +1.6, +0.9, +0.5 and -0.5 %, and go with the step.  With 0.2 e in place of 0 by up
-// to 3.7 %, and contours lie up to 1.6 steps away, not 0.9.
+// to 3.7 %, and contours lie up to 1.6 steps away, not 0.9.  Further than two steps from places where E
+// jumps, 99.9 % of a contour's points are less than h / 4 away, and all less than 0.3 h
+// (tests/readers/vtk_test.py).
 #include "core/erosion/outside_erosion.h"
 
 #include <algorithm>
