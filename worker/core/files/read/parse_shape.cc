@@ -95,8 +95,10 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes) {
 }
 
 std::string_view extension_of_content(std::string_view bytes) {
+  // First, for its 80 bytes of header may say anything.
+  if (is_binary_stl(bytes)) return ".stl";
   if (bytes.starts_with("ply")) return ".ply";
-  if (is_binary_stl(bytes) || bytes.starts_with("solid")) return ".stl";
+  if (bytes.starts_with("solid")) return ".stl";
   const std::string_view word = first_word(bytes);
   if (word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--")) return ".vtp";
   constexpr std::array<std::string_view, 12> kObjWords = {"v",      "vn",     "vt", "vp", "f", "l",

@@ -27,8 +27,7 @@ namespace affskel::core {
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes);
 
 /// The extension, with its dot, that the content of a mesh file stands for: ".ply", ".stl", ".vtp", ".obj",
-/// and
-/// ".off" for everything else.
+/// and ".off" for everything else.
 std::string_view extension_of_content(std::string_view bytes);
 
 /// A mesh that was read from a file.
