@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 
 #include "client/cli/shell_words.h"
 #include "client/commands/commands.h"
@@ -41,7 +42,8 @@ std::optional<ServerChoice> server_in_reach(const GlobalOptions& options, Contex
   ServerChoice choice = choose_server(options.server, environment, options.access);
   if (!choice.embedded) return choice;
   const EmbeddedPaths paths = embedded_paths(environment);
-  if (!std::filesystem::exists(paths.home / "affskel.db")) return std::nullopt;
+  std::error_code unseen;
+  if (!std::filesystem::exists(paths.home / "affskel.db", unseen)) return std::nullopt;
   EmbeddedOptions start;
   start.patience = kPatience;
   choice.address = ensure_embedded_server(paths, start, environment, context.console());

@@ -149,9 +149,9 @@ bool is_cancelled(const TaskRow& task, const JobRow& job) {
 /// Renews a lease of a worker that asks for more.  That it has ended, or its job was cancelled, the worker
 /// hears when it speaks of that lease.
 void renew_held(Tx& tx, const std::string& token) {
-  const std::optional<TaskRow> task = find_task_of_token(tx.db, token);
+  std::optional<TaskRow> task = find_task_of_token(tx.db, token);
   if (!task || task->state == "done" || is_cancelled(*task, get_job(tx.db, task->job_id))) return;
-  renew_lease(tx, held_task(tx, token));
+  renew_lease(tx, resume_if_late(tx, *std::move(task)));
 }
 
 /// Requests for artefacts that nobody waits for any more, or whose failure nobody asks for.

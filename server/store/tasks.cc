@@ -252,7 +252,10 @@ std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
 }
 
 TaskRow held_task(Tx& tx, const std::string& token) {
-  TaskRow task = task_of_token(tx.db, token);
+  return resume_if_late(tx, task_of_token(tx.db, token));
+}
+
+TaskRow resume_if_late(Tx& tx, TaskRow task) {
   if (task.state != "pending") return task;
   tx.db.run(
       "UPDATE tasks SET state = 'leased', token = late_token, late_token = NULL, deadline_ms = ?,"

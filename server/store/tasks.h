@@ -40,6 +40,8 @@ TaskRow task_of_token(Database& db, const std::string& token);
 /// The same for a worker that calls: what is still pending is leased to it again, with what it has computed.
 /// A machine that was overloaded for a moment so loses nothing.  @throws StoreError kFenced
 TaskRow held_task(Tx& tx, const std::string& token);
+/// The same for a task that was found by its token.
+TaskRow resume_if_late(Tx& tx, TaskRow task);
 
 /// Adds a pending task in its place in the queue.  `block` for ERODE, `params` and `params_key` for the
 /// derived kinds.
