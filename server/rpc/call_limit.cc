@@ -18,7 +18,7 @@ constexpr std::size_t kWaitersPerPlace = 16;
 // A call that, at its present pace, could send all it holds again within this time is not ended for memory.
 constexpr double kRelieveSeconds = 60;
 
-// How many calls were ended is logged at most this often.
+// Between two lines of the log that say how many calls were ended.
 constexpr std::chrono::seconds kTellEvery{10};
 
 const auto by_peer = [](const Caller& caller) { return caller.peer; };
@@ -29,6 +29,8 @@ void run(const std::vector<std::function<void()>>& later) {
 }
 
 }  // namespace
+
+CallLimit::CallLimit(CallLimitOptions options) : options_(std::move(options)), log_(kTellEvery) {}
 
 CallLimit::Place::Place(Place&& other) noexcept
     : limit_(std::exchange(other.limit_, nullptr)), number_(other.number_) {}
@@ -167,19 +169,15 @@ void CallLimit::evict(Holders::iterator holder, const std::string& why, Later& l
   holders_.erase(holder);
 }
 
-/// Those that come and are ended by the thousand fill no log.
 void CallLimit::tell(const Holder& holder, const std::string& why) {
-  ++ended_;
-  const Pace::Time now = options_.now();
-  if (told_ && now - *told_ < kTellEvery) return;
-  spdlog::warn(base::logfmt("call_ended", {{"number", ended_},
+  const auto number = log_.happened(options_.now());
+  if (!number) return;
+  spdlog::warn(base::logfmt("call_ended", {{"number", *number},
                                            {"kind", options_.what},
                                            {"peer", holder.caller.peer},
                                            {"owner", holder.caller.identity.owner},
                                            {"bytes", holder.pace.total()},
                                            {"message", why}}));
-  told_ = now;
-  ended_ = 0;
 }
 
 std::size_t CallLimit::of_peer(const std::string& peer) const {

@@ -17,6 +17,7 @@
 #include "access/identity.h"
 #include "base/mutex.h"
 #include "rpc/pace.h"
+#include "traffic/rare_log.h"
 
 namespace affskel::server {
 
@@ -25,6 +26,7 @@ struct Caller {
   std::uint64_t connection = 0;   ///< its number
   std::string peer;               ///< whose connection it is: shares are counted by this
   std::optional<uid_t> uid = {};  ///< of its process, on a Unix socket
+  bool has_certificate = false;   ///< it has shown one over TLS, and it is good
   Identity identity = {};         ///< as the gate has found
 };
 
@@ -46,14 +48,14 @@ struct CallLimitOptions {
   std::function<Pace::Time()> now = [] { return std::chrono::steady_clock::now(); };
 };
 
-/// Bounds the calls of one kind.  Any call may take a free place.  When none is free, a new call takes the place
-/// of the first of these that there is: a call whose peer is slower than the least rate; a call of the peer that holds more
-/// than half of the places, if its own peer holds less; a call of the connection that holds more than an
-/// eighth, if its own holds less.  So neither one peer nor one connection keeps others out, and none is held
-/// back while there is room.  Thread-safe.
+/// Bounds the calls of one kind.  Any call may take a free place.  When none is free, a new call takes the
+/// place of the first of these that there is: a call whose peer is slower than the least rate; a call of the
+/// peer that holds more than half of the places, if its own peer holds less; a call of the connection that
+/// holds more than an eighth, if its own holds less.  So neither one peer nor one connection keeps others
+/// out, and none is held back while there is room.  Thread-safe.
 class CallLimit {
  public:
-  explicit CallLimit(CallLimitOptions options) : options_(std::move(options)) {}
+  explicit CallLimit(CallLimitOptions options);
   CallLimit(const CallLimit&) = delete;
   CallLimit& operator=(const CallLimit&) = delete;
 
@@ -131,7 +133,7 @@ class CallLimit {
   bool make_room(const Caller& caller, Pace::Time now, Later& later) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void evict(Holders::iterator holder, const std::string& why, Later& later)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void tell(const Holder& holder, const std::string& why) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void tell(const Holder& holder, const std::string& why);
   template <typename Belongs>
   Holders::iterator slowest(Pace::Time now, Belongs belongs) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   template <typename Key>
@@ -148,8 +150,7 @@ class CallLimit {
   std::list<Waiter> waiters_ ABSL_GUARDED_BY(mutex_);
   std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;
   std::optional<grpc::Status> closed_ ABSL_GUARDED_BY(mutex_);
-  std::uint64_t ended_ ABSL_GUARDED_BY(mutex_) = 0;         // calls, since the log was told
-  std::optional<Pace::Time> told_ ABSL_GUARDED_BY(mutex_);  // when that was
+  RareLog log_;
 };
 
 }  // namespace affskel::server

@@ -10,9 +10,6 @@
 namespace affskel::server {
 namespace {
 
-// Looking through thousands of descriptors takes a few milliseconds.
-constexpr unsigned kTicksPerSweep = 5;
-
 CallLimitOptions places(const char* what, std::size_t most, std::optional<PaceOptions> pace = {}) {
   CallLimitOptions options;
   options.what = what;
@@ -42,10 +39,16 @@ CallLimitOptions waiting_of(const CallLimits& limits) {
 
 ConnectionOptions connections_of(const CallLimits& limits) {
   ConnectionOptions options;
-  options.first_refused = limits.connections;
-  options.most = static_cast<std::size_t>(limits.connections);
-  options.spare = std::min(32, limits.connections / 16);
-  options.for_workers = static_cast<std::size_t>(limits.connections / 8);
+  options.most = limits.connections;
+  options.spare = std::min<std::size_t>(32, limits.connections / 16);
+  options.for_workers = limits.connections / 8;
+  return options;
+}
+
+AnswerOptions answers_of(const CallLimits& limits) {
+  AnswerOptions options;
+  options.pace = limits.sending;
+  options.pace.first = options.pace.window;
   return options;
 }
 
@@ -58,6 +61,7 @@ CallRoom::CallRoom(const CallLimits& given, std::uint64_t most_upload_bytes)
       worker_calls({.threads = 6}),
       worker_inputs({.threads = 2}),
       connections(connections_of(given)),
+      answers(answers_of(given), [this](std::uint64_t number) { return connections.answered(number); }),
       upload_bytes(most_upload_bytes),
       records_bytes(given.records_bytes),
       uploads(places("uploads", given.uploads, given.receiving)),
@@ -71,7 +75,7 @@ CallRoom::CallRoom(const CallLimits& given, std::uint64_t most_upload_bytes)
 
 void CallRoom::tick() {
   for (CallLimit* limit : {&uploads, &downloads, &reports, &results, &inputs}) limit->tick();
-  if (++ticks_ % kTicksPerSweep == 0) connections.sweep();
+  answers.tick();
 }
 
 void CallRoom::tick_gate() {
@@ -108,8 +112,7 @@ Credentials credentials_of(const grpc::CallbackServerContext& context, const Cal
   if (const auto found = metadata.find("authorization"); found != metadata.end()) {
     credentials.authorization = std::string(found->second.data(), found->second.size());
   }
-  const std::shared_ptr<const grpc::AuthContext> peer = context.auth_context();
-  credentials.has_certificate = peer != nullptr && peer->IsPeerAuthenticated();
+  credentials.has_certificate = caller.has_certificate;
   return credentials;
 }
 

@@ -9,6 +9,7 @@
 #include "access/rules.h"
 #include "metrics/metrics.h"
 #include "rpc/activity.h"
+#include "rpc/answers.h"
 #include "rpc/call_limit.h"
 #include "rpc/connections.h"
 #include "rpc/executor.h"
@@ -22,7 +23,7 @@ struct CallRoom {
   /// @param upload_bytes of meshes and results in memory at once.
   CallRoom(const CallLimits& limits, std::uint64_t upload_bytes);
 
-  /// Ends what is too slow, forgets what is gone.  Call now and then.
+  /// Ends what is too slow.  Call now and then.
   void tick();
 
   /// Ends the calls of tokens that are good no longer, and writes down when tokens were used.  Call now and
@@ -50,6 +51,7 @@ struct CallRoom {
   Executor worker_inputs;   ///< inputs of tasks, which may take long to open
 
   Connections connections;
+  Answers answers;
   UploadBudget upload_bytes;
   UploadBudget records_bytes;
   CallLimit uploads;
@@ -60,9 +62,6 @@ struct CallRoom {
   CallLimit results;
   CallLimit inputs;
   CallLimit polls;
-
- private:
-  unsigned ticks_ = 0;
 };
 
 /// What every call has: its connection, and for a client's call its share in the server's activity.

@@ -2,12 +2,11 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -17,11 +16,8 @@
 namespace affskel::server {
 namespace {
 
-/// Names what a descriptor is open for: another number once that was closed.  0 = nothing.
-std::uint64_t inode_of(int fd) {
-  struct stat status {};
-  return fstat(fd, &status) == 0 && S_ISSOCK(status.st_mode) ? status.st_ino : 0;
-}
+// Of an IPv6 address, what names a network; the rest is its hosts' to choose.
+constexpr int kPrefixBytes = 8;
 
 /// -1 for a peer that is not named by its descriptor.
 int descriptor_of(std::string_view peer) {
@@ -31,40 +27,35 @@ int descriptor_of(std::string_view peer) {
   return fd;
 }
 
-/// Connections that gRPC names otherwise have numbers of their own, beyond those of the table.
+/// Connections that are not in the table have numbers of their own, beyond those of the table.
 std::uint64_t number_of_stranger(const std::string& peer) {
   return std::hash<std::string>{}(peer) | (std::uint64_t{1} << 63);
 }
 
 }  // namespace
 
+std::string peer_name(const sockaddr& address) {
+  char text[INET6_ADDRSTRLEN] = "unknown";
+  if (address.sa_family == AF_INET) {
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, text, sizeof text);
+  }
+  if (address.sa_family != AF_INET6) return std::string("ip:") + text;
+  in6_addr prefix = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+  const bool is_loopback = IN6_IS_ADDR_LOOPBACK(&prefix);
+  if (!is_loopback) std::fill(std::begin(prefix.s6_addr) + kPrefixBytes, std::end(prefix.s6_addr), 0);
+  inet_ntop(AF_INET6, &prefix, text, sizeof text);
+  return std::string("ip:") + text + (is_loopback ? "" : "/64");
+}
+
 PeerIdentity peer_of(int fd) {
   sockaddr_storage name{};
   socklen_t size = sizeof name;
-  if (getpeername(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) return {"gone", {}, {}};
-  if (name.ss_family == AF_UNIX) {
-    ucred credentials{};
-    socklen_t length = sizeof credentials;
-    if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &length) != 0) return {"uid:unknown", {}, {}};
-    return {"uid:" + std::to_string(credentials.uid), credentials.uid, {}};
-  }
-  char text[INET6_ADDRSTRLEN] = "unknown";
-  if (name.ss_family == AF_INET) {
-    const auto& v4 = reinterpret_cast<const sockaddr_in&>(name);
-    inet_ntop(AF_INET, &v4.sin_addr, text, sizeof text);
-    return {std::string("ip:") + text,
-            {},
-            std::string("ipv4:") + text + ":" + std::to_string(ntohs(v4.sin_port))};
-  }
-  if (name.ss_family == AF_INET6) {
-    const auto& v6 = reinterpret_cast<const sockaddr_in6&>(name);
-    inet_ntop(AF_INET6, &v6.sin6_addr, text, sizeof text);
-    // gRPC writes names as URIs, in which brackets are percent-encoded.
-    return {std::string("ip:") + text,
-            {},
-            std::string("ipv6:%5B") + text + "%5D:" + std::to_string(ntohs(v6.sin6_port))};
-  }
-  return {std::string("ip:") + text, {}, {}};
+  if (getpeername(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) return {"gone"};
+  if (name.ss_family != AF_UNIX) return {peer_name(reinterpret_cast<const sockaddr&>(name))};
+  ucred credentials{};
+  socklen_t length = sizeof credentials;
+  if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &credentials, &length) != 0) return {"uid:unknown"};
+  return {"uid:" + std::to_string(credentials.uid), credentials.uid};
 }
 
 Connections::Use::Use(Use&& other) noexcept
@@ -88,49 +79,52 @@ void Connections::Use::leave() {
   if (table_ != nullptr) std::exchange(table_, nullptr)->end_use(caller_.connection);
 }
 
-bool Connections::admit(int fd, const PeerIdentity& identity) {
+std::optional<std::uint64_t> Connections::admit(const PeerIdentity& identity,
+                                                const std::weak_ptr<Line>& line) {
   const base::MutexLock lock(mutex_);
-  if (const auto before = entries_.find(fd); before != entries_.end()) {
-    forget(before);  // gRPC has closed it, or the number would not have been given out again
-  }
-  if (!has_room(fd, identity)) return false;
+  if (!has_room(identity)) return std::nullopt;
   const std::uint64_t number = next_number_++;
-  Entry entry;
-  entry.number = number;
-  entry.inode = inode_of(fd);
+  Entry& entry = entries_[number];
   entry.identity = identity;
+  entry.line = line;
   entry.idle_since = options_.now();
-  entries_.emplace(fd, std::move(entry));
-  by_number_.emplace(number, fd);
-  if (!identity.socket_name.empty()) by_socket_name_[identity.socket_name] = fd;
-  return true;
+  return number;
+}
+
+void Connections::hand_over(std::uint64_t connection, int socket, bool has_certificate) {
+  const base::MutexLock lock(mutex_);
+  const auto found = entries_.find(connection);
+  if (found == entries_.end()) return;
+  found->second.socket = socket;
+  found->second.has_certificate = has_certificate;
+  by_socket_[socket] = connection;
+}
+
+void Connections::forget(std::uint64_t connection) {
+  const base::MutexLock lock(mutex_);
+  const auto found = entries_.find(connection);
+  if (found == entries_.end()) return;
+  const Entry& gone = found->second;
+  if (gone.for_client && !gone.for_worker) --clients_;
+  // gRPC may have closed its socket before, whose number is another's by now.
+  const auto named = by_socket_.find(gone.socket);
+  if (named != by_socket_.end() && named->second == connection) by_socket_.erase(named);
+  entries_.erase(found);
 }
 
 Connections::Entries::iterator Connections::find(const std::string& peer) {
-  if (const int fd = descriptor_of(peer); fd >= 0) return entries_.find(fd);
-  const auto named = by_socket_name_.find(peer);
-  return named == by_socket_name_.end() ? entries_.end() : entries_.find(named->second);
+  const auto named = by_socket_.find(descriptor_of(peer));
+  return named == by_socket_.end() ? entries_.end() : entries_.find(named->second);
 }
 
-/// Returns the entry after it.
-Connections::Entries::iterator Connections::forget(Entries::iterator entry) {
-  const Entry& gone = entry->second;
-  if (gone.for_client && !gone.for_worker) --clients_;
-  by_number_.erase(gone.number);
-  const auto named = by_socket_name_.find(gone.identity.socket_name);
-  if (named != by_socket_name_.end() && named->second == entry->first) by_socket_name_.erase(named);
-  return entries_.erase(entry);
-}
-
-bool Connections::has_room(int fd, const PeerIdentity& identity) {
+bool Connections::has_room(const PeerIdentity& identity) {
   const std::size_t share = std::max<std::size_t>(1, options_.most - options_.most / 4);
-  if (entries_.size() >= share) sweep_locked();
   const auto same = [&](const auto& entry) { return entry.second.identity.name == identity.name; };
   const auto own = static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(), same));
   if (own >= share && own < entries_.size() && !close_idle(&identity.name)) return false;
-  if (fd < options_.first_refused) return true;
-  // The one that goes sets its number free in a moment.
-  return close_idle(nullptr) && fd < options_.first_refused + options_.spare;
+  if (entries_.size() < options_.most) return true;
+  // The one that goes makes room in a moment.
+  return close_idle(nullptr) && entries_.size() < options_.most + options_.spare;
 }
 
 /// Tells the idlest connection, of this peer or of all, to close.
@@ -146,8 +140,7 @@ bool Connections::close_idle(const std::string* of_peer) {
   }
   if (found == entries_.end()) return false;
   found->second.closing = true;
-  // Only the thread that calls admit() opens sockets, so that this is still the one that was meant.
-  if (inode_of(found->first) == found->second.inode) shutdown(found->first, SHUT_RDWR);
+  if (const auto line = found->second.line.lock()) line->hang_up();
   return true;
 }
 
@@ -170,32 +163,28 @@ Connections::Use Connections::begin(const std::string& peer, Side side) {
   clients_ -= static_cast<std::size_t>(was_client);
   entry.used = true;
   ++entry.calls;
-  return {this, {entry.number, entry.identity.name, entry.identity.uid, {}}};
+  return {this, {found->first, entry.identity.name, entry.identity.uid, entry.has_certificate, {}}};
 }
 
 void Connections::end_use(std::uint64_t connection) {
   const base::MutexLock lock(mutex_);
-  const auto number = by_number_.find(connection);
-  if (number == by_number_.end()) return;
-  Entry& entry = entries_.at(number->second);
-  if (--entry.calls == 0) entry.idle_since = options_.now();
+  const auto found = entries_.find(connection);
+  if (found == entries_.end()) return;
+  if (--found->second.calls == 0) found->second.idle_since = options_.now();
 }
 
-void Connections::sweep() {
+std::optional<std::uint64_t> Connections::answered(std::uint64_t connection) const {
   const base::MutexLock lock(mutex_);
-  sweep_locked();
-}
-
-void Connections::sweep_locked() {
-  for (auto entry = entries_.begin(); entry != entries_.end();) {
-    entry = inode_of(entry->first) != entry->second.inode ? forget(entry) : std::next(entry);
-  }
+  const auto found = entries_.find(connection);
+  if (found == entries_.end()) return std::nullopt;
+  const auto line = found->second.line.lock();
+  return line == nullptr ? std::nullopt : std::optional(line->answered());
 }
 
 std::size_t Connections::calls() const {
   const base::MutexLock lock(mutex_);
   std::size_t sum = 0;
-  for (const auto& [fd, entry] : entries_) sum += entry.calls;
+  for (const auto& [number, entry] : entries_) sum += entry.calls;
   return sum;
 }
 

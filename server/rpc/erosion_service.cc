@@ -74,8 +74,9 @@ ErosionServiceImpl::ErosionServiceImpl(CallRoom& room, Store& store, WorkerRegis
 
 /// A short call.
 grpc::ServerUnaryReactor* ErosionServiceImpl::answer(Method method, grpc::CallbackServerContext& context,
+                                                     const google::protobuf::Message& response,
                                                      std::function<void(const Identity&)> body) {
-  return UnaryCall::start(room_, room_.client_calls, method, context, std::move(body));
+  return UnaryCall::start(room_, room_.client_calls, method, context, response, std::move(body));
 }
 
 grpc::ServerReadReactor<v1::SubmitJobRequest>* ErosionServiceImpl::SubmitJob(
@@ -85,7 +86,7 @@ grpc::ServerReadReactor<v1::SubmitJobRequest>* ErosionServiceImpl::SubmitJob(
 
 grpc::ServerUnaryReactor* ErosionServiceImpl::GetJob(grpc::CallbackServerContext* context,
                                                      const v1::GetJobRequest* request, v1::Job* response) {
-  return answer(Method::kGetJob, *context, [this, request, response](const Identity& caller) {
+  return answer(Method::kGetJob, *context, *response, [this, request, response](const Identity& caller) {
     *response = jobs_.with_reason(store_.job(job_ref(request->job(), caller)));
   });
 }
@@ -93,7 +94,7 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::GetJob(grpc::CallbackServerContext
 grpc::ServerUnaryReactor* ErosionServiceImpl::ListJobs(grpc::CallbackServerContext* context,
                                                        const v1::ListJobsRequest* request,
                                                        v1::ListJobsResponse* response) {
-  return answer(Method::kListJobs, *context,
+  return answer(Method::kListJobs, *context, *response,
                 [this, request, response](const Identity& caller) { list(caller, *request, *response); });
 }
 
@@ -117,7 +118,7 @@ grpc::ServerWriteReactor<v1::Job>* ErosionServiceImpl::WatchJob(grpc::CallbackSe
 grpc::ServerUnaryReactor* ErosionServiceImpl::CancelJob(grpc::CallbackServerContext* context,
                                                         const v1::CancelJobRequest* request,
                                                         v1::Job* response) {
-  return answer(Method::kCancelJob, *context, [this, request, response](const Identity& caller) {
+  return answer(Method::kCancelJob, *context, *response, [this, request, response](const Identity& caller) {
     *response = jobs_.with_reason(store_.cancel(job_ref(request->job(), caller)));
   });
 }
@@ -125,14 +126,14 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::CancelJob(grpc::CallbackServerCont
 grpc::ServerUnaryReactor* ErosionServiceImpl::ResumeJob(grpc::CallbackServerContext* context,
                                                         const v1::ResumeJobRequest* request,
                                                         v1::Job* response) {
-  return answer(Method::kResumeJob, *context, [this, request, response](const Identity& caller) {
+  return answer(Method::kResumeJob, *context, *response, [this, request, response](const Identity& caller) {
     *response = jobs_.with_reason(store_.resume(job_ref(request->job(), caller)));
   });
 }
 
 grpc::ServerUnaryReactor* ErosionServiceImpl::PinJob(grpc::CallbackServerContext* context,
                                                      const v1::PinJobRequest* request, v1::Job* response) {
-  return answer(Method::kPinJob, *context, [this, request, response](const Identity& caller) {
+  return answer(Method::kPinJob, *context, *response, [this, request, response](const Identity& caller) {
     *response = jobs_.with_reason(store_.pin(job_ref(request->job(), caller), true));
   });
 }
@@ -140,7 +141,7 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::PinJob(grpc::CallbackServerContext
 grpc::ServerUnaryReactor* ErosionServiceImpl::UnpinJob(grpc::CallbackServerContext* context,
                                                        const v1::UnpinJobRequest* request,
                                                        v1::Job* response) {
-  return answer(Method::kUnpinJob, *context, [this, request, response](const Identity& caller) {
+  return answer(Method::kUnpinJob, *context, *response, [this, request, response](const Identity& caller) {
     *response = jobs_.with_reason(store_.pin(job_ref(request->job(), caller), false));
   });
 }
@@ -148,7 +149,7 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::UnpinJob(grpc::CallbackServerConte
 grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerContext* context,
                                                         const v1::DeleteJobRequest* request,
                                                         v1::DeleteJobResponse* response) {
-  return answer(Method::kDeleteJob, *context, [this, request, response](const Identity& caller) {
+  return answer(Method::kDeleteJob, *context, *response, [this, request, response](const Identity& caller) {
     response->set_id(store_.remove(job_ref(request->job(), caller)));
   });
 }
@@ -156,12 +157,13 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerCont
 grpc::ServerUnaryReactor* ErosionServiceImpl::ListJobEvents(grpc::CallbackServerContext* context,
                                                             const v1::ListJobEventsRequest* request,
                                                             v1::ListJobEventsResponse* response) {
-  return answer(Method::kListJobEvents, *context, [this, request, response](const Identity& caller) {
-    // What is greater than every number has no events after it.
-    const auto after = static_cast<std::int64_t>(
-        std::min<std::uint64_t>(request->after(), std::numeric_limits<std::int64_t>::max()));
-    *response = store_.events(job_ref(request->job(), caller), after);
-  });
+  return answer(Method::kListJobEvents, *context, *response,
+                [this, request, response](const Identity& caller) {
+                  // What is greater than every number has no events after it.
+                  const auto after = static_cast<std::int64_t>(
+                      std::min<std::uint64_t>(request->after(), std::numeric_limits<std::int64_t>::max()));
+                  *response = store_.events(job_ref(request->job(), caller), after);
+                });
 }
 
 grpc::ServerWriteReactor<v1::FetchArtifactResponse>* ErosionServiceImpl::FetchArtifact(
@@ -172,7 +174,7 @@ grpc::ServerWriteReactor<v1::FetchArtifactResponse>* ErosionServiceImpl::FetchAr
 grpc::ServerUnaryReactor* ErosionServiceImpl::GetServerInfo(grpc::CallbackServerContext* context,
                                                             const v1::GetServerInfoRequest*,
                                                             v1::ServerInfo* response) {
-  return answer(Method::kGetServerInfo, *context,
+  return answer(Method::kGetServerInfo, *context, *response,
                 [this, response](const Identity& caller) { tell_about_itself(caller, *response); });
 }
 

@@ -63,6 +63,7 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
 
  private:
   grpc::ServerUnaryReactor* answer(Method method, grpc::CallbackServerContext& context,
+                                   const google::protobuf::Message& response,
                                    std::function<void(const Identity&)> body);
   void list(const Identity& caller, const v1::ListJobsRequest& request, v1::ListJobsResponse& response);
   void tell_about_itself(const Identity& caller, v1::ServerInfo& response);

@@ -5,7 +5,7 @@
 
 namespace affskel::server {
 
-Executor::Executor(const ExecutorOptions& options) {
+Executor::Executor(const ExecutorOptions& options) : options_(options) {
   for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { run(); });
 }
 
@@ -13,26 +13,57 @@ Executor::~Executor() {
   stop();
 }
 
-void Executor::post(std::uint64_t caller, std::function<void()> body) {
+std::uint64_t Executor::post(std::uint64_t caller, std::function<void()> body) {
+  std::uint64_t number = 0;
   {
     base::MutexLock lock(mutex_);
+    number = next_++;
     if (stopping_) {
       lock.unlock();
       body();
-      return;
+      return number;
     }
     Queue& queue = queues_[caller];
-    queue.push_back(std::move(body));
-    if (queue.size() == 1) {
-      try {
-        turns_.push_back(caller);
-      } catch (...) {
-        queues_.erase(caller);  // without a turn it would wait for ever
-        throw;
-      }
+    try {
+      queue.emplace(number, std::move(body));
+      if (queue.size() == 1) turns_.push_back(caller);
+    } catch (...) {
+      queue.erase(number);
+      if (queue.empty()) queues_.erase(caller);  // without a turn it would wait for ever
+      throw;
     }
+    ++waiting_;
   }
   changed_.notify_one();
+  return number;
+}
+
+bool Executor::has_room(std::uint64_t caller) const {
+  const base::MutexLock lock(mutex_);
+  if (waiting_ < options_.calls) return true;
+  const auto own = queues_.find(caller);
+  return own == queues_.end() || own->second.size() < options_.calls / queues_.size();
+}
+
+bool Executor::drop(std::uint64_t caller, std::uint64_t body) {
+  std::function<void()> dropped;  // destroyed when the lock is gone
+  const base::MutexLock lock(mutex_);
+  const auto queue = queues_.find(caller);
+  if (queue == queues_.end()) return false;
+  const auto found = queue->second.find(body);
+  if (found == queue->second.end()) return false;
+  dropped = std::move(found->second);
+  queue->second.erase(found);
+  --waiting_;
+  if (!queue->second.empty()) return true;
+  queues_.erase(queue);
+  std::erase(turns_, caller);
+  return true;
+}
+
+std::size_t Executor::waiting() const {
+  const base::MutexLock lock(mutex_);
+  return waiting_;
 }
 
 void Executor::stop() {
@@ -67,11 +98,13 @@ void Executor::run() {
 std::function<void()> Executor::take() {
   const std::uint64_t caller = turns_.front();
   turns_.pop_front();
-  const auto found = queues_.find(caller);
-  std::function<void()> body = std::move(found->second.front());
-  found->second.pop_front();
-  if (found->second.empty()) {
-    queues_.erase(found);
+  const auto queue = queues_.find(caller);
+  const auto first = queue->second.begin();
+  std::function<void()> body = std::move(first->second);
+  queue->second.erase(first);
+  --waiting_;
+  if (queue->second.empty()) {
+    queues_.erase(queue);
   } else {
     turns_.push_back(caller);
   }

@@ -43,10 +43,12 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
     place_ = queue_.room_.polls.enter(scope_->caller(), weak_from_this());
   }
 
-  /// Others need the place.
+  /// Others need the place, or the peer does not take the answer.
   void end(const grpc::Status& status) override {
     queue_.remove(shared_from_this());
-    answer(status);
+    if (answer(status)) return;
+    const base::MutexLock lock(mutex_);
+    if (!done_) context_->TryCancel();
   }
 
   /// Ends the call unless it has ended; false when it had.
@@ -57,6 +59,10 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
     if (lease) {
       token_ = lease->token();
       *response_->mutable_lease() = *std::move(lease);
+    }
+    if (scope_) {
+      share_.emplace(queue_.room_.answers.enter(
+          scope_->caller(), response_->SpaceUsedLong() + response_->ByteSizeLong(), weak_from_this()));
     }
     timer_.ended(status);
     Finish(status);
@@ -73,7 +79,10 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
       });
     }
     place_.leave();
-    self_.reset();  // the last use of this object
+    share_.reset();
+    const PollPtr self = std::move(self_);  // the last use of this object
+    const base::MutexLock lock(mutex_);
+    done_ = true;
   }
 
   /// Keeps the object alive until OnDone.
@@ -90,9 +99,11 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
   const Time deadline_;
   base::Mutex mutex_;
   bool ended_ = false;
+  bool done_ = false;  // with the context, too
   std::string token_;
   std::optional<CallScope> scope_;
   CallLimit::Place place_;
+  std::optional<Answers::Share> share_;
   PollPtr self_;
 };
 

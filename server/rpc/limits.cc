@@ -15,15 +15,20 @@ constexpr std::uint64_t kReserved = 1536;
 // An idle connection costs some tens of kilobytes, whatever the limit on descriptors is.
 constexpr std::uint64_t kMostConnections = 16384;
 
+// The client's socket, and a pair between the relay and gRPC.
+constexpr std::uint64_t kDescriptorsPerConnection = 3;
+
 }  // namespace
 
 CallLimits limits_for(std::uint64_t open_files) {
   CallLimits limits;
   const std::uint64_t reserve = std::min(kReserved, open_files / 4);
-  limits.connections = static_cast<int>(std::min(open_files - reserve, kMostConnections));
+  limits.connections =
+      std::clamp<std::uint64_t>((open_files - reserve) / kDescriptorsPerConnection, 1, kMostConnections);
   // Two descriptors to a download or an input, so that all of them together take a quarter at most, and half
   // of the reserve where descriptors are few.
-  const std::uint64_t left = open_files - static_cast<std::uint64_t>(limits.connections);
+  const std::uint64_t taken = kDescriptorsPerConnection * limits.connections;
+  const std::uint64_t left = open_files > taken ? open_files - taken : 0;
   limits.downloads = std::clamp<std::uint64_t>(left / 4, 1, limits.downloads);
   limits.inputs = std::clamp<std::uint64_t>(left / 8, 1, limits.inputs);
   return limits;

@@ -29,7 +29,7 @@ struct CallLimits {
 
   std::chrono::milliseconds idle{8000};  ///< a connection without calls is closed after this
   int streams = 1024;                    ///< calls of one connection at once
-  int connections = 0;                   ///< a connection whose descriptor is this or more is refused
+  std::size_t connections = 0;           ///< at once
 };
 
 /// What a process may have open, shared out: workers, the database and downloads keep descriptors that

@@ -28,7 +28,7 @@ namespace {
 constexpr int kPauseMs = 100;
 
 // Clients that are refused come again and again.
-constexpr std::int64_t kTellMs = 60000;
+constexpr std::chrono::minutes kTellEvery{1};
 
 /// New sockets belong to this user alone, from the first moment on.
 class PrivateFiles {
@@ -112,16 +112,10 @@ int listen_on(const sockaddr* name, socklen_t size) {
   return -1;
 }
 
-std::int64_t steady_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
 }  // namespace
 
-Listener::Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode, Connections& connections)
-    : connections_(connections), socket_mode_(socket_mode) {
+Listener::Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode)
+    : socket_mode_(socket_mode), log_(kTellEvery) {
   try {
     wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake_ < 0) throw std::runtime_error(std::string("eventfd: ") + std::strerror(errno));
@@ -215,13 +209,7 @@ void Listener::run() {
 bool Listener::take(int listening) {
   const int fd = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (fd >= 0) {
-    const PeerIdentity peer = peer_of(fd);
-    if (connections_.admit(fd, peer)) {
-      handler_(fd, !peer.uid);
-    } else {
-      close(fd);
-      tell("too many connections and files are open");
-    }
+    if (!handler_(fd, peer_of(fd))) tell("too many connections and files are open");
     return true;
   }
   if (errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM) return true;
@@ -230,13 +218,8 @@ bool Listener::take(int listening) {
 }
 
 void Listener::tell(const std::string& why) {
-  ++refused_;
-  const std::int64_t now = steady_ms();
-  if (told_ms_ != 0 && now - told_ms_ < kTellMs) return;
-  spdlog::warn(base::logfmt("connections_refused",
-                            {{"number", refused_}, {"open", connections_.size()}, {"message", why}}));
-  told_ms_ = now;
-  refused_ = 0;
+  const auto number = log_.happened(std::chrono::steady_clock::now());
+  if (number) spdlog::warn(base::logfmt("connections_refused", {{"number", *number}, {"message", why}}));
 }
 
 }  // namespace affskel::server

@@ -8,24 +8,23 @@
 #include <vector>
 
 #include "rpc/connections.h"
+#include "traffic/rare_log.h"
 #include "wire/address.h"
 
 namespace affskel::server {
 
 /// Takes connections for gRPC, whose own listening sockets are closed for good when the process runs out of
-/// descriptors.  This one asks the table of connections whether there is room, and goes on when there is
-/// none.
+/// descriptors.  This one goes on when there is no room.
 class Listener {
  public:
-  /// @param is_tcp whether it came from another socket than one of the file system.
-  using Handler = std::function<void(int connection, bool is_tcp)>;
+  /// Takes a connection, not blocking, which is its own from now on; false when there is no room for it.
+  using Handler = std::function<bool(int connection, const PeerIdentity& peer)>;
 
   /// Binds; nothing is accepted yet.
   /// @param addresses see prepare_addresses.
   /// @param socket_mode permissions of Unix sockets.
-  /// @param connections gets all of them, and decides; must outlive the listener.
   /// @throws std::runtime_error naming the address and the cause.
-  Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode, Connections& connections);
+  Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode);
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -33,7 +32,7 @@ class Listener {
   /// Where it listens, with the ports actually bound.
   const std::vector<wire::Address>& addresses() const { return addresses_; }
 
-  /// Starts a thread that hands connections, not blocking, to `handler`, which owns them then.
+  /// Starts a thread that hands connections to `handler`.
   void start(Handler handler);
   /// Closes the sockets, and removes those of the file system.
   void stop();
@@ -47,13 +46,11 @@ class Listener {
   void close_all();
 
   std::vector<wire::Address> addresses_;
-  Connections& connections_;
   const mode_t socket_mode_;
   std::vector<int> sockets_;
   int wake_ = -1;
   Handler handler_;
-  std::int64_t refused_ = 0;  // of the thread: since it told of it
-  std::int64_t told_ms_ = 0;  // of the thread: when, 0 = never
+  RareLog log_;
   std::thread thread_;
 };
 

@@ -5,6 +5,7 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/server_posix.h>
+#include <malloc.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 
@@ -44,6 +45,10 @@ constexpr std::chrono::milliseconds kTick{200};
 // A server that closes waits until the last of them has ended.
 constexpr std::chrono::milliseconds kLookAtCalls{5};
 
+// Between looks at what the allocator holds, and what it may hold unused: giving it back takes milliseconds.
+constexpr std::chrono::seconds kTrimPause{10};
+constexpr std::size_t kMostUnusedBytes = std::size_t{32} << 20;
+
 // gRPC waits for each connection to acknowledge the end, which an idle peer may do seconds later.
 constexpr std::chrono::milliseconds kGoodbye{100};
 
@@ -73,6 +78,14 @@ void set_limits(grpc::ServerBuilder& builder, const CallLimits& limits) {
   builder.SetSyncServerOption(Option::MAX_POLLERS, 2);
 }
 
+RelayOptions relay_options(const CallLimits& limits) {
+  RelayOptions options;
+  options.first = limits.idle;
+  options.stall = limits.sending.window;
+  options.frames.calls = static_cast<std::size_t>(limits.streams);
+  return options;
+}
+
 /// Keeps the gRPC library initialised until the process ends.  Its last shutdown joins a thread that may
 /// sit in a poll of 10 s (the backup poller of a connection that had to wait for its peer), which would
 /// hold up every exit.
@@ -90,6 +103,11 @@ void release_dead_workers(Store& store) {
     const bool dead = kill(static_cast<pid_t>(holder.pid), 0) != 0 && errno == ESRCH;
     if (holder.host == wire::host_name() && dead) store.release_worker(holder.host, holder.pid);
   }
+}
+
+/// What a crowd has taken goes back to the system when it has left.
+void give_memory_back() {
+  if (mallinfo2().fordblks > kMostUnusedBytes) malloc_trim(0);
 }
 
 }  // namespace
@@ -126,25 +144,22 @@ Server::~Server() {
 }
 
 void Server::serve(const ServerOptions& options) {
-  listener_ = std::make_unique<Listener>(options.listen, options.socket_mode, room_.connections);
+  listener_ = std::make_unique<Listener>(options.listen, options.socket_mode);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   set_limits(builder, options.limits);
   builder.RegisterService(worker_service_.get());
   builder.RegisterService(erosion_service_.get());
-  if (!options.tls.certificate.empty()) {
-    using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
-    tls_files_.emplace(options.tls);
-    tls_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, tls_files_->credentials());
-  }
+  if (!options.tls.certificate.empty()) tls_files_.emplace(options.tls);
+  relay_ = std::make_unique<Relay>(relay_options(options.limits));
   grpc_ = builder.BuildAndStart();
   if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
   for (const char* service :
        {v1::ErosionService::service_full_name(), v1::WorkerService::service_full_name()}) {
     grpc_->GetHealthCheckService()->SetServingStatus(service, true);
   }
-  listener_->start([this](int connection, bool is_tcp) { take(connection, is_tcp); });
+  listener_->start([this](int connection, const PeerIdentity& peer) { return take(connection, peer); });
 }
 
 std::optional<wire::Address> Server::metrics_address() const {
@@ -173,11 +188,26 @@ std::string Server::trouble() {
   return {};
 }
 
-void Server::take(int connection, bool is_tcp) {
-  if (!is_tcp || tls_ == nullptr) return grpc::AddInsecureChannelFromFd(grpc_.get(), connection);
-  grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters taken;
-  taken.fd = connection;
-  tls_->HandleNewConnection(&taken);
+bool Server::take(int connection, const PeerIdentity& peer) {
+  const bool is_tls = tls_files_ && !peer.uid;
+  const std::shared_ptr<RelayLine> line =
+      relay_->take(connection, peer.name, is_tls ? tls_files_->context() : nullptr);
+  const std::optional<std::uint64_t> number = room_.connections.admit(peer, line);
+  if (!number) return false;
+  const auto begun = [this, number = *number](int socket, bool has_certificate) {
+    room_.connections.hand_over(number, socket, has_certificate);
+    grpc::AddInsecureChannelFromFd(grpc_.get(), socket);
+  };
+  const auto refused = [this, peer](const std::string& why) { tell_refused(peer, why); };
+  line->start({begun, refused, [this, number = *number] { room_.connections.forget(number); }});
+  return true;
+}
+
+void Server::tell_refused(const PeerIdentity& peer, const std::string& why) {
+  const auto number = refused_.happened(std::chrono::steady_clock::now());
+  if (!number) return;
+  spdlog::warn(
+      base::logfmt("connection_ended", {{"number", *number}, {"peer", peer.name}, {"message", why}}));
 }
 
 /// From the first token on, nothing of this process goes into a core dump.
@@ -195,7 +225,10 @@ void Server::tick() {
     return closed_;
   })) {
     lock.unlock();
-    room_.tick();
+    guarded([this] {
+      room_.tick();
+      relay_->tick();
+    });
     lock.lock();
   }
 }
@@ -207,6 +240,7 @@ void Server::maintain() {
       std::chrono::milliseconds(std::clamp<std::int64_t>(store_->options().lease_ms / 10, 20, 500));
   Steady::time_point due = Steady::now() + pause;
   Steady::duration rest = pause;
+  Steady::time_point trimmed = Steady::now();
   base::MutexLock lock(mutex_);
   while (!stopped_.wait_for(lock, rest, [this] {
     mutex_.assert_held();
@@ -222,6 +256,10 @@ void Server::maintain() {
     const Steady::time_point begin = Steady::now();
     tidy();
     const Steady::time_point now = Steady::now();
+    if (now - trimmed >= kTrimPause) {
+      give_memory_back();
+      trimmed = now;
+    }
     rest = tidying_ ? now - begin : std::max(due - now, Steady::duration::zero());
     lock.lock();
   }
@@ -294,6 +332,7 @@ void Server::stop(std::chrono::milliseconds grace) {
     grpc_->Shutdown(std::chrono::system_clock::now() + kGoodbye);
     grpc_->Wait();
   }
+  if (relay_ != nullptr) relay_->stop();
   room_.stop();
   {
     const base::MutexLock lock(mutex_);

@@ -22,11 +22,13 @@
 #include "rpc/lease_queue.h"
 #include "rpc/limits.h"
 #include "rpc/listener.h"
-#include "rpc/tls.h"
 #include "rpc/worker_registry.h"
 #include "rpc/worker_service.h"
 #include "store/clock.h"
 #include "store/store.h"
+#include "traffic/rare_log.h"
+#include "traffic/relay.h"
+#include "traffic/tls.h"
 #include "wire/address.h"
 
 namespace affskel::server {
@@ -89,7 +91,8 @@ class Server {
   void look_after_calls();
   void tick();
   void tidy();
-  void take(int connection, bool is_tcp);
+  bool take(int connection, const PeerIdentity& peer);
+  void tell_refused(const PeerIdentity& peer, const std::string& why);
   void await_calls(std::chrono::milliseconds grace) const;
 
   SystemClock clock_;
@@ -102,7 +105,8 @@ class Server {
   std::unique_ptr<WorkerServiceImpl> worker_service_;
   std::unique_ptr<ErosionServiceImpl> erosion_service_;
   std::optional<TlsFiles> tls_files_;  // looked at by the thread that maintains
-  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> tls_;  // of connections with TLS
+  RareLog refused_{std::chrono::seconds(10)};
+  std::unique_ptr<Relay> relay_;
   std::unique_ptr<grpc::Server> grpc_;
   std::unique_ptr<Listener> listener_;
 

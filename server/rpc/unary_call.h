@@ -1,8 +1,11 @@
 #pragma once
 
+#include <google/protobuf/message.h>
 #include <grpcpp/grpcpp.h>
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -13,37 +16,89 @@
 namespace affskel::server {
 
 /// A call with one request and one answer, whose body runs in an executor.
-class UnaryCall final : public grpc::ServerUnaryReactor {
+class UnaryCall final : public grpc::ServerUnaryReactor,
+                        public Endable,
+                        public std::enable_shared_from_this<UnaryCall> {
  public:
-  /// @param body fills the answer; what it throws ends the call.  Does not run when the caller has gone.
+  /// @param answer what `body` fills.
+  /// @param body what it throws ends the call.  Does not run when the caller has gone.
   static grpc::ServerUnaryReactor* start(CallRoom& room, Executor& executor, Method method,
-                                         const grpc::CallbackServerContext& context,
+                                         grpc::CallbackServerContext& context,
+                                         const google::protobuf::Message& answer,
                                          std::function<void(const Identity&)> body) {
-    auto* const call = new UnaryCall(room.metrics, method);
-    const grpc::Status status = guarded([&] { call->scope_.emplace(room, context, method); });
-    if (!status.ok()) {
-      call->end(status);
-      return call;
-    }
-    executor.post(call->scope_->caller().connection, [call, &context, body = std::move(body)] {
-      const Identity& identity = call->scope_->caller().identity;
-      call->end(context.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] { body(identity); }));
-    });
-    return call;
+    const std::shared_ptr<UnaryCall> call(new UnaryCall(room, executor, method, context, answer));
+    call->self_ = call;
+    const grpc::Status status = guarded([&] { call->post(std::move(body)); });
+    if (!status.ok()) call->finish(status);
+    return call.get();
   }
 
-  void OnDone() override { delete this; }
+  /// The peer does not take the answer.
+  void end(const grpc::Status&) override {
+    const base::MutexLock lock(mutex_);
+    if (!done_) context_.TryCancel();
+  }
+
+  /// Never after OnDone.
+  void OnCancel() override {
+    if (posted_ && executor_.drop(scope_->caller().connection, *posted_)) finish(grpc::Status::CANCELLED);
+  }
+
+  void OnDone() override {
+    share_.reset();
+    const std::shared_ptr<UnaryCall> self = std::move(self_);  // the last use of this object
+    const base::MutexLock lock(mutex_);
+    done_ = true;
+  }
 
  private:
-  UnaryCall(Metrics& metrics, Method method) : timer_(metrics, method) {}
+  UnaryCall(CallRoom& room, Executor& executor, Method method, grpc::CallbackServerContext& context,
+            const google::protobuf::Message& answer)
+      : room_(room),
+        executor_(executor),
+        method_(method),
+        context_(context),
+        answer_(answer),
+        timer_(room.metrics, method) {}
 
-  void end(const grpc::Status& status) {
+  void post(std::function<void(const Identity&)> body) {
+    scope_.emplace(room_, context_, method_);
+    const std::uint64_t connection = scope_->caller().connection;
+    room_.answers.check(scope_->caller());
+    if (!executor_.has_room(connection))
+      throw CallEnded({grpc::StatusCode::UNAVAILABLE,
+                       "too many calls wait, and this caller has its share of them; try again"});
+    posted_ = executor_.post(connection, [this, body = std::move(body)] { run(body); });
+  }
+
+  void run(const std::function<void(const Identity&)>& body) {
+    const Caller& caller = scope_->caller();
+    const grpc::Status status =
+        context_.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] { body(caller.identity); });
+    // What gRPC keeps: the message, and the message in the form that is sent.
+    if (status.ok())
+      share_.emplace(
+          room_.answers.enter(caller, answer_.SpaceUsedLong() + answer_.ByteSizeLong(), weak_from_this()));
+    finish(status);
+  }
+
+  void finish(const grpc::Status& status) {
     timer_.ended(status);
     Finish(status);
   }
 
+  CallRoom& room_;
+  Executor& executor_;
+  const Method method_;
+  grpc::CallbackServerContext& context_;
+  const google::protobuf::Message& answer_;
   const CallTimer timer_;
   std::optional<CallScope> scope_;
+  std::optional<std::uint64_t> posted_;
+  std::optional<Answers::Share> share_;
+  base::Mutex mutex_;
+  bool done_ ABSL_GUARDED_BY(mutex_) = false;  // with the context, too
+  std::shared_ptr<UnaryCall> self_;
 };
 
 }  // namespace affskel::server

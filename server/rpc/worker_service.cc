@@ -9,11 +9,12 @@ namespace affskel::server {
 template <typename Body>
 grpc::ServerUnaryReactor* WorkerServiceImpl::with_lease_of(Method method,
                                                            grpc::CallbackServerContext& context,
+                                                           const google::protobuf::Message& response,
                                                            const std::string& token, Body body) {
   // The request, and so the token, lives as long as the call.
-  return UnaryCall::start(room_, room_.worker_calls, method, context, [this, &token, body](const Identity&) {
-    with_lease(room_, registry_, token, body);
-  });
+  return UnaryCall::start(
+      room_, room_.worker_calls, method, context, response,
+      [this, &token, body](const Identity&) { with_lease(room_, registry_, token, body); });
 }
 
 grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerContext* context,
@@ -25,7 +26,7 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::LeaseTask(grpc::CallbackServerConte
 grpc::ServerUnaryReactor* WorkerServiceImpl::RenewLease(grpc::CallbackServerContext* context,
                                                         const v1::RenewLeaseRequest* request,
                                                         v1::ReportResponse* response) {
-  return with_lease_of(Method::kRenewLease, *context, request->token(), [this, request, response] {
+  return with_lease_of(Method::kRenewLease, *context, *response, request->token(), [this, request, response] {
     *response = store_.renew(request->token());
     return response->cancelled();
   });
@@ -44,7 +45,7 @@ grpc::ServerReadReactor<v1::CompleteTaskRequest>* WorkerServiceImpl::CompleteTas
 grpc::ServerUnaryReactor* WorkerServiceImpl::FailTask(grpc::CallbackServerContext* context,
                                                       const v1::FailTaskRequest* request,
                                                       v1::ReportResponse* response) {
-  return with_lease_of(Method::kFailTask, *context, request->token(), [this, request, response] {
+  return with_lease_of(Method::kFailTask, *context, *response, request->token(), [this, request, response] {
     *response =
         store_.fail(request->token(), request->error(), request->retryable(), request->memory_needed());
     return true;
@@ -54,10 +55,11 @@ grpc::ServerUnaryReactor* WorkerServiceImpl::FailTask(grpc::CallbackServerContex
 grpc::ServerUnaryReactor* WorkerServiceImpl::ReturnLease(grpc::CallbackServerContext* context,
                                                          const v1::ReturnLeaseRequest* request,
                                                          v1::ReportResponse* response) {
-  return with_lease_of(Method::kReturnLease, *context, request->token(), [this, request, response] {
-    *response = store_.give_back(request->token());
-    return true;
-  });
+  return with_lease_of(Method::kReturnLease, *context, *response, request->token(),
+                       [this, request, response] {
+                         *response = store_.give_back(request->token());
+                         return true;
+                       });
 }
 
 grpc::ServerWriteReactor<v1::FetchArtifactResponse>* WorkerServiceImpl::FetchInput(

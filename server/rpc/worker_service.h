@@ -38,7 +38,8 @@ class WorkerServiceImpl final : public v1::WorkerService::CallbackService {
  private:
   template <typename Body>
   grpc::ServerUnaryReactor* with_lease_of(Method method, grpc::CallbackServerContext& context,
-                                          const std::string& token, Body body);
+                                          const google::protobuf::Message& response, const std::string& token,
+                                          Body body);
 
   CallRoom& room_;
   Store& store_;

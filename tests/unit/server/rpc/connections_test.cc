@@ -1,12 +1,14 @@
 #include "rpc/connections.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <cstring>
-#include <list>
+#include <map>
 #include <vector>
 
 #include "rpc/status.h"
@@ -17,142 +19,124 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Both ends of a connection.
-class Pair {
- public:
-  Pair() { EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends_), 0); }
-  ~Pair() {
-    close_server();
-    close(ends_[1]);
-  }
-  Pair(const Pair&) = delete;
-  Pair& operator=(const Pair&) = delete;
-  int fd() const { return ends_[0]; }
-  std::string name() const { return "fd:" + std::to_string(fd()); }
-  void close_server() {
-    if (ends_[0] >= 0) close(ends_[0]);
-    ends_[0] = -1;
-  }
-  /// Whether the server's end was shut down.
-  bool is_shut() const {
-    char byte = 0;
-    return recv(ends_[1], &byte, 1, MSG_PEEK) == 0;
-  }
-
- private:
-  int ends_[2] = {-1, -1};
+/// A connection that only says whether it was hung up on.
+struct FakeLine : Line {
+  void hang_up() override { is_shut = true; }
+  std::uint64_t answered() const override { return 4711; }
+  bool is_shut = false;
 };
 
 class ConnectionsTest : public testing::Test {
  protected:
-  /// A table with room for so many more connections.
-  std::unique_ptr<Connections> table(int more) {
-    const int lowest = dup(0);
-    close(lowest);
+  std::unique_ptr<Connections> table(std::size_t most, std::size_t for_workers = 0) {
     ConnectionOptions options;
-    options.first_refused = lowest + 2 * more;  // a pair takes two descriptors
-    options.spare = 16;
-    options.most = 1000;
+    options.most = most;
+    options.spare = 1;
+    options.for_workers = for_workers;
     options.now = [this] { return now_; };
     return std::make_unique<Connections>(options);
   }
 
+  /// Admits a connection that gRPC has by this socket; nothing when there is no room.
+  std::shared_ptr<FakeLine> admit(Connections& connections, int socket, const std::string& peer = "a") {
+    const auto line = std::make_shared<FakeLine>();
+    const auto number = connections.admit({peer}, line);
+    if (!number) return nullptr;
+    connections.hand_over(*number, socket, false);
+    numbers_[socket] = *number;
+    return line;
+  }
+
   std::chrono::steady_clock::time_point now_ = std::chrono::steady_clock::now();
+  std::map<int, std::uint64_t> numbers_;
 };
 
-TEST_F(ConnectionsTest, KnowsWhoIsThere) {
-  const Pair pair;
-  const PeerIdentity peer = peer_of(pair.fd());
+TEST(PeerTest, IsTheUserOrTheAddress) {
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
+  const PeerIdentity peer = peer_of(ends[0]);
   EXPECT_EQ(peer.name, "uid:" + std::to_string(getuid()));
   EXPECT_EQ(peer.uid, getuid());
+  close(ends[0]);
+  close(ends[1]);
+  sockaddr_in6 name{};
+  name.sin6_family = AF_INET6;
+  inet_pton(AF_INET6, "2001:db8:1:2:aaaa:bbbb:cccc:dddd", &name.sin6_addr);
+  EXPECT_EQ(peer_name(reinterpret_cast<const sockaddr&>(name)), "ip:2001:db8:1:2::/64")
+      << "a host has as many addresses as it likes";
+  name.sin6_addr = in6addr_loopback;
+  EXPECT_EQ(peer_name(reinterpret_cast<const sockaddr&>(name)), "ip:::1");
+}
+
+TEST_F(ConnectionsTest, KnowsWhoIsThere) {
   const auto connections = table(4);
-  ASSERT_TRUE(connections->admit(pair.fd(), peer));
-  const Connections::Use first = connections->begin(pair.name(), Side::kClient);
-  const Connections::Use second = connections->begin(pair.name(), Side::kClient);
+  const auto line = admit(*connections, 17, "uid:1000");
+  const Connections::Use first = connections->begin("fd:17", Side::kClient);
+  const Connections::Use second = connections->begin("fd:17", Side::kClient);
   EXPECT_EQ(first.caller().connection, second.caller().connection);
-  EXPECT_EQ(first.caller().peer, peer.name);
+  EXPECT_EQ(first.caller().peer, "uid:1000");
+  EXPECT_EQ(connections->calls(), 2u);
+  EXPECT_EQ(connections->answered(first.caller().connection), 4711u);
+  EXPECT_EQ(connections->begin("fd:18", Side::kClient).caller().peer, "fd:18");
+  EXPECT_EQ(connections->calls(), 2u) << "a stranger is not in the table";
 }
 
 TEST_F(ConnectionsTest, ForgetsWhatIsClosed) {
   const auto connections = table(4);
-  Pair pair;
-  ASSERT_TRUE(connections->admit(pair.fd(), peer_of(pair.fd())));
+  const auto line = admit(*connections, 17);
   {
-    const Connections::Use use = connections->begin(pair.name(), Side::kClient);
-    pair.close_server();
-    connections->sweep();
-    EXPECT_EQ(connections->size(), 0U);
+    const Connections::Use use = connections->begin("fd:17", Side::kClient);
+    // gRPC has closed its socket before, and the number is another connection's by now.
+    const auto next = admit(*connections, 17, "b");
+    connections->forget(use.caller().connection);
+    EXPECT_EQ(connections->size(), 1u);
+    EXPECT_FALSE(connections->answered(use.caller().connection));
+    EXPECT_EQ(connections->begin("fd:17", Side::kClient).caller().peer, "b");
   }
-  EXPECT_EQ(connections->size(), 0U) << "a call that ends later changes nothing";
+  EXPECT_EQ(connections->size(), 1u) << "a call that ends later changes nothing";
 }
 
-TEST_F(ConnectionsTest, TheIdleGoFirstWhenDescriptorsAreShort) {
+TEST_F(ConnectionsTest, TheIdleGoFirstWhenThereIsNoRoom) {
   const auto connections = table(3);
-  Pair busy, used, silent;
-  for (const Pair* pair : {&busy, &used, &silent}) {
-    ASSERT_TRUE(connections->admit(pair->fd(), peer_of(pair->fd())));
-  }
-  const Connections::Use call = connections->begin(busy.name(), Side::kClient);
-  { const Connections::Use ended = connections->begin(used.name(), Side::kClient); }
-  const Pair next, after, last, more;
-  EXPECT_FALSE(connections->admit(next.fd(), peer_of(next.fd()))) << "nobody has been idle for long";
+  const auto busy = admit(*connections, 1), used = admit(*connections, 2), silent = admit(*connections, 3);
+  const Connections::Use call = connections->begin("fd:1", Side::kClient);
+  { const Connections::Use ended = connections->begin("fd:2", Side::kClient); }
+  EXPECT_EQ(admit(*connections, 4), nullptr) << "nobody has been idle for long";
   now_ += milliseconds(1000);
-  EXPECT_TRUE(connections->admit(next.fd(), peer_of(next.fd())));
-  EXPECT_TRUE(silent.is_shut()) << "who never made a call goes first";
-  EXPECT_FALSE(used.is_shut());
+  const auto next = admit(*connections, 4);
+  ASSERT_NE(next, nullptr);
+  EXPECT_TRUE(silent->is_shut) << "who never made a call goes first";
+  EXPECT_FALSE(used->is_shut);
+  EXPECT_EQ(admit(*connections, 5), nullptr) << "until the one that goes has gone";
+  connections->forget(numbers_[3]);
   now_ += milliseconds(1000);
-  EXPECT_TRUE(connections->admit(after.fd(), peer_of(after.fd())));
-  EXPECT_TRUE(next.is_shut());
-  now_ += milliseconds(1000);
-  EXPECT_TRUE(connections->admit(last.fd(), peer_of(last.fd())));
-  EXPECT_TRUE(connections->admit(more.fd(), peer_of(more.fd())) || used.is_shut());
-  EXPECT_FALSE(busy.is_shut());
+  ASSERT_NE(admit(*connections, 5), nullptr);
+  EXPECT_TRUE(next->is_shut);
+  connections->forget(numbers_[4]);
+  EXPECT_FALSE(used->is_shut);
+  EXPECT_FALSE(busy->is_shut);
 }
 
-/// A table without regard to descriptors; numbers that are not open serve as connections.
-constexpr int kNotOpen = 1 << 20;
-ConnectionOptions of_most(std::size_t most, std::size_t for_workers) {
-  ConnectionOptions options;
-  options.first_refused = 2 * kNotOpen;
-  options.most = most;
-  options.for_workers = for_workers;
-  return options;
+TEST_F(ConnectionsTest, OnePeerLeavesAQuarterToOthers) {
+  const auto connections = table(8);
+  for (int i = 0; i < 7; ++i) EXPECT_NE(admit(*connections, i), nullptr) << "nobody else is there";
+  EXPECT_NE(admit(*connections, 7, "b"), nullptr);
+  EXPECT_EQ(admit(*connections, 8), nullptr);
+  connections->forget(numbers_[0]);
+  EXPECT_NE(admit(*connections, 8, "b"), nullptr);
 }
 
-TEST(ConnectionSharesTest, OnePeerLeavesAQuarterToOthers) {
-  Connections connections(of_most(8, 0));
-  int next = kNotOpen;
-  for (int i = 0; i < 7; ++i) EXPECT_TRUE(connections.admit(next++, {"a"})) << "nobody else is there";
-  EXPECT_TRUE(connections.admit(next++, {"b"}));
-  EXPECT_FALSE(connections.admit(next++, {"a"}));
-  EXPECT_TRUE(connections.admit(next++, {"b"}));
-}
-
-TEST(ConnectionSharesTest, AConnectionWithTlsIsFoundByItsSocket) {
-  Connections connections(of_most(3, 1));
-  ASSERT_TRUE(connections.admit(kNotOpen, {"ip:127.0.0.1", {}, "ipv4:127.0.0.1:4711"}));
-  const Connections::Use use = connections.begin("ipv4:127.0.0.1:4711", Side::kClient);
-  EXPECT_EQ(use.caller().peer, "ip:127.0.0.1");
-  EXPECT_EQ(connections.calls(), 1u);
-  EXPECT_EQ(connections.begin("ipv4:127.0.0.1:4712", Side::kClient).caller().peer, "ipv4:127.0.0.1:4712");
-  EXPECT_EQ(connections.calls(), 1u) << "a stranger is not in the table";
-  // The descriptor is another connection's by now, and so may the port be.
-  ASSERT_TRUE(connections.admit(kNotOpen, {"ip:127.0.0.2", {}, "ipv4:127.0.0.2:1"}));
-  EXPECT_NE(connections.begin("ipv4:127.0.0.1:4711", Side::kClient).caller().peer, "ip:127.0.0.1");
-}
-
-TEST(ConnectionSharesTest, WorkersHaveRoomOfTheirOwn) {
-  Connections connections(of_most(3, 1));
-  const auto name = [](int number) { return "fd:" + std::to_string(kNotOpen + number); };
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(connections.admit(kNotOpen + i, {"a"}));
-  const Connections::Use one = connections.begin(name(0), Side::kClient);
-  const Connections::Use two = connections.begin(name(1), Side::kClient);
-  const auto begin = [&](int number, Side side) {
-    return guarded([&] { connections.begin(name(number), side); });
+TEST_F(ConnectionsTest, WorkersHaveRoomOfTheirOwn) {
+  const auto connections = table(3, 1);
+  for (int i = 0; i < 3; ++i) ASSERT_NE(admit(*connections, i), nullptr);
+  const Connections::Use one = connections->begin("fd:0", Side::kClient);
+  const Connections::Use two = connections->begin("fd:1", Side::kClient);
+  const auto begin = [&](const char* name, Side side) {
+    return guarded([&] { connections->begin(name, side); });
   };
-  EXPECT_EQ(begin(2, Side::kClient).error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_TRUE(begin(2, Side::kWorker).ok());
-  EXPECT_TRUE(begin(1, Side::kClient).ok()) << "who is connected stays so";
+  EXPECT_EQ(begin("fd:2", Side::kClient).error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_TRUE(begin("fd:2", Side::kWorker).ok());
+  EXPECT_TRUE(begin("fd:1", Side::kClient).ok()) << "who is connected stays so";
 }
 
 /// Connections that say nothing.
@@ -182,9 +166,7 @@ class Idlers {
 };
 
 TEST_F(ServiceTest, ListensOnAfterTooManyConnections) {
-  const int lowest = dup(0);
-  close(lowest);
-  options_.limits.connections = lowest + 60;
+  options_.limits.connections = 60;
   start();
   const std::string id = submit();
   {
@@ -200,9 +182,7 @@ TEST_F(ServiceTest, ListensOnAfterTooManyConnections) {
 }
 
 TEST_F(ServiceTest, SilentConnectionsLockNobodyOut) {
-  const int lowest = dup(0);
-  close(lowest);
-  options_.limits.connections = lowest + 200;
+  options_.limits.connections = 200;
   options_.limits.idle = milliseconds(1000);
   start();
   Idlers idlers(options_.data_dir + "/server.sock", 150);

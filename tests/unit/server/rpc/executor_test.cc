@@ -40,6 +40,46 @@ TEST(ExecutorTest, RunsWhatWasPostedBeforeItStops) {
   EXPECT_EQ(ran, 101) << "by the caller, when the threads have gone";
 }
 
+TEST(ExecutorTest, WhatIsDroppedDoesNotRun) {
+  Executor executor({.threads = 1});
+  std::promise<void> begun, go;
+  const std::uint64_t running = executor.post(1, [&] {
+    begun.set_value();
+    go.get_future().wait();
+  });
+  begun.get_future().wait();
+  EXPECT_FALSE(executor.drop(1, running)) << "it has begun";
+  std::string order;
+  executor.post(1, [&] { order += 'a'; });
+  const std::uint64_t second = executor.post(1, [&] { order += 'b'; });
+  const std::uint64_t only = executor.post(2, [&] { order += 'c'; });
+  EXPECT_EQ(executor.waiting(), 3u);
+  EXPECT_TRUE(executor.drop(1, second));
+  EXPECT_TRUE(executor.drop(2, only));
+  EXPECT_FALSE(executor.drop(2, only));
+  EXPECT_EQ(executor.waiting(), 1u);
+  go.set_value();
+  executor.stop();
+  EXPECT_EQ(order, "a");
+}
+
+TEST(ExecutorTest, CallersHaveShares) {
+  Executor executor({.threads = 1, .calls = 4});
+  std::promise<void> begun, go;
+  executor.post(1, [&] {
+    begun.set_value();
+    go.get_future().wait();
+  });
+  begun.get_future().wait();
+  for (int i = 0; i < 3; ++i) executor.post(1, [] {});
+  EXPECT_TRUE(executor.has_room(1));
+  executor.post(2, [] {});
+  EXPECT_FALSE(executor.has_room(1)) << "three of four, and there are two callers";
+  EXPECT_TRUE(executor.has_room(2));
+  EXPECT_TRUE(executor.has_room(3));
+  go.set_value();
+}
+
 TEST(ExecutorTest, ASlowCallerDoesNotHoldUpOthers) {
   Executor executor({.threads = 2});
   std::promise<void> go, done;

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <grpcpp/security/server_credentials.h>
-
 #include <memory>
 #include <string>
 
-#include "base/memory_file.h"
+#include "base/mutex.h"
+
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace affskel::server {
 
@@ -16,30 +18,26 @@ struct TlsOptions {
   std::string client_ca;    ///< who may have signed clients' certificates; empty = clients need none
 };
 
-/// The files of TLS as they were when they were last good together.  gRPC reads them again by itself, but
-/// looks at none, and with a file that is half written would refuse everybody.  Not thread-safe.
+/// The files of TLS as they were when they were last good together.  Thread-safe.
 class TlsFiles {
  public:
   /// @throws std::runtime_error naming the file and the cause when the files are not good now.
   explicit TlsFiles(TlsOptions options);
 
-  /// What gRPC speaks TLS with.  Connections are made with the files that are in use a second before.
-  std::shared_ptr<grpc::ServerCredentials> credentials() const;
+  /// What new connections speak TLS with: 1.2 or later, HTTP/2.  A client's certificate, if it shows one, is
+  /// verified here; that there is one is asked by the gate, which can say so.
+  std::shared_ptr<boost::asio::ssl::context> context() const;
 
-  /// Takes files that have changed since the last look into use if they are good together.
+  /// Takes files that have changed since the last look into use if they are good together.  For one thread.
   /// @throws std::runtime_error naming the file and the cause, once for each change, when they are not: those
   ///   that were in use stay.
   void look();
 
-  /// Where those in use are read.
-  TlsOptions in_use() const;
-
  private:
-  struct Contents;
-
-  TlsOptions options_;
+  const TlsOptions options_;
   std::string stamp_;  // of the files at the last look
-  std::unique_ptr<base::MemoryFile> certificate_, key_, client_ca_;
+  mutable base::Mutex mutex_;
+  std::shared_ptr<boost::asio::ssl::context> context_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace affskel::server
