@@ -117,7 +117,7 @@ class Ends(unittest.TestCase):
         """Exit code, what it complains of, and the seconds from its last `told`, or the interrupt, to its end."""
         command = [sys.executable, "-B", *(arguments or ["-c", self.prelude + script])]
         with subprocess.Popen(command, env=self.environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as process:
+                              stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
             said = ""
             if interrupt:
                 said = process.stdout.readline()
@@ -126,7 +126,7 @@ class Ends(unittest.TestCase):
             try:
                 rest, errors = process.communicate(typed, timeout=HANGS)
             except subprocess.TimeoutExpired:
-                process.kill()
+                os.killpg(process.pid, signal.SIGKILL)  # with its children, which hold the pipes
                 self.fail(f"it never ended: {process.communicate()}\n{script}")
             ended = time.monotonic()
         told = [float(line.split()[1]) for line in (said + rest).splitlines() if line.startswith("told ")]

@@ -165,6 +165,16 @@ class Waiting(WithDirectory):
         with self.assertRaisesRegex(affskel.NotFoundError, job.id):
             job.status()
 
+    def test_timeouts_without_end_and_without_a_number(self):
+        client = self.client(self.server())
+        job = client.submit(CUBE.encode(), spacing=.1)
+        for timeout in (float("inf"), 1e300, 1e10):
+            job.wait(timeout=timeout)
+            self.assertEqual(len(job.directions(timeout=timeout)), 12)
+        for call in (job.wait, job.lattice):
+            with self.assertRaises(affskel.UsageError):
+                call(timeout=float("nan"))
+
     def test_a_finished_job_tells_what_it_was(self):
         client = self.client(self.server())
         job = client.submit(CUBE.encode(), spacing=.1, priority=9).wait()

@@ -134,8 +134,8 @@ class Connection:
     def call(self, method: str, request: Any, timeout: Optional[float], metadata: Any) -> Iterator[Any]:
         """A call, cancelled when it is left before its end.
 
-        Never a blocking one: gRPC forgets to end those that a signal's handler leaves by an exception, Ctrl-C's say,
-        and closing the channel waits for them for ever.
+        A unary call, too, is run by gRPC's thread and not by the caller's, so that all calls end in one way: left by an
+        exception of a signal's handler, closed by another thread, inherited by a forked child.
 
         Raises:
             UnreachableError: the connection was closed.

@@ -27,6 +27,7 @@ from .v1 import types_pb2 as types
 
 CHUNK_BYTES = 1 << 20  # largest piece of data in a message
 UNARY_DEADLINE = 30.0  # seconds
+LONGEST_TIMEOUT = 1e9  # seconds; longer ones are none
 START_PATIENCE = 10.0  # for the first answer of a private server
 FIRST_PAUSE, LONGEST_PAUSE = 0.1, 2.0
 MAX_LISTED = 1000  # jobs in one answer
@@ -209,7 +210,7 @@ class Session:
         Args:
             timeout: seconds for the whole, after which TimedOutError is raised; None = as long as it takes.
         """
-        deadline = None if timeout is None else time.monotonic() + timeout
+        deadline = _deadline(timeout)
 
         while True:
             watch = self._run(lambda at: _Watch(at, service.WatchJobRequest(job=job), _left(deadline),
@@ -235,7 +236,7 @@ class Session:
         Args:
             timeout: seconds, also for a worker to compute it first; None = as long as it takes.
         """
-        deadline = None if timeout is None else time.monotonic() + timeout
+        deadline = _deadline(timeout)
 
         def call(at: Connection) -> Tuple[service.ArtifactHeader, bytes]:
             with at.call("FetchArtifact", request, _left(deadline), self._metadata()) as answers:
@@ -319,6 +320,15 @@ class _Tries:
         time.sleep(self._pause if left is None else min(self._pause, left))
         self._pause = min(2 * self._pause, LONGEST_PAUSE)
         return False
+
+
+def _deadline(timeout: Optional[float]) -> Optional[float]:
+    """Of the clock `time.monotonic`.  gRPC takes a time beyond its own clock for one that is over."""
+    if timeout is None or timeout > LONGEST_TIMEOUT:
+        return None
+    if timeout != timeout:
+        raise UsageError("the timeout is not a number")
+    return time.monotonic() + timeout
 
 
 def _left(deadline: Optional[float]) -> Optional[float]:
