@@ -9,8 +9,12 @@ import os
 import signal
 import sys
 import unittest
+from concurrent import futures
+
+import grpc
 
 import affskel
+from affskel.v1 import client_service_pb2 as service
 
 from lab import PROGRAMS, Directory, Server, assert_same
 
@@ -70,6 +74,34 @@ class Restarts(WithDirectory):
         server.end()
         with self.assertRaisesRegex(affskel.UnreachableError, "cannot reach the server at unix:.*the argument server"):
             job.status()
+
+
+class FullServer(grpc.GenericRpcHandler):
+    """A server that answers the first calls of everybody that it has no room."""
+
+    def __init__(self, refusals):
+        self.refusals = refusals
+
+    def service(self, handler_call_details):
+        def answer(_, context):
+            if self.refusals:
+                self.refusals -= 1
+                context.abort(grpc.StatusCode.UNAVAILABLE, "no room")
+            return service.ListJobsResponse(jobs=[{"id": "1"}]).SerializeToString()
+
+        return grpc.unary_unary_rpc_method_handler(answer)
+
+
+class Newcomers(unittest.TestCase):
+    def serve(self, refusals):
+        server = grpc.server(futures.ThreadPoolExecutor(1), handlers=[FullServer(refusals)])
+        port = server.add_insecure_port("127.0.0.1:0")
+        server.start()
+        self.addCleanup(lambda: server.stop(0).wait())
+        return self.enterContext(affskel.Client(f"127.0.0.1:{port}", patience=60))
+
+    def test_a_server_without_room_is_waited_for_though_it_never_gave_another_answer(self):
+        self.assertEqual([status.id for status in self.serve(2).jobs()], ["1"])
 
 
 class PrivateServer(WithDirectory):
@@ -132,6 +164,16 @@ class Waiting(WithDirectory):
         job.delete()
         with self.assertRaisesRegex(affskel.NotFoundError, job.id):
             job.status()
+
+    def test_timeouts_without_end_and_without_a_number(self):
+        client = self.client(self.server())
+        job = client.submit(CUBE.encode(), spacing=.1)
+        for timeout in (float("inf"), 1e300, 1e10):
+            job.wait(timeout=timeout)
+            self.assertEqual(len(job.directions(timeout=timeout)), 12)
+        for call in (job.wait, job.lattice):
+            with self.assertRaises(affskel.UsageError):
+                call(timeout=float("nan"))
 
     def test_a_finished_job_tells_what_it_was(self):
         client = self.client(self.server())

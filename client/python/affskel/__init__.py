@@ -13,6 +13,7 @@ The functions of this module use one client, made by the first call with the ser
 """
 from __future__ import annotations
 
+import os
 import threading
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Dict, List, Optional
@@ -41,6 +42,16 @@ except PackageNotFoundError:  # not installed
 
 _lock = threading.Lock()
 _client: Optional[Client] = None
+
+
+def _renew_lock() -> None:
+    """A thread that is not in the child may have held it."""
+    global _lock
+    _lock = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew_lock)
 
 
 def _default_client() -> Client:

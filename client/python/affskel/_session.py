@@ -8,25 +8,26 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import queue
 import threading
 import time
+from contextlib import ExitStack
 from dataclasses import replace
 from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, Type, TypeVar
 
 import grpc
 
-from ._channel import Token, open_channel, token_of
+from ._channel import Token, token_of
+from ._connection import Connection, check_process
 from ._errors import (AffskelError, InternalError, LimitError, NotAllowedError, NotFoundError, TimedOutError,
                       UnreachableError, UsageError)
 from ._programs import private_server
 from ._settings import Settings
 from .v1 import client_service_pb2 as service
-from .v1 import client_service_pb2_grpc as rpc
 from .v1 import types_pb2 as types
 
 CHUNK_BYTES = 1 << 20  # largest piece of data in a message
 UNARY_DEADLINE = 30.0  # seconds
+LONGEST_TIMEOUT = 1e9  # seconds; longer ones are none
 START_PATIENCE = 10.0  # for the first answer of a private server
 FIRST_PAUSE, LONGEST_PAUSE = 0.1, 2.0
 MAX_LISTED = 1000  # jobs in one answer
@@ -56,27 +57,12 @@ def _is_away(error: Any) -> bool:
     return error.code() in (_Code.UNAVAILABLE, _Code.CANCELLED)
 
 
-def _is_ready(channel: Any) -> bool:
-    """Whether the connection stands, so that UNAVAILABLE was the server's own answer."""
-    states: "queue.Queue[Any]" = queue.Queue()
-    channel.subscribe(states.put)  # tells the state as it is, then changes
-    try:
-        return bool(states.get(timeout=1) == grpc.ChannelConnectivity.READY)
-    except queue.Empty:
-        return False
-    finally:
-        channel.unsubscribe(states.put)
+def _has_answered(error: Any) -> bool:
+    """Whether UNAVAILABLE was the server's own answer: gRPC's core then says so, and tells it by nothing else.
 
-
-class _Connection:
-    """A channel, its stub, and what it was made for."""
-
-    def __init__(self, settings: Settings) -> None:
-        assert settings.address is not None
-        self.settings = settings
-        self.target = settings.address.target
-        self.channel = open_channel(settings)
-        self.stub: Any = rpc.ErosionServiceStub(self.channel)  # type: ignore[no-untyped-call]
+    To ask for the state of the channel takes a thread that polls it, beyond the end of the interpreter.
+    """
+    return "received from peer" in (error.debug_error_string() or "")
 
 
 class Session:
@@ -88,7 +74,7 @@ class Session:
         self._patience = patience
         self._token: Optional[Token] = token_of(settings)
         self._lock = threading.Lock()
-        self._connection: Optional[_Connection] = None
+        self._connection: Optional[Connection] = None
         self._proven = False  # the server answered at least once
 
     @property
@@ -100,21 +86,26 @@ class Session:
         return self._connect().settings
 
     def close(self) -> None:
+        try:
+            check_process()
+        except AffskelError:  # forked: there is nothing to close
+            return
         with self._lock:
             connection, self._connection = self._connection, None
         if connection is not None:
-            connection.channel.close()
+            connection.close()
 
-    def _connect(self) -> _Connection:
+    def _connect(self) -> Connection:
+        check_process()
         with self._lock:
-            if self._connection is None:
+            if self._connection is None or not self._connection.is_usable:
                 settings = self._settings
                 if settings.address is None:
                     settings = replace(settings, address=private_server())
-                self._connection = _Connection(settings)
+                self._connection = Connection(settings)
             return self._connection
 
-    def _forget(self, connection: _Connection) -> None:
+    def _forget(self, connection: Connection) -> None:
         """Not closed: other threads may be using it."""
         with self._lock:
             if self._connection is connection:
@@ -123,8 +114,10 @@ class Session:
     def _metadata(self) -> Tuple[Tuple[str, str], ...]:
         return (("authorization", "Bearer " + self._token.text()),) if self._token else ()
 
-    def _error(self, error: Any, target: str, not_yet: Type[AffskelError]) -> AffskelError:
-        code, detail = error.code(), error.details() or ""
+    def _error(self, error: Any, connection: Connection, not_yet: Type[AffskelError]) -> AffskelError:
+        code, detail, target = error.code(), error.details() or "", connection.target
+        if connection.is_closed:
+            return UnreachableError(f"the connection to the server at {target} was closed while a call was under way")
         kind = not_yet if code == _Code.FAILED_PRECONDITION else _ERRORS.get(code, InternalError)
         if _is_away(error):
             where = "" if self.embedded else f" (address from {self._settings.origin})"
@@ -135,7 +128,7 @@ class Session:
             return kind(f"the server at {target} does not offer this call (an older version?): {detail}")
         return kind(detail or f"the server answered with status {code.name}")
 
-    def _run(self, attempt: Callable[[_Connection], Result], not_yet: Type[AffskelError] = NotAllowedError,
+    def _run(self, attempt: Callable[[Connection], Result], not_yet: Type[AffskelError] = NotAllowedError,
              deadline: Optional[float] = None) -> Result:
         """Runs `attempt` until it succeeds or fails for good.
 
@@ -149,14 +142,16 @@ class Session:
             try:
                 result = attempt(connection)
             except grpc.RpcError as error:
-                tries.failed(error, connection)
+                if tries.are_over(error, connection):
+                    raise tries.take_error() from error
             else:
                 self._proven = True
                 return result
 
     def _unary(self, name: str, request: Any) -> Any:
-        def call(at: _Connection) -> Any:
-            return getattr(at.stub, name)(request, timeout=UNARY_DEADLINE, metadata=self._metadata())
+        def call(at: Connection) -> Any:
+            with at.call(name, request, UNARY_DEADLINE, self._metadata()) as answer:
+                return answer.result()
 
         return self._run(call)
 
@@ -166,11 +161,11 @@ class Session:
             for begin in range(0, len(mesh), CHUNK_BYTES):
                 yield service.SubmitJobRequest(data=mesh[begin:begin + CHUNK_BYTES])
 
-        def call(at: _Connection) -> service.SubmitJobResponse:
+        def call(at: Connection) -> service.SubmitJobResponse:
             timeout = 120 + len(mesh) / CHUNK_BYTES  # 1 MiB/s at least
-            answer: service.SubmitJobResponse = at.stub.SubmitJob(messages(), timeout=timeout,
-                                                                  metadata=self._metadata())
-            return answer
+            with at.call("SubmitJob", messages(), timeout, self._metadata()) as answer:
+                response: service.SubmitJobResponse = answer.result()
+            return response
 
         return self._run(call)
 
@@ -215,32 +210,23 @@ class Session:
         Args:
             timeout: seconds for the whole, after which TimedOutError is raised; None = as long as it takes.
         """
-        deadline = None if timeout is None else time.monotonic() + timeout
-
-        def begin(at: _Connection) -> Tuple[_Connection, Any, Optional[types.Job]]:
-            call = at.stub.WatchJob(service.WatchJobRequest(job=job), timeout=_left(deadline),
-                                    metadata=self._metadata())
-            first = next(call, None)  # with it the server is known to answer
-            if first is None:
-                raise InternalError("the server ended the watch without a state")
-            return at, call, first
+        deadline = _deadline(timeout)
 
         while True:
-            connection, call, now = self._run(begin, deadline=deadline)
-            try:
-                while now is not None:
-                    job = now.id  # "@last" may mean another job by now
-                    yield now
-                    if now.state in FINAL_STATES:
-                        return
-                    now = next(call, None)
-            except grpc.RpcError as error:
-                if not _is_away(error):
-                    raise self._error(error, connection.target, NotAllowedError) from error
-            finally:
-                call.cancel()  # nothing when it has ended
+            watch = self._run(lambda at: _Watch(at, service.WatchJobRequest(job=job), _left(deadline),
+                                                self._metadata()), deadline=deadline)
+            with watch:
+                try:
+                    for now in watch:
+                        job = now.id  # "@last" may mean another job by now
+                        yield now
+                        if now.state in FINAL_STATES:
+                            return
+                except grpc.RpcError as error:
+                    if watch.connection.is_closed or not _is_away(error):
+                        raise self._error(error, watch.connection, NotAllowedError) from error.with_traceback(None)
             _log.info("the server went away; trying to reach it again")
-            self._forget(connection)
+            self._forget(watch.connection)
             time.sleep(FIRST_PAUSE)
 
     def fetch(self, request: service.FetchArtifactRequest,
@@ -250,11 +236,43 @@ class Session:
         Args:
             timeout: seconds, also for a worker to compute it first; None = as long as it takes.
         """
-        deadline = None if timeout is None else time.monotonic() + timeout
-        return self._run(
-            lambda at: _received(
-                at.stub.FetchArtifact(request, timeout=_left(deadline), metadata=self._metadata())),
-            NotFoundError, deadline)
+        deadline = _deadline(timeout)
+
+        def call(at: Connection) -> Tuple[service.ArtifactHeader, bytes]:
+            with at.call("FetchArtifact", request, _left(deadline), self._metadata()) as answers:
+                return _received(answers)
+
+        return self._run(call, NotFoundError, deadline)
+
+
+class _Watch:
+    """The states of a job, as one stream tells them.  To be left by its context, whose end cancels the stream."""
+
+    def __init__(self, connection: Connection, request: service.WatchJobRequest, timeout: Optional[float],
+                 metadata: Any) -> None:
+        self.connection = connection
+        with ExitStack() as stack:
+            self._call = stack.enter_context(connection.call("WatchJob", request, timeout, metadata))
+            first: Optional[types.Job] = next(self._call, None)  # with it the server is known to answer
+            if first is None:
+                raise InternalError("the server ended the watch without a state")
+            self._first: types.Job = first
+            self._stack = stack.pop_all()
+
+    def __enter__(self) -> "_Watch":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def __iter__(self) -> Iterator[types.Job]:
+        yield self._first
+        while True:
+            check_process()  # whoever got the state before may have forked: no other would ever come
+            now: Optional[types.Job] = next(self._call, None)
+            if now is None:
+                return
+            yield now
 
 
 class _Tries:
@@ -265,33 +283,52 @@ class _Tries:
         self._not_yet = not_yet
         self._deadline = deadline
         self._pause = FIRST_PAUSE
+        self._error: Optional[AffskelError] = None
         self._failing: Optional[float] = None  # since the first error: a call itself may take long
 
-    def failed(self, error: Any, connection: _Connection) -> None:
-        """Waits for the next try, or raises what the error means."""
+    def are_over(self, error: Any, connection: Connection) -> bool:
+        """Waits for the next try; or there is none, and `take_error` tells what the error means."""
         session = self._session
-        meaning = session._error(error, connection.target, self._not_yet)
-        if not _is_away(error):
-            raise meaning from error
-        if not session._proven and _is_ready(connection.channel):
+        self._error = session._error(error, connection, self._not_yet)
+        # Its traceback leads back to itself: it would hold the connection until garbage is collected.
+        error.with_traceback(None)
+        if connection.is_closed or not _is_away(error):
+            return True
+        if _has_answered(error):
             session._proven = True
         # An idle private server may leave at this very moment: another is started.
         if not session._proven and not session.embedded:
-            raise meaning from error
+            return True
         session._forget(connection)
-        self._wait_or_raise(meaning)
+        return self._is_given_up()
 
-    def _wait_or_raise(self, error: AffskelError) -> None:
+    def take_error(self) -> AffskelError:
+        """To be raised at once: kept in a variable it would be in its own traceback."""
+        error, self._error = self._error, None
+        assert error is not None
+        return error
+
+    def _is_given_up(self) -> bool:
         now = time.monotonic()
         if self._failing is None:
             self._failing = now
-            _log.info("trying again: %s", error)
+            _log.info("trying again: %s", self._error)
         patience = self._session._patience if self._session._proven else START_PATIENCE
         if now >= self._failing + patience:
-            raise error
+            return True
         left = _left(self._deadline)
         time.sleep(self._pause if left is None else min(self._pause, left))
         self._pause = min(2 * self._pause, LONGEST_PAUSE)
+        return False
+
+
+def _deadline(timeout: Optional[float]) -> Optional[float]:
+    """Of the clock `time.monotonic`.  gRPC takes a time beyond its own clock for one that is over."""
+    if timeout is None or timeout > LONGEST_TIMEOUT:
+        return None
+    if timeout != timeout:
+        raise UsageError("the timeout is not a number")
+    return time.monotonic() + timeout
 
 
 def _left(deadline: Optional[float]) -> Optional[float]:
@@ -310,20 +347,17 @@ def _received(call: Any) -> Tuple[service.ArtifactHeader, bytes]:
     pieces: List[bytes] = []
     received = 0
     digest = hashlib.sha256()
-    try:
-        for answer in call:
-            if answer.HasField("header") != (header is None):
-                raise InternalError("the server sent the parts of the artefact out of order")
-            if header is None:
-                header = answer.header
-                continue
-            received += len(answer.data)
-            if received > header.bytes:
-                raise InternalError(f"the artefact has more than its {header.bytes} bytes")
-            digest.update(answer.data)
-            pieces.append(answer.data)
-    finally:
-        call.cancel()
+    for answer in call:
+        if answer.HasField("header") != (header is None):
+            raise InternalError("the server sent the parts of the artefact out of order")
+        if header is None:
+            header = answer.header
+            continue
+        received += len(answer.data)
+        if received > header.bytes:
+            raise InternalError(f"the artefact has more than its {header.bytes} bytes")
+        digest.update(answer.data)
+        pieces.append(answer.data)
     if header is None:
         raise InternalError("the server sent no artefact")
     if received != header.bytes:
