@@ -6,7 +6,12 @@
 namespace affskel::server {
 
 Executor::Executor(const ExecutorOptions& options) {
-  for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { run(); });
+  try {
+    for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { run(); });
+  } catch (...) {
+    stop();
+    throw;
+  }
 }
 
 Executor::~Executor() {

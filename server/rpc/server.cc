@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "base/end_limit.h"
 #include "base/logfmt.h"
 #include "base/mutex.h"
 #include "database/database_file.h"
@@ -96,6 +97,16 @@ void release_dead_workers(Store& store) {
 
 Server::Server(const ServerOptions& options)
     : registry_(clock_, options.store.lease_ms), room_(options.limits, upload_bytes(options)) {
+  try {
+    start(options);
+  } catch (...) {
+    base::limit_end();
+    stop(std::chrono::milliseconds(0));
+    throw;
+  }
+}
+
+void Server::start(const ServerOptions& options) {
   hold_grpc();
   if (options.metrics) require_local_metrics(*options.metrics, options.insecure);
   prepare_addresses(options.listen);
@@ -122,6 +133,7 @@ Server::Server(const ServerOptions& options)
 }
 
 Server::~Server() {
+  base::limit_end();  // for what gRPC lost when threads or memory were short it waits without end
   stop();
 }
 

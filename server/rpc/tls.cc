@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/regular_file.h"
+
 namespace affskel::server {
 namespace {
 
@@ -29,6 +31,9 @@ constexpr unsigned kReloadSeconds = 1;
 }
 
 std::string read_file(const std::string& file) {
+  if (const char* kind = base::kind_unless_regular(file)) {
+    throw std::runtime_error(file + ": " + kind + ", not a regular file");
+  }
   std::ifstream in(file, std::ios::binary);
   std::string bytes;
   if (in) bytes.assign(std::istreambuf_iterator<char>(in), {});
