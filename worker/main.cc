@@ -6,15 +6,17 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <stop_token>
 #include <system_error>
 #include <thread>
 
 #include "affskel/v1/types.pb.h"
+#include "base/end_limit.h"
 #include "base/logfmt.h"
+#include "base/stop_signals.h"
 #include "compute.h"
 #include "core/base/error.h"
 #include "lease_loop.h"
-#include "stop_signal.h"
 #include "wire/address.h"
 #include "wire/grpc_log.h"
 #include "wire/version.h"
@@ -77,6 +79,18 @@ int run_compute(const affskel::worker::ComputeOptions& options) {
   }
 }
 
+// Beyond the direction in hand and its report; what was not reported is computed again.
+constexpr std::chrono::seconds kLongestEnd{60};
+
+void limit_the_end() {
+  affskel::base::EndLimit limit;
+  limit.limit = kLongestEnd;
+  limit.entry =
+      "event=stuck message=\"the end takes too long; leaving without it, the lease ends by itself\"";
+  limit.exit_code = kInternal;
+  affskel::base::set_end_limit(limit);
+}
+
 int run_worker(const affskel::worker::LeaseLoopOptions& options) {
   try {
     affskel::wire::parse_address(options.server);
@@ -84,9 +98,13 @@ int run_worker(const affskel::worker::LeaseLoopOptions& options) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return kUsage;
   }
-  const affskel::worker::StopSignal stop;
+  limit_the_end();
+  std::stop_source stop;
   try {
-    return run_lease_loop(options, stop.token());
+    const affskel::base::StopSignals signals([&stop](int) { stop.request_stop(); });
+    const int code = run_lease_loop(options, stop.get_token());
+    affskel::base::limit_end();
+    return code;
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return kUsage;

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/end_limit.h"
+#include "base/temporary_files.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/web/http_server.h"
@@ -22,6 +24,10 @@ struct Options {
 // A request waits no longer for a server that is away, nor for a worker.
 constexpr std::chrono::seconds kPatience{10};
 constexpr std::chrono::minutes kArtifactPatience{10};
+
+// For what is worked on when it is told to leave; the server has what it was given.
+constexpr std::chrono::seconds kLongestEnd{30};
+constexpr const char* kStuck = "event=stuck message=\"the end takes too long; leaving without it\"";
 
 wire::Address http_address(const Options& options) {
   wire::Address address;
@@ -91,6 +97,8 @@ void run(Context& context, const Options& options, const GlobalOptions& global) 
     context.console().note(std::string(opened ? "opened it in a browser" : "open it in a browser") +
                            (web.personal ? "; it opens once" : "; people sign in with their tokens") +
                            "; Ctrl-C ends the service, jobs go on");
+    base::set_end_limit(
+        {.limit = kLongestEnd, .entry = kStuck, .before = []() noexcept { base::remove_guarded_files(); }});
     http.run(true);
     stop.request_stop();
   }

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <map>
 
+#include "base/end_limit.h"
 #include "client/base/error.h"
 #include "client/web/http_conversation.h"
 
@@ -67,7 +68,9 @@ class HttpServer::Impl {
     if (by_signal) {
       for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) signals.add(signal_number);
       signals.async_wait([this](const error_code& error, int) {
-        if (!error) io_.stop();
+        if (error) return;
+        base::limit_end();
+        io_.stop();
       });
     }
     asio::co_spawn(io_, accept(), asio::detached);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/mutex.h"
+#include "base/regular_file.h"
 
 namespace affskel::wire {
 namespace {
@@ -26,9 +27,8 @@ namespace {
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
 
 std::string read_file(const std::string& path, const char* what) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw std::invalid_argument(path + ": a directory, not a file with a " + what);
+  if (const char* kind = base::kind_unless_regular(path))
+    throw std::invalid_argument(path + ": " + kind + ", not a file with a " + what);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::invalid_argument(path + ": cannot read the " + what + ": " + std::strerror(errno));
   std::string text;

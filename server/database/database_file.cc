@@ -10,6 +10,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/regular_file.h"
 #include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
@@ -38,15 +39,24 @@ bool has_bytes(const std::string& file) {
   return stat(file.c_str(), &status) == 0 && status.st_size > 0;
 }
 
+/// SQLite would wait for ever for somebody to write into a FIFO.
+void refuse_irregular(const std::string& database) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+    const std::string file = database + suffix;
+    if (const char* kind = base::kind_unless_regular(file)) refuse(file + ": " + kind + ", no database");
+  }
+}
+
 /// False when it is not there.  @throws when it is, and is no database at all.
 bool is_there(const std::string& file) {
+  refuse_irregular(file);
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR) return false;
     throw std::system_error(errno, std::generic_category(), file);
   }
   // SQLite would take it for a new database, and delete the log beside it as left over.
-  if (S_ISREG(status.st_mode) && status.st_size < kHeaderBytes) {
+  if (status.st_size < kHeaderBytes) {
     refuse(file + ": no database, the file " +
            (status.st_size == 0 ? "is empty" : "has " + std::to_string(status.st_size) + " bytes") +
            "; restore a backup, or remove it to begin with an empty one");

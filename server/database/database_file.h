@@ -11,16 +11,16 @@ inline std::string database_file(const std::string& data_dir) {
 }
 
 /// The same, where there must be one already.
-/// @throws StoreError kUnusable when there is none or it is empty; std::system_error when that cannot be
-///   told.
+/// @throws StoreError kUnusable when there is none, it is empty, or it or its log is no regular file;
+///   std::system_error when that cannot be told.
 std::string existing_database_file(const std::string& data_dir);
 
 /// Makes sure that `file` is a database that a server may open.  A new one is made beside it and appears
 /// complete.  A mark (affskel.made) then says that there is one, so that a database which is missing or empty
 /// later on is never taken for a new directory.
 /// @returns file.
-/// @throws StoreError kUnusable when it is missing where the mark or a log is, empty, or foreign; what
-///   Database throws.
+/// @throws StoreError kUnusable when it is missing where the mark or a log is, empty, foreign, or no regular
+///   file, nor its log; what Database throws.
 const std::string& ready_database_file(const std::string& file);
 
 /// What tells a file from a copy of it: its number in the file system and, where that is known, the time of

@@ -259,7 +259,8 @@ namespace {
 /// closing it would release SQLite's locks.
 int probe_disk(const std::string& file) {
   const std::string probe = file + ".probe";
-  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  unlink(probe.c_str());  // of one who was killed here
+  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (fd < 0) return errno;
   const int error = posix_fallocate(fd, 0, kPageBytes);
   close(fd);

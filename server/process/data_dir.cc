@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/regular_file.h"
 #include "wire/version.h"
 
 namespace affskel::server {
@@ -53,7 +54,7 @@ bool lock_within(int fd, std::chrono::milliseconds patience) {
 }  // namespace
 
 std::optional<std::string> data_dir_holder(const std::string& path) {
-  const int fd = open((path + "/server.lock").c_str(), O_RDONLY | O_CLOEXEC);
+  const int fd = open((path + "/server.lock").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return std::nullopt;
   // Shared, so that two who ask at once do not take each other for a server; given back with the descriptor.
   // A server that starts in between waits a little longer than that.
@@ -65,6 +66,9 @@ std::optional<std::string> data_dir_holder(const std::string& path) {
 
 DataDir::DataDir(const std::string& path, std::chrono::milliseconds patience) : path_(make_directory(path)) {
   const std::string file = path_ + "/server.lock";
+  if (const char* kind = base::kind_unless_regular(file)) {
+    refuse(path_, std::string("server.lock is ") + kind + ", not a regular file");
+  }
   lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (lock_ < 0) refuse(path_, "server.lock: " + std::string(std::strerror(errno)));
   if (!lock_within(lock_, patience)) {
@@ -104,6 +108,7 @@ void DataDir::publish(const std::vector<std::string>& addresses, const std::opti
   if (metrics) json["metrics"] = *metrics;
   const std::string file = path_ + "/server.json";
   const std::string temporary = file + ".new";
+  unlink(temporary.c_str());  // whatever it is
   std::ofstream out(temporary, std::ios::trunc);
   out << json.dump() << '\n';
   out.close();

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/regular_file.h"
 #include "process/exit_code.h"
 #include "process/policy_options.h"
 #include "wire/version.h"
@@ -210,6 +211,10 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
       ->type_name("LEVEL")
       ->capture_default_str();
   app.set_config("--config", "", "Read options from a TOML or INI file, named as here without the dashes")
+      ->check([](const std::string& file) {
+        const char* kind = base::kind_unless_regular(file);
+        return kind == nullptr ? std::string() : file + " is " + kind + ", not a regular file";
+      })
       ->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt limit would be none
 }

@@ -1,21 +1,21 @@
 #include "process/run.h"
 
 #include <malloc.h>
-#include <signal.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <system_error>
 #include <thread>
 
+#include "base/end_limit.h"
 #include "base/logfmt.h"
 #include "base/service_manager.h"
 #include "database/errors.h"
@@ -23,8 +23,8 @@
 #include "process/exit_code.h"
 #include "process/file_limit.h"
 #include "process/maintenance.h"
+#include "process/signals.h"
 #include "process/supervisor.h"
-#include "process/time_limit.h"
 #include "rpc/server.h"
 #include "rpc/watchdog.h"
 #include "wire/grpc_log.h"
@@ -35,7 +35,7 @@ namespace affskel::server {
 namespace {
 
 // Between looks at workers that are due and at idleness; signals are noticed at once.
-constexpr long kTickNs = 100'000'000;
+constexpr std::chrono::milliseconds kTick{100};
 
 // Workers finish the direction in hand and report; whoever needs longer loses at most that.
 constexpr std::chrono::milliseconds kWorkerGrace{5000};
@@ -44,7 +44,7 @@ constexpr std::chrono::milliseconds kWorkerGrace{5000};
 constexpr std::chrono::milliseconds kCallGrace{2000};
 
 // Both, and the rest of it on a machine where each commit takes a second.
-constexpr std::chrono::milliseconds kLongestEnd{60000};
+constexpr std::chrono::seconds kLongestEnd{60};
 
 void log_for_grpc(bool is_error, const std::string& entry) {
   spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, entry);
@@ -56,32 +56,6 @@ void start_logging(const std::string& level) {
   logger->set_pattern(base::kLogPattern, spdlog::pattern_time_type::utc);
   logger->set_level(spdlog::level::from_str(level));
   spdlog::set_default_logger(logger);
-}
-
-/// Signals wait for wait_for_signal, in this thread and all that it starts.
-sigset_t block_signals() {
-  signal(SIGPIPE, SIG_IGN);
-  sigset_t set;
-  sigemptyset(&set);
-  for (int number : {SIGTERM, SIGINT, SIGCHLD}) sigaddset(&set, number);
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  return set;
-}
-
-/// The next signal, or 0 after a tick.
-int wait_for_signal(const sigset_t& set) {
-  const timespec tick{0, kTickNs};
-  const int number = sigtimedwait(&set, nullptr, &tick);
-  return number > 0 ? number : 0;
-}
-
-/// Takes a signal to stop that came meanwhile.
-bool told_again(const sigset_t& set) {
-  const timespec at_once{};
-  for (int number = 0; (number = sigtimedwait(&set, nullptr, &at_once)) > 0;) {
-    if (number == SIGTERM || number == SIGINT) return true;
-  }
-  return false;
 }
 
 std::vector<wire::Address> listen_addresses(const Options& options, const std::string& data_dir) {
@@ -129,6 +103,7 @@ SupervisorOptions supervisor_options(const Options& options, const Server& serve
 /// already live in a new directory of the same name: an orderly end would take its socket away.
 void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
   if (!data_dir.lost()) return;
+  base::limit_end();
   spdlog::error(base::logfmt(
       "data_dir_lost",
       {{"data_dir", data_dir.path()}, {"message", "deleted or moved while the server ran; leaving"}}));
@@ -140,6 +115,7 @@ void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
 /// The database was removed or replaced under the server: what comes now could not be kept.
 void leave_if_database_lost(Server& server, Supervisor& supervisor) {
   if (!server.store().lost()) return;
+  base::limit_end();
   spdlog::error(base::logfmt(
       "database_lost",
       {{"file", server.store().file()}, {"message", "removed or replaced while the server ran; leaving"}}));
@@ -149,15 +125,15 @@ void leave_if_database_lost(Server& server, Supervisor& supervisor) {
 }
 
 /// Until a signal says so, or nobody needs the server any more.
-void serve(const Options& options, const DataDir& data_dir, const sigset_t& signals, Server& server,
+void serve(const Options& options, const DataDir& data_dir, const Signals& signals, Server& server,
            Supervisor& supervisor) {
   for (;;) {
     leave_if_lost(data_dir, supervisor);
     leave_if_database_lost(server, supervisor);
     supervisor.tick();
-    const int number = wait_for_signal(signals);
-    if (number == SIGTERM || number == SIGINT) {
-      spdlog::info(base::logfmt("stopping", {{"signal", number}}));
+    if (signals.count() == 0) signals.wait(kTick);
+    if (signals.count() > 0) {
+      spdlog::info(base::logfmt("stopping", {{"signal", signals.number()}}));
       return;
     }
     if (options.idle_exit_s && server.idle_time() >= std::chrono::duration<double>(*options.idle_exit_s)) {
@@ -176,28 +152,45 @@ void keep_memory_small() {
   mallopt(M_TRIM_THRESHOLD, 32 << 20);
 }
 
-/// All that was acknowledged is on the disk.
-void leave_at_once(const char* event, const char* why) {
-  spdlog::critical(base::logfmt(event, {{"message", why}}));
-  spdlog::default_logger()->flush();
-  std::_Exit(static_cast<int>(ExitCode::kInternal));
-}
-
 /// A server that does not answer would keep everybody waiting; one that exits is restarted, at the cost of a
-/// second of work.
+/// second of work: all that was acknowledged is on the disk.
 void leave_if_deaf() {
-  leave_at_once("deaf", "no answer to its own calls; leaving, to be started again");
+  base::leave_at_once("critical",
+                      "event=deaf message=\"no answer to its own calls; leaving, to be started again\"",
+                      static_cast<int>(ExitCode::kInternal));
 }
 
-/// What gRPC lost when memory was short it would wait for without end.
-void leave_if_stuck() {
-  leave_at_once("stuck", "the end takes too long; leaving without it, nothing is lost");
+// The workers of this process, for the signal handler that ends it.
+std::atomic<const Supervisor*> supervised = nullptr;
+
+void kill_workers() noexcept {
+  if (const Supervisor* supervisor = supervised) supervisor->kill_all();
 }
+
+/// The end that comes in spite of what hangs.
+void limit_the_end() {
+  base::EndLimit limit;
+  limit.limit = kLongestEnd;
+  limit.entry = "event=stuck message=\"the end takes too long; leaving without it, nothing is lost\"";
+  limit.exit_code = static_cast<int>(ExitCode::kInternal);
+  limit.before = kill_workers;
+  base::set_end_limit(limit);
+}
+
+/// No worker outlives a server that leaves so.
+class Supervised {
+ public:
+  explicit Supervised(const Supervisor& supervisor) { supervised = &supervisor; }
+  ~Supervised() { supervised = nullptr; }
+  Supervised(const Supervised&) = delete;
+  Supervised& operator=(const Supervised&) = delete;
+};
 
 void run_server(const Options& options) {
   umask(0077);  // meshes and results are this user's alone
   keep_memory_small();
-  const sigset_t signals = block_signals();
+  limit_the_end();
+  Signals signals;
   raise_file_limit();
   const DataDir data_dir(options.data_dir);
   ServerOptions server_options;
@@ -225,6 +218,8 @@ void run_server(const Options& options) {
           spdlog::error(base::logfmt("release_failed", {{"pid", pid}, {"message", error.what()}}));
         }
       });
+  const Supervised until_the_end(supervisor);
+  signals.begin_serving();
   std::vector<std::string> targets;
   for (const wire::Address& address : server.addresses()) {
     targets.push_back(address.target());
@@ -240,16 +235,23 @@ void run_server(const Options& options) {
   data_dir.publish(targets, metrics, SystemClock().wall_ms());
   const Watchdog watchdog(nearest(server).target(), WatchdogOptions(), leave_if_deaf);
   base::tell_service_manager(base::ServiceState::kReady);
-  serve(options, data_dir, signals, server, supervisor);
+  try {
+    serve(options, data_dir, signals, server, supervisor);
+  } catch (...) {
+    base::limit_end();
+    throw;
+  }
+  base::limit_end();
+  // Of these the first began the end, unless nobody needed the server any more.
+  const unsigned heard = std::min(signals.count(), 1U);
   base::tell_service_manager(base::ServiceState::kStopping);
   leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();
   // First whoever works may finish what is in hand, then what is left is cut off: 10 s at most.  A second
   // signal ends the first stage.
-  const TimeLimit limit(kLongestEnd, leave_if_stuck);
   server.drain();
   bool hurried = false;
-  supervisor.terminate(kWorkerGrace, [&] { return hurried = hurried || told_again(signals); });
+  supervisor.terminate(kWorkerGrace, [&] { return hurried = signals.count() > heard; });
   server.stop(hurried ? std::chrono::milliseconds(0) : kCallGrace);
   spdlog::info(base::logfmt("stopped"));
 }
@@ -260,7 +262,15 @@ ExitCode exit_code_of(const SqliteError& error) {
                                                                                 : ExitCode::kInternal;
 }
 
+/// Threads and memory may be there again in a moment: a service manager is to try.
+ExitCode exit_code_of(const std::system_error& error) {
+  const bool short_of_something = error.code() == std::errc::resource_unavailable_try_again ||
+                                  error.code() == std::errc::not_enough_memory;
+  return short_of_something ? ExitCode::kInternal : ExitCode::kUsage;
+}
+
 int fail(ExitCode code, const std::exception& error) {
+  base::limit_end();
   std::cerr << "affskel-server: " << error.what() << '\n';
   return static_cast<int>(code);
 }
@@ -278,6 +288,8 @@ int run(const Options& options) {
   } catch (const StoreError& error) {
     return fail(ExitCode::kUsage, error);
   } catch (const SqliteError& error) {
+    return fail(exit_code_of(error), error);
+  } catch (const std::system_error& error) {
     return fail(exit_code_of(error), error);
   } catch (const std::runtime_error& error) {
     return fail(ExitCode::kUsage, error);

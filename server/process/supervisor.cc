@@ -58,6 +58,13 @@ base::LogField describe(int status) {
   return {"signal", WTERMSIG(status)};
 }
 
+/// Leaves it to be waited for: until then its number is nobody else's.
+bool has_ended(pid_t pid, int options) {
+  siginfo_t state{};
+  return waitid(P_PID, static_cast<id_t>(pid), &state, WEXITED | WNOWAIT | options) == 0 &&
+         state.si_pid == pid;
+}
+
 bool executable(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
 }
@@ -84,9 +91,7 @@ void Supervisor::tick() {
 
 void Supervisor::reap() {
   for (Slot& slot : slots_) {
-    if (slot.pid == 0) continue;
-    int status = 0;
-    if (waitpid(slot.pid, &status, WNOHANG) == slot.pid) ended(slot, status);
+    if (slot.pid != 0 && has_ended(slot.pid, WNOHANG)) ended(slot);
   }
 }
 
@@ -111,8 +116,10 @@ void Supervisor::start(Slot& slot) {
   on_start_(child);
 }
 
-void Supervisor::ended(Slot& slot, int status) {
-  const pid_t pid = std::exchange(slot.pid, 0);
+void Supervisor::ended(Slot& slot) {
+  const pid_t pid = slot.pid.exchange(0);
+  int status = 0;
+  waitpid(pid, &status, 0);
   const Time now = std::chrono::steady_clock::now();
   if (now - slot.started >= options_.healthy) {
     slot.delay = std::chrono::milliseconds(0);
@@ -144,12 +151,17 @@ void Supervisor::terminate(std::chrono::milliseconds grace, const std::function<
   }
   for (Slot& slot : slots_) {
     if (slot.pid == 0) continue;
-    spdlog::warn(base::logfmt(
-        "worker_killed",
-        {{"pid", slot.pid}, {"message", "did not end within " + std::to_string(grace.count()) + " ms"}}));
+    spdlog::warn(base::logfmt("worker_killed",
+                              {{"pid", slot.pid.load()},
+                               {"message", "did not end within " + std::to_string(grace.count()) + " ms"}}));
     kill(slot.pid, SIGKILL);
-    int status = 0;
-    if (waitpid(slot.pid, &status, 0) == slot.pid) ended(slot, status);
+    if (has_ended(slot.pid, 0)) ended(slot);
+  }
+}
+
+void Supervisor::kill_all() const noexcept {
+  for (const Slot& slot : slots_) {
+    if (const pid_t pid = slot.pid; pid != 0) kill(pid, SIGKILL);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <string>
@@ -35,7 +36,11 @@ class Supervisor {
 
   /// Sends SIGTERM to all and waits; kills who has not ended within `grace`.  Starts none afterwards.
   /// @param hurry asked again and again; true ends the grace.
-  void terminate(std::chrono::milliseconds grace, const std::function<bool()>& hurry = [] { return false; });
+  void terminate(
+      std::chrono::milliseconds grace, const std::function<bool()>& hurry = [] { return false; });
+
+  /// Kills who runs and waits for nobody, for a process that leaves at once.  Async-signal-safe; any thread.
+  void kill_all() const noexcept;
 
   /// Children that run.
   unsigned running() const;
@@ -43,7 +48,7 @@ class Supervisor {
  private:
   using Time = std::chrono::steady_clock::time_point;
   struct Slot {
-    pid_t pid = 0;  // 0 = not running
+    std::atomic<pid_t> pid = 0;  // 0 = not running; read by kill_all()
     Time started;
     Time due;  // when to start next
     std::chrono::milliseconds delay{0};
@@ -51,7 +56,7 @@ class Supervisor {
 
   void reap();
   void start(Slot& slot);
-  void ended(Slot& slot, int status);
+  void ended(Slot& slot);
 
   const SupervisorOptions options_;
   Callback on_start_;

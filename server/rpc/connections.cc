@@ -124,7 +124,7 @@ bool Connections::has_room(const PeerIdentity& identity) {
   if (own >= share && own < entries_.size() && !close_idle(&identity.name)) return false;
   if (entries_.size() < options_.most) return true;
   // The one that goes makes room in a moment.
-  return close_idle(nullptr) && entries_.size() < options_.most + options_.spare;
+  return entries_.size() < options_.most + options_.spare && close_idle(nullptr);
 }
 
 /// Tells the idlest connection, of this peer or of all, to close.

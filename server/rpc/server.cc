@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "base/end_limit.h"
 #include "base/logfmt.h"
 #include "base/mutex.h"
 #include "database/database_file.h"
@@ -114,6 +115,16 @@ void give_memory_back() {
 
 Server::Server(const ServerOptions& options)
     : registry_(clock_, options.store.lease_ms), room_(options.limits, upload_bytes(options)) {
+  try {
+    start(options);
+  } catch (...) {
+    base::limit_end();
+    stop(std::chrono::milliseconds(0));
+    throw;
+  }
+}
+
+void Server::start(const ServerOptions& options) {
   hold_grpc();
   if (options.metrics) require_local_metrics(*options.metrics, options.insecure);
   prepare_addresses(options.listen);
@@ -140,6 +151,7 @@ Server::Server(const ServerOptions& options)
 }
 
 Server::~Server() {
+  base::limit_end();  // for what gRPC lost when threads or memory were short it waits without end
   stop();
 }
 

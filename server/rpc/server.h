@@ -83,6 +83,7 @@ class Server {
   void stop(std::chrono::milliseconds grace = std::chrono::milliseconds(2000));
 
  private:
+  void start(const ServerOptions& options);
   void serve(const ServerOptions& options);
   void tell_metrics(const wire::Address& address);
   std::string trouble();

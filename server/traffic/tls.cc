@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/regular_file.h"
+
 namespace affskel::server {
 namespace {
 
@@ -24,6 +26,9 @@ void require(const error_code& error, const std::string& file, const char* what)
 }
 
 std::string read_file(const std::string& file) {
+  if (const char* kind = base::kind_unless_regular(file)) {
+    throw std::runtime_error(file + ": " + kind + ", not a regular file");
+  }
   std::ifstream in(file, std::ios::binary);
   std::string bytes;
   if (in) bytes.assign(std::istreambuf_iterator<char>(in), {});

@@ -351,6 +351,21 @@ TEST(SupervisorTest, DeafWorkersAreKilled) {
   EXPECT_EQ(supervisor.running(), 0U);
 }
 
+TEST(SupervisorTest, KillsAllForAProcessThatLeavesAtOnce) {
+  const TemporaryDirectory directory;
+  const std::string ready = (directory.path() / "ready").string();
+  int ended = 0;
+  SupervisorOptions options = shell("trap '' TERM; : > '" + ready + "'; exec sleep 1000", 1);
+  options.first_delay = options.last_delay = std::chrono::hours(1);
+  Supervisor supervisor(
+      options, [](pid_t) {}, [&](pid_t) { ++ended; });
+  tick_until(supervisor, [&] { return std::filesystem::exists(ready); });
+  supervisor.kill_all();
+  tick_until(supervisor, [&] { return ended == 1; });
+  EXPECT_EQ(supervisor.running(), 0U);
+  supervisor.kill_all();  // nobody
+}
+
 TEST(SupervisorTest, NamesAMissingWorkerBinary) {
   EXPECT_THROW(find_worker_binary("/nonexistent/affskel-worker"), std::runtime_error);
   EXPECT_EQ(find_worker_binary("/bin/sh"), "/bin/sh");
