@@ -245,7 +245,8 @@ class SolidBuilder {
   // Shells at odd depth are cavities of the solid around them.
   void nest() {
     const auto count = static_cast<std::uint32_t>(solid_.shells.size());
-    const ShellNesting nesting = nest_shells(solid_.mesh, solid_.triangle_shell, count);
+    const ShellNesting nesting =
+        nest_shells(solid_.mesh, solid_.triangle_shell, count, {options_.threads, options_.context});
     std::uint32_t solids = 0;
     for (std::uint32_t s = 0; s < count; ++s) {
       solid_.shells[s].cavity = nesting.depth[s] % 2 == 1;

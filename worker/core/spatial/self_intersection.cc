@@ -210,6 +210,14 @@ bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
   return false;
 }
 
+bool triangles_meet(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
+  const auto triangle = [&](const Triangle& t) {
+    return Kernel::Triangle_3(point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2]));
+  };
+  const Kernel::Triangle_3 a = triangle(mesh.triangles[i]), b = triangle(mesh.triangles[j]);
+  return !a.is_degenerate() && !b.is_degenerate() && CGAL::do_intersect(a, b);
+}
+
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options) {
   check(mesh);
