@@ -4,6 +4,10 @@
 #include <cmath>
 #include <thread>
 
+#include "core/base/matrix3.h"
+#include "core/base/split_mix64.h"
+#include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 #include "link_fixture.h"
 
 namespace affskel::worker {
@@ -22,6 +26,7 @@ class LoopTest : public LinkTest {
     options.server = server_.address();
     options.max_jobs = max_jobs;
     options.patience = std::chrono::seconds(5);
+    options.prepare_limit = prepare_limit_;
     int code = -1;
     std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
     server_.wait_for_idle();
@@ -32,12 +37,33 @@ class LoopTest : public LinkTest {
 
   void offer(const v1::Lease& lease) { server_.offer(lease); }
 
+  // Needles in all directions through one place: nothing but their pairs tells which of them cross, so that
+  // making them ready takes minutes and more.
+  static std::string needles() {
+    constexpr int kNeedles = 6000;
+    core::Mesh mesh;
+    const core::Mesh needle = core::make_box(2, 1e-3, 1e-3);
+    core::SplitMix64 random{1};
+    for (int i = 0; i < kNeedles; ++i) {
+      const core::Matrix3 turn = core::orthonormal({core::Vec3{random.symmetric(), random.symmetric(), 1},
+                                                    {random.symmetric(), 2, random.symmetric()},
+                                                    {2, random.symmetric(), random.symmetric()}});
+      const auto first = static_cast<std::uint32_t>(mesh.points.size());
+      for (const core::Vec3& p : needle.points) mesh.points.push_back(turn * (p - core::Vec3{1, 5e-4, 5e-4}));
+      for (const core::Triangle& t : needle.triangles)
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return core::write_off(mesh);
+  }
+
   // A task that is fetching its input, and renews its lease after one millisecond.
   static v1::Lease restless_lease(const std::string& token, v1::TaskKind kind = v1::TASK_KIND_PREPARE) {
     v1::Lease lease = other_lease(token, kind);
     lease.set_lease_ms(4);
     return lease;
   }
+
+  std::chrono::seconds prepare_limit_{3600};
 };
 
 TEST_F(LoopTest, PreparesErodesAndDerives) {
@@ -233,6 +259,32 @@ TEST_F(LoopTest, GivesAPreparationBackWhenItIsToStop) {
   EXPECT_EQ(code, 0);
   EXPECT_EQ(server_.calls("ReturnLease"), 1);
   EXPECT_TRUE(server_.failures().empty());
+}
+
+TEST_F(LoopTest, HearsOfACancelledTaskWhileItMakesTheMeshReady) {
+  server_.set_input(v1::ARTIFACT_KIND_MESH, needles());
+  server_.cancel_next_renewal();
+  v1::Lease lease = other_lease("a", v1::TASK_KIND_PREPARE);
+  lease.set_lease_ms(2000);
+  lease.set_report_interval_ms(500);
+  offer(lease);
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.completions().empty());
+  EXPECT_TRUE(server_.failures().empty());
+  EXPECT_EQ(server_.calls("RenewLease"), 1);
+}
+
+TEST_F(LoopTest, FailsATaskForGoodWhenTheMeshTakesTooLong) {
+  server_.set_input(v1::ARTIFACT_KIND_MESH, needles());
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  prepare_limit_ = std::chrono::seconds(1);
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.completions().empty());
+  ASSERT_EQ(server_.failures().size(), 1U);
+  EXPECT_FALSE(server_.failures()[0].retryable());
+  EXPECT_EQ(server_.failures()[0].error().code(), "LIMIT");
+  EXPECT_NE(server_.failures()[0].error().message().find("1 s of processor time"), std::string::npos)
+      << server_.failures()[0].error().message();
 }
 
 TEST_F(LoopTest, GivesALeaseBackBeyondMaxJobs) {

@@ -376,7 +376,9 @@ class SolidBuilder {
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;
+    StopCheck stop(options_.context);
     for (const auto& [i, j] : pairs) {
+      stop.did(kOperationsPerPair);
       if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
     }
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
@@ -386,6 +388,8 @@ class SolidBuilder {
              " and " + place(pairs[0].second) +
              "; overlaps count twice in volumes, and E is only approximate near them");
   }
+
+  static constexpr std::uint64_t kOperationsPerPair = 128;
 
   SolidOptions options_;
   const Mesh& input_;
