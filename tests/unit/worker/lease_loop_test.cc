@@ -4,11 +4,8 @@
 #include <cmath>
 #include <thread>
 
-#include "core/base/matrix3.h"
-#include "core/base/split_mix64.h"
-#include "core/shapes/shapes.h"
-#include "core/text/off_file.h"
 #include "link_fixture.h"
+#include "tools/crossing_boxes.h"
 
 namespace affskel::worker {
 namespace {
@@ -36,25 +33,6 @@ class LoopTest : public LinkTest {
   }
 
   void offer(const v1::Lease& lease) { server_.offer(lease); }
-
-  // Needles in all directions through one place: nothing but their pairs tells which of them cross, so that
-  // making them ready takes minutes and more.
-  static std::string needles() {
-    constexpr int kNeedles = 6000;
-    core::Mesh mesh;
-    const core::Mesh needle = core::make_box(2, 1e-3, 1e-3);
-    core::SplitMix64 random{1};
-    for (int i = 0; i < kNeedles; ++i) {
-      const core::Matrix3 turn = core::orthonormal({core::Vec3{random.symmetric(), random.symmetric(), 1},
-                                                    {random.symmetric(), 2, random.symmetric()},
-                                                    {2, random.symmetric(), random.symmetric()}});
-      const auto first = static_cast<std::uint32_t>(mesh.points.size());
-      for (const core::Vec3& p : needle.points) mesh.points.push_back(turn * (p - core::Vec3{1, 5e-4, 5e-4}));
-      for (const core::Triangle& t : needle.triangles)
-        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
-    return core::write_off(mesh);
-  }
 
   // A task that is fetching its input, and renews its lease after one millisecond.
   static v1::Lease restless_lease(const std::string& token, v1::TaskKind kind = v1::TASK_KIND_PREPARE) {
@@ -262,7 +240,7 @@ TEST_F(LoopTest, GivesAPreparationBackWhenItIsToStop) {
 }
 
 TEST_F(LoopTest, HearsOfACancelledTaskWhileItMakesTheMeshReady) {
-  server_.set_input(v1::ARTIFACT_KIND_MESH, needles());
+  server_.set_input(v1::ARTIFACT_KIND_MESH, tests::crossing_boxes(20000));
   server_.cancel_next_renewal();
   v1::Lease lease = other_lease("a", v1::TASK_KIND_PREPARE);
   lease.set_lease_ms(2000);
@@ -275,7 +253,7 @@ TEST_F(LoopTest, HearsOfACancelledTaskWhileItMakesTheMeshReady) {
 }
 
 TEST_F(LoopTest, FailsATaskForGoodWhenTheMeshTakesTooLong) {
-  server_.set_input(v1::ARTIFACT_KIND_MESH, needles());
+  server_.set_input(v1::ARTIFACT_KIND_MESH, tests::crossing_boxes(20000));
   offer(other_lease("a", v1::TASK_KIND_PREPARE));
   prepare_limit_ = std::chrono::seconds(1);
   EXPECT_EQ(run(), 0);
