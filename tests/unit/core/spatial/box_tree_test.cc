@@ -76,7 +76,7 @@ TEST(BoxTreeTest, TellsFacesOfNestedCubesApart) {
     looks += query.looks;
   }
   EXPECT_EQ(met, 30U * kCubes) << "itself and the four faces beside it";
-  EXPECT_LT(looks, 200 * faces.size());
+  EXPECT_LT(looks, 500 * faces.size()) << "once more than 12,000 each";
 }
 
 TEST(BoxTreeTest, AnswersNothingFromAnEmptyTree) {
