@@ -21,6 +21,7 @@
 #include "base/service_manager.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
+#include "core/lattice/lattice_memory.h"
 #include "derive/derive.h"
 #include "erode_task.h"
 #include "failure.h"
@@ -29,6 +30,7 @@
 #include "job_shelf.h"
 #include "last_report.h"
 #include "lease_keeper.h"
+#include "prepare_limit.h"
 #include "server_link.h"
 #include "task_context.h"
 #include "wire/direction_order.h"
@@ -365,10 +367,18 @@ class LeaseLoop {
     // A prepared job has fitted into the memory of some worker: one that is short of it must not fail the job
     // for all.
     const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
-    job_ =
-        std::make_unique<PreparedJob>(mesh, prepared_params(lease.job()), options_.threads, &context,
-                                      first ? std::function<std::uint64_t()>([this] { return memory_left(); })
-                                            : std::function<std::uint64_t()>());
+    // For the same reason only the first is bound in its time.
+    PrepareLimit limit(context, first ? options_.prepare_limit : std::chrono::seconds(0));
+    try {
+      job_ = std::make_unique<PreparedJob>(
+          mesh, prepared_params(lease.job()), options_.threads, &limit,
+          first ? std::function<std::uint64_t()>([this] { return memory_left(); })
+                : std::function<std::uint64_t()>());
+    } catch (const core::LatticeMemoryError&) {
+      throw;
+    } catch (const core::CoreError& error) {
+      throw limit.reason(error);
+    }
   }
 
   // Leaves the job in hand for another, with all of its field acknowledged.

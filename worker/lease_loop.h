@@ -16,6 +16,8 @@ struct LeaseLoopOptions {
   std::chrono::seconds idle_exit{0};  ///< leave after this long without work; 0 = never
   /// Leave when work on another job than the first max_jobs is offered; 0 = never.
   std::uint64_t max_jobs = 0;
+  /// Of processor time that making a job ready may take; 0 = no bound.
+  std::chrono::seconds prepare_limit{3600};
   std::chrono::seconds patience{60};  ///< leave when the server does not answer for this long
   wire::AccessFiles access = {};      ///< what it shows to the server
 };

@@ -120,6 +120,7 @@ struct Flags {
   std::string log_level = "info";
   std::int64_t idle_exit_s = 0;
   std::int64_t patience_s = 60;
+  std::int64_t prepare_limit_s = 3600;
 };
 
 CLI::App* declare(CLI::App& app, Flags& flags) {
@@ -140,6 +141,13 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       ->transform(CLI::AsSizeValue(false).description(""))
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 60).description(""))
       ->type_name("BYTES");
+  app.add_option(
+         "--prepare-limit", flags.prepare_limit_s,
+         "seconds of processor time that making a mesh ready may take, or its job fails; 0 = no limit; "
+         "else $AFFSKEL_PREPARE_LIMIT")
+      ->envname("AFFSKEL_PREPARE_LIMIT")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
+      ->capture_default_str();
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
       ->capture_default_str();
@@ -223,6 +231,7 @@ int main(int argc, char** argv) {
     spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, entry);
   });
   flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
+  flags.loop.prepare_limit = std::chrono::seconds(flags.prepare_limit_s);
   flags.loop.patience = std::chrono::seconds(flags.patience_s);
   return run_worker(flags.loop);
 }

@@ -5,18 +5,13 @@
 
 namespace affskel::server {
 
-<<<<<<< HEAD
 Executor::Executor(const ExecutorOptions& options) : options_(options) {
-  for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { run(); });
-=======
-Executor::Executor(const ExecutorOptions& options) {
   try {
     for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { run(); });
   } catch (...) {
     stop();
     throw;
   }
->>>>>>> ends
 }
 
 Executor::~Executor() {

@@ -293,7 +293,12 @@ Relay::Relay(const RelayOptions& options) : shared_(std::make_unique<Shared>(opt
       }
     }
   };
-  for (std::size_t i = 0; i < options.threads; ++i) shared_->threads.emplace_back(run);
+  try {
+    for (std::size_t i = 0; i < options.threads; ++i) shared_->threads.emplace_back(run);
+  } catch (...) {
+    stop();
+    throw;
+  }
 }
 
 Relay::~Relay() {

@@ -108,7 +108,7 @@ void visit_field(std::string_view bytes, std::uint64_t points, Visit visit) {
 PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads,
                          core::ExecutionContext* context, const std::function<std::uint64_t()>& available)
     : solid_(read_solid(mesh_bytes, params, threads, context, polygons_cut_)),
-      frame_(core::solid_frame(solid_, frame_kind(params.frame()))),
+      frame_(core::solid_frame(solid_, frame_kind(params.frame()), context)),
       lattice_(lay_lattice(solid_, params.sampling(), frame_, threads, context, available)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
 

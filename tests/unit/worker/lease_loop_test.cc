@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "link_fixture.h"
+#include "tools/crossing_boxes.h"
 
 namespace affskel::worker {
 namespace {
@@ -22,6 +23,7 @@ class LoopTest : public LinkTest {
     options.server = server_.address();
     options.max_jobs = max_jobs;
     options.patience = std::chrono::seconds(5);
+    options.prepare_limit = prepare_limit_;
     int code = -1;
     std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
     server_.wait_for_idle();
@@ -38,6 +40,8 @@ class LoopTest : public LinkTest {
     lease.set_lease_ms(4);
     return lease;
   }
+
+  std::chrono::seconds prepare_limit_{3600};
 };
 
 TEST_F(LoopTest, PreparesErodesAndDerives) {
@@ -233,6 +237,32 @@ TEST_F(LoopTest, GivesAPreparationBackWhenItIsToStop) {
   EXPECT_EQ(code, 0);
   EXPECT_EQ(server_.calls("ReturnLease"), 1);
   EXPECT_TRUE(server_.failures().empty());
+}
+
+TEST_F(LoopTest, HearsOfACancelledTaskWhileItMakesTheMeshReady) {
+  server_.set_input(v1::ARTIFACT_KIND_MESH, tests::crossing_boxes(20000));
+  server_.cancel_next_renewal();
+  v1::Lease lease = other_lease("a", v1::TASK_KIND_PREPARE);
+  lease.set_lease_ms(2000);
+  lease.set_report_interval_ms(500);
+  offer(lease);
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.completions().empty());
+  EXPECT_TRUE(server_.failures().empty());
+  EXPECT_EQ(server_.calls("RenewLease"), 1);
+}
+
+TEST_F(LoopTest, FailsATaskForGoodWhenTheMeshTakesTooLong) {
+  server_.set_input(v1::ARTIFACT_KIND_MESH, tests::crossing_boxes(20000));
+  offer(other_lease("a", v1::TASK_KIND_PREPARE));
+  prepare_limit_ = std::chrono::seconds(1);
+  EXPECT_EQ(run(), 0);
+  EXPECT_TRUE(server_.completions().empty());
+  ASSERT_EQ(server_.failures().size(), 1U);
+  EXPECT_FALSE(server_.failures()[0].retryable());
+  EXPECT_EQ(server_.failures()[0].error().code(), "LIMIT");
+  EXPECT_NE(server_.failures()[0].error().message().find("1 s of processor time"), std::string::npos)
+      << server_.failures()[0].error().message();
 }
 
 TEST_F(LoopTest, GivesALeaseBackBeyondMaxJobs) {

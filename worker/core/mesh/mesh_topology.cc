@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
@@ -61,11 +62,24 @@ void for_each_edge(const Mesh& mesh, unsigned threads, const Visit& visit) {
   });
 }
 
-bool same_triangle(const Mesh& mesh, std::uint32_t s, std::uint32_t t) {
-  Triangle a = mesh.triangles[s], b = mesh.triangles[t];
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  return a == b;
+// The corner opposite to the half-edge.  Over a common edge triangles are the same when these are.
+std::uint32_t tip(const Mesh& mesh, std::uint32_t h) {
+  return from(mesh, previous_corner(h));
+}
+
+// The first triangle over the edge that comes again, and where it does; both are `last` when none does.  Of a
+// book of a hundred thousand leaves not every two are compared.
+std::pair<const EdgeEnd*, const EdgeEnd*> first_repeated(const Mesh& mesh, const EdgeEnd* first,
+                                                         const EdgeEnd* last) {
+  std::vector<std::pair<std::uint32_t, const EdgeEnd*>> leaves;
+  for (const EdgeEnd* e = first; e != last; ++e) leaves.emplace_back(tip(mesh, e->half_edge), e);
+  std::sort(leaves.begin(), leaves.end());
+  std::pair<const EdgeEnd*, const EdgeEnd*> found{last, last};
+  for (std::size_t i = 1; i < leaves.size(); ++i) {
+    if (leaves[i - 1].first == leaves[i].first && leaves[i - 1].second < found.first)
+      found = {leaves[i - 1].second, leaves[i].second};
+  }
+  return found;
 }
 
 // Counts open and crowded edges, names the first of each, and repeated triangles.
@@ -76,16 +90,13 @@ class EdgeDefects {
 
   void see(const EdgeEnd* first, const EdgeEnd* last) {
     const auto count = last - first;
-    const bool twin = count == 2 && same_triangle(mesh_, first[0].half_edge / 3, first[1].half_edge / 3);
+    const bool twin = count == 2 && tip(mesh_, first[0].half_edge) == tip(mesh_, first[1].half_edge);
     if (count == 2 && !twin) return;
     note(count == 1 ? open_ : crowded_, first, last);
-    for (const EdgeEnd* a = first; a != last && repeated_.empty(); ++a) {
-      for (const EdgeEnd* b = a + 1; b != last && repeated_.empty(); ++b) {
-        if (same_triangle(mesh_, a->half_edge / 3, b->half_edge / 3)) {
-          repeated_ = place_(a->half_edge / 3) + " and " + place_(b->half_edge / 3) + " are the same";
-        }
-      }
-    }
+    if (!repeated_.empty()) return;
+    const auto [once, again] = first_repeated(mesh_, first, last);
+    if (once == last) return;
+    repeated_ = place_(once->half_edge / 3) + " and " + place_(again->half_edge / 3) + " are the same";
   }
 
   void throw_if_any() const {
@@ -162,8 +173,7 @@ bool find_mates_if_closed(const Mesh& mesh, unsigned threads, HalfEdges& mates) 
   for_each_edge(mesh, threads, [&](const EdgeEnd* first, const EdgeEnd* last) {
     const std::uint32_t a = first[0].half_edge;
     const std::uint32_t b = last - first == 2 ? first[1].half_edge : a;
-    // Over a common edge triangles are the same when their third corners are.
-    if (b == a || from(mesh, previous_corner(a)) == from(mesh, previous_corner(b))) {
+    if (b == a || tip(mesh, a) == tip(mesh, b)) {
       closed = false;
     } else {
       mates[a] = b;

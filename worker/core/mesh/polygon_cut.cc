@@ -3,8 +3,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::size_t kMaxEarCorners = 256;
-
 Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return cross(b - a, c - a);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,11 +9,15 @@
 
 namespace affskel::core {
 
+/// Ears are clipped of polygons with up to so many corners.
+inline constexpr std::size_t kMaxEarCorners = 256;
+
 /// Cuts one polygon (>= 3 corners, indices into points) into corners.size() - 2 triangles of the same
 /// sense and appends them.  Quadrilaterals along the diagonal that leaves both halves facing the
 /// polygon's way, the shorter one if both do; larger ones by clipping ears in the plane of the area
 /// vector (Meisters 1975), so that planar polygons with reflex corners do not fold over; a fan where no
-/// ear is left (polygons that cross themselves) and above 256 corners.
+/// ear is left (polygons that cross themselves) and above kMaxEarCorners.  Takes up to the third power of
+/// kMaxEarCorners.
 void cut_polygon(std::span<const Vec3> points, std::span<const std::uint32_t> corners,
                  std::vector<Triangle>& out);
 

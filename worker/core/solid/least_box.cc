@@ -61,13 +61,14 @@ Matrix3 found_from(unsigned seed, const std::vector<Kernel::Point_3>& points) {
 
 }  // namespace
 
-Matrix3 least_box_axes(const Mesh& mesh) {
+Matrix3 least_box_axes(const Mesh& mesh, ExecutionContext* context) {
   const std::vector<Kernel::Point_3> hull = hull_points(mesh);
   std::vector<Vec3> points;
   for (const Kernel::Point_3& p : hull) points.push_back({p.x(), p.y(), p.z()});
-  FittedBox least = shrink_box(points, kIdentity3);
+  FittedBox least = shrink_box(points, kIdentity3, context);
   for (unsigned seed = 1; seed <= kSearches; ++seed) {
-    const FittedBox box = shrink_box(points, found_from(seed, hull));
+    throw_if_stopped(context);
+    const FittedBox box = shrink_box(points, found_from(seed, hull), context);
     if (box.volume < (1 - kTie) * least.volume) least = box;
   }
   return least.axes;

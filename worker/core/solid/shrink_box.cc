@@ -62,13 +62,15 @@ double area_along(const std::vector<Vec2>& hull, const Vec2& e) {
 }
 
 // The unit vector along the hull's best edge, turned by right angles to be the one nearest to (1, 0).
-Vec2 best_side(const std::vector<Vec2>& hull) {
+Vec2 best_side(const std::vector<Vec2>& hull, ExecutionContext* context) {
+  StopCheck stop(context);
   Vec2 best{1, 0};
   double least = area_along(hull, best) * (1 - kGain);
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
     const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
     if (!(length > 0)) continue;
+    stop.did(hull.size());
     Vec2 e{dx / length, dy / length};
     while (e.x < std::abs(e.y) || e.y == e.x) e = {e.y, -e.x};
     const double area = area_along(hull, e);
@@ -80,12 +82,12 @@ Vec2 best_side(const std::vector<Vec2>& hull) {
 }
 
 // Turns the box about axis k; false when that gains nothing.
-bool turn_about(std::size_t k, std::span<const Vec3> points, Matrix3& axes) {
+bool turn_about(std::size_t k, std::span<const Vec3> points, Matrix3& axes, ExecutionContext* context) {
   Vec3 &a = axes[(k + 1) % 3], &b = axes[(k + 2) % 3];
   std::vector<Vec2> flat;
   flat.reserve(points.size());
   for (const Vec3& p : points) flat.push_back({dot(a, p), dot(b, p)});
-  const Vec2 side = best_side(convex_hull(std::move(flat)));
+  const Vec2 side = best_side(convex_hull(std::move(flat)), context);
   if (side.y == 0) return false;
   const Vec3 turned = side.x * a + side.y * b;
   b = side.x * b - side.y * a;
@@ -104,11 +106,12 @@ double volume_of(std::span<const Vec3> points, const Matrix3& axes) {
 
 }  // namespace
 
-FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start) {
+FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start, ExecutionContext* context) {
   FittedBox box{orthonormal(start), 0};
   std::size_t idle = 0;
   for (int round = 0; round < kMaxRounds && idle < 3; ++round) {
-    idle = turn_about(static_cast<std::size_t>(round) % 3, points, box.axes) ? 0 : idle + 1;
+    throw_if_stopped(context);
+    idle = turn_about(static_cast<std::size_t>(round) % 3, points, box.axes, context) ? 0 : idle + 1;
   }
   box.volume = volume_of(points, box.axes);
   return box;

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/base/execution_context.h"
 #include "core/base/matrix3.h"
 
 namespace affskel::core {
@@ -17,6 +18,8 @@ struct FittedBox {
 /// the start are forgotten.  Uses +, -, *, / and sqrt only.
 /// @param points at least one.
 /// @param start nearly orthonormal axes.
-FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start);
+/// @throws CoreError kCancelled when the context asks to stop: points on a circle take the square of their
+/// number.
+FittedBox shrink_box(std::span<const Vec3> points, const Matrix3& start, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -245,7 +245,8 @@ class SolidBuilder {
   // Shells at odd depth are cavities of the solid around them.
   void nest() {
     const auto count = static_cast<std::uint32_t>(solid_.shells.size());
-    const ShellNesting nesting = nest_shells(solid_.mesh, solid_.triangle_shell, count);
+    const ShellNesting nesting =
+        nest_shells(solid_.mesh, solid_.triangle_shell, count, {options_.threads, options_.context});
     std::uint32_t solids = 0;
     for (std::uint32_t s = 0; s < count; ++s) {
       solid_.shells[s].cavity = nesting.depth[s] % 2 == 1;
@@ -375,7 +376,9 @@ class SolidBuilder {
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;
+    StopCheck stop(options_.context);
     for (const auto& [i, j] : pairs) {
+      stop.did(kOperationsPerPair);
       if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
     }
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
@@ -385,6 +388,8 @@ class SolidBuilder {
              " and " + place(pairs[0].second) +
              "; overlaps count twice in volumes, and E is only approximate near them");
   }
+
+  static constexpr std::uint64_t kOperationsPerPair = 128;
 
   SolidOptions options_;
   const Mesh& input_;

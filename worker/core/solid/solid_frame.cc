@@ -91,7 +91,9 @@ class Frame {
     return oriented(with_ties_resolved({eigen.values, eigen.vectors}));
   }
 
-  Matrix3 least_box() const { return oriented(descending(with_sides(least_box_axes(mesh_))).axes); }
+  Matrix3 least_box(ExecutionContext* context) const {
+    return oriented(descending(with_sides(least_box_axes(mesh_, context))).axes);
+  }
 
   Matrix3 affine() const {
     SymmetricEigen eigen = symmetric_eigen(moments_.covariance);
@@ -191,14 +193,14 @@ FrameKind parse_frame(std::string_view name) {
                   "frame '" + std::string(name.substr(0, 40)) + "': expected axis, pca, obb or affine");
 }
 
-Matrix3 solid_frame(const Solid& solid, FrameKind kind) {
+Matrix3 solid_frame(const Solid& solid, FrameKind kind, ExecutionContext* context) {
   switch (kind) {
     case FrameKind::kAxis:
       break;
     case FrameKind::kPca:
       return Frame(solid.mesh).principal();
     case FrameKind::kObb:
-      return Frame(solid.mesh).least_box();
+      return Frame(solid.mesh).least_box(context);
     case FrameKind::kAffine:
       return Frame(solid.mesh).affine();
   }

@@ -32,8 +32,9 @@ FrameKind parse_frame(std::string_view name);
 ///
 /// Signs, ties and what symmetric solids get: solid_frame.cc.  A function of the mesh alone; all machines
 /// agree on every bit (kObb: see least_box_axes).
+/// @param context asked whether to stop; may be null.
 /// @throws CoreError kBadInput when the solid is so flat that its covariance is singular to rounding
-///   (kAffine).
-Matrix3 solid_frame(const Solid& solid, FrameKind kind);
+///   (kAffine); kCancelled when the context asks to stop.
+Matrix3 solid_frame(const Solid& solid, FrameKind kind, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4;
 
+double centre_of(const Box& box, std::size_t axis) {
+  return box.low[axis] / 2 + box.high[axis] / 2;
+}
+
 }  // namespace
 
 BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
@@ -31,12 +35,29 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
   nodes_[index] = {box, first, count, 0, max_index};
   if (count <= kLeaf) return;
 
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
-  }
-  const auto centre = [&](std::uint32_t i) { return boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2; };
+  const std::size_t axis = longest_axis(first, count);
+  const auto centre = [&](std::uint32_t i) { return centre_of(boxes_[i], axis); };
   halve_node(nodes_, index, items_, kLeaf, threads, centre, [this](auto... half) { build(half...); });
+}
+
+// Of the centres, not of the box: the faces of boxes within boxes all have their centres in the middle of the
+// longest sides.  Halved there, by nothing but their indices, each half would fill the whole box again.
+std::size_t BoxTree::longest_axis(std::uint32_t first, std::uint32_t count) const {
+  std::size_t longest = 0;
+  double length = -1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = centre_of(boxes_[items_[first]], axis), high = low;
+    for (std::uint32_t i = first + 1; i < first + count; ++i) {
+      const double centre = centre_of(boxes_[items_[i]], axis);
+      low = std::min(low, centre);
+      high = std::max(high, centre);
+    }
+    if (high - low > length) {
+      longest = axis;
+      length = high - low;
+    }
+  }
+  return longest;
 }
 
 }  // namespace affskel::core

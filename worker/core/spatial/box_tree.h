@@ -40,6 +40,7 @@ class BoxTree {
   };
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
+  std::size_t longest_axis(std::uint32_t first, std::uint32_t count) const;
 
   template <class Query = Box, class Visit>
   void walk(const Query& query, std::int64_t above, Visit visit) const {

@@ -150,7 +150,7 @@ class Search {
 
  private:
   static constexpr std::size_t kBlock = 2048;
-  static constexpr std::uint64_t kOperationsPerCandidate = 64;
+  static constexpr std::uint64_t kOperationsPerVisit = 4, kOperationsPerCandidate = 64;
 
   void find(const CloseTriangles& close, std::size_t begin, std::size_t end, Pairs& pairs) const {
     std::vector<std::uint32_t> candidates;
@@ -160,15 +160,16 @@ class Search {
         if (options_.degenerate_triangles) pairs.emplace_back(i, i);
         continue;
       }
-      stop.did(candidates.size() * kOperationsPerCandidate);
       candidates.clear();
       close.visit_above(i, [&](std::uint32_t j) {
+        stop.did(kOperationsPerVisit);
         if (meet_.may_meet(i, j)) candidates.push_back(j);
       });
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
       for (const std::uint32_t j : candidates) {
         if (pairs.size() == options_.max_pairs) break;
+        stop.did(kOperationsPerCandidate);
         if (degenerate_[j] == 0 && meet_(i, j)) pairs.emplace_back(i, j);
       }
     }
@@ -208,6 +209,14 @@ bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
     if (pierces(mesh, s[k], s[(k + 1) % 3], t) || pierces(mesh, t[k], t[(k + 1) % 3], s)) return true;
   }
   return false;
+}
+
+bool triangles_meet(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
+  const auto triangle = [&](const Triangle& t) {
+    return Kernel::Triangle_3(point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2]));
+  };
+  const Kernel::Triangle_3 a = triangle(mesh.triangles[i]), b = triangle(mesh.triangles[j]);
+  return !a.is_degenerate() && !b.is_degenerate() && CGAL::do_intersect(a, b);
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(

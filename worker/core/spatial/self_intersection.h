@@ -37,4 +37,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
 /// count, for the smallest move could end it.  Exact.
 bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j);
 
+/// Whether two triangles have a point in common.  Exact.  A degenerate one has none with any: its neighbours
+/// have its edges.
+bool triangles_meet(const Mesh& mesh, std::uint32_t i, std::uint32_t j);
+
 }  // namespace affskel::core

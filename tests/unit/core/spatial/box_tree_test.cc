@@ -37,6 +37,48 @@ TEST(BoxTreeTest, FindsWhatASearchThroughAllFinds) {
   }
 }
 
+// Counts the boxes that a search compares with its own.
+struct CountedQuery {
+  Box box;
+  mutable std::size_t looks = 0;
+
+  bool meets(const Box& other) const {
+    ++looks;
+    return box.meets(other);
+  }
+};
+
+// The flat boxes of the faces of cubes round one another: no two faces of different cubes meet.  Their
+// centres have two coordinates in common, so that a tree which goes by its boxes' sides never tells them
+// apart.
+std::vector<Box> faces_of_nested_cubes(int count) {
+  std::vector<Box> faces;
+  for (int i = 1; i <= count; ++i) {
+    const double r = i;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const double at : {-r, r}) {
+        faces.push_back({{-r, -r, -r}, {r, r, r}});
+        faces.back().low[k] = faces.back().high[k] = at;
+      }
+    }
+  }
+  return faces;
+}
+
+TEST(BoxTreeTest, TellsFacesOfNestedCubesApart) {
+  constexpr int kCubes = 4000;
+  const std::vector<Box> faces = faces_of_nested_cubes(kCubes);
+  const BoxTree tree(faces);
+  std::size_t looks = 0, met = 0;
+  for (const Box& face : faces) {
+    const CountedQuery query{face};
+    tree.visit(query, [&](std::uint32_t) { ++met; });
+    looks += query.looks;
+  }
+  EXPECT_EQ(met, 30U * kCubes) << "itself and the four faces beside it";
+  EXPECT_LT(looks, 500 * faces.size()) << "once more than 12,000 each";
+}
+
 TEST(BoxTreeTest, AnswersNothingFromAnEmptyTree) {
   EXPECT_TRUE(found_above(BoxTree(std::vector<Box>{}), {{0, 0, 0}, {1, 1, 1}}, 0).empty());
 }

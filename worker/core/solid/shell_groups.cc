@@ -1,0 +1,92 @@
+#include "core/solid/shell_groups.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/base/disjoint_sets.h"
+#include "core/spatial/self_intersection.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Box kNothing = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+// What may strictly hold the box: a node of the tree does when one of its boxes does.
+struct Round {
+  const Box& inner;
+  bool found = false;
+  mutable std::uint64_t looks = 0;
+
+  bool meets(const Box& outer) const {
+    ++looks;
+    return !found && lies_strictly_in(inner, outer);
+  }
+};
+
+// What may lie strictly in the box.
+struct Within {
+  const Box& outer;
+  bool found = false;
+  mutable std::uint64_t looks = 0;
+
+  bool meets(const Box& other) const {
+    ++looks;
+    return !found && outer.meets(other);
+  }
+};
+
+}  // namespace
+
+NestingShells nesting_shells(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_shell,
+                             std::uint32_t shells, ExecutionContext* context) {
+  NestingShells result{std::vector<Box>(shells, kNothing), std::vector<std::uint8_t>(shells, 0), {}};
+  for (std::uint32_t t = 0; t < triangle_shell.size(); ++t)
+    result.box[triangle_shell[t]].include(box_of(mesh, mesh.triangles[t]));
+  const BoxTree tree(result.box);
+  StopCheck stop(context);
+  for (std::uint32_t s = 0; s < shells; ++s) {
+    Round round{result.box[s]};
+    tree.visit(round, [&](std::uint32_t) { round.found = true; });
+    Within within{result.box[s], round.found};
+    tree.visit(within, [&](std::uint32_t other) {
+      within.found = lies_strictly_in(result.box[other], result.box[s]);
+    });
+    stop.did(round.looks + within.looks);
+    result.matters[s] = round.found || within.found ? 1 : 0;
+  }
+  for (std::uint32_t t = 0; t < triangle_shell.size(); ++t) {
+    if (result.matters[triangle_shell[t]] != 0) result.triangles.push_back(t);
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> shell_groups(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_shell,
+                                        const NestingShells& shells, const BoxTree& tree,
+                                        ExecutionContext* context) {
+  const std::size_t count = shells.box.size();
+  std::vector<std::uint32_t> size(count, 0);
+  for (const std::uint32_t t : shells.triangles) ++size[triangle_shell[t]];
+  const auto largest = static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) - size.begin());
+  auto groups = static_cast<std::size_t>(std::count(shells.matters.begin(), shells.matters.end(), 1));
+  DisjointSets sets(count);
+  StopCheck stop(context);
+  for (std::size_t at = 0; at < shells.triangles.size() && groups > 1; ++at) {
+    const std::uint32_t t = shells.triangles[at], shell = triangle_shell[t];
+    if (shell == largest) continue;
+    tree.visit(tree.box(static_cast<std::uint32_t>(at)), [&](std::uint32_t other_at) {
+      stop.did(4);
+      const std::uint32_t other = shells.triangles[other_at];
+      if (sets.find(shell) == sets.find(triangle_shell[other])) return;
+      stop.did(64);
+      if (triangles_meet(mesh, t, other) && sets.unite(shell, triangle_shell[other])) --groups;
+    });
+    stop.did(64);
+  }
+  std::vector<std::uint32_t> group(count);
+  for (std::uint32_t s = 0; s < count; ++s) group[s] = sets.find(s);
+  return group;
+}
+
+}  // namespace affskel::core
