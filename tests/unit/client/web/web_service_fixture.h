@@ -64,8 +64,8 @@ class WebServiceTest : public ClientTest {
 
   // As a browser sends it from the page.
   Answer ask(const std::string& method, const std::string& target, const std::string& body = "") {
-    const auto parsed = parse_target(target);
-    HttpRequest request;
+    const auto parsed = http::parse_target(target);
+    http::Request request;
     request.method = method;
     request.path = parsed->path;
     request.query = parsed->query;
@@ -73,8 +73,8 @@ class WebServiceTest : public ClientTest {
     if (method != "GET") request.headers.emplace_back("origin", origin_);
     if (!cookie_.empty()) request.headers.emplace_back("cookie", cookie_);
     auto admitted = web_->admit(request);
-    if (auto* refusal = std::get_if<HttpResponse>(&admitted)) return read(*refusal);
-    Reception& reception = std::get<Reception>(admitted);
+    if (auto* refusal = std::get_if<http::Response>(&admitted)) return read(*refusal);
+    http::Reception& reception = std::get<http::Reception>(admitted);
     if (body.size() > reception.max_bytes) return {413, {}, ""};
     if (reception.file.empty()) {
       request.body = body;
@@ -110,7 +110,7 @@ class WebServiceTest : public ClientTest {
   std::string cookie_, origin_ = "http://localhost:8080";
 
  private:
-  static Answer read(const HttpResponse& response) {
+  static Answer read(const http::Response& response) {
     return {response.status, response.headers,
             response.file.empty() ? response.body : tests::read_file(response.file)};
   }
