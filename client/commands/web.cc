@@ -6,10 +6,10 @@
 
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "http/server.h"
 #include "client/web/open_browser.h"
 #include "client/web/tls_identity.h"
 #include "client/web/web_service.h"
+#include "http/server.h"
 #include "wire/address.h"
 
 namespace affskel::client {

@@ -15,14 +15,14 @@ namespace affskel::client {
 
 /// When the brake grips, and how hard.
 struct BrakeLimits {
-  unsigned free = 5;           ///< wrong tokens from one address that cost nothing
-  unsigned free_in_all = 100;  ///< and from all
+  unsigned free = 5;                        ///< wrong tokens from one address that cost nothing
+  unsigned free_in_all = 100;               ///< and from all
   std::chrono::milliseconds forget{60000};  ///< one of them is forgotten after this
   /// Between looks at tokens from one address: doubles from the first to the longest with every wrong one.
   std::chrono::milliseconds first{250}, longest{2000};
   std::chrono::milliseconds longest_in_all{100};
-  std::chrono::milliseconds again{1000};    ///< a token that is put off may come again after this
-  std::chrono::milliseconds wrong{10000};  ///< one that was wrong, after this
+  std::chrono::milliseconds again{1000};        ///< a token that is put off may come again after this
+  std::chrono::milliseconds wrong{10000};       ///< one that was wrong, after this
   std::size_t addresses = 1024, tokens = 4096;  ///< that are remembered
 };
 
@@ -40,7 +40,8 @@ class SignInBrake {
       : limits_(limits), now_(std::move(now)) {}
 
   /// @param peer see http::peer_key.
-  /// @return after which time it may come again; nothing when it may be looked at now, which is to be followed
+  /// @return after which time it may come again; nothing when it may be looked at now, which is to be
+  /// followed
   ///   by one of the next three.
   std::optional<Clock::duration> put_off(const std::string& peer, const std::string& token);
   void was_right(const std::string& peer, const std::string& token);

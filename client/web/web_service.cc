@@ -1,5 +1,7 @@
 #include "client/web/web_service.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -47,9 +49,11 @@ constexpr std::array<Route, 21> kRoutes = {{
     {"POST", "/api/jobs/*/pin", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, pin_job},
     {"POST", "/api/jobs/*/unpin", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, unpin_job},
     {"GET", "/api/jobs/*/events", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, list_events},
-    {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, http::AnswerKind::kAwaited, make_result},
+    {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, http::AnswerKind::kAwaited,
+     make_result},
     {"POST", "/api/meshes", Access::kSignedIn, Body::kMesh, http::AnswerKind::kComputed, take_mesh},
-    {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, http::AnswerKind::kComputed, lay_lattice},
+    {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, http::AnswerKind::kComputed,
+     lay_lattice},
     {"GET", "/results/*", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, send_result},
 }};
 
@@ -209,7 +213,10 @@ std::variant<http::Response, http::Reception> WebService::admit(const http::Requ
   reception.respond = [this, &route, argument = chosen.argument, session, upload,
                        share](const http::Request& request) {
     WebCall call{state_, request, session, argument, std::move(*upload)};
-    return answer(call, route);
+    http::Response response = answer(call, route);
+    // What a mesh took goes back to the system; by itself the C library keeps it for its threads.
+    if (route.kind != http::AnswerKind::kQuick) malloc_trim(0);
+    return response;
   };
   return reception;
 }

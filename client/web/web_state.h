@@ -4,13 +4,13 @@
 #include <string>
 
 #include "client/web/backend.h"
-#include "http/message.h"
 #include "client/web/private_folder.h"
 #include "client/web/request_guard.h"
 #include "client/web/shelf.h"
 #include "client/web/sign_in_brake.h"
 #include "client/web/web_sessions.h"
 #include "core/solid/solid.h"
+#include "http/message.h"
 
 namespace affskel::client {
 

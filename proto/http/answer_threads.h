@@ -22,8 +22,8 @@ class AnswerThreads {
  public:
   /// An answer to be made.
   struct Work {
-    std::string whose;          ///< who takes turns
-    std::function<void()> run;  ///< must not throw
+    std::string whose;           ///< who takes turns
+    std::function<void()> run;   ///< must not throw
     std::stop_source stop = {};  ///< told when nobody wants it any more
   };
 

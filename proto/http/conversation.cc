@@ -318,14 +318,14 @@ class Conversation {
   }
 
   asio::awaitable<Response> respond(Request& request, Reception& reception) {
-    place_.works();
-    transport_.allow_any_time();
     AnswerThreads& threads = shared_.threads[static_cast<std::size_t>(reception.kind)];
     const bool drops = reception.kind != AnswerKind::kQuick;
     const auto executor = co_await asio::this_coro::executor;
     const auto answering = std::make_shared<Answering>(executor, std::move(request), std::move(reception));
     const auto work = work_for(answering);
     if (!threads.add(work)) co_return later(503, "too many requests at a time; try again");
+    place_.works();
+    transport_.allow_any_time();
     error_code ignored;
     while (!answering->is_there) {
       answering->ended.expires_after(kLook);

@@ -83,7 +83,7 @@ class TlsTransport : public StreamTransport<beast::ssl_stream<beast::tcp_stream>
 }  // namespace
 
 std::unique_ptr<Transport> make_transport(asio::ip::tcp::socket socket,
-                                              std::shared_ptr<asio::ssl::context> context) {
+                                          std::shared_ptr<asio::ssl::context> context) {
   if (context == nullptr) return std::make_unique<PlainTransport>(std::move(socket));
   return std::make_unique<TlsTransport>(std::move(socket), std::move(context));
 }

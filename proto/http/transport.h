@@ -40,6 +40,6 @@ class Transport {
 
 /// @param context null = no TLS.
 std::unique_ptr<Transport> make_transport(boost::asio::ip::tcp::socket socket,
-                                              std::shared_ptr<boost::asio::ssl::context> context);
+                                          std::shared_ptr<boost::asio::ssl::context> context);
 
 }  // namespace affskel::http

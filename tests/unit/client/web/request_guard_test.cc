@@ -6,7 +6,7 @@ namespace affskel::client {
 namespace {
 
 http::Request request(const std::string& method, const std::string& path,
-                    std::vector<std::pair<std::string, std::string>> headers) {
+                      std::vector<std::pair<std::string, std::string>> headers) {
   http::Request made;
   made.method = method;
   made.path = path;

@@ -4,9 +4,9 @@
 
 #include "client/base/error.h"
 #include "tools/files.h"
+#include "tools/http_peer.h"
 #include "tools/temporary_directory.h"
 #include "tools/test_authority.h"
-#include "tools/http_peer.h"
 
 namespace affskel::client {
 namespace {

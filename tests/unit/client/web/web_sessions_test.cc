@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "client/web/cookie.h"
-#include "http/message.h"
 #include "client/web/shelf.h"
+#include "http/message.h"
 #include "tools/files.h"
 
 namespace affskel::client {

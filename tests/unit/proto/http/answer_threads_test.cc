@@ -60,7 +60,8 @@ TEST_F(AnswerThreadsTest, WhoHasManyDelaysOnlyHimself) {
   ASSERT_TRUE(threads.add(work("quiet")));
   open();
   const std::vector<std::string> done = wait_for_done(8);
-  EXPECT_EQ(done, (std::vector<std::string>{"loud", "quiet", "loud", "quiet", "loud", "loud", "loud", "loud"}));
+  EXPECT_EQ(done,
+            (std::vector<std::string>{"loud", "quiet", "loud", "quiet", "loud", "loud", "loud", "loud"}));
 }
 
 TEST_F(AnswerThreadsTest, NobodyHasAllThreads) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tools/files.h"
-#include "tools/temporary_directory.h"
 #include "tools/http_peer.h"
+#include "tools/temporary_directory.h"
 
 namespace affskel::http {
 namespace {
@@ -316,8 +316,7 @@ TEST(HttpServer, DropsAnswersWhosePeerHasGone) {
         Reception reception;
         reception.kind = AnswerKind::kComputed;
         std::shared_ptr<void> held;
-        if (head.path == "/second")
-          held = std::shared_ptr<void>(nullptr, [&](void*) { forgotten.ring(); });
+        if (head.path == "/second") held = std::shared_ptr<void>(nullptr, [&](void*) { forgotten.ring(); });
         reception.respond = [&, held](const Request& request) {
           EXPECT_EQ(request.path, "/first") << "nobody waited for it";
           begun.ring();
