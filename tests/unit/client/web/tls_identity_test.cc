@@ -36,10 +36,10 @@ TEST_F(TlsIdentityTest, ServesOverTlsAndNotWithout) {
       },
       {}, [&] { return identity.context(); });
   http::Peer peer(server.port(), true);
-  ASSERT_TRUE(peer.send(get("/")));
+  ASSERT_TRUE(peer.send(http::get("/")));
   EXPECT_EQ(peer.read().body, "secure");
   http::Peer plain(server.port());
-  plain.send(get("/"));
+  plain.send(http::get("/"));
   plain.wait_for_end();
 }
 
