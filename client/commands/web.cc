@@ -2,14 +2,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "base/end_limit.h"
 #include "base/temporary_files.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "client/web/http_server.h"
 #include "client/web/open_browser.h"
+#include "client/web/tls_identity.h"
 #include "client/web/web_service.h"
+#include "http/server.h"
 #include "wire/address.h"
 
 namespace affskel::client {
@@ -65,6 +67,19 @@ std::string page_address(const wire::Address& address, bool secure) {
   return (secure ? "https://" : "http://") + shown.target() + "/";
 }
 
+// @throws ClientError kUsage when it cannot listen there.
+std::unique_ptr<http::Server> listen(const wire::Address& address, TlsIdentity* identity,
+                                     http::AdmitRequest admit) {
+  http::TlsContexts contexts;
+  if (identity != nullptr) contexts = [identity] { return identity->context(); };
+  try {
+    return std::make_unique<http::Server>(address, contexts, std::move(admit));
+  } catch (const std::system_error& error) {
+    throw ClientError(ExitCode::kUsage,
+                      "cannot listen on " + address.target() + ": " + error.code().message());
+  }
+}
+
 void run(Context& context, const Options& options, const GlobalOptions& global) {
   wire::Address address = http_address(options);
   std::optional<TlsIdentity> identity;
@@ -83,9 +98,9 @@ void run(Context& context, const Options& options, const GlobalOptions& global) 
 
   std::unique_ptr<WebService> service;
   {
-    HttpServer http(address, identity ? &*identity : nullptr,
-                    [&](const HttpRequest& head) { return service->admit(head); });
-    web.port = address.port = http.port();
+    const auto http = listen(address, identity ? &*identity : nullptr,
+                             [&](const http::Request& head) { return service->admit(head); });
+    web.port = address.port = http->port();
     service = std::make_unique<WebService>(backend, web);
     const std::string page = page_address(address, web.secure);
     const auto with_key = [&] { return web.personal ? page + "#key=" + service->new_key() : page; };
@@ -99,7 +114,7 @@ void run(Context& context, const Options& options, const GlobalOptions& global) 
                            "; Ctrl-C ends the service, jobs go on");
     base::set_end_limit(
         {.limit = kLongestEnd, .entry = kStuck, .before = []() noexcept { base::remove_guarded_files(); }});
-    http.run(true);
+    http->run(true);
     stop.request_stop();
   }
 }

@@ -39,25 +39,25 @@ int status_of(ExitCode code) {
 
 }  // namespace
 
-HttpResponse api_answer(const nlohmann::ordered_json& value, int status) {
-  HttpResponse response;
+http::Response api_answer(const nlohmann::ordered_json& value, int status) {
+  http::Response response;
   response.status = status;
   response.headers = {{"Content-Type", "application/json"}};
   response.body = value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   return response;
 }
 
-HttpResponse api_error(int status, const std::string& code, const std::string& message) {
+http::Response api_error(int status, const std::string& code, const std::string& message) {
   return api_answer({{"error", {{"code", code}, {"message", message}}}}, status);
 }
 
-HttpResponse api_error(const ClientError& error) {
+http::Response api_error(const ClientError& error) {
   nlohmann::ordered_json body = {{"code", exit_code_name(error.exit_code())}, {"message", error.what()}};
   if (error.line() > 0) body["line"] = error.line();
   return api_answer({{"error", body}}, status_of(error.exit_code()));
 }
 
-nlohmann::json json_body(const HttpRequest& request) {
+nlohmann::json json_body(const http::Request& request) {
   const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
   if (!body.is_object()) throw ClientError(ExitCode::kUsage, "the request is no JSON object");
   return body;

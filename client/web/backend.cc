@@ -48,14 +48,20 @@ bool Backend::refuses_us() const {
   return is_refused(*call());
 }
 
-std::unique_ptr<Backend::Call> Backend::call() const {
-  return std::make_unique<Call>(environment_, global_, policy_);
+RetryPolicy Backend::policy_until(std::stop_token stop) const {
+  RetryPolicy policy = policy_;
+  if (stop.stop_possible()) policy.stop = std::move(stop);
+  return policy;
 }
 
-std::unique_ptr<Backend::Call> Backend::call(const base::MemoryFile& token) const {
+std::unique_ptr<Backend::Call> Backend::call(std::stop_token stop) const {
+  return std::make_unique<Call>(environment_, global_, policy_until(std::move(stop)));
+}
+
+std::unique_ptr<Backend::Call> Backend::call(const base::MemoryFile& token, std::stop_token stop) const {
   GlobalOptions global = global_;
   global.access.token_file = token.path();
-  return std::make_unique<Call>(environment_, global, policy_);
+  return std::make_unique<Call>(environment_, global, policy_until(std::move(stop)));
 }
 
 }  // namespace affskel::client

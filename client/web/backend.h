@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <sstream>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,11 @@ class Backend {
   Backend(Environment environment, GlobalOptions global, RetryPolicy policy);
 
   /// For one request, as the client itself.
-  std::unique_ptr<Call> call() const;
+  /// @param stop ends it; without one the policy's does.
+  std::unique_ptr<Call> call(std::stop_token stop = {}) const;
   /// For one request of somebody whose token this is, and never as the client itself.  The token must outlive
   /// the call.
-  std::unique_ptr<Call> call(const base::MemoryFile& token) const;
+  std::unique_ptr<Call> call(const base::MemoryFile& token, std::stop_token stop = {}) const;
 
   /// Whether the server asks for tokens: it refuses one that nobody can have.
   /// @throws ClientError when it cannot be asked.
@@ -48,6 +50,8 @@ class Backend {
   std::string own_user() const { return user_name(environment_); }
 
  private:
+  RetryPolicy policy_until(std::stop_token stop) const;
+
   Environment environment_;
   GlobalOptions global_;
   RetryPolicy policy_;

@@ -22,7 +22,7 @@ std::string ended_cookie(int port, bool secure) {
   return cookie_name(port, secure) + "=" + attributes(secure) + "; Max-Age=0";
 }
 
-std::optional<std::string> session_secret(const HttpRequest& request, int port, bool secure) {
+std::optional<std::string> session_secret(const http::Request& request, int port, bool secure) {
   const auto header = request.header("cookie");
   const std::string name = cookie_name(port, secure) + "=";
   std::string_view rest = header.value_or("");

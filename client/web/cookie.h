@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "client/web/http_message.h"
+#include "http/message.h"
 
 namespace affskel::client {
 
@@ -15,6 +15,6 @@ std::string session_cookie(int port, bool secure, const std::string& secret);
 std::string ended_cookie(int port, bool secure);
 
 /// The secret that the request carries; nothing without one.
-std::optional<std::string> session_secret(const HttpRequest& request, int port, bool secure);
+std::optional<std::string> session_secret(const http::Request& request, int port, bool secure);
 
 }  // namespace affskel::client

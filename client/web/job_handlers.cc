@@ -17,7 +17,7 @@ nlohmann::ordered_json job_json(v1::Job job) {
   return to_json(job);
 }
 
-std::uint32_t limit_of(const HttpRequest& request) {
+std::uint32_t limit_of(const http::Request& request) {
   const std::string text = request.parameter("limit");
   if (text.empty()) return kListed;
   std::uint32_t limit = 0;
@@ -29,7 +29,7 @@ std::uint32_t limit_of(const HttpRequest& request) {
 
 }  // namespace
 
-HttpResponse list_jobs(WebCall& call) {
+http::Response list_jobs(WebCall& call) {
   const std::uint32_t limit = limit_of(call.request);
   v1::ListJobsRequest asked;
   if (call.request.parameter("everybody") != "1") asked.set_owner(call.session.user.owner);
@@ -41,31 +41,31 @@ HttpResponse list_jobs(WebCall& call) {
   return api_answer({{"jobs", list}, {"more", jobs.size() > limit}});
 }
 
-HttpResponse show_job(WebCall& call) {
+http::Response show_job(WebCall& call) {
   return api_answer(job_json(call.server()->session().get_job(call.argument)));
 }
 
-HttpResponse cancel_job(WebCall& call) {
+http::Response cancel_job(WebCall& call) {
   return api_answer(job_json(call.server()->session().cancel(call.argument)));
 }
 
-HttpResponse resume_job(WebCall& call) {
+http::Response resume_job(WebCall& call) {
   return api_answer(job_json(call.server()->session().resume(call.argument)));
 }
 
-HttpResponse delete_job(WebCall& call) {
+http::Response delete_job(WebCall& call) {
   return api_answer({{"id", call.server()->session().delete_job(call.argument)}});
 }
 
-HttpResponse pin_job(WebCall& call) {
+http::Response pin_job(WebCall& call) {
   return api_answer(job_json(call.server()->session().pin(call.argument)));
 }
 
-HttpResponse unpin_job(WebCall& call) {
+http::Response unpin_job(WebCall& call) {
   return api_answer(job_json(call.server()->session().unpin(call.argument)));
 }
 
-HttpResponse list_events(WebCall& call) {
+http::Response list_events(WebCall& call) {
   const v1::ListJobEventsResponse response = call.server()->session().job_events(call.argument);
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (const v1::JobEvent& event : response.events()) events.push_back(to_json(event));

@@ -9,6 +9,7 @@
 #include "client/render/scene.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
+#include "client/web/until_gone.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid_frame.h"
 
@@ -31,7 +32,7 @@ void read_sampling(double spacing, double points, Submission& submission) {
   }
 }
 
-double number_of(const HttpRequest& request, const std::string& name) {
+double number_of(const http::Request& request, const std::string& name) {
   const std::string text = request.parameter(name);
   if (text.empty()) return 0;
   try {
@@ -56,7 +57,7 @@ std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::s
   return call.keep({std::move(file), "mesh.png", "image/png", true, {}});
 }
 
-std::string upload_name(const HttpRequest& request) {
+std::string upload_name(const http::Request& request) {
   const std::string name = std::filesystem::path(request.parameter("name")).filename().string();
   return name.empty() ? "mesh.off" : std::string(base::truncate_utf8(base::to_utf8(name), 200));
 }
@@ -88,7 +89,7 @@ Submission submission_of(const nlohmann::json& body) {
 }  // namespace
 
 // That a file is no mesh is an answer, too.
-HttpResponse take_mesh(WebCall& call) {
+http::Response take_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
   InputFile input;
   try {
@@ -97,7 +98,9 @@ HttpResponse take_mesh(WebCall& call) {
     if (error.exit_code() != ExitCode::kBadInput) throw;
     return api_answer({{"name", name}, {"error", error.what()}, {"line", error.line()}});
   }
-  Inspection inspection = inspect(input);
+  UntilGone context(call.request.gone);
+  Inspection inspection = inspect(input, kFewPlaces, &context);
+  core::throw_if_stopped(&context);
   inspection.facts["file"] = name;
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
   if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
@@ -113,7 +116,7 @@ HttpResponse take_mesh(WebCall& call) {
   return api_answer(answer);
 }
 
-HttpResponse lay_lattice(WebCall& call) {
+http::Response lay_lattice(WebCall& call) {
   const auto mesh = mesh_of(call, call.argument);
   Submission asked;
   read_sampling(number_of(call.request, "spacing"), number_of(call.request, "points"), asked);
@@ -129,6 +132,8 @@ HttpResponse lay_lattice(WebCall& call) {
   if (points > kMaxCounted) return uncounted();
   const std::string frame = call.request.parameter("frame");
   options.frame = core::solid_frame(mesh->solid, core::parse_frame(frame.empty() ? "axis" : frame));
+  UntilGone context(call.request.gone);
+  options.context = &context;
   // A thin solid has few points and many lines, which take the memory and the time.
   options.max_points = static_cast<std::uint64_t>(2 * kMaxCounted);
   options.max_lines = static_cast<std::uint64_t>(kMaxCounted);
@@ -141,7 +146,7 @@ HttpResponse lay_lattice(WebCall& call) {
   }
 }
 
-HttpResponse submit_mesh(WebCall& call) {
+http::Response submit_mesh(WebCall& call) {
   const nlohmann::json body = json_body(call.request);
   const auto mesh = mesh_of(call, text_member(body, "mesh"));
   Submission submission = submission_of(body);

@@ -35,8 +35,8 @@ constexpr const char* kPolicy =
 
 }  // namespace
 
-HttpResponse send_page_file(WebCall& call) {
-  HttpResponse response;
+http::Response send_page_file(WebCall& call) {
+  http::Response response;
   for (const PageFile& file : page_files()) {
     if (file.path != call.request.path) continue;
     response.body = file.bytes;

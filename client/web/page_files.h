@@ -6,6 +6,6 @@ namespace affskel::client {
 
 /// Sends the page, its script, its style or its icon, by the request's path.  They are the same for
 /// everybody.
-HttpResponse send_page_file(WebCall& call);
+http::Response send_page_file(WebCall& call);
 
 }  // namespace affskel::client

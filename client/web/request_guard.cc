@@ -20,13 +20,13 @@ bool is_known_host(const std::string& name, const HostRule& rule) {
 }
 
 // Whether another site's link, or a line typed by the user, asks for the page.
-bool opens_page(const HttpRequest& request) {
+bool opens_page(const http::Request& request) {
   return request.method == "GET" && request.path == "/" &&
          request.header("sec-fetch-mode").value_or("") == "navigate" &&
          request.header("sec-fetch-dest").value_or("") == "document";
 }
 
-bool is_foreign_site(const HttpRequest& request) {
+bool is_foreign_site(const http::Request& request) {
   const auto site = request.header("sec-fetch-site");
   if (!site || *site == "same-origin" || (*site == "none" && request.method == "GET")) return false;
   return !opens_page(request);
@@ -55,7 +55,7 @@ std::optional<std::string> host_name(std::string_view host) {
   return lower;
 }
 
-std::optional<HttpResponse> refuse_foreign(const HttpRequest& request, const HostRule& rule) {
+std::optional<http::Response> refuse_foreign(const http::Request& request, const HostRule& rule) {
   const auto host = request.header("host");
   const auto name = host ? host_name(*host) : std::nullopt;
   if (!name || !is_known_host(*name, rule))

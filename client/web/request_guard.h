@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "client/web/http_message.h"
+#include "http/message.h"
 
 namespace affskel::client {
 
@@ -25,6 +25,6 @@ std::optional<std::string> host_name(std::string_view host);
 ///   Other sites may at most link to the page itself, which holds nothing private;
 /// - Origin is this service, and present wherever a request changes something.
 /// @return the refusal; nothing when the request may pass.
-std::optional<HttpResponse> refuse_foreign(const HttpRequest& request, const HostRule& rule);
+std::optional<http::Response> refuse_foreign(const http::Request& request, const HostRule& rule);
 
 }  // namespace affskel::client

@@ -141,7 +141,7 @@ std::string WebCall::keep(ResultFile result) const {
   return "/results/" + web.results.put(session.id, std::make_shared<ResultFile>(std::move(result)), bytes);
 }
 
-HttpResponse make_result(WebCall& call) {
+http::Response make_result(WebCall& call) {
   const nlohmann::json body = json_body(call.request);
   const std::string artifact = text_member(body, "artefact");
   const std::string extension = extension_for(artifact, text_member(body, "format"));
@@ -160,10 +160,10 @@ HttpResponse make_result(WebCall& call) {
   return api_answer(answer, 201);
 }
 
-HttpResponse send_result(WebCall& call) {
+http::Response send_result(WebCall& call) {
   const auto result = call.web.results.find(call.session.id, call.argument);
   if (!result) throw ClientError(ExitCode::kNotFound, "the file is not kept here any more; make it again");
-  HttpResponse response;
+  http::Response response;
   response.headers = {{"Content-Type", result->type}, {"Content-Disposition", disposition(*result)}};
   if (!result->policy.empty()) response.headers.emplace_back("Content-Security-Policy", result->policy);
   response.file = result->file->path();

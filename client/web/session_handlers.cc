@@ -27,7 +27,6 @@ WebUser user_of(Backend::Call& server, std::shared_ptr<const base::MemoryFile> t
 // By the token that they show.  A server that takes any token would let everybody do everything.
 // @throws ClientError kNotAllowed when the server refuses it, or would refuse none.
 WebUser signed_in_user(const WebState& web, const std::string& text) {
-  if (!may_be_token(text)) throw ClientError(ExitCode::kNotAllowed, "this is no token");
   if (!web.backend.refuses_strangers()) {
     throw ClientError(
         ExitCode::kNotAllowed,
@@ -37,6 +36,30 @@ WebUser signed_in_user(const WebState& web, const std::string& text) {
   auto token = std::make_shared<const base::MemoryFile>("the token", text);
   const auto server = web.backend.call(*token);
   return user_of(*server, std::move(token));
+}
+
+// The same, and tells the brake.  @throws ClientError.
+WebUser braked_user(WebState& web, const std::string& peer, const std::string& text) {
+  try {
+    WebUser user = signed_in_user(web, text);
+    web.brake.was_right(peer, text);
+    return user;
+  } catch (const ClientError& error) {
+    if (error.exit_code() == ExitCode::kNotAllowed) {
+      web.brake.was_wrong(text);
+    } else {
+      web.brake.was_not_seen(peer);
+    }
+    throw;
+  }
+}
+
+http::Response come_again(SignInBrake::Clock::duration time) {
+  const auto seconds = std::chrono::ceil<std::chrono::seconds>(time).count();
+  http::Response response =
+      api_error(429, "LIMIT", "too many wrong tokens from your address; try again in a moment");
+  response.headers.emplace_back("Retry-After", std::to_string(seconds));
+  return response;
 }
 
 ordered_json offered_artifacts() {
@@ -60,17 +83,20 @@ ordered_json session_json(const WebState& web, const WebUser& user) {
 
 }  // namespace
 
-HttpResponse answer_session(WebCall& call) {
+http::Response answer_session(WebCall& call) {
   if (!call.session.id.empty()) return api_answer(session_json(call.web, call.session.user));
   return api_answer({{"mode", call.web.options.personal ? "personal" : "sign-in"}, {"signed_in", false}});
 }
 
-HttpResponse begin_session(WebCall& call) {
+http::Response begin_session(WebCall& call) {
   WebState& web = call.web;
   const nlohmann::json body = json_body(call.request);
   WebUser user;
   if (!web.options.personal) {
-    user = signed_in_user(web, text_member(body, "token"));
+    const std::string token = text_member(body, "token");
+    if (!may_be_token(token)) throw ClientError(ExitCode::kNotAllowed, "this is no token");
+    if (const auto time = web.brake.put_off(call.request.peer, token)) return come_again(*time);
+    user = braked_user(web, call.request.peer, token);
   } else if (web.sessions.use_key(text_member(body, "key"))) {
     user = user_of(*web.backend.call(), nullptr);
   } else {
@@ -78,19 +104,19 @@ HttpResponse begin_session(WebCall& call) {
   }
   const auto secret = web.sessions.begin(user);
   if (!secret) return api_error(503, "LIMIT", "too many people are signed in; try again later");
-  HttpResponse response = api_answer(session_json(web, user));
+  http::Response response = api_answer(session_json(web, user));
   response.headers.emplace_back("Set-Cookie", session_cookie(web.options.port, web.options.secure, *secret));
   return response;
 }
 
-HttpResponse end_session(WebCall& call) {
+http::Response end_session(WebCall& call) {
   call.web.end_session(call.session.id);
-  HttpResponse response = api_answer({{"signed_in", false}});
+  http::Response response = api_answer({{"signed_in", false}});
   response.headers.emplace_back("Set-Cookie", ended_cookie(call.web.options.port, call.web.options.secure));
   return response;
 }
 
-HttpResponse answer_server(WebCall& call) {
+http::Response answer_server(WebCall& call) {
   const v1::ServerInfo info = call.server()->session().server_info();
   return api_answer(to_json(info));
 }

@@ -13,6 +13,7 @@ std::shared_ptr<ssl::context> load(const std::filesystem::path& certificate,
                                    const std::filesystem::path& key) {
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
+  SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION);
   SSL_CTX_set_session_cache_mode(context->native_handle(), SSL_SESS_CACHE_OFF);
   boost::system::error_code error;
   context->use_certificate_chain_file(certificate, error);

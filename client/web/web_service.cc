@@ -1,5 +1,7 @@
 #include "client/web/web_service.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -25,36 +27,38 @@ struct Route {
   const char* path;  // '*' stands for one part
   Access access;
   Body body;
-  AnswerKind kind;
-  HttpResponse (*respond)(WebCall& call);
+  http::AnswerKind kind;
+  http::Response (*respond)(WebCall& call);
 };
 
 constexpr std::array<Route, 21> kRoutes = {{
-    {"GET", "/", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
-    {"GET", "/page.js", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
-    {"GET", "/page.css", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
-    {"GET", "/icon.svg", Access::kEverybody, Body::kNone, AnswerKind::kQuick, send_page_file},
-    {"GET", "/api/session", Access::kEverybody, Body::kNone, AnswerKind::kQuick, answer_session},
-    {"POST", "/api/session", Access::kEverybody, Body::kObject, AnswerKind::kQuick, begin_session},
-    {"DELETE", "/api/session", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, end_session},
-    {"GET", "/api/server", Access::kAdmin, Body::kNone, AnswerKind::kQuick, answer_server},
-    {"GET", "/api/jobs", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, list_jobs},
-    {"POST", "/api/jobs", Access::kSignedIn, Body::kObject, AnswerKind::kComputed, submit_mesh},
-    {"GET", "/api/jobs/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, show_job},
-    {"DELETE", "/api/jobs/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, delete_job},
-    {"POST", "/api/jobs/*/cancel", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, cancel_job},
-    {"POST", "/api/jobs/*/resume", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, resume_job},
-    {"POST", "/api/jobs/*/pin", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, pin_job},
-    {"POST", "/api/jobs/*/unpin", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, unpin_job},
-    {"GET", "/api/jobs/*/events", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, list_events},
-    {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, AnswerKind::kAwaited, make_result},
-    {"POST", "/api/meshes", Access::kSignedIn, Body::kMesh, AnswerKind::kComputed, take_mesh},
-    {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, AnswerKind::kComputed, lay_lattice},
-    {"GET", "/results/*", Access::kSignedIn, Body::kNone, AnswerKind::kQuick, send_result},
+    {"GET", "/", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
+    {"GET", "/page.js", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
+    {"GET", "/page.css", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
+    {"GET", "/icon.svg", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
+    {"GET", "/api/session", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, answer_session},
+    {"POST", "/api/session", Access::kEverybody, Body::kObject, http::AnswerKind::kQuick, begin_session},
+    {"DELETE", "/api/session", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, end_session},
+    {"GET", "/api/server", Access::kAdmin, Body::kNone, http::AnswerKind::kQuick, answer_server},
+    {"GET", "/api/jobs", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, list_jobs},
+    {"POST", "/api/jobs", Access::kSignedIn, Body::kObject, http::AnswerKind::kComputed, submit_mesh},
+    {"GET", "/api/jobs/*", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, show_job},
+    {"DELETE", "/api/jobs/*", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, delete_job},
+    {"POST", "/api/jobs/*/cancel", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, cancel_job},
+    {"POST", "/api/jobs/*/resume", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, resume_job},
+    {"POST", "/api/jobs/*/pin", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, pin_job},
+    {"POST", "/api/jobs/*/unpin", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, unpin_job},
+    {"GET", "/api/jobs/*/events", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, list_events},
+    {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, http::AnswerKind::kAwaited,
+     make_result},
+    {"POST", "/api/meshes", Access::kSignedIn, Body::kMesh, http::AnswerKind::kComputed, take_mesh},
+    {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, http::AnswerKind::kComputed,
+     lay_lattice},
+    {"GET", "/results/*", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, send_result},
 }};
 
 constexpr std::uint64_t kMaxObjectBytes = 64 * 1024;
-// Of one session at a time, of answers that wait for workers: others find threads, too.
+// Of one owner at a time, of answers that wait for workers: others find threads, too.
 constexpr unsigned kMostAwaited = 4;
 // The same of those that compute here.
 constexpr unsigned kMostComputed = 2;
@@ -76,7 +80,7 @@ struct Chosen {
   std::string methods;  // of the path
 };
 
-Chosen choose_route(const HttpRequest& head) {
+Chosen choose_route(const http::Request& head) {
   Chosen chosen;
   for (const Route& route : kRoutes) {
     const auto argument = match(route.path, head.path);
@@ -89,14 +93,14 @@ Chosen choose_route(const HttpRequest& head) {
   return chosen;
 }
 
-HttpResponse no_such_route(const Chosen& chosen) {
+http::Response no_such_route(const Chosen& chosen) {
   if (chosen.methods.empty()) return api_error(404, "NOT_FOUND", "there is nothing at this address");
-  HttpResponse refusal = api_error(405, "USAGE", "this address takes " + chosen.methods);
+  http::Response refusal = api_error(405, "USAGE", "this address takes " + chosen.methods);
   refusal.headers.emplace_back("Allow", chosen.methods);
   return refusal;
 }
 
-HttpResponse sign_in_first() {
+http::Response sign_in_first() {
   return api_error(401, "NOT_ALLOWED", "nobody is signed in, or the session has ended: sign in again");
 }
 
@@ -110,7 +114,7 @@ bool is_still_known(const WebCall& call) {
   return true;
 }
 
-HttpResponse answer_error(const WebCall& call, const ClientError& error) {
+http::Response answer_error(const WebCall& call, const ClientError& error) {
   const bool may_have_ended =
       error.exit_code() == ExitCode::kNotAllowed && call.session.user.token != nullptr;
   if (!may_have_ended || is_still_known(call)) return api_error(error);
@@ -118,7 +122,7 @@ HttpResponse answer_error(const WebCall& call, const ClientError& error) {
   return sign_in_first();
 }
 
-HttpResponse answer(WebCall& call, const Route& route) {
+http::Response answer(WebCall& call, const Route& route) {
   try {
     return route.respond(call);
   } catch (const ClientError& error) {
@@ -135,7 +139,7 @@ HttpResponse answer(WebCall& call, const Route& route) {
 }
 
 // The reader goes by the extension.
-std::string upload_extension(const HttpRequest& head) {
+std::string upload_extension(const http::Request& head) {
   const std::string extension = lower_extension(head.parameter("name"));
   for (const FileFormat format : surface_formats()) {
     if (extension == extension_of(format)) return extension;
@@ -165,12 +169,12 @@ class WebService::Share {
 std::shared_ptr<WebService::Share> WebService::take_share(const Whose& whose) {
   const base::MutexLock lock(mutex_);
   unsigned& own = shares_[whose];
-  if (own == (whose.first == AnswerKind::kAwaited ? kMostAwaited : kMostComputed)) return nullptr;
+  if (own == (whose.first == http::AnswerKind::kAwaited ? kMostAwaited : kMostComputed)) return nullptr;
   ++own;
   return std::make_shared<Share>(*this, whose);
 }
 
-std::variant<HttpResponse, Reception> WebService::admit(const HttpRequest& head) {
+std::variant<http::Response, http::Reception> WebService::admit(const http::Request& head) {
   if (auto refusal = refuse_foreign(head, state_.options.hosts)) return *refusal;
   const Chosen chosen = choose_route(head);
   if (chosen.route == nullptr) return no_such_route(chosen);
@@ -183,8 +187,14 @@ std::variant<HttpResponse, Reception> WebService::admit(const HttpRequest& head)
   if (route.access == Access::kAdmin && !session.user.admin)
     return api_error(403, "NOT_ALLOWED", "this is for administrators");
 
-  Reception reception;
+  if (route.access == Access::kEverybody && route.body == Body::kNone) {
+    WebCall call{state_, head, session, chosen.argument, nullptr};
+    return answer(call, route);
+  }
+
+  http::Reception reception;
   reception.kind = route.kind;
+  if (found) reception.owner = "'" + session.user.owner + "'";
   auto upload = std::make_shared<std::unique_ptr<OwnedFile>>();
   if (route.body == Body::kObject) reception.max_bytes = kMaxObjectBytes;
   if (route.body == Body::kMesh) {
@@ -193,17 +203,20 @@ std::variant<HttpResponse, Reception> WebService::admit(const HttpRequest& head)
     *upload = std::make_unique<OwnedFile>(reception.file);
   }
   std::shared_ptr<Share> share;
-  if (route.kind != AnswerKind::kQuick && !(share = take_share({route.kind, session.id})))
+  if (route.kind != http::AnswerKind::kQuick && !(share = take_share({route.kind, reception.owner})))
     return api_error(429, "LIMIT",
-                     route.kind == AnswerKind::kAwaited
+                     route.kind == http::AnswerKind::kAwaited
                          ? "wait for the files that are being made for you; " + std::to_string(kMostAwaited) +
                                " are made at a time"
                          : "wait for the meshes that are being looked at for you; " +
                                std::to_string(kMostComputed) + " are looked at at a time");
   reception.respond = [this, &route, argument = chosen.argument, session, upload,
-                       share](const HttpRequest& request) {
+                       share](const http::Request& request) {
     WebCall call{state_, request, session, argument, std::move(*upload)};
-    return answer(call, route);
+    http::Response response = answer(call, route);
+    // What a mesh took goes back to the system; by itself the C library keeps it for its threads.
+    if (route.kind != http::AnswerKind::kQuick) malloc_trim(0);
+    return response;
   };
   return reception;
 }

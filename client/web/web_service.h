@@ -16,8 +16,8 @@ class WebService {
  public:
   WebService(Backend backend, WebOptions options) : state_(std::move(backend), std::move(options)) {}
 
-  /// See AdmitRequest.  Refuses other origins, what is not offered, and who is not signed in.
-  std::variant<HttpResponse, Reception> admit(const HttpRequest& head);
+  /// See http::AdmitRequest.  Refuses other origins, what is not offered, and who is not signed in.
+  std::variant<http::Response, http::Reception> admit(const http::Request& head);
 
   /// See WebSessions::new_key.
   std::string new_key() { return state_.sessions.new_key(); }
@@ -29,8 +29,8 @@ class WebService {
 
  private:
   class Share;
-  using Whose = std::pair<AnswerKind, std::string>;  // a kind of answer, and a session
-  // Null when the session has its part already.
+  using Whose = std::pair<http::AnswerKind, std::string>;  // a kind of answer, and an owner
+  // Null when the owner has their part already.
   std::shared_ptr<Share> take_share(const Whose& whose);
 
   WebState state_;

@@ -4,12 +4,13 @@
 #include <string>
 
 #include "client/web/backend.h"
-#include "client/web/http_message.h"
 #include "client/web/private_folder.h"
 #include "client/web/request_guard.h"
 #include "client/web/shelf.h"
+#include "client/web/sign_in_brake.h"
 #include "client/web/web_sessions.h"
 #include "core/solid/solid.h"
+#include "http/message.h"
 
 namespace affskel::client {
 
@@ -46,6 +47,7 @@ struct WebState {
   const Backend backend;
   const WebOptions options;
   WebSessions sessions;
+  SignInBrake brake;
   PrivateFolder folder;  // above the files in it
   Shelf<ResultFile> results{{12, 1024, std::uint64_t{16} << 30, std::chrono::hours(1)}};
   Shelf<UploadedMesh> meshes{{2, 256, std::uint64_t{1} << 30, std::chrono::hours(2)}};
@@ -61,13 +63,14 @@ struct WebState {
 /// One request on its way to its answer.
 struct WebCall {
   WebState& web;
-  const HttpRequest& request;
+  const http::Request& request;
   WebSessions::Found session;         ///< empty where nobody needs to be signed in
   std::string argument;               ///< the part of the path that the route leaves open
   std::unique_ptr<OwnedFile> upload;  ///< the body of an upload
 
   std::unique_ptr<Backend::Call> server() const {
-    return session.user.token ? web.backend.call(*session.user.token) : web.backend.call();
+    return session.user.token ? web.backend.call(*session.user.token, request.gone)
+                              : web.backend.call(request.gone);
   }
   /// Gives the session a file to fetch; the answer names its address.
   std::string keep(ResultFile result) const;

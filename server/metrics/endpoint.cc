@@ -1,114 +1,61 @@
 #include "metrics/endpoint.h"
 
-#include <CivetServer.h>
 #include <prometheus/text_serializer.h>
 #include <spdlog/spdlog.h>
 
 #include <exception>
-#include <future>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "base/logfmt.h"
-#include "base/mutex.h"
+#include "http/server.h"
 
 namespace affskel::server {
 namespace {
 
-// Between two calls that wake the library up.
-constexpr std::chrono::milliseconds kKnock{5};
-
 constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
-// The library goes on talking when it runs; nobody listens then.
-constexpr std::size_t kMaxReasonBytes = 500;
-
 constexpr const char* kPlainType = "text/plain; charset=utf-8";
 
 [[noreturn]] void refuse(const wire::Address& address, const std::string& why) {
   throw std::runtime_error("cannot serve metrics on " + address.target() + ": " + why);
 }
 
-struct Answer {
-  int code = 200;
-  const char* type = kPlainType;
-  std::string body;
-};
+http::Response text(int status, const char* type, std::string body) {
+  return {status, {{"Content-Type", type}}, std::move(body), {}, {}};
+}
 
-/// Answers GET and HEAD of one path, and of none below it.
-class Page final : public CivetHandler {
- public:
-  Page(std::string path, std::function<Answer()> answer)
-      : path_(std::move(path)), answer_(std::move(answer)) {}
-
-  bool handleGet(CivetServer*, mg_connection* connection) override { return answer(connection, true); }
-  bool handleHead(CivetServer*, mg_connection* connection) override { return answer(connection, false); }
-
- private:
-  bool answer(mg_connection* connection, bool with_body) {
-    if (path_ != mg_get_request_info(connection)->local_uri) return false;
-    const Answer answer = made();
-    mg_printf(connection,
-              "HTTP/1.1 %d %s\r\nContent-Type: %s\r\nContent-Length: %zu\r\nCache-Control: no-store\r\n"
-              "Connection: close\r\n\r\n",
-              answer.code, mg_get_response_code_text(connection, answer.code), answer.type,
-              answer.body.size());
-    if (with_body) mg_write(connection, answer.body.data(), answer.body.size());
-    return true;
-  }
-
-  Answer made() {
-    try {
-      return answer_();
-    } catch (const std::exception& error) {
-      spdlog::warn(base::logfmt("metrics_failed", {{"path", path_}, {"message", error.what()}}));
-      return {503, kPlainType, std::string(error.what()) + "\n"};
-    }
-  }
-
-  const std::string path_;
-  const std::function<Answer()> answer_;
-};
-
-/// What the library says while it starts is the reason when it does not.
-struct Words {
-  base::Mutex mutex;
-  std::string text ABSL_GUARDED_BY(mutex);
-};
-
-int hear(const mg_connection* connection, const char* message) {
-  const auto* const server = static_cast<const CivetServer*>(mg_get_user_data(mg_get_context(connection)));
-  if (server == nullptr || server->getUserContext() == nullptr) return 1;
-  auto& words = *static_cast<Words*>(const_cast<void*>(server->getUserContext()));
-  const base::MutexLock lock(words.mutex);
-  if (words.text.size() < kMaxReasonBytes)
-    words.text += (words.text.empty() ? "" : "; ") + std::string(message);
-  return 1;  // not to a file
+http::Limits limits_of(const EndpointOptions& options) {
+  http::Limits limits;
+  limits.places = {.connections = options.connections, .for_known = 0};
+  // Of each kind all connections may wait: whoever asks is answered.
+  limits.waiting = limits.waiting_of_one = options.connections;
+  // Health does not wait for metrics, which take longer; nothing computes.
+  limits.threads = {{{1, 1}, {0, 1}, {1, 1}}};
+  limits.header = limits.idle = limits.stretch = options.patience;
+  return limits;
 }
 
 }  // namespace
 
 class MetricsEndpoint::Service {
  public:
-  Service(const wire::Address& address, const EndpointSources& sources, const EndpointOptions& options)
-      : address_(address),
-        metrics_("/metrics",
-                 [collect = sources.metrics] {
-                   return Answer{200, kMetricsType, prometheus::TextSerializer().Serialize(collect())};
-                 }),
-        health_("/healthz", [trouble = sources.trouble] {
-          const std::string why = trouble();
-          return why.empty() ? Answer{200, kPlainType, "ok\n"} : Answer{503, kPlainType, why + "\n"};
-        }) {
-    start(options);
-    http_->addHandler("/metrics", metrics_);
-    http_->addHandler("/healthz", health_);
+  Service(const wire::Address& address, EndpointSources sources, const EndpointOptions& options)
+      : sources_(std::move(sources)), address_(address) {
+    try {
+      http_ = std::make_unique<http::Server>(
+          address, nullptr, [this](const http::Request& head) { return admit(head); }, limits_of(options));
+    } catch (const std::system_error& error) {
+      refuse(address, error.code().message());
+    }
+    address_.port = http_->port();
+    thread_ = std::thread([this] { http_->run(); });
   }
 
   ~Service() {
-    if (http_ == nullptr) return;
-    auto closing = std::async(std::launch::async, [this] { http_->close(); });
-    // The library looks up from its sockets every two seconds, or when somebody comes.
-    while (closing.wait_for(kKnock) != std::future_status::ready) knock();
+    http_->stop();
+    thread_.join();
   }
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
@@ -116,39 +63,45 @@ class MetricsEndpoint::Service {
   const wire::Address& address() const { return address_; }
 
  private:
-  void knock() const {
-    char why[100];
-    mg_connection* const visit = mg_connect_client(address_.host.c_str(), address_.port, 0, why, sizeof why);
-    if (visit != nullptr) mg_close_connection(visit);
-  }
-
-  void start(const EndpointOptions& options) {
-    CivetCallbacks callbacks;
-    callbacks.log_message = hear;
-    try {
-      http_ = std::make_unique<CivetServer>(
-          std::vector<std::string>{"listening_ports", address_.target(), "num_threads",
-                                   std::to_string(options.threads), "request_timeout_ms",
-                                   std::to_string(options.patience.count()), "enable_directory_listing",
-                                   "no"},
-          &callbacks, &words_);
-    } catch (const CivetException& error) {
-      const base::MutexLock lock(words_.mutex);
-      refuse(address_, words_.text.empty() ? error.what() : words_.text);
+  std::variant<http::Response, http::Reception> admit(const http::Request& head) const {
+    const bool health = head.path == "/healthz";
+    if (!health && head.path != "/metrics") return text(404, kPlainType, "there is /metrics and /healthz\n");
+    if (head.method != "GET" && head.method != "HEAD") {
+      http::Response refusal = text(405, kPlainType, "this is to be read\n");
+      refusal.headers.emplace_back("Allow", "GET, HEAD");
+      return refusal;
     }
-    address_.port = http_->getListeningPorts().at(0);
+    http::Reception reception;
+    reception.kind = health ? http::AnswerKind::kQuick : http::AnswerKind::kAwaited;
+    reception.respond = [this, health](const http::Request& request) {
+      try {
+        return health ? tell_health() : tell_metrics();
+      } catch (const std::exception& error) {
+        spdlog::warn(base::logfmt("metrics_failed", {{"path", request.path}, {"message", error.what()}}));
+        return text(503, kPlainType, std::string(error.what()) + "\n");
+      }
+    };
+    return reception;
   }
 
+  http::Response tell_metrics() const {
+    return text(200, kMetricsType, prometheus::TextSerializer().Serialize(sources_.metrics()));
+  }
+
+  http::Response tell_health() const {
+    const std::string why = sources_.trouble();
+    return why.empty() ? text(200, kPlainType, "ok\n") : text(503, kPlainType, why + "\n");
+  }
+
+  const EndpointSources sources_;
   wire::Address address_;
-  Words words_;
-  Page metrics_;
-  Page health_;
-  std::unique_ptr<CivetServer> http_;  // last: its threads use all of the others
+  std::unique_ptr<http::Server> http_;
+  std::thread thread_;
 };
 
 MetricsEndpoint::MetricsEndpoint(const wire::Address& address, EndpointSources sources,
                                  const EndpointOptions& options)
-    : service_(std::make_unique<Service>(address, sources, options)) {}
+    : service_(std::make_unique<Service>(address, std::move(sources), options)) {}
 
 MetricsEndpoint::~MetricsEndpoint() = default;
 

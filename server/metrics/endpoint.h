@@ -3,6 +3,7 @@
 #include <prometheus/metric_family.h>
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,14 +21,15 @@ struct EndpointSources {
 };
 
 struct EndpointOptions {
-  /// Requests answered at once; others wait.
-  unsigned threads = 2;
+  /// At a time; where there are more, those go that ask nothing.
+  std::size_t connections = 64;
   /// A peer that neither sends nor takes anything for so long is given up.
   std::chrono::milliseconds patience{5000};
 };
 
 /// Serves GET /metrics, in the text format of Prometheus, and GET /healthz, 200 or 503, over HTTP, without
-/// asking who comes.  Has threads of its own: whoever is slow holds up at most others who ask the same.
+/// asking who comes.  Has threads of its own, one for each of both: whoever is slow to ask or to read holds
+/// up nobody.
 class MetricsEndpoint {
  public:
   /// Listens and answers until destroyed.

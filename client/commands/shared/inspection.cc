@@ -89,15 +89,16 @@ ordered_json defects_json(const std::vector<MeshDefect>& defects) {
 
 }  // namespace
 
-Inspection inspect(const InputFile& input, std::size_t max_places) {
+Inspection inspect(const InputFile& input, std::size_t max_places, core::ExecutionContext* context) {
   Inspection inspection;
   inspection.facts = file_facts(input);
   try {
-    inspection.solid = check_solid(input, true);
+    inspection.solid = check_solid(input, true, context);
     add_solid_facts(inspection.facts, *inspection.solid);
     inspection.facts["computable"] = true;
     inspection.facts["notes"] = notes_json(*inspection.solid);
   } catch (const ClientError& error) {
+    if (error.exit_code() == ExitCode::kCancelled) throw;
     inspection.facts["computable"] = false;
     inspection.facts["defects"] = defects_json(find_defects(input.off, max_places));
     inspection.error = error;

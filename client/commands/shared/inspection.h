@@ -18,7 +18,9 @@ struct Inspection {
 };
 
 /// Counts what is in the file, mends the mesh as `submit` does and looks for every kind of defect.
-/// @param max_places of each kind that are listed.
-Inspection inspect(const InputFile& input, std::size_t max_places = kFewPlaces);
+/// @param max_places of each kind that are listed. @param context asked whether to stop; may be null.
+/// @throws ClientError kCancelled when the context asks to stop.
+Inspection inspect(const InputFile& input, std::size_t max_places = kFewPlaces,
+                   core::ExecutionContext* context = nullptr);
 
 }  // namespace affskel::client

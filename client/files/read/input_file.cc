@@ -95,9 +95,10 @@ void tell_conversion(const InputFile& input, Console& console) {
                std::to_string(input.off.mesh.triangles.size()) + " triangles; fetch mesh gives that text");
 }
 
-core::Solid check_solid(const InputFile& input, bool repair) {
+core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionContext* context) {
   core::SolidOptions options;
   options.repair = repair;
+  options.context = context;
   try {
     return core::make_solid(input.off.mesh, options, input.off.vertex_line, input.off.triangle_line);
   } catch (const core::CoreError& error) {

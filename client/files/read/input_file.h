@@ -33,8 +33,10 @@ InputFile read_named_input(const std::string& name);
 /// Parses bytes that came from `path`, or from the server when `path` names no file.
 core::OffMesh parse_mesh(const std::string& bytes, const std::string& path);
 
-/// Checks that the mesh bounds a solid. @throws ClientError kBadInput with the place.
-core::Solid check_solid(const InputFile& input, bool repair);
+/// Checks that the mesh bounds a solid.
+/// @param context asked whether to stop; may be null.
+/// @throws ClientError kBadInput with the place, kCancelled when the context asks to stop.
+core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionContext* context = nullptr);
 
 /// What of a file was passed over: "1204 rows of vn (normals), 2 rows of g (groups)"; empty when nothing was.
 std::string passed_over_text(const core::OffMesh& off);

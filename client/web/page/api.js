@@ -1,6 +1,6 @@
 // Calls of the page's own service.
 
-// What went wrong, in words for people; `code` as on the command line.
+// What went wrong, in words for people; `code` as on the command line, `retryAfter` in seconds where that was told.
 export class ApiError extends Error {
   constructor(status, code, message, line) {
     super(message);
@@ -44,6 +44,7 @@ export async function call(method, path, body, signal) {
   }
   if (response.ok) return JSON.parse(text);
   const error = errorOf(response.status, text);
+  error.retryAfter = Number(response.headers.get('Retry-After'));
   if (error.status === 401 && path !== '/api/session') tellSignedOut();
   throw error;
 }

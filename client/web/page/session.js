@@ -24,8 +24,18 @@ export async function openSession() {
   return take(await call('POST', '/api/session', { key }));
 }
 
+const MOST_TRIES = 15;
+
+// Where too many wrong tokens came from this address, of others maybe, it asks again when it may, for a while.
 export async function signIn(token) {
-  return take(await call('POST', '/api/session', { token }));
+  for (let tries = 1; ; tries += 1) {
+    try {
+      return take(await call('POST', '/api/session', { token }));
+    } catch (error) {
+      if (error.status !== 429 || tries === MOST_TRIES) throw error;
+      await new Promise((resolve) => setTimeout(resolve, 1000 * (error.retryAfter || 1)));
+    }
+  }
 }
 
 export async function signOut() {

@@ -5,6 +5,7 @@
 #include <grpcpp/server_builder.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -43,6 +44,7 @@ class FakeService final : public v1::ErosionService::Service {
   std::vector<v1::ListJobsRequest> lists;
   std::uint32_t jobs = 1;  ///< so many are listed, in pages
   int watches = 0;
+  std::atomic<int> infos = 0;  ///< how often it was asked what it is
 
   grpc::Status SubmitJob(grpc::ServerContext*, grpc::ServerReader<v1::SubmitJobRequest>* reader,
                          v1::SubmitJobResponse* response) override {
@@ -134,6 +136,7 @@ class FakeService final : public v1::ErosionService::Service {
   }
   grpc::Status GetServerInfo(grpc::ServerContext* context, const v1::GetServerInfoRequest*,
                              v1::ServerInfo* response) override {
+    ++infos;
     const auto who = caller_of(*context);
     if (!who) return kNoToken;
     *response->mutable_caller() = *who;

@@ -5,16 +5,16 @@
 namespace affskel::client {
 namespace {
 
-HttpRequest request(const std::string& method, const std::string& path,
-                    std::vector<std::pair<std::string, std::string>> headers) {
-  HttpRequest made;
+http::Request request(const std::string& method, const std::string& path,
+                      std::vector<std::pair<std::string, std::string>> headers) {
+  http::Request made;
   made.method = method;
   made.path = path;
   made.headers = std::move(headers);
   return made;
 }
 
-int refusal(const HttpRequest& made, const HostRule& rule = {}) {
+int refusal(const http::Request& made, const HostRule& rule = {}) {
   const auto refused = refuse_foreign(made, rule);
   return refused ? refused->status : 0;
 }
@@ -82,7 +82,7 @@ TEST(RequestGuard, WhatChangesSomethingNamesThisOrigin) {
   const auto from = [](const char* method, std::vector<std::pair<std::string, std::string>> origins,
                        bool secure) {
     origins.emplace_back("host", "localhost:8080");
-    HttpRequest made = request(method, "/api/jobs", std::move(origins));
+    http::Request made = request(method, "/api/jobs", std::move(origins));
     made.secure = secure;
     return refusal(made);
   };

@@ -4,9 +4,9 @@
 
 #include "client/base/error.h"
 #include "tools/files.h"
+#include "tools/http_peer.h"
 #include "tools/temporary_directory.h"
 #include "tools/test_authority.h"
-#include "web/http_peer.h"
 
 namespace affskel::client {
 namespace {
@@ -30,16 +30,16 @@ TEST_F(TlsIdentityTest, KnowsItsNames) {
 
 TEST_F(TlsIdentityTest, ServesOverTlsAndNotWithout) {
   TlsIdentity identity(certificate(), key());
-  RunningServer server(
-      [](const HttpRequest& head) -> std::variant<HttpResponse, Reception> {
-        return HttpResponse{200, {}, head.secure ? "secure" : "open", {}, {}};
+  http::RunningServer server(
+      [](const http::Request& head) -> std::variant<http::Response, http::Reception> {
+        return http::Response{200, {}, head.secure ? "secure" : "open", {}, {}};
       },
-      {}, &identity);
-  HttpPeer peer(server.port(), true);
-  ASSERT_TRUE(peer.send(get("/")));
+      {}, [&] { return identity.context(); });
+  http::Peer peer(server.port(), true);
+  ASSERT_TRUE(peer.send(http::get("/")));
   EXPECT_EQ(peer.read().body, "secure");
-  HttpPeer plain(server.port());
-  plain.send(get("/"));
+  http::Peer plain(server.port());
+  plain.send(http::get("/"));
   plain.wait_for_end();
 }
 

@@ -100,5 +100,46 @@ TEST_F(WebServiceTest, ResultsAreForTheirSessionAlone) {
   EXPECT_EQ(ask("GET", href).status, 401);
 }
 
+TEST_F(WebServiceTest, WhoTriesTokensIsPutOff) {
+  service_.tokens = {{"Bearer ada's", caller("ada", v1::ROLE_USER)}};
+  serve(false);
+  const auto answer_to = [&](const std::string& token) {
+    return ask("POST", "/api/session", json({{"token", token}}).dump());
+  };
+  for (unsigned i = 0; i < BrakeLimits().free; ++i)
+    EXPECT_EQ(answer_to("guess" + std::to_string(i)).status, 403);
+  const int looks = service_.infos;
+  for (int i = 0; i < 100; ++i) {
+    const Answer answer = answer_to("another" + std::to_string(i));
+    EXPECT_EQ(answer.status, 429);
+    EXPECT_EQ(answer.header("Retry-After"), "1");
+  }
+  EXPECT_EQ(service_.infos, looks) << "the server is not asked";
+  EXPECT_EQ(answer_to("ada's").status, 429) << "and comes again";
+}
+
+// Two are looked at at a time, and one more is refused, however many sessions the owner has.
+TEST_F(WebServiceTest, WorkIsCountedByOwner) {
+  service_.tokens = {{"Bearer ada's", caller("ada", v1::ROLE_USER)},
+                     {"Bearer bob's", caller("bob", v1::ROLE_USER)}};
+  serve(false);
+  std::vector<http::Reception> under_way;
+  const auto upload = [&](const std::string& token) {
+    sign_in(token);
+    auto admitted = web_->admit(request_of("POST", "/api/meshes?name=a.off"));
+    if (const auto* refusal = std::get_if<http::Response>(&admitted)) return refusal->status;
+    under_way.push_back(std::get<http::Reception>(std::move(admitted)));
+    return 200;
+  };
+  EXPECT_EQ(upload("ada's"), 200);
+  EXPECT_EQ(upload("ada's"), 200);
+  EXPECT_EQ(upload("ada's"), 429);
+  EXPECT_EQ(upload("bob's"), 200);
+  EXPECT_EQ(under_way[0].owner, under_way[1].owner);
+  EXPECT_NE(under_way[0].owner, under_way[2].owner);
+  under_way.erase(under_way.begin());
+  EXPECT_EQ(upload("ada's"), 200) << "when the first has ended";
+}
+
 }  // namespace
 }  // namespace affskel::client

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <variant>
@@ -63,18 +64,24 @@ class WebServiceTest : public ClientTest {
   }
 
   // As a browser sends it from the page.
-  Answer ask(const std::string& method, const std::string& target, const std::string& body = "") {
-    const auto parsed = parse_target(target);
-    HttpRequest request;
+  http::Request request_of(const std::string& method, const std::string& target) const {
+    const auto parsed = http::parse_target(target);
+    http::Request request;
     request.method = method;
     request.path = parsed->path;
     request.query = parsed->query;
     request.headers = {{"host", "localhost:8080"}, {"sec-fetch-site", "same-origin"}};
     if (method != "GET") request.headers.emplace_back("origin", origin_);
     if (!cookie_.empty()) request.headers.emplace_back("cookie", cookie_);
+    request.gone = gone_.get_token();
+    return request;
+  }
+
+  Answer ask(const std::string& method, const std::string& target, const std::string& body = "") {
+    http::Request request = request_of(method, target);
     auto admitted = web_->admit(request);
-    if (auto* refusal = std::get_if<HttpResponse>(&admitted)) return read(*refusal);
-    Reception& reception = std::get<Reception>(admitted);
+    if (auto* refusal = std::get_if<http::Response>(&admitted)) return read(*refusal);
+    http::Reception& reception = std::get<http::Reception>(admitted);
     if (body.size() > reception.max_bytes) return {413, {}, ""};
     if (reception.file.empty()) {
       request.body = body;
@@ -107,10 +114,11 @@ class WebServiceTest : public ClientTest {
   }
 
   std::unique_ptr<WebService> web_;
+  std::stop_source gone_;  // of all requests' peers
   std::string cookie_, origin_ = "http://localhost:8080";
 
  private:
-  static Answer read(const HttpResponse& response) {
+  static Answer read(const http::Response& response) {
     return {response.status, response.headers,
             response.file.empty() ? response.body : tests::read_file(response.file)};
   }

@@ -101,6 +101,14 @@ TEST_F(WebServiceTest, TellsWhatAMeshIs) {
   EXPECT_TRUE(picture.body.starts_with("\x89PNG"));
 }
 
+TEST_F(WebServiceTest, ComputesNothingForWhoHasGone) {
+  sign_in();
+  const std::string mesh = uploaded("cube.off", mesh_)["mesh"];
+  gone_.request_stop();
+  EXPECT_EQ(ask("POST", "/api/meshes?name=a.off", mesh_).error(), "stopped before the end");
+  EXPECT_EQ(ask("GET", "/api/meshes/" + mesh + "/lattice?points=8000").error(), "stopped before the end");
+}
+
 TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   sign_in();
   const json open = uploaded("open.off", tests::read_file(dir_ / "open.off"));

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "client/web/cookie.h"
-#include "client/web/http_message.h"
 #include "client/web/shelf.h"
+#include "http/message.h"
 #include "tools/files.h"
 
 namespace affskel::client {
@@ -81,12 +81,12 @@ TEST(Cookie, IsForThisServiceAndNoScript) {
   EXPECT_EQ(session_cookie(8080, false, "s"), "affskel-8080=s; Path=/; HttpOnly; SameSite=Strict");
   EXPECT_EQ(session_cookie(8443, true, "s"),
             "__Host-affskel-8443=s; Path=/; HttpOnly; SameSite=Strict; Secure");
-  HttpRequest request;
+  http::Request request;
   request.headers = {{"cookie", "affskel-80=other; x=y;affskel-8080=mine"}};
   EXPECT_EQ(session_secret(request, 8080, false), "mine");
   EXPECT_EQ(session_secret(request, 80, false), "other");
   EXPECT_EQ(session_secret(request, 8080, true), std::nullopt);
-  EXPECT_EQ(session_secret(HttpRequest(), 8080, false), std::nullopt);
+  EXPECT_EQ(session_secret(http::Request(), 8080, false), std::nullopt);
 }
 
 struct Things {
@@ -127,14 +127,14 @@ TEST(Shelf, IsBoundedInNumberBytesAndAge) {
 }
 
 TEST(RequestTarget, IsDecodedOnce) {
-  const auto target = parse_target("/a%2Fb/%2525?name=x%26y&q=a+b&empty");
+  const auto target = http::parse_target("/a%2Fb/%2525?name=x%26y&q=a+b&empty");
   ASSERT_TRUE(target);
   EXPECT_EQ(target->path, "/a/b/%25");
   EXPECT_EQ(target->query.at("name"), "x&y");
   EXPECT_EQ(target->query.at("q"), "a b");
   EXPECT_EQ(target->query.at("empty"), "");
   for (const char* malformed : {"", "a", "/%", "/%2", "/%00", "/?a=1&a=2", "http://host/"})
-    EXPECT_FALSE(parse_target(malformed)) << malformed;
+    EXPECT_FALSE(http::parse_target(malformed)) << malformed;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <future>
 
 #include "metrics/gauges.h"
 #include "tools/exposition.h"
@@ -72,21 +73,40 @@ TEST(EndpointTest, HasNothingElse) {
   }
 }
 
-TEST(EndpointTest, WhoIsSilentGivesWay) {
+TEST(EndpointTest, AnswersBesideUnfinishedRequests) {
   EndpointOptions options;
-  options.patience = std::chrono::milliseconds(100);
+  options.patience = std::chrono::hours(1);
   const MetricsEndpoint endpoint(kAnyPort, well(), options);
   const std::string address = endpoint.address().target();
-  // As many as there are threads, and more: some say nothing, some do not finish.
-  std::vector<int> silent;
-  for (unsigned i = 0; i < 3 * options.threads; ++i) {
-    silent.push_back(tests::connect_tcp(address));
-    if (i % 2 == 0) {
-      ASSERT_EQ(send(silent.back(), "GET /met", 8, MSG_NOSIGNAL), 8);
-    }
+  // Twice as many as there are places: some say nothing, some do not finish, some do not read.
+  std::string unread;
+  for (int i = 0; i < 1000; ++i) unread += "GET /metrics HTTP/1.1\r\n\r\n";
+  const std::vector<std::string> beginnings = {"", "GET /met", "GET /metrics HTTP/1.1\r\nX: ", unread};
+  std::vector<int> others;
+  for (std::size_t i = 0; i < 2 * options.connections; ++i) {
+    others.push_back(tests::connect_tcp(address));
+    const std::string& text = beginnings[i % beginnings.size()];
+    send(others.back(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    EXPECT_EQ(tests::http_get(address, "/metrics").code, 200);
+    EXPECT_EQ(tests::http_get(address, "/healthz").code, 200);
   }
-  EXPECT_EQ(tests::http_get(address, "/metrics").code, 200);
-  for (const int fd : silent) close(fd);
+  for (const int fd : others) close(fd);
+}
+
+TEST(EndpointTest, HealthDoesNotWaitForMetrics) {
+  std::promise<void> begun, open;
+  const auto slow = [&] {
+    begun.set_value();
+    open.get_future().wait();
+    return one_gauge();
+  };
+  const MetricsEndpoint endpoint(kAnyPort, {slow, [] { return std::string(); }});
+  const std::string address = endpoint.address().target();
+  auto metrics = std::async(std::launch::async, [&] { return tests::http_get(address, "/metrics").code; });
+  begun.get_future().wait();
+  EXPECT_EQ(tests::http_get(address, "/healthz").code, 200);
+  open.set_value();
+  EXPECT_EQ(metrics.get(), 200);
 }
 
 TEST(EndpointTest, AnAddressThatIsTakenIsNamed) {

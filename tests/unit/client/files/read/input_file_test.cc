@@ -155,5 +155,15 @@ TEST(CheckSolid, RepairsOnlyWhenAllowedAndTellsIt) {
   EXPECT_NE(err.str().find("t.off: repaired: "), std::string::npos) << err.str();
 }
 
+TEST(CheckSolid, StopsWhenAsked) {
+  struct Stopping : core::ExecutionContext {
+    bool stop_requested() override { return true; }
+  } context;
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "t.off", core::write_off(core::make_tetrahedron(10)));
+  const InputFile input = read_input(dir / "t.off");
+  EXPECT_EQ(exit_of([&] { check_solid(input, true, &context); }), ExitCode::kCancelled);
+}
+
 }  // namespace
 }  // namespace affskel::client

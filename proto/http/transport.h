@@ -10,12 +10,12 @@
 #include <chrono>
 #include <memory>
 
-namespace affskel::client {
+namespace affskel::http {
 
 /// The bytes of one connection, as they are or over TLS.
-class HttpTransport {
+class Transport {
  public:
-  virtual ~HttpTransport() = default;
+  virtual ~Transport() = default;
 
   /// Time for what follows, until the next call; then it ends with a system_error.
   virtual void allow(std::chrono::milliseconds time) = 0;
@@ -30,11 +30,16 @@ class HttpTransport {
   /// Tells the peer that nothing more comes.
   virtual boost::asio::awaitable<void> end() = 0;
 
+  /// Ends what is under way, and all that follows, with a system_error.
+  virtual void close() = 0;
+  /// Whether the peer has closed its end, read or not.
+  virtual bool has_peer_gone() = 0;
+
   virtual bool is_secure() const = 0;
 };
 
 /// @param context null = no TLS.
-std::unique_ptr<HttpTransport> make_transport(boost::asio::ip::tcp::socket socket,
-                                              std::shared_ptr<boost::asio::ssl::context> context);
+std::unique_ptr<Transport> make_transport(boost::asio::ip::tcp::socket socket,
+                                          std::shared_ptr<boost::asio::ssl::context> context);
 
-}  // namespace affskel::client
+}  // namespace affskel::http

@@ -4,9 +4,9 @@
 #include <string>
 #include <thread>
 
-#include "client/web/http_server.h"
+#include "http/server.h"
 
-namespace affskel::client {
+namespace affskel::http {
 
 /// What came back.
 struct PeerAnswer {
@@ -16,17 +16,19 @@ struct PeerAnswer {
 };
 
 /// The other end of a connection, written over OpenSSL's BIO alone: it sends what it is told, byte for byte.
-class HttpPeer {
+class Peer {
  public:
-  explicit HttpPeer(int port, bool tls = false);
-  ~HttpPeer();
-  HttpPeer(const HttpPeer&) = delete;
-  HttpPeer& operator=(const HttpPeer&) = delete;
+  explicit Peer(int port, bool tls = false);
+  ~Peer();
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
 
   /// @return false when the other end has closed.
   bool send(const std::string& bytes);
   /// The next answer, with Content-Length.
   PeerAnswer read();
+  /// The same of one without a body.
+  PeerAnswer read_head();
   /// Waits until the other end closes, passing over what comes.
   void wait_for_end();
 
@@ -40,8 +42,8 @@ class HttpPeer {
 /// A server on a loopback port, running in a thread.
 class RunningServer {
  public:
-  RunningServer(AdmitRequest admit, HttpLimits limits = {}, TlsIdentity* identity = nullptr)
-      : server_(loopback(), identity, std::move(admit), limits), thread_([this] { server_.run(); }) {}
+  RunningServer(AdmitRequest admit, Limits limits = {}, TlsContexts tls = {})
+      : server_(loopback(), std::move(tls), std::move(admit), limits), thread_([this] { server_.run(); }) {}
   ~RunningServer() {
     server_.stop();
     thread_.join();
@@ -55,11 +57,11 @@ class RunningServer {
     return address;
   }
 
-  HttpServer server_;
+  Server server_;
   std::thread thread_;
 };
 
 /// "GET /path HTTP/1.1" with a Host header and these more.
 std::string get(const std::string& path, const std::string& more_headers = "");
 
-}  // namespace affskel::client
+}  // namespace affskel::http

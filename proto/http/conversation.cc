@@ -1,7 +1,10 @@
-#include "client/web/http_conversation.h"
+#include "http/conversation.h"
 
 #include <algorithm>
-#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/this_coro.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -15,12 +18,12 @@
 #include <limits>
 #include <sstream>
 
-namespace affskel::client {
+namespace affskel::http {
 namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-namespace http = beast::http;
+namespace protocol = beast::http;
 using asio::use_awaitable;
 using boost::system::error_code;
 using boost::system::system_error;
@@ -30,6 +33,8 @@ constexpr std::size_t kReadBytes = 64 * 1024;
 // Of what a refused peer still sends, so much is passed over, for so long.
 constexpr std::uint64_t kPassedOver = 64 << 20;
 constexpr std::chrono::milliseconds kPassingTime{2000};
+// Between looks whether somebody still waits for an answer.
+constexpr std::chrono::milliseconds kLook{250};
 
 // What every answer says unless it says otherwise: nothing is kept, guessed, embedded, run or told to others.
 constexpr std::array<std::pair<const char*, const char*>, 6> kForAll = {{
@@ -45,7 +50,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kForAll = {{
 // Ends transfers that hardly move.
 class Pace {
  public:
-  explicit Pace(const HttpLimits& limits) : limits_(limits) {}
+  explicit Pace(const Limits& limits) : limits_(limits) {}
 
   // @throws system_error timed_out
   void moved(std::size_t bytes) {
@@ -58,7 +63,7 @@ class Pace {
   }
 
  private:
-  const HttpLimits& limits_;
+  const Limits& limits_;
   Clock::time_point begin_ = Clock::now();
   std::uint64_t bytes_ = 0;
 };
@@ -70,33 +75,40 @@ std::string lower(beast::string_view text) {
   return small;
 }
 
-using HeadParser = http::request_parser<http::empty_body>;
+using HeadParser = protocol::request_parser<protocol::empty_body>;
 
 // Nothing when the target is malformed.
-std::optional<HttpRequest> request_of(const HeadParser& parser, bool secure) {
+std::optional<Request> request_of(const HeadParser& parser, bool secure, const std::string& peer) {
   const auto& head = parser.get();
   auto target = parse_target(std::string_view(head.target().data(), head.target().size()));
   if (!target) return std::nullopt;
-  HttpRequest request;
+  Request request;
   request.method = std::string(head.method_string());
   request.path = std::move(target->path);
   request.query = std::move(target->query);
   for (const auto& field : head)
     request.headers.emplace_back(lower(field.name_string()), std::string(field.value()));
   request.secure = secure;
+  request.peer = peer;
   return request;
 }
 
-HttpResponse plain(int status, const std::string& text) {
+Response plain(int status, const std::string& text) {
   return {status, {{"Content-Type", "text/plain; charset=utf-8"}}, text + "\n", {}, {}};
 }
 
-HttpResponse too_long(const std::string& what, std::uint64_t most) {
+Response later(int status, const std::string& text) {
+  Response response = plain(status, text);
+  response.headers.emplace_back("Retry-After", "2");
+  return response;
+}
+
+Response too_long(const std::string& what, std::uint64_t most) {
   return plain(413, "the body has " + what + " bytes; at most " + std::to_string(most) + " are taken");
 }
 
-std::string head_text(const HttpResponse& response, std::uint64_t bytes, bool keep_alive) {
-  http::response<http::empty_body> message;
+std::string head_text(const Response& response, std::uint64_t bytes, bool keep_alive) {
+  protocol::response<protocol::empty_body> message;
   message.version(11);
   message.result(static_cast<unsigned>(response.status));
   for (const auto& [name, value] : kForAll) message.set(name, value);
@@ -108,18 +120,51 @@ std::string head_text(const HttpResponse& response, std::uint64_t bytes, bool ke
   return text.str();
 }
 
+// An answer that is being made; outlives the conversation where that breaks off.
+struct Answering {
+  Answering(const asio::any_io_executor& conversations, Request asked, Reception how)
+      : request(std::move(asked)), reception(std::move(how)), ended(conversations) {}
+
+  Request request;
+  Reception reception;
+  Response response;
+  asio::steady_timer ended;  // this and the next belong to the conversations' thread
+  bool is_there = false;
+};
+
+std::shared_ptr<AnswerThreads::Work> work_for(const std::shared_ptr<Answering>& answering) {
+  const auto work = std::make_shared<AnswerThreads::Work>();
+  // Strangers take turns by their addresses.
+  work->whose = answering->reception.owner.empty() ? "peer " + answering->request.peer
+                                                   : "owner " + answering->reception.owner;
+  answering->request.gone = work->stop.get_token();
+  work->run = [answering] {
+    answering->response = answering->reception.respond(answering->request);
+    answering->reception.respond = nullptr;  // and what it holds
+    asio::post(answering->ended.get_executor(), [answering] {
+      answering->is_there = true;
+      answering->ended.cancel();
+    });
+  };
+  return work;
+}
+
 // One connection.  Every co_await is a statement of its own, without temporaries that have destructors: GCC
 // 12 miscompiles co_await in conditions, and destroys such temporaries twice.
 class Conversation {
  public:
-  Conversation(HttpTransport& transport, const Conversations& shared)
-      : transport_(transport), shared_(shared), limits_(shared.limits) {}
+  Conversation(Transport& transport, Places::Place& place, const std::string& peer,
+               const Conversations& shared)
+      : transport_(transport), place_(place), peer_(peer), shared_(shared), limits_(shared.limits) {}
 
   asio::awaitable<void> run() {
     transport_.allow(limits_.header);
     co_await transport_.begin();
     bool goes_on = true;
-    while (goes_on) goes_on = co_await one_request();
+    while (goes_on) {
+      goes_on = co_await one_request();
+      if (goes_on) place_.idles();
+    }
     transport_.allow(limits_.header);
     co_await transport_.end();
   }
@@ -134,6 +179,7 @@ class Conversation {
 
   // Whether another may follow.
   asio::awaitable<bool> one_request() {
+    bodiless_ = false;
     transport_.allow(limits_.idle);
     if (buffer_.size() == 0) {
       const std::size_t got = co_await fill();
@@ -147,14 +193,14 @@ class Conversation {
     error_code error;
     while (!head.is_header_done()) {
       buffer_.consume(head.put(buffer_.data(), error));
-      if (error && error != http::error::need_more) break;
+      if (error && error != protocol::error::need_more) break;
       if (head.is_header_done()) break;
       const std::size_t got = co_await fill();
       if (got == 0) co_return false;
     }
-    if (error && error != http::error::need_more) {
-      HttpResponse refusal = plain(400, "no HTTP request: " + error.message());
-      if (error == http::error::header_limit) refusal = plain(431, "the headers are too long");
+    if (error && error != protocol::error::need_more) {
+      Response refusal = plain(400, "no HTTP request: " + error.message());
+      if (error == protocol::error::header_limit) refusal = plain(431, "the headers are too long");
       co_await refuse(refusal);
       co_return false;
     }
@@ -163,17 +209,19 @@ class Conversation {
   }
 
   asio::awaitable<bool> answer(HeadParser& head) {
-    auto request = request_of(head, transport_.is_secure());
+    place_.transfers();
+    bodiless_ = head.get().method() == protocol::verb::head;
+    auto request = request_of(head, transport_.is_secure(), peer_);
     if (!request) {
-      const HttpResponse refusal = plain(400, "the request's target is malformed");
+      const Response refusal = plain(400, "the request's target is malformed");
       co_await refuse(refusal);
       co_return false;
     }
-    const bool bodiless = !head.chunked() && head.content_length().value_or(0) == 0;
+    const bool is_whole = !head.chunked() && head.content_length().value_or(0) == 0;
     const bool keep_alive = head.keep_alive();
     auto admitted = shared_.admit(*request);
-    if (auto* refusal = std::get_if<HttpResponse>(&admitted)) {
-      if (bodiless) {
+    if (auto* refusal = std::get_if<Response>(&admitted)) {
+      if (is_whole) {
         co_await send(*refusal, keep_alive);
         co_return keep_alive;
       }
@@ -181,101 +229,118 @@ class Conversation {
       co_return false;
     }
     Reception& reception = std::get<Reception>(admitted);
-    if (head.content_length() && *head.content_length() > reception.max_bytes) {
-      const HttpResponse refusal = too_long(std::to_string(*head.content_length()), reception.max_bytes);
+    if (!place_.belongs_to(reception.owner)) {
+      const Response refusal = later(429, "you have too many connections at a time");
       co_await refuse(refusal);
       co_return false;
     }
-    if (!bodiless) {
+    if (head.content_length() && *head.content_length() > reception.max_bytes) {
+      const Response refusal = too_long(std::to_string(*head.content_length()), reception.max_bytes);
+      co_await refuse(refusal);
+      co_return false;
+    }
+    if (!is_whole) {
       const bool whole = co_await receive(head, *request, reception);
       if (!whole) co_return false;
     }
-    const HttpResponse response = co_await respond(*request, reception);
+    const Response response = co_await respond(*request, reception);
     co_await send(response, keep_alive);
     co_return keep_alive;
   }
 
   // False when the body cannot be taken, which is answered.
-  asio::awaitable<bool> receive(HeadParser& head, HttpRequest& request, const Reception& reception) {
-    if (lower(head.get()[http::field::expect]) == "100-continue") {
+  asio::awaitable<bool> receive(HeadParser& head, Request& request, const Reception& reception) {
+    if (lower(head.get()[protocol::field::expect]) == "100-continue") {
       co_await write("HTTP/1.1 100 Continue\r\n\r\n");
     }
-    bool whole = true;
+    std::optional<Response> refusal;
     if (reception.file.empty()) {
-      http::request_parser<http::string_body> parser(std::move(head));
-      whole = co_await read_body(parser, reception.max_bytes);
-      if (whole) request.body = std::move(parser.get().body());
+      protocol::request_parser<protocol::string_body> parser(std::move(head));
+      auto fault = co_await read_body(parser, reception.max_bytes);
+      refusal = std::move(fault);
+      if (!refusal) request.body = std::move(parser.get().body());
     } else {
-      http::request_parser<http::file_body> parser(std::move(head));
+      protocol::request_parser<protocol::file_body> parser(std::move(head));
       error_code error;
       parser.get().body().open(reception.file.c_str(), beast::file_mode::write, error);
-      if (!error) whole = co_await read_body(parser, reception.max_bytes, error);
       if (error) {
-        const HttpResponse refusal = plain(507, "there is no room for the file: " + error.message());
-        co_await refuse(refusal);
-        co_return false;
+        refusal = no_room(error);
+      } else {
+        auto fault = co_await read_body(parser, reception.max_bytes);
+        refusal = std::move(fault);
       }
     }
-    if (whole) co_return true;
-    const HttpResponse refusal = too_long("more", reception.max_bytes);
-    co_await refuse(refusal);
+    if (!refusal) co_return true;
+    co_await refuse(*refusal);
     co_return false;
   }
 
+  // Nothing when the body is whole, or why it cannot be taken.
   template <typename Parser>
-  asio::awaitable<bool> read_body(Parser& parser, std::uint64_t max_bytes) {
-    error_code error;
-    const bool whole = co_await read_body(parser, max_bytes, error);
-    if (error) throw system_error(error);
-    co_return whole;
-  }
-
-  // False when the body is too long.  @param error of what takes it.
-  template <typename Parser>
-  asio::awaitable<bool> read_body(Parser& parser, std::uint64_t max_bytes, error_code& error) {
+  asio::awaitable<std::optional<Response>> read_body(Parser& parser, std::uint64_t max_bytes) {
     parser.body_limit(max_bytes);
     parser.eager(true);
     Pace pace(limits_);
+    std::uint64_t taken = 0;
+    error_code error;
     while (!parser.is_done()) {
       if (buffer_.size() > 0) {
-        buffer_.consume(parser.put(buffer_.data(), error));
-        if (error == http::error::body_limit) {
-          error = {};
-          co_return false;
-        }
-        if (error && error != http::error::need_more) co_return true;
+        const std::size_t some = parser.put(buffer_.data(), error);
+        buffer_.consume(some);
+        taken += some;
+        if (error && error != protocol::error::need_more) co_return refusal_of(error, max_bytes);
+        // What frames the content counts, too.
+        if (taken > limits_.header_bytes && taken - limits_.header_bytes > max_bytes)
+          co_return too_long("more", max_bytes);
         if (!error) continue;
-        error = {};
+        // The parser keeps a chunk's size line and the trailers until they end.
+        if (buffer_.size() > limits_.header_bytes)
+          co_return plain(431, "a chunk's extensions or trailers are too long");
       }
       transport_.allow(limits_.stretch);
       const std::size_t got = co_await fill();
       if (got == 0) throw system_error(asio::error::eof);
       pace.moved(got);
     }
-    co_return true;
+    co_return std::nullopt;
   }
 
-  asio::awaitable<HttpResponse> respond(const HttpRequest& request, const Reception& reception) {
+  static Response no_room(const error_code& error) {
+    return plain(507, "there is no room for the file: " + error.message());
+  }
+
+  static Response refusal_of(const error_code& error, std::uint64_t max_bytes) {
+    if (error == protocol::error::body_limit) return too_long("more", max_bytes);
+    if (error == protocol::error::header_limit) return plain(431, "the trailers are too long");
+    const auto& of_protocol = protocol::make_error_code(protocol::error::need_more).category();
+    if (error.category() == of_protocol) return plain(400, "malformed body: " + error.message());
+    return no_room(error);
+  }
+
+  asio::awaitable<Response> respond(Request& request, Reception& reception) {
     AnswerThreads& threads = shared_.threads[static_cast<std::size_t>(reception.kind)];
-    if (threads.answers >= limits_.waiting) {
-      HttpResponse busy = plain(503, "too many requests at a time; try again");
-      busy.headers.emplace_back("Retry-After", "2");
-      co_return busy;
-    }
+    const bool drops = reception.kind != AnswerKind::kQuick;
+    const auto executor = co_await asio::this_coro::executor;
+    const auto answering = std::make_shared<Answering>(executor, std::move(request), std::move(reception));
+    const auto work = work_for(answering);
+    if (!threads.add(work)) co_return later(503, "too many requests at a time; try again");
+    place_.works();
     transport_.allow_any_time();
-    ++threads.answers;
-    asio::awaitable<HttpResponse> answer_of = on_thread(request, reception);
-    HttpResponse response = co_await asio::co_spawn(threads.pool, std::move(answer_of), use_awaitable);
-    --threads.answers;
-    co_return response;
-  }
-
-  static asio::awaitable<HttpResponse> on_thread(const HttpRequest& request, const Reception& reception) {
-    co_return reception.respond(request);
+    error_code ignored;
+    while (!answering->is_there) {
+      answering->ended.expires_after(kLook);
+      co_await answering->ended.async_wait(asio::redirect_error(use_awaitable, ignored));
+      if (!answering->is_there && drops && transport_.has_peer_gone()) {
+        threads.drop(work);
+        throw system_error(asio::error::eof);
+      }
+    }
+    place_.transfers();
+    co_return std::move(answering->response);
   }
 
   // Ends the connection: what the peer still sends is passed over for a moment, so that it reads the answer.
-  asio::awaitable<void> refuse(const HttpResponse& response) {
+  asio::awaitable<void> refuse(const Response& response) {
     co_await send(response, false);
     transport_.allow(std::min(limits_.stretch, kPassingTime));
     std::size_t got = 1;
@@ -285,16 +350,16 @@ class Conversation {
     }
   }
 
-  asio::awaitable<void> send(const HttpResponse& response, bool keep_alive) {
+  asio::awaitable<void> send(const Response& response, bool keep_alive) {
     if (response.file.empty()) {
       const std::string head = head_text(response, response.body.size(), keep_alive);
       co_await write(head);
-      co_await write(response.body);
+      if (!bodiless_) co_await write(response.body);
       co_return;
     }
     std::ifstream file(response.file, std::ios::binary | std::ios::ate);
     if (!file) {
-      const HttpResponse gone = plain(410, "the file is not kept any more");
+      const Response gone = plain(410, "the file is not kept any more");
       co_await send(gone, keep_alive);
       co_return;
     }
@@ -302,6 +367,7 @@ class Conversation {
     file.seekg(0);
     const std::string head = head_text(response, left, keep_alive);
     co_await write(head);
+    if (bodiless_) co_return;
     std::string piece(kReadBytes, '\0');
     while (left > 0) {
       const auto some = static_cast<std::streamsize>(std::min<std::uint64_t>(left, kReadBytes));
@@ -322,17 +388,21 @@ class Conversation {
     }
   }
 
-  HttpTransport& transport_;
+  Transport& transport_;
+  Places::Place& place_;
+  const std::string& peer_;
   const Conversations& shared_;
-  const HttpLimits& limits_;
+  const Limits& limits_;
   beast::flat_buffer buffer_;
+  bool bodiless_ = false;  // the answer, as of HEAD
 };
 
 }  // namespace
 
-asio::awaitable<void> converse(HttpTransport& transport, const Conversations& shared) {
-  Conversation conversation(transport, shared);
+asio::awaitable<void> converse(Transport& transport, Places::Place& place, const std::string& peer,
+                               const Conversations& shared) {
+  Conversation conversation(transport, place, peer, shared);
   co_await conversation.run();
 }
 
-}  // namespace affskel::client
+}  // namespace affskel::http

@@ -1,11 +1,13 @@
-#include "client/web/http_transport.h"
+#include "http/transport.h"
+
+#include <poll.h>
 
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 
-namespace affskel::client {
+namespace affskel::http {
 namespace {
 
 namespace asio = boost::asio;
@@ -15,7 +17,7 @@ using boost::system::error_code;
 
 // What both have in common.
 template <typename Stream>
-class StreamTransport : public HttpTransport {
+class StreamTransport : public Transport {
  public:
   template <typename... Arguments>
   explicit StreamTransport(Arguments&&... arguments) : stream_(std::forward<Arguments>(arguments)...) {}
@@ -24,6 +26,11 @@ class StreamTransport : public HttpTransport {
     beast::get_lowest_layer(stream_).expires_after(time);
   }
   void allow_any_time() override { beast::get_lowest_layer(stream_).expires_never(); }
+  void close() override { beast::get_lowest_layer(stream_).close(); }
+  bool has_peer_gone() override {
+    pollfd socket{beast::get_lowest_layer(stream_).socket().native_handle(), POLLRDHUP, 0};
+    return poll(&socket, 1, 0) == 1;
+  }
 
   asio::awaitable<std::size_t> read(asio::mutable_buffer room) override {
     error_code error;
@@ -75,10 +82,10 @@ class TlsTransport : public StreamTransport<beast::ssl_stream<beast::tcp_stream>
 
 }  // namespace
 
-std::unique_ptr<HttpTransport> make_transport(asio::ip::tcp::socket socket,
-                                              std::shared_ptr<asio::ssl::context> context) {
+std::unique_ptr<Transport> make_transport(asio::ip::tcp::socket socket,
+                                          std::shared_ptr<asio::ssl::context> context) {
   if (context == nullptr) return std::make_unique<PlainTransport>(std::move(socket));
   return std::make_unique<TlsTransport>(std::move(socket), std::move(context));
 }
 
-}  // namespace affskel::client
+}  // namespace affskel::http

@@ -1,4 +1,4 @@
-#include "web/http_peer.h"
+#include "tools/http_peer.h"
 
 #include <openssl/bio.h>
 #include <openssl/ssl.h>
@@ -7,9 +7,9 @@
 #include <csignal>
 #include <stdexcept>
 
-namespace affskel::client {
+namespace affskel::http {
 
-struct HttpPeer::Connection {
+struct Peer::Connection {
   SSL_CTX* context = nullptr;
   BIO* bio = nullptr;
   ~Connection() {
@@ -18,7 +18,7 @@ struct HttpPeer::Connection {
   }
 };
 
-HttpPeer::HttpPeer(int port, bool tls) : connection_(std::make_unique<Connection>()) {
+Peer::Peer(int port, bool tls) : connection_(std::make_unique<Connection>()) {
   std::signal(SIGPIPE, SIG_IGN);  // the service may close while it is written to
   const std::string place = "127.0.0.1:" + std::to_string(port);
   if (tls) {
@@ -31,9 +31,9 @@ HttpPeer::HttpPeer(int port, bool tls) : connection_(std::make_unique<Connection
   if (BIO_do_connect(connection_->bio) != 1) throw std::runtime_error("cannot connect to " + place);
 }
 
-HttpPeer::~HttpPeer() = default;
+Peer::~Peer() = default;
 
-bool HttpPeer::send(const std::string& bytes) {
+bool Peer::send(const std::string& bytes) {
   std::size_t sent = 0;
   while (sent < bytes.size()) {
     const int put = BIO_write(connection_->bio, bytes.data() + sent, static_cast<int>(bytes.size() - sent));
@@ -43,7 +43,7 @@ bool HttpPeer::send(const std::string& bytes) {
   return BIO_flush(connection_->bio) == 1;
 }
 
-std::string HttpPeer::line() {
+std::string Peer::line() {
   std::string text;
   char c = 0;
   while (BIO_read(connection_->bio, &c, 1) == 1 && c != '\n') {
@@ -52,7 +52,7 @@ std::string HttpPeer::line() {
   return text;
 }
 
-PeerAnswer HttpPeer::read() {
+PeerAnswer Peer::read_head() {
   PeerAnswer answer;
   const std::string first = line();
   if (first.size() < 12) return answer;
@@ -64,6 +64,11 @@ PeerAnswer HttpPeer::read() {
                    [](char c) { return static_cast<char>(std::tolower(c)); });
     answer.headers[name] = header.substr(header.find_first_not_of(' ', colon + 1));
   }
+  return answer;
+}
+
+PeerAnswer Peer::read() {
+  PeerAnswer answer = read_head();
   const auto length = answer.headers.find("content-length");
   answer.body.resize(length == answer.headers.end() ? 0 : std::stoul(length->second));
   for (std::size_t at = 0; at < answer.body.size();) {
@@ -75,7 +80,7 @@ PeerAnswer HttpPeer::read() {
   return answer;
 }
 
-void HttpPeer::wait_for_end() {
+void Peer::wait_for_end() {
   char passed[4096];
   while (BIO_read(connection_->bio, passed, sizeof passed) > 0) {
   }
@@ -85,4 +90,4 @@ std::string get(const std::string& path, const std::string& more_headers) {
   return "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + more_headers + "\r\n";
 }
 
-}  // namespace affskel::client
+}  // namespace affskel::http

@@ -1,6 +1,6 @@
-#include "client/web/http_message.h"
+#include "http/message.h"
 
-namespace affskel::client {
+namespace affskel::http {
 namespace {
 
 int hexadecimal(char c) {
@@ -29,7 +29,7 @@ std::optional<std::string> decoded(std::string_view text, bool plus_is_blank) {
 
 }  // namespace
 
-std::optional<std::string_view> HttpRequest::header(std::string_view name) const {
+std::optional<std::string_view> Request::header(std::string_view name) const {
   std::optional<std::string_view> found;
   for (const auto& [key, value] : headers) {
     if (key != name) continue;
@@ -39,7 +39,7 @@ std::optional<std::string_view> HttpRequest::header(std::string_view name) const
   return found;
 }
 
-std::string HttpRequest::parameter(const std::string& name) const {
+std::string Request::parameter(const std::string& name) const {
   const auto found = query.find(name);
   return found == query.end() ? std::string() : found->second;
 }
@@ -64,4 +64,4 @@ std::optional<RequestTarget> parse_target(std::string_view target) {
   return parsed;
 }
 
-}  // namespace affskel::client
+}  // namespace affskel::http

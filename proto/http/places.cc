@@ -1,0 +1,100 @@
+#include "http/places.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace affskel::http {
+namespace {
+
+namespace ip = boost::asio::ip;
+
+// What an entry is when a place is needed, the first to go first.
+enum Rank { kSilent, kIdle, kBusy };
+
+}  // namespace
+
+std::string peer_key(const ip::address& address) {
+  if (address.is_v4()) return address.to_string();
+  const ip::address_v6 v6 = address.to_v6();
+  if (v6.is_v4_mapped()) return ip::make_address_v4(ip::v4_mapped, v6).to_string();
+  ip::address_v6::bytes_type bytes = v6.to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+  return ip::address_v6(bytes).to_string() + "/64";
+}
+
+std::size_t Places::count(const Choice& choice) const {
+  const auto counts = [&](const Entry& entry) { return !entry.closing && choice(entry); };
+  return static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(), counts));
+}
+
+std::size_t Places::size() const {
+  return count([](const Entry&) { return true; });
+}
+
+int Places::rank(const Entry& entry) const {
+  if (entry.stage != Stage::kIdle || now_() - entry.since <= limits_.grace) return kBusy;
+  return entry.used ? kIdle : kSilent;
+}
+
+bool Places::close_one(const Choice& choice) {
+  auto found = entries_.end();
+  const auto order = [this](const Entry& entry) { return std::make_pair(rank(entry), entry.since); };
+  for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+    if (entry->closing || entry->stage == Stage::kWork || !choice(*entry)) continue;
+    if (found == entries_.end() || order(*entry) < order(*found)) found = entry;
+  }
+  if (found == entries_.end()) return false;
+  found->closing = true;
+  found->close();
+  return true;
+}
+
+std::unique_ptr<Places::Place> Places::take(const std::string& peer, std::function<void()> close) {
+  const Choice stranger = [](const Entry& entry) { return entry.owner.empty(); };
+  const Choice neighbour = [&](const Entry& entry) { return entry.owner.empty() && entry.peer == peer; };
+  const Choice known_idle = [&](const Entry& entry) { return !entry.owner.empty() && rank(entry) < kBusy; };
+  const std::size_t neighbours = count(neighbour);
+  const bool alone = neighbours == size();
+  if (!alone && neighbours >= std::max<std::size_t>(1, limits_.connections / 2) && !close_one(neighbour))
+    return nullptr;
+  const std::size_t most_strangers = limits_.connections - std::min(limits_.connections, limits_.for_known);
+  while (count(stranger) >= most_strangers) {
+    if (!close_one(stranger)) return nullptr;
+  }
+  if (size() >= limits_.connections && !close_one(stranger) && !close_one(known_idle)) return nullptr;
+  entries_.push_back({peer, std::move(close), now_()});
+  return std::make_unique<Place>(*this, std::prev(entries_.end()));
+}
+
+void Places::Place::begin(Stage stage) {
+  entry_->stage = stage;
+  entry_->since = places_.now_();
+}
+
+bool Places::Place::belongs_to(const std::string& owner) {
+  const auto idle_of_owner = [&](const Entry& entry) {
+    return &entry != &*entry_ && entry.owner == owner && places_.rank(entry) < kBusy;
+  };
+  const auto of_owner = [&](const Entry& entry) { return &entry != &*entry_ && entry.owner == owner; };
+  if (!owner.empty() && places_.count(of_owner) >= places_.limits_.of_owner &&
+      !places_.close_one(idle_of_owner))
+    return false;
+  entry_->owner = owner;
+  return true;
+}
+
+void Places::Place::idles() {
+  entry_->used = true;
+  begin(Stage::kIdle);
+}
+
+void Places::Place::transfers() {
+  begin(Stage::kTransfer);
+}
+
+void Places::Place::works() {
+  begin(Stage::kWork);
+}
+
+}  // namespace affskel::http

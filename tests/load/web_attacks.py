@@ -1,0 +1,375 @@
+"""Attacks on the page of affskel-client web and on the server's /metrics and /healthz, while honest people use both.
+
+Usage: web_attacks.py SERVER CLIENT [--seconds N] [--attack NAME ...] [--strict]
+
+Starts a server that asks for tokens and the page before it, both on loopback, and attacks them in one way after the
+other.  Prints for each: honest requests, how many of them failed, their median and 99th percentile in seconds, and the
+most memory that page and server had, then and after the attack.  Exit code 1 when honest requests failed, or memory was
+above 500 MB (page) or 1 GB (server) or did not come back within 100 MB in a minute; with --strict also when the 99th
+percentile is above a second.
+"""
+import argparse
+import asyncio
+import http.client
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.parse
+
+MEGABYTE = 1024.0  # of the kB in /proc
+CONNECTIONS = 400  # more than there are places
+GIVEN_UP = 10  # seconds
+PAUSE = 0.02  # of honest people
+SMALL = "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+
+
+# Attacks: what one connection does over and over.  Each gets a stream and the host's name, until it is cancelled.
+
+def head(host, method="GET", path="/", more=""):
+    return f"{method} {path} HTTP/1.1\r\nHost: {host}\r\n{more}\r\n".encode()
+
+
+def post(host, more):
+    return head(host, "POST", "/api/session", f"Origin: http://{host}\r\n{more}")
+
+
+CHUNKED = "Transfer-Encoding: chunked\r\n"
+
+
+async def flood(writer, piece):
+    while True:
+        writer.write(piece)
+        await writer.drain()
+
+
+async def drip(writer, byte=b"x"):
+    while True:
+        writer.write(byte)
+        await writer.drain()
+        await asyncio.sleep(1)
+
+
+async def drain(reader):
+    while await reader.read(65536):
+        pass
+
+
+async def extension(reader, writer, host):
+    writer.write(post(host, CHUNKED) + b"1;")
+    await flood(writer, b"x" * 65536)
+
+
+async def trailers(reader, writer, host):
+    writer.write(post(host, CHUNKED) + b"0\r\n")
+    await flood(writer, b"X: y\r\n" * 10000)
+
+
+async def silent(reader, writer, host):
+    await drain(reader)
+
+
+async def slow_head(reader, writer, host):
+    writer.write(b"GET / HTTP/1.1\r\nX: ")
+    await drip(writer)
+
+
+async def slow_body(reader, writer, host):
+    writer.write(post(host, "Content-Length: 60000\r\n"))
+    await drip(writer, b"x" * 1100)  # as fast as it must be
+
+
+async def unread(reader, writer, host):
+    reader._transport.pause_reading()
+    writer.write(head(host, path="/page.js") * 1000)
+    await asyncio.sleep(3600)
+
+
+async def pipelined(reader, writer, host):
+    reading = asyncio.ensure_future(drain(reader))
+    try:
+        await flood(writer, head(host) * 1000)
+    finally:
+        reading.cancel()
+
+
+async def idle(reader, writer, host):
+    writer.write(head(host, path="/icon.svg"))
+    await drain(reader)
+
+
+async def huge_header(reader, writer, host):
+    writer.write(b"GET / HTTP/1.1\r\nX: ")
+    await flood(writer, b"x" * 65536)
+
+
+async def garbage(reader, writer, host):
+    writer.write(os.urandom(100000))
+    await drain(reader)
+
+
+async def half_closed(reader, writer, host):
+    writer.write(head(host, path="/page.js") * 10)
+    writer.write_eof()
+    await asyncio.sleep(3600)
+
+
+async def upgrade(reader, writer, host):
+    writer.write(head(host, more="Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"))
+    await flood(writer, b"\x82\x7e\xff\xff" + b"x" * 65535)
+
+
+async def http09(reader, writer, host):
+    writer.write(b"GET /\r\n")
+    await drain(reader)
+
+
+async def tls(reader, writer, host):
+    writer.write(b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03")
+    await drain(reader)
+
+
+async def guesses(reader, writer, host):
+    for number in range(1000000):
+        body = json.dumps({"token": f"guess-{id(writer)}-{number}"}).encode()
+        writer.write(post(host, f"Content-Length: {len(body)}\r\n") + body)
+        await read_answer(reader)
+
+
+async def heavy(reader, writer, host):
+    """Large meshes to be looked at, by somebody who is signed in; every second one is not waited for."""
+    await upload(reader, writer, host)
+    writer.transport.abort()
+    reader, writer = await asyncio.open_connection(*host.rsplit(":", 1))
+    try:
+        await asyncio.wait_for(upload(reader, writer, host), 1)
+    except asyncio.TimeoutError:
+        pass
+    finally:
+        writer.transport.abort()
+
+
+async def upload(reader, writer, host):
+    with open(os.environ["ATTACK_MESH"], "rb") as file:
+        mesh = file.read()
+    writer.write(head(host, "POST", "/api/meshes?name=large.off", f"Origin: http://{host}\r\n"
+                      f"Cookie: {os.environ['ATTACK_COOKIE']}\r\nContent-Length: {len(mesh)}\r\n") + mesh)
+    await writer.drain()
+    await read_answer(reader)
+
+
+async def unfinished(reader, writer, host):
+    writer.write(b"GET /metrics HTTP/1.1\r\n")
+    await drain(reader)
+
+
+async def unread_metrics(reader, writer, host):
+    reader._transport.pause_reading()
+    writer.write(head(host, path="/metrics") * 1000)
+    await asyncio.sleep(3600)
+
+
+# Name -> what, by how many connections.  Those of the page, then those of the metrics.
+PAGE = {"extension": (extension, 4), "trailers": (trailers, 4), "silent": (silent, CONNECTIONS),
+        "slow_head": (slow_head, CONNECTIONS), "slow_body": (slow_body, CONNECTIONS), "unread": (unread, CONNECTIONS),
+        "pipelined": (pipelined, 4), "idle": (idle, CONNECTIONS), "huge_header": (huge_header, 4),
+        "garbage": (garbage, 16), "half_closed": (half_closed, CONNECTIONS), "upgrade": (upgrade, 4),
+        "http09": (http09, 16), "tls": (tls, CONNECTIONS), "guesses": (guesses, 8), "heavy": (heavy, 8)}
+METRICS = {"metrics_unfinished": (unfinished, CONNECTIONS), "metrics_silent": (silent, CONNECTIONS),
+           "metrics_unread": (unread_metrics, CONNECTIONS), "metrics_extension": (extension, 4),
+           "metrics_pipelined": (pipelined, 4)}
+
+
+async def read_answer(reader):
+    text = await reader.readuntil(b"\r\n\r\n")
+    length = next((int(line[15:]) for line in text.split(b"\r\n") if line.lower().startswith(b"content-length:")), 0)
+    await reader.readexactly(length)
+
+
+async def attacker(what, host):
+    name, port = host.rsplit(":", 1)
+    while True:
+        writer = None
+        try:
+            reader, writer = await asyncio.open_connection(name, int(port))
+            await what(reader, writer, host)
+        except (OSError, asyncio.IncompleteReadError):
+            pass
+        finally:
+            if writer is not None:
+                writer.transport.abort()
+        await asyncio.sleep(0.05)  # a closed one comes again
+
+
+async def attack_forever(what, connections, host):
+    await asyncio.gather(*(attacker(what, host) for _ in range(connections)))
+
+
+def attack(name, host):
+    what, connections = {**PAGE, **METRICS}[name]
+    asyncio.run(attack_forever(what, connections, host))
+
+
+class Honest:
+    """One after the other, each by a connection of its own, until the time is over."""
+
+    def __init__(self):
+        self.times, self.failed = [], 0
+
+    def ask(self, host, path, headers, body=None):
+        begin = time.monotonic()
+        connection = http.client.HTTPConnection(host, timeout=GIVEN_UP)
+        try:
+            connection.request("POST" if body else "GET", path, body, headers)
+            answer = connection.getresponse()
+            answer.read()
+            self.failed += answer.status != 200
+        except (OSError, http.client.HTTPException):
+            self.failed += 1
+        finally:
+            connection.close()
+        self.times.append(time.monotonic() - begin)
+
+    def share(self, of):
+        return sorted(self.times)[min(len(self.times) - 1, int(of * len(self.times)))]
+
+
+class Scene:
+    """A server that asks for tokens, with metrics, and the page before it."""
+
+    def __init__(self, server, client):
+        self.directory = tempfile.TemporaryDirectory(prefix="affskel-attacks-", ignore_cleanup_errors=True)
+        data = os.path.join(self.directory.name, "data")
+        self.tokens = [subprocess.run([server, "token", "add", "--owner", owner, "--data-dir", data], check=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+                       for owner in ("ada", "eve")]
+        self.server = subprocess.Popen([server, "--data-dir", data, "--listen", "127.0.0.1:0", "--workers", "0",
+                                        "--metrics", "127.0.0.1:0"], stderr=subprocess.DEVNULL)
+        described = os.path.join(data, "server.json")
+        while not os.path.exists(described) and self.server.poll() is None:
+            time.sleep(0.05)
+        with open(described, encoding="utf-8") as file:
+            told = json.load(file)
+        address = next(a for a in told["addresses"] if not a.startswith("unix:"))
+        self.metrics = told["metrics"]
+        environment = dict(os.environ, AFFSKEL_HOME=os.path.join(self.directory.name, "home"), AFFSKEL_TOKEN_FILE="",
+                           AFFSKEL_SERVER="")
+        self.large = os.path.join(self.directory.name, "large.off")
+        subprocess.run([client, "--quiet", "make", "body", "--triangles", "100000", "-o", self.large], check=True,
+                       env=environment)
+        self.page = subprocess.Popen([client, "--json", "--server", address, "web", "--no-open"], env=environment,
+                                     stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.host = urllib.parse.urlsplit(json.loads(self.page.stdout.readline())["address"]).netloc
+
+    def sign_in(self, token):
+        """As the page's script does.  The cookie, None after a minute, and how long it took."""
+        begin = time.monotonic()
+        while True:
+            connection = http.client.HTTPConnection(self.host, timeout=GIVEN_UP)
+            try:
+                connection.request("POST", "/api/session", json.dumps({"token": token}),
+                                   {"Origin": f"http://{self.host}", "Content-Type": "application/json"})
+                answer = connection.getresponse()
+                answer.read()
+                if answer.status == 200:
+                    return answer.getheader("Set-Cookie").split(";")[0], time.monotonic() - begin
+                time.sleep(int(answer.getheader("Retry-After") or 1))
+            except (OSError, http.client.HTTPException):
+                time.sleep(1)
+            finally:
+                connection.close()
+            if time.monotonic() - begin > 60:
+                return None, time.monotonic() - begin
+
+    def memory(self):
+        return [resident(process.pid) for process in (self.page, self.server)]
+
+    def close(self):
+        for process in (self.page, self.server):
+            process.send_signal(signal.SIGTERM)
+            process.wait()
+        self.page.stdout.close()
+        self.directory.cleanup()
+
+
+def resident(pid):
+    with open(f"/proc/{pid}/status", encoding="ascii") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmRSS:")) / MEGABYTE
+
+
+def attacked(scene, name, seconds):
+    """What honest people saw, the memory before, at most, and after."""
+    before, most = scene.memory(), scene.memory()
+    host = scene.host if name in PAGE else scene.metrics
+    if name == "heavy":
+        os.environ.update(ATTACK_MESH=scene.large, ATTACK_COOKIE=scene.sign_in(scene.tokens[1])[0])
+    process = multiprocessing.Process(target=attack, args=(name, host), daemon=True)
+    process.start()
+    honest, sign_in = Honest(), None
+    try:
+        time.sleep(0.5)
+        cookie = {}
+        if name in PAGE:
+            secret, sign_in = scene.sign_in(scene.tokens[0])
+            honest.failed += secret is None
+            cookie = {"Cookie": secret or ""}
+        paths = ["/", "/page.js", "/api/jobs"] if name in PAGE else ["/healthz", "/metrics"]
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for path in paths:
+                honest.ask(host, path, cookie)
+                time.sleep(PAUSE)
+            if name == "heavy":
+                honest.ask(host, "/api/meshes?name=small.off", {**cookie, "Origin": f"http://{host}"}, SMALL)
+            most = [max(pair) for pair in zip(most, scene.memory())]
+    finally:
+        process.kill()
+        process.join()
+    end = time.monotonic() + 60
+    while any(now > then + 100 for now, then in zip(scene.memory(), before)) and time.monotonic() < end:
+        time.sleep(0.5)
+    return honest, sign_in, before, most, scene.memory()
+
+
+def faults(honest, before, most, after, strict):
+    if honest.failed:
+        yield f"{honest.failed} honest requests failed"
+    if most[0] > 500 or most[1] > 1024:
+        yield "too much memory"
+    if any(now > then + 100 for now, then in zip(after, before)):
+        yield "memory was kept"
+    if strict and honest.share(.99) > 1:
+        yield "honest requests were slow"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("server")
+    parser.add_argument("client")
+    parser.add_argument("--seconds", type=float, default=600)
+    parser.add_argument("--attack", nargs="+", choices=[*PAGE, *METRICS], default=[*PAGE, *METRICS])
+    parser.add_argument("--strict", action="store_true")
+    options = parser.parse_args()
+    failed = False
+    print("attack              honest failed  median     p99  sign-in    page MB      server MB")
+    scene = Scene(options.server, options.client)
+    try:
+        for name in options.attack:
+            honest, sign_in, before, most, after = attacked(scene, name, options.seconds)
+            found = list(faults(honest, before, most, after, options.strict))
+            failed = failed or bool(found)
+            print(f"{name:18} {len(honest.times):7} {honest.failed:6} {honest.share(.5):7.3f} {honest.share(.99):7.3f} "
+                  f"{sign_in or 0:8.2f}  {most[0]:4.0f} -> {after[0]:4.0f}  {most[1]:4.0f} -> {after[1]:4.0f}  "
+                  + "; ".join(found), flush=True)
+    finally:
+        scene.close()
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
