@@ -111,6 +111,7 @@ Credentials credentials_of(const grpc::CallbackServerContext& context, const Cal
   const auto& metadata = context.client_metadata();
   if (const auto found = metadata.find("authorization"); found != metadata.end()) {
     credentials.authorization = std::string(found->second.data(), found->second.size());
+    credentials.several_authorizations = metadata.count("authorization") > 1;
   }
   credentials.has_certificate = caller.has_certificate;
   return credentials;
