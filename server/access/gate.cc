@@ -1,8 +1,8 @@
 #include "access/gate.h"
 
-#include <algorithm>
 #include <pwd.h>
 #include <unistd.h>
+#include <algorithm>
 
 #include <array>
 #include <utility>
@@ -19,9 +19,9 @@ constexpr std::string_view kScheme = "bearer ";
 /// be written in small or large letters.
 std::string_view token_of(std::string_view authorization) {
   const std::string_view scheme = authorization.substr(0, kScheme.size());
-  const bool bearer = std::equal(scheme.begin(), scheme.end(), kScheme.begin(), kScheme.end(), [](char a, char b) {
-    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-  });
+  const bool bearer = std::equal(
+      scheme.begin(), scheme.end(), kScheme.begin(), kScheme.end(),
+      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
   return bearer ? authorization.substr(kScheme.size()) : std::string_view();
 }
 

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Attacks a server of its own with frames written by hand, and says what became of it and of honest calls.
 
-    wire_attacks.py PROGRAMS SOURCES [--attack NAME]... [--together] [--seconds S] [--connections N] [--over tcp|tls|unix]
+    wire_attacks.py PROGRAMS SOURCES [--attack NAME]... [--together] [--strict] [--seconds S] [--connections N]
+                    [--over tcp|tls|unix]
 
 PROGRAMS: where affskel-server is.  SOURCES: of the project, whose contract is compiled.  Exit code 0: the server's
-memory stayed below the bound and went back within a minute, and no honest call failed or waited for over a second
-(at p99)."""
+memory stayed below the bound and went back within a minute, and no honest call failed; with --strict also that they
+took a second at most (p99).  77: python3-grpcio or the compiler of contracts is not there."""
 import argparse
 import hashlib
 import multiprocessing
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,8 +20,11 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
-import grpc  # noqa: E402
-from attacks import ATTACKS, Attacker  # noqa: E402
+try:
+    import grpc
+except ImportError:
+    sys.exit(77)
+from wire_attackers import ATTACKS, Attacker  # noqa: E402
 from event_log import EventLog  # noqa: E402
 from lab_service import LabService  # noqa: E402
 
@@ -93,9 +98,11 @@ class Honest(threading.Thread):
 
 def contract(sources, directory):
     """The modules of the client's service."""
-    plugin = subprocess.run(["which", "grpc_python_plugin"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    plugin = shutil.which("grpc_python_plugin")
+    if plugin is None or shutil.which("protoc") is None:
+        sys.exit(77)
     subprocess.run(["protoc", f"-I{sources}/proto", f"--python_out={directory}", f"--grpc_python_out={directory}",
-                    f"--plugin=protoc-gen-grpc_python={plugin.strip()}",
+                    f"--plugin=protoc-gen-grpc_python={plugin}",
                     *(f"{sources}/proto/affskel/v1/{name}.proto" for name in ("types", "client_service"))], check=True)
     sys.path.insert(0, str(directory))
     from affskel.v1 import client_service_pb2, client_service_pb2_grpc, types_pb2
@@ -157,7 +164,8 @@ def withstand(service, names, arguments, call):
     waits = sorted(wait for one in people for wait in one.waits)
     failures = [text for one in people for text in one.failures]
     p99 = waits[int(len(waits) * .99)] if waits else float("inf")
-    good = peak < arguments.most_memory * MB and not failures and p99 < 1 and after <= before + 100 * MB
+    good = (peak < arguments.most_memory * MB and not failures and (p99 < 1 or not arguments.strict)
+            and after <= before + 100 * MB)
     print(f"{'+'.join(names):<18} {arguments.over:<5} memory {before / MB:.0f} -> {peak / MB:.0f} -> {after / MB:.0f} MB"
           f" (back after {settled:.0f} s)  honest calls {len(waits)}, failed {len(failures)},"
           f" p50 {1000 * waits[len(waits) // 2]:.0f} ms, p99 {1000 * p99:.0f} ms, longest {1000 * waits[-1]:.0f} ms"
@@ -173,6 +181,7 @@ def main():
     parser.add_argument("sources", type=Path)
     parser.add_argument("--attack", action="append", choices=[*ATTACKS], help="may be repeated; default: each")
     parser.add_argument("--together", action="store_true", help="all at once instead of one after the other")
+    parser.add_argument("--strict", action="store_true", help="judge the time of honest calls, too")
     parser.add_argument("--seconds", type=float, default=10, help="of each")
     parser.add_argument("--connections", type=int, default=20, help="of each attack at once")
     parser.add_argument("--over", choices=["tcp", "tls", "unix"], default="tcp")
