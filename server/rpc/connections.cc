@@ -81,8 +81,9 @@ void Connections::Use::leave() {
 
 std::optional<std::uint64_t> Connections::admit(const PeerIdentity& identity,
                                                 const std::weak_ptr<Line>& line) {
+  Lines going;  // the last hold on one of them may be ours, and its end comes back to this table
   const base::MutexLock lock(mutex_);
-  if (!has_room(identity)) return std::nullopt;
+  if (!has_room(identity, going)) return std::nullopt;
   const std::uint64_t number = next_number_++;
   Entry& entry = entries_[number];
   entry.identity = identity;
@@ -117,18 +118,18 @@ Connections::Entries::iterator Connections::find(const std::string& peer) {
   return named == by_socket_.end() ? entries_.end() : entries_.find(named->second);
 }
 
-bool Connections::has_room(const PeerIdentity& identity) {
+bool Connections::has_room(const PeerIdentity& identity, Lines& going) {
   const std::size_t share = std::max<std::size_t>(1, options_.most - options_.most / 4);
   const auto same = [&](const auto& entry) { return entry.second.identity.name == identity.name; };
   const auto own = static_cast<std::size_t>(std::count_if(entries_.begin(), entries_.end(), same));
-  if (own >= share && own < entries_.size() && !close_idle(&identity.name)) return false;
+  if (own >= share && own < entries_.size() && !close_idle(&identity.name, going)) return false;
   if (entries_.size() < options_.most) return true;
   // The one that goes makes room in a moment.
-  return entries_.size() < options_.most + options_.spare && close_idle(nullptr);
+  return entries_.size() < options_.most + options_.spare && close_idle(nullptr, going);
 }
 
 /// Tells the idlest connection, of this peer or of all, to close.
-bool Connections::close_idle(const std::string* of_peer) {
+bool Connections::close_idle(const std::string* of_peer, Lines& going) {
   const Time newest = options_.now() - options_.grace;
   auto found = entries_.end();
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
@@ -140,7 +141,10 @@ bool Connections::close_idle(const std::string* of_peer) {
   }
   if (found == entries_.end()) return false;
   found->second.closing = true;
-  if (const auto line = found->second.line.lock()) line->hang_up();
+  if (auto line = found->second.line.lock()) {
+    line->hang_up();
+    going.push_back(std::move(line));
+  }
   return true;
 }
 
@@ -174,10 +178,11 @@ void Connections::end_use(std::uint64_t connection) {
 }
 
 std::optional<std::uint64_t> Connections::answered(std::uint64_t connection) const {
+  std::shared_ptr<Line> line;  // see admit()
   const base::MutexLock lock(mutex_);
   const auto found = entries_.find(connection);
   if (found == entries_.end()) return std::nullopt;
-  const auto line = found->second.line.lock();
+  line = found->second.line.lock();
   return line == nullptr ? std::nullopt : std::optional(line->answered());
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "access/rules.h"
 #include "base/mutex.h"
@@ -109,8 +110,10 @@ class Connections {
   };
   using Entries = std::map<std::uint64_t, Entry>;  // by number
 
-  bool close_idle(const std::string* of_peer) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  bool has_room(const PeerIdentity& identity) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  using Lines = std::vector<std::shared_ptr<Line>>;
+
+  bool close_idle(const std::string* of_peer, Lines& going) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool has_room(const PeerIdentity& identity, Lines& going) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Entries::iterator find(const std::string& peer) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void end_use(std::uint64_t connection);
 

@@ -12,8 +12,8 @@ namespace {
 // the log and the database need.
 constexpr std::uint64_t kReserved = 1536;
 
-// An idle connection costs some tens of kilobytes, whatever the limit on descriptors is.
-constexpr std::uint64_t kMostConnections = 16384;
+// A connection over TLS costs some 75 kB, whatever the limit on descriptors is.
+constexpr std::uint64_t kMostConnections = 8192;
 
 // The client's socket, and a pair between the relay and gRPC.
 constexpr std::uint64_t kDescriptorsPerConnection = 3;

@@ -20,7 +20,7 @@ struct FrameLimits {
   std::size_t block_bytes = 32768;   ///< of one header block, as sent; gRPC refuses 8 KiB of metadata
   std::size_t block_frames = 8;      ///< that one header block is cut into
   std::size_t calls = 1024;          ///< under way at once, as gRPC offers; what is beyond makes work
-  std::size_t header_frames = 8192;  ///< of all calls of a connection that are under way
+  std::size_t header_frames = 4096;  ///< of all calls of a connection that are under way
 };
 
 /// Reads the frames of one HTTP/2 connection (RFC 9113, section 4) as they pass, and says what they cost the

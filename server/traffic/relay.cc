@@ -34,8 +34,8 @@ namespace asio = boost::asio;
 using asio::use_awaitable;
 using Clock = std::chrono::steady_clock;
 
-// Passed on at once: two frames of the size that HTTP/2 begins with.
-constexpr std::size_t kPieceBytes = 32768;
+// Passed on at once: a frame of the size that HTTP/2 begins with, and a record of TLS.
+constexpr std::size_t kPieceBytes = 16384;
 
 // Between two ticks: the process was stopped.
 constexpr std::chrono::seconds kStandstill{2};
@@ -148,6 +148,8 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   /// From the client to gRPC.
   asio::awaitable<void> inward([[maybe_unused]] std::shared_ptr<Connection> self) {
     try {
+      // Peers that hang up on their calls come again at once, and the first words over TLS cost most.
+      co_await pause(std::min<Clock::duration>(shared_.debt(peer_), shared_.options.longest_welcome));
       co_await client_->begin();
       bool more = true;
       while (more) more = co_await pass_inward();
@@ -174,11 +176,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     // Answers pile up for a client that reads none, of which the shortest are bounded by nothing else.
     if (is_sending_) cost += static_cast<std::size_t>(guard_.calls() - calls_);
     calls_ = guard_.calls();
-    const Clock::duration wait = due_after(cost);
-    if (wait > Clock::duration::zero()) {
-      pause_.expires_after(wait);
-      co_await pause_.async_wait(use_awaitable);
-    }
+    co_await pause(due_after(cost));
     if (server_ == nullptr && guard_.begun()) connect();
     if (server_ == nullptr || !unsent_.empty()) unsent_.append(piece.first(got));
     if (server_ == nullptr) co_return true;
@@ -189,6 +187,12 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
       unsent_ = {};
     }
     co_return true;
+  }
+
+  asio::awaitable<void> pause(Clock::duration wait) {
+    if (wait == Clock::duration::zero()) co_return;
+    pause_.expires_after(wait);
+    co_await pause_.async_wait(use_awaitable);
   }
 
   /// How long the bytes just read must wait, with so many frames that make work.  What others of its peer, or

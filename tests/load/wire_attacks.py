@@ -49,7 +49,7 @@ class Service:
         if over == "tls":
             lab = LabService(programs, directory, "localhost", 0)
             lab.start()
-            self.process, self.target = lab.process, lab.address
+            self.process, self.target, self.log = lab.process, lab.address, lab.log
             self.token = lab.tokens["user"].read_text(encoding="ascii").strip()
             self.tls_ca = str(lab.certificate)
         else:
@@ -57,8 +57,8 @@ class Service:
             self.process = subprocess.Popen(
                 [programs / "affskel-server", "--data-dir", directory / "data", "--listen", listen],
                 stderr=subprocess.PIPE, text=True)
-            log = EventLog(self.process.stderr)
-            self.target = log.wait_for(r"event=listening address=(\S+)")[0][1]
+            self.log = EventLog(self.process.stderr)
+            self.target = self.log.wait_for(r"event=listening address=(\S+)")[0][1]
         if over == "unix":
             self.address = f"{directory}/server.sock"
         else:
@@ -203,11 +203,13 @@ def main():
         try:
             for group in [names] if arguments.together else [[name] for name in names]:
                 good = withstand(service, group, arguments, call) and good
+        except ProcessLookupError:
+            good = False
         finally:
             service.process.terminate()
             code = service.process.wait(timeout=100)
         if code != 0:
-            print(f"the server ended with exit code {code}")
+            print(f"the server ended with exit code {code}", *service.log.lines[-10:], sep="\n  ")
     return 0 if good and code == 0 else 1
 
 

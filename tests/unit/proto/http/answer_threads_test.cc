@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace affskel::http {
@@ -17,7 +19,7 @@ class AnswerThreadsTest : public ::testing::Test {
     made->whose = whose;
     made->run = [this, whose, stop = made->stop.get_token()] {
       std::unique_lock lock(mutex_);
-      ++begun_;
+      begun_.push_back(whose);
       changed_.notify_all();
       changed_.wait(lock, stop, [this] { return open_; });
       done_.push_back(stop.stop_requested() ? whose + " stopped" : whose);
@@ -32,9 +34,10 @@ class AnswerThreadsTest : public ::testing::Test {
     changed_.notify_all();
   }
 
-  void wait_for_begun(std::size_t count) {
+  std::vector<std::string> wait_for_begun(std::size_t count) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return begun_ >= count; });
+    changed_.wait(lock, [&] { return begun_.size() >= count; });
+    return begun_;
   }
 
   std::vector<std::string> wait_for_done(std::size_t count) {
@@ -46,7 +49,7 @@ class AnswerThreadsTest : public ::testing::Test {
  private:
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::size_t begun_ = 0;
+  std::vector<std::string> begun_;
   bool open_ = false;
   std::vector<std::string> done_;
 };
@@ -69,9 +72,11 @@ TEST_F(AnswerThreadsTest, NobodyHasAllThreads) {
   ASSERT_TRUE(threads.add(work("loud")));
   ASSERT_TRUE(threads.add(work("loud")));
   ASSERT_TRUE(threads.add(work("quiet")));
-  wait_for_begun(2);
+  std::vector<std::string> begun = wait_for_begun(2);
+  std::sort(begun.begin(), begun.end());
+  EXPECT_EQ(begun, (std::vector<std::string>{"loud", "quiet"}));
   open();
-  EXPECT_EQ(wait_for_done(3).back(), "loud");
+  wait_for_done(3);
 }
 
 TEST_F(AnswerThreadsTest, TooManyAreRefusedAndThoseOfOneFirst) {

@@ -117,6 +117,24 @@ TEST_F(ConnectionsTest, TheIdleGoFirstWhenThereIsNoRoom) {
   EXPECT_FALSE(busy->is_shut);
 }
 
+TEST_F(ConnectionsTest, ALineMayEndWhileItIsHungUpOn) {
+  const auto connections = table(1);
+  struct LastHold : FakeLine {
+    ~LastHold() override { table->forget(number); }
+    void hang_up() override { mine->reset(); }
+    Connections* table = nullptr;
+    std::uint64_t number = 0;
+    std::shared_ptr<LastHold>* mine = nullptr;
+  };
+  auto line = std::make_shared<LastHold>();
+  line->table = connections.get();
+  line->mine = &line;
+  line->number = *connections->admit({"a"}, line);
+  now_ += milliseconds(1000);
+  EXPECT_NE(admit(*connections, 1), nullptr);
+  EXPECT_EQ(connections->size(), 1u);
+}
+
 TEST_F(ConnectionsTest, OnePeerLeavesAQuarterToOthers) {
   const auto connections = table(8);
   for (int i = 0; i < 7; ++i) EXPECT_NE(admit(*connections, i), nullptr) << "nobody else is there";
