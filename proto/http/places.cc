@@ -10,7 +10,7 @@ namespace {
 namespace ip = boost::asio::ip;
 
 // What an entry is when a place is needed, the first to go first.
-enum Rank { kSilent, kIdle, kBusy };
+enum Rank { kSilent, kIdle, kBusy, kWorking };
 
 }  // namespace
 
@@ -33,6 +33,7 @@ std::size_t Places::size() const {
 }
 
 int Places::rank(const Entry& entry) const {
+  if (entry.stage == Stage::kWork) return kWorking;
   if (entry.stage != Stage::kIdle || now_() - entry.since <= limits_.grace) return kBusy;
   return entry.used ? kIdle : kSilent;
 }
@@ -41,7 +42,7 @@ bool Places::close_one(const Choice& choice) {
   auto found = entries_.end();
   const auto order = [this](const Entry& entry) { return std::make_pair(rank(entry), entry.since); };
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-    if (entry->closing || entry->stage == Stage::kWork || !choice(*entry)) continue;
+    if (entry->closing || !choice(*entry)) continue;
     if (found == entries_.end() || order(*entry) < order(*found)) found = entry;
   }
   if (found == entries_.end()) return false;

@@ -209,8 +209,13 @@ void Listener::run() {
 bool Listener::take(int listening) {
   const int fd = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (fd >= 0) {
-    if (!handler_(fd, peer_of(fd))) tell("too many connections and files are open");
-    return true;
+    try {
+      if (!handler_(fd, peer_of(fd))) tell("too many connections and files are open");
+      return true;
+    } catch (const std::exception& error) {
+      tell(error.what());
+      return false;
+    }
   }
   if (errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM) return true;
   tell(std::strerror(errno));

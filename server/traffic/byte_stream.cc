@@ -2,6 +2,7 @@
 
 #include <openssl/ssl.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/ssl/stream.hpp>
@@ -89,7 +90,13 @@ class TlsStream : public StreamOf<asio::ssl::stream<Socket>> {
 
 std::unique_ptr<ByteStream> make_stream(const asio::any_io_executor& executor, int fd,
                                         std::shared_ptr<asio::ssl::context> tls) {
-  Socket socket(executor, asio::generic::stream_protocol(family_of(fd), 0), fd);
+  Socket socket(executor);
+  error_code error;
+  socket.assign(asio::generic::stream_protocol(family_of(fd), 0), fd, error);
+  if (error) {
+    ::close(fd);
+    throw boost::system::system_error(error);
+  }
   if (tls == nullptr) return std::make_unique<PlainStream>(std::move(socket));
   return std::make_unique<TlsStream>(std::move(socket), std::move(tls));
 }

@@ -34,7 +34,7 @@ class ByteStream {
   virtual void close() = 0;
 };
 
-/// @param fd a connected socket, not blocking; the stream's from now on.
+/// @param fd a connected socket, not blocking; the stream's from now on, and closed when it throws.
 /// @param tls null = none.
 std::unique_ptr<ByteStream> make_stream(const boost::asio::any_io_executor& executor, int fd,
                                         std::shared_ptr<boost::asio::ssl::context> tls);

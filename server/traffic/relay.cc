@@ -233,7 +233,6 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     try {
       server_ = make_stream(strand_, ends[0], nullptr);
     } catch (...) {
-      ::close(ends[0]);
       ::close(ends[1]);
       throw;
     }

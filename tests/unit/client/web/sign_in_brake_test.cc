@@ -64,12 +64,13 @@ TEST_F(SignInBrakeTest, TheRightTokenComesInBehindAnAddressThatGuesses) {
   guesses_seen("a", 1000);
   EXPECT_FALSE(shows("a", "right", true));
   EXPECT_EQ(guesses_seen("a", 1000), 0u);
-  const auto wait = brake_.put_off("a", "right");
-  if (wait) {
+  int waits = 0;
+  while (const auto wait = brake_.put_off("a", "right")) {
+    ASSERT_LE(++waits, 2);
     EXPECT_LE(*wait, BrakeLimits().longest);
     now_ += *wait;
   }
-  EXPECT_TRUE(shows("a", "right", true));
+  brake_.was_right("a", "right");
   guesses_seen("a", 1000);
   EXPECT_TRUE(shows("a", "right", true)) << "at once, when it was right before";
 }

@@ -70,15 +70,19 @@ TEST(Places, WhoHasJustComeIsNotSilentYet) {
   EXPECT_EQ(room.gone, (std::vector<std::size_t>{0, 1}));
 }
 
-TEST(Places, NobodyIsSentAwayFromAnAnswerThatIsBeingMade) {
+TEST(Places, WhoWaitsForAnAnswerGoesLast) {
   Room room(four());
   for (const char* peer : {"a", "b", "c"}) {
     room.come(peer);
     room.taken.back()->works();
+    room.now += milliseconds(600);
   }
-  room.now += milliseconds(600);
-  EXPECT_FALSE(room.come("d"));
-  EXPECT_TRUE(room.gone.empty());
+  room.taken[2]->transfers();
+  EXPECT_TRUE(room.come("d"));
+  EXPECT_EQ(room.gone, (std::vector<std::size_t>{2}));
+  room.taken.back()->works();
+  EXPECT_TRUE(room.come("e"));
+  EXPECT_EQ(room.gone, (std::vector<std::size_t>{2, 0})) << "others may keep all places waiting";
 }
 
 TEST(Places, StrangersLeaveRoomForWhoIsKnown) {
