@@ -12,7 +12,7 @@ void Answers::check(const Caller& caller) const {
   const auto reader = readers_.find(caller.connection);
   // Who reads what it asks for is not refused for others who do not, unless these are very many.
   const std::uint64_t own = reader == readers_.end() ? 0 : reader->second.bytes;
-  if (own < options_.of_connection && bytes_ < (own == 0 ? 2 : 1) * options_.of_all) return;
+  if (own < options_.of_connection && bytes_ < (own < options_.little ? 2 : 1) * options_.of_all) return;
   throw CallEnded({grpc::StatusCode::UNAVAILABLE,
                    std::to_string(own) + " bytes of answers wait to be read on this connection, " +
                        std::to_string(bytes_) + " on all; read them, and try again"});

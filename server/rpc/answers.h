@@ -16,8 +16,10 @@ namespace affskel::server {
 
 struct AnswerOptions {
   std::uint64_t of_connection = std::uint64_t{32} << 20;  ///< bytes that one connection may leave unread
-  std::uint64_t of_all = std::uint64_t{192} << 20;        ///< all of them, before the others may leave none
-  PaceOptions pace;  ///< at which a connection must take answers while some wait
+  std::uint64_t of_all = std::uint64_t{192} << 20;        ///< all of them ...
+  std::uint64_t little = std::uint64_t{1}
+                         << 20;  ///< ... and as much again, of those that leave less than this
+  PaceOptions pace;              ///< at which a connection must take answers while some wait
   std::function<std::chrono::steady_clock::time_point()> now = [] {
     return std::chrono::steady_clock::now();
   };

@@ -64,7 +64,6 @@ class UnaryCall final : public grpc::ServerUnaryReactor,
   void post(std::function<void(const Identity&)> body) {
     scope_.emplace(room_, context_, method_);
     const std::uint64_t connection = scope_->caller().connection;
-    room_.answers.check(scope_->caller());
     if (!executor_.has_room(connection))
       throw CallEnded({grpc::StatusCode::UNAVAILABLE,
                        "too many calls wait, and this caller has its share of them; try again"});
@@ -73,8 +72,10 @@ class UnaryCall final : public grpc::ServerUnaryReactor,
 
   void run(const std::function<void(const Identity&)>& body) {
     const Caller& caller = scope_->caller();
-    const grpc::Status status =
-        context_.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] { body(caller.identity); });
+    const grpc::Status status = context_.IsCancelled() ? grpc::Status::CANCELLED : guarded([&] {
+      room_.answers.check(caller);  // now: many of its calls may have waited together
+      body(caller.identity);
+    });
     // What gRPC keeps: the message, and the message in the form that is sent.
     if (status.ok())
       share_.emplace(

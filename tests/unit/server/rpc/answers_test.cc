@@ -23,6 +23,7 @@ class AnswersTest : public testing::Test {
     AnswerOptions options;
     options.of_connection = 100;
     options.of_all = 250;
+    options.little = 10;
     options.pace = {.first = seconds(20), .window = seconds(20), .least_per_s = 10};
     options.now = [this] { return now_; };
     answers_ = std::make_unique<Answers>(options, [this](std::uint64_t connection) {
