@@ -1,5 +1,6 @@
 #include "access/gate.h"
 
+#include <algorithm>
 #include <pwd.h>
 #include <unistd.h>
 
@@ -12,11 +13,16 @@ namespace {
 // A token in use is written down this often.
 constexpr std::int64_t kNoteMs = 60'000;
 
-constexpr std::string_view kScheme = "Bearer ";
+constexpr std::string_view kScheme = "bearer ";
 
-/// The token of an authorization; another scheme is a token that nobody has.
+/// The token of an authorization; another scheme is a token that nobody has.  RFC 9110: the scheme's name may
+/// be written in small or large letters.
 std::string_view token_of(std::string_view authorization) {
-  return authorization.starts_with(kScheme) ? authorization.substr(kScheme.size()) : std::string_view();
+  const std::string_view scheme = authorization.substr(0, kScheme.size());
+  const bool bearer = std::equal(scheme.begin(), scheme.end(), kScheme.begin(), kScheme.end(), [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
+  return bearer ? authorization.substr(kScheme.size()) : std::string_view();
 }
 
 bool is_own_or_root(uid_t uid) {
@@ -43,6 +49,7 @@ Admission Gate::admit(Method method, const Credentials& credentials) {
   attempt.now_ms = options_.now_ms();
   attempt.needs_certificate = options_.client_certificates && !credentials.uid;
   attempt.has_certificate = credentials.has_certificate;
+  attempt.several_tokens = credentials.several_authorizations;
   attempt.has_token = credentials.authorization.has_value();
   attempt.needs_token = !attempt.has_token && !credentials.uid && tokens_.has_tokens();
   if (attempt.has_token) attempt.token = tokens_.find_token(token_of(*credentials.authorization));

@@ -21,6 +21,7 @@ namespace affskel::server {
 struct Credentials {
   std::optional<uid_t> uid;                  ///< the peer's, on a Unix socket
   std::optional<std::string> authorization;  ///< the metadata of this name; absent = none
+  bool several_authorizations = false;       ///< there is more than one
   bool has_certificate = false;              ///< the peer has shown a client certificate, and it is good
 };
 

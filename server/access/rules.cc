@@ -45,6 +45,8 @@ constexpr AccessRule kAccess[] = {
     {"no client certificate", [](const Attempt& a) { return a.needs_certificate && !a.has_certificate; },
      grpc::StatusCode::UNAUTHENTICATED,
      [](const Attempt&) { return std::string("this server asks for a client certificate"); }},
+    {"several tokens", [](const Attempt& a) { return a.several_tokens; }, grpc::StatusCode::UNAUTHENTICATED,
+     [](const Attempt&) { return std::string("more than one authorization was sent"); }},
     {"no token", [](const Attempt& a) { return a.needs_token && !a.has_token; },
      grpc::StatusCode::UNAUTHENTICATED,
      [](const Attempt&) { return std::string("this server asks for a token (--token-file)"); }},

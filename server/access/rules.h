@@ -69,6 +69,7 @@ Jobs jobs_of(v1::Role role);
 
 /// What is known of a caller before anything is decided.
 struct Attempt {
+  bool several_tokens = false;     ///< it shows more than one: others on the way may have judged by another
   bool has_token = false;          ///< it shows one,
   std::optional<TokenRow> token;   ///< which is this; absent = it is not known here
   std::int64_t now_ms = 0;         ///< against which the token's times are held

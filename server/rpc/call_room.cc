@@ -107,6 +107,7 @@ Credentials credentials_of(const grpc::CallbackServerContext& context, const Cal
   const auto& metadata = context.client_metadata();
   if (const auto found = metadata.find("authorization"); found != metadata.end()) {
     credentials.authorization = std::string(found->second.data(), found->second.size());
+    credentials.several_authorizations = metadata.count("authorization") > 1;
   }
   const std::shared_ptr<const grpc::AuthContext> peer = context.auth_context();
   credentials.has_certificate = peer != nullptr && peer->IsPeerAuthenticated();

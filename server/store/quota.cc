@@ -130,6 +130,19 @@ void require_quota(Database& db, const Policy& policy, const Submission& submiss
   require_stored_room(db, policy, owner, bytes);
 }
 
+std::optional<v1::JobError> over_stored_room(Database& db, const Policy& policy, const std::string& owner,
+                                             std::int64_t more) {
+  try {
+    require_stored_room(db, policy, owner, more);
+    return std::nullopt;
+  } catch (const StoreError& refused) {
+    v1::JobError error;
+    error.set_code("LIMIT");
+    error.set_message(refused.what());
+    return error;
+  }
+}
+
 std::optional<v1::JobError> over_quota(Database& db, const Policy& policy, const std::string& owner,
                                        const v1::PreparedSummary& prepared, std::int64_t bytes) {
   v1::JobError error;
@@ -137,14 +150,8 @@ std::optional<v1::JobError> over_quota(Database& db, const Policy& policy, const
   error.set_message(too_many_chords(policy, owner, static_cast<double>(prepared.points()),
                                     static_cast<double>(prepared.directions())));
   if (!error.message().empty()) return error;
-  try {
-    const auto field = static_cast<std::int64_t>(prepared.points() * wire::kFieldRecordBytes);
-    require_stored_room(db, policy, owner, field + bytes);
-  } catch (const StoreError& refused) {
-    error.set_message(refused.what());
-    return error;
-  }
-  return std::nullopt;
+  const auto field = static_cast<std::int64_t>(prepared.points() * wire::kFieldRecordBytes);
+  return over_stored_room(db, policy, owner, field + bytes);
 }
 
 }  // namespace affskel::server

@@ -33,6 +33,10 @@ void require_queue_room(Database& db, const Policy& policy, const std::string& o
 /// Before something of an owner that is known to take `more` bytes is stored.
 void require_stored_room(Database& db, const Policy& policy, const std::string& owner, std::int64_t more);
 
+/// The same for what a worker brings.  @returns why it cannot be stored, if so: a JobError LIMIT.
+std::optional<v1::JobError> over_stored_room(Database& db, const Policy& policy, const std::string& owner,
+                                             std::int64_t more);
+
 /// For what is known once a job is prepared: its points x directions, and the bytes of its field and lattice.
 /// @returns why the job cannot go on, if so: a JobError LIMIT.
 std::optional<v1::JobError> over_quota(Database& db, const Policy& policy, const std::string& owner,

@@ -123,10 +123,11 @@ std::optional<std::int64_t> find_finished_erosion(Database& db, const std::strin
                                                   const std::string& mesh_sha256,
                                                   const std::string& params_key,
                                                   const std::string& core_version) {
+  // One look for each erosion of the content, not at all that the owner has.
   return db.integer(
-      "SELECT id FROM erosions WHERE mesh_sha256 = ? AND params_key = ? AND core_version = ? AND finished = 1"
-      " AND dropped = 0 AND id IN (SELECT erosion_id FROM owner_erosions WHERE owner = ?) ORDER BY id LIMIT "
-      "1",
+      "SELECT id FROM erosions e WHERE mesh_sha256 = ? AND params_key = ? AND core_version = ?"
+      " AND finished = 1 AND dropped = 0"
+      " AND EXISTS (SELECT 1 FROM owner_erosions WHERE owner = ? AND erosion_id = e.id) ORDER BY id LIMIT 1",
       mesh_sha256, params_key, core_version, owner);
 }
 

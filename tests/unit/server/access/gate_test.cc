@@ -106,9 +106,21 @@ TEST_F(GateTest, TcpIsOpenUntilTheFirstTokenAndNeverAgain) {
 
 TEST_F(GateTest, OtherSchemesAreNoTokens) {
   add("t", 7, "ada", v1::ROLE_USER);
-  for (const char* text : {"t", "Basic t", "bearer t", "Bearer", "Bearer  t", ""}) {
+  for (const char* text : {"t", "Basic t", "Bearer", "Bearer  t", ""}) {
     Credentials credentials;
     credentials.authorization = text;
+    EXPECT_EQ(admit(credentials).status.error_code(), grpc::UNAUTHENTICATED) << text;
+  }
+}
+
+// RFC 9110: a scheme's name has no case.
+TEST_F(GateTest, TheSchemeMayBeWrittenInAnyCase) {
+  add("t", 7, "ada", v1::ROLE_USER);
+  for (const char* text : {"Bearer t", "bearer t", "BEARER t"}) {
+    Credentials credentials;
+    credentials.authorization = text;
+    EXPECT_TRUE(admit(credentials).status.ok()) << text;
+    credentials.several_authorizations = true;
     EXPECT_EQ(admit(credentials).status.error_code(), grpc::UNAUTHENTICATED) << text;
   }
 }

@@ -62,6 +62,7 @@ struct Case {
 
 constexpr Case kCases[] = {
     {"no client certificate", [](Attempt& a) { a.has_certificate = false; }, grpc::UNAUTHENTICATED},
+    {"several tokens", [](Attempt& a) { a.several_tokens = true; }, grpc::UNAUTHENTICATED},
     {"no token",
      [](Attempt& a) {
        a.has_token = false;
