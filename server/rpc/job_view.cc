@@ -117,4 +117,21 @@ void JobView::add_reasons(std::vector<v1::Job>& jobs) const {
   for (v1::Job& job : jobs) reasons.add_to(job);
 }
 
+void JobView::add_reason(v1::Verification& verification) const {
+  std::vector<v1::WorkerInfo> workers = registry_.list();
+  std::erase_if(workers, [](const v1::WorkerInfo& worker) { return worker.silent(); });
+  if (!verification.finished() && workers.empty()) {
+    return verification.set_waiting_reason("no worker is connected");
+  }
+  for (const v1::VerifiedSample& sample : verification.samples()) {
+    const bool other = std::any_of(workers.begin(), workers.end(), [&](const v1::WorkerInfo& worker) {
+      return std::none_of(sample.givers().begin(), sample.givers().end(),
+                          [&](const v1::Giver& giver) { return giver.worker() == worker.id(); });
+    });
+    if (sample.finished() || other) continue;
+    return verification.set_waiting_reason(
+        "needs a worker that did not give these directions itself; connect another one");
+  }
+}
+
 }  // namespace affskel::server
