@@ -19,10 +19,13 @@ struct Rivals {
   std::int64_t others = 0;  ///< with jobs of other owners
 };
 
-Rivals rivals_of(const v1::Job& job, const std::vector<BusyWith>& busy) {
+/// @param most highest priority of the owner's jobs that counts across owners.
+Rivals rivals_of(const v1::Job& job, std::int64_t most, const std::vector<BusyWith>& busy) {
   Rivals rivals;
+  const std::int64_t priority = job.priority();
   for (const BusyWith& with : busy) {
-    const bool higher = with.priority > job.priority();
+    const bool higher =
+        with.owner == job.owner() ? with.priority > priority : with.rank > std::min(priority, most);
     (higher ? rivals.higher : with.owner == job.owner() ? rivals.own : rivals.others) += with.workers;
   }
   return rivals;
@@ -79,7 +82,7 @@ class JobView::Reasons {
       job.set_waiting_reason("no worker is connected");
     } else if (std::none_of(workers.begin(), workers.end(), idle)) {
       if (!busy_) busy_ = store_.busy_with();
-      job.set_waiting_reason(busy_text(workers.size(), rivals_of(job, *busy_)));
+      job.set_waiting_reason(busy_text(workers.size(), rivals_of(job, store_.options().policy.of(job.owner()).priority, *busy_)));
     }
   }
 
