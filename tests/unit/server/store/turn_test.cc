@@ -114,7 +114,9 @@ TEST_F(TurnTest, AcrossOwnersAPriorityCountsUpToTheQuota) {
 
 TEST_F(TurnTest, AmongAnOwnersOwnJobsEveryPriorityCounts) {
   const std::string low = submit_as("ada", 5), high = submit_as("ada", 9);
-  EXPECT_EQ(take("solo").job().id(), high);
+  const v1::Lease first = take("solo");
+  EXPECT_EQ(first.job().id(), high);
+  finish(first);
   submit_as("bob", 5);
   std::set<std::string> seen;
   for (int i = 0; i < 8; ++i) {
