@@ -130,15 +130,15 @@ class Progress : public core::ExecutionContext {
 std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core::ErosionField& field) {
   std::vector<v1::ReportErosionRequest> messages;
   v1::FieldRecords* records = nullptr;
-  const double volume_unit = job.volume_unit(), area_unit = job.area_unit();
   field.take_changes([&](std::uint32_t point, const core::FieldValue& value) {
     if (records == nullptr || records->point_size() == wire::kRecordsPerMessage) {
       records = messages.emplace_back().mutable_records();
     }
     records->add_point(point);
-    records->add_direction(value.direction);
-    records->add_erosion(value.erosion * volume_unit);
-    records->add_area(value.area * area_unit);
+    const wire::FieldRecord record = job.record(value);
+    records->add_direction(record.direction);
+    records->add_erosion(record.erosion);
+    records->add_area(record.area);
   });
   return messages;
 }

@@ -31,6 +31,7 @@
 #include "last_report.h"
 #include "lease_keeper.h"
 #include "prepare_limit.h"
+#include "sample_task.h"
 #include "server_link.h"
 #include "task_context.h"
 #include "wire/direction_order.h"
@@ -293,6 +294,8 @@ class LeaseLoop {
       case v1::TASK_KIND_ERODED_POINTS:
       case v1::TASK_KIND_ERODED_SURFACE:
         return derive(lease, context);
+      case v1::TASK_KIND_VERIFY:
+        return verify(lease, context);
       default:
         throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
     }
@@ -349,6 +352,16 @@ class LeaseLoop {
     header.set_points(derived.items);
     if (derived.quality) *header.mutable_quality() = *derived.quality;
     link_.complete(header, derived.data);
+  }
+
+  void verify(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
+    require_same_job(lease, job);
+    v1::CompleteTaskHeader header;
+    header.set_token(lease.token());
+    header.set_points(lease.job().prepared().points());
+    link_.complete(header, sample_field(lease, job, context, options_.threads));
   }
 
   // The prepared job of the lease: the one in hand, or made from the mesh.

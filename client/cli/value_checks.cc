@@ -40,17 +40,30 @@ CLI::Validator positive_number() {
       "");
 }
 
-CLI::Validator proper_share() {
+namespace {
+
+/// @param range as a message names it.
+CLI::Validator share_check(bool all, const std::string& range) {
   return CLI::Validator(
-      [](std::string& text) -> std::string {
+      [all, range](std::string& text) -> std::string {
         const std::optional<double> share = parse_share(text);
-        if (!share || !(*share > 0 && *share < 1)) {
-          return "must be a share between 0 and 1 as in 0.1 or 10%, not '" + text + "'";
+        if (!share || !(*share > 0 && (*share < 1 || (all && *share == 1)))) {
+          return "must be a share " + range + " as in 0.1 or 10%, not '" + text + "'";
         }
         text = base::to_text(*share);
         return "";
       },
       "");
+}
+
+}  // namespace
+
+CLI::Validator proper_share() {
+  return share_check(false, "between 0 and 1");
+}
+
+CLI::Validator share_or_all() {
+  return share_check(true, "above 0 and at most 1");
 }
 
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {

@@ -15,6 +15,8 @@ CLI::Validator one_of(std::vector<std::string> words);
 CLI::Validator positive_number();
 /// "0.1" or "10%", above 0 and below 1; rewrites it to a number.
 CLI::Validator proper_share();
+/// The same where all of it (100%) may be meant.
+CLI::Validator share_or_all();
 /// A whole number from `low` to `high`.
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
 /// Not empty: a variable that is empty by mistake in a script must not select another server or file.

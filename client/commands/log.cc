@@ -16,6 +16,9 @@ void run(Context& context, const std::string& name) {
     document.update(to_json(event));
     context.console().document(document);
   }
+  for (const v1::Giver& giver : response.givers()) {
+    context.console().document({{"job", response.job()}, {"giver", to_json(giver)}});
+  }
 }
 
 }  // namespace

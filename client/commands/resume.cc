@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/follow.h"
 #include "client/commands/shared/job_options.h"
@@ -7,18 +8,32 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context, const std::string& name) {
-  show_state(context.console(), context.session().resume(name));
+struct ResumeOptions {
+  std::string job;
+  std::string distrust;
+};
+
+void run(Context& context, const ResumeOptions& options) {
+  show_state(context.console(), context.session().resume(options.job, options.distrust));
 }
 
 }  // namespace
 
 void add_resume(CommandLine& line) {
-  const auto job = std::make_shared<std::string>();
+  const auto options = std::make_shared<ResumeOptions>();
   CLI::App* command = line.add("resume", "Go on with a cancelled or failed job",
-                               "  affskel-client resume @last && affskel-client watch @last",
-                               [job](Context& context) { run(context, *job); });
-  add_job(command, *job);
+                               "  affskel-client resume @last && affskel-client watch @last\n"
+                               "  affskel-client resume 3f2a9c --distrust 0b1c2d3e4f5a",
+                               [options](Context& context) { run(context, *options); });
+  add_job(command, options->job);
+  command
+      ->add_option(
+          "--distrust", options->distrust,
+          "Have what this worker (or all workers of this host) gave computed again by others, in whatever"
+          " state the job is, and give it no more work; for administrators, see verify")
+      ->check(non_empty())
+      ->check(utf8_text())
+      ->type_name("WORKER");
 }
 
 }  // namespace affskel::client

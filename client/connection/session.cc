@@ -315,10 +315,19 @@ v1::Job Session::cancel(const std::string& job) {
   return unary(request, &Stub::CancelJob);
 }
 
-v1::Job Session::resume(const std::string& job) {
+v1::Job Session::resume(const std::string& job, const std::string& distrust) {
   v1::ResumeJobRequest request;
   request.set_job(job);
+  request.set_distrust(distrust);
   return unary(request, &Stub::ResumeJob);
+}
+
+v1::Verification Session::verify(const std::string& job, double share, std::uint64_t verification) {
+  v1::VerifyJobRequest request;
+  request.set_job(job);
+  request.set_share(share);
+  request.set_verification(verification);
+  return unary(request, &Stub::VerifyJob);
 }
 
 v1::Job Session::pin(const std::string& job) {

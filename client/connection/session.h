@@ -57,7 +57,10 @@ class Session {
   /// stream breaks.
   v1::Job watch(const std::string& job, const std::function<void(const v1::Job&)>& seen);
   v1::Job cancel(const std::string& job);
-  v1::Job resume(const std::string& job);
+  /// @param distrust a worker whose part is computed again by others; empty = none.
+  v1::Job resume(const std::string& job, const std::string& distrust = {});
+  /// Begins a verification (number 0), or tells how far one is.
+  v1::Verification verify(const std::string& job, double share, std::uint64_t verification);
   v1::Job pin(const std::string& job);
   v1::Job unpin(const std::string& job);
   std::string delete_job(const std::string& job);

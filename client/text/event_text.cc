@@ -36,6 +36,11 @@ std::string event_lines(const v1::ListJobEventsResponse& response) {
     text += event_line(event);
     next = event.number() + 1;
   }
+  for (const v1::Giver& giver : response.givers()) {
+    text += "given by " + one_line(giver.worker()) +
+            (giver.host().empty() ? "" : " on " + one_line(giver.host())) + ": " +
+            base::counted(giver.directions(), "direction") + "\n";
+  }
   return text;
 }
 

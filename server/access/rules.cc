@@ -20,6 +20,7 @@ constexpr MethodRule kMethods[] = {
     {Method::kUnpinJob, "UnpinJob", Side::kClient, true, false, true},
     {Method::kDeleteJob, "DeleteJob", Side::kClient, true, false, true},
     {Method::kListJobEvents, "ListJobEvents", Side::kClient, true, false, true},
+    {Method::kVerifyJob, "VerifyJob", Side::kClient, true, false, true},
     {Method::kFetchArtifact, "FetchArtifact", Side::kClient, true, false, true},
     {Method::kGetServerInfo, "GetServerInfo", Side::kClient, true, false, true},
     {Method::kLeaseTask, "LeaseTask", Side::kWorker, false, true, true},

@@ -27,6 +27,7 @@ enum class Method {
   kUnpinJob,
   kDeleteJob,
   kListJobEvents,
+  kVerifyJob,
   kFetchArtifact,
   kGetServerInfo,
   kLeaseTask,

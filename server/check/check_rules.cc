@@ -112,8 +112,8 @@ constexpr const char* kTasks[] = {
     // Of the job, copied: see migrations 5 and 8.
     "SELECT 'task ' || t.id, 'its place in the queue is not that of its job ' || j.id FROM tasks t"
     " JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id WHERE t.state = 'pending'"
-    " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.owner <> j.owner OR t.parked <> (t.on_request = 0 "
-    "AND"
+    " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.owner <> j.owner OR t.parked <> (t.kind = "
+    "'verify' OR t.on_request = 0 AND"
     " (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1))"
     " OR t.needs_core <> iif(t.kind = 'erode', ifnull(e.core_version, ''), t.needs_core))",
 

@@ -8,9 +8,8 @@
 #include "database/database_file.h"
 #include "database/errors.h"
 #include "database/migrate.h"
-#include "store/blocks.h"
 #include "store/clock.h"
-#include "store/rows.h"
+#include "store/restart.h"
 #include "store/tasks.h"
 #include "store/tx.h"
 
@@ -83,7 +82,8 @@ class Repairer {
           "DELETE FROM field_sums WHERE erosion_id = ?1 AND NOT EXISTS (SELECT 1 FROM field_chunks"
           " WHERE erosion_id = ?1 AND idx = field_sums.idx)",
           field.erosion_id);
-      restart_erosion(tx, field);
+      tx.db.run("DELETE FROM done_ranges WHERE erosion_id = ?", field.erosion_id);
+      restart_erosion(tx, field.erosion_id, field.directions);
     });
     tell(faults.front().where + ": " + faults.front().what +
          (faults.size() > 1 ? ", and " + std::to_string(faults.size() - 1) + " more faults" : "") + "; all " +
@@ -95,68 +95,6 @@ class Repairer {
     const bool chunk = std::string_view(fault.table) == "field_chunks";
     tx.db.run(chunk ? "DELETE FROM field_chunks WHERE id = ?" : "DELETE FROM field_log WHERE id = ?",
               fault.id);
-  }
-
-  /// Starts an erosion again with no direction done.  One of its jobs, an active one if there is any, goes on
-  /// with what is left of the field.  The others begin anew, and take the field over when it is finished.
-  /// All begin anew when no worker has the core that made it any more.
-  static void restart_erosion(Tx& tx, const FieldShape& field) {
-    const std::int64_t id = field.erosion_id;
-    tx.db.run("DELETE FROM done_ranges WHERE erosion_id = ?", id);
-    tx.db.run("UPDATE erosions SET finished = 0, directions_done = 0 WHERE id = ?", id);
-    tx.db.run("DELETE FROM artifacts WHERE erosion_id = ? AND kind NOT IN ('lattice', 'directions')", id);
-    bool taken = !core_is_current(tx.db, id);
-    for (const std::string& job : jobs_of(tx.db, id)) {
-      tx.db.run("DELETE FROM tasks WHERE job_id = ?", job);
-      if (taken) {
-        give_own_erosion(tx, job, id);
-      } else {
-        queue_again(tx, job, "erode");
-        cut_blocks(tx, job, field.directions);
-        taken = true;
-      }
-    }
-    if (!tx.db.integer("SELECT 1 FROM jobs WHERE erosion_id = ? LIMIT 1", id)) {
-      tx.db.run("UPDATE erosions SET dropped = 1 WHERE id = ?", id);
-    }
-  }
-
-  static bool core_is_current(Database& db, std::int64_t erosion_id) {
-    const std::string current = current_core_version(db);
-    Statement row = db.query("SELECT core_version FROM erosions WHERE id = ?", erosion_id);
-    return current.empty() || (row.step() && row.text(0) == current);
-  }
-
-  static std::vector<std::string> jobs_of(Database& db, std::int64_t erosion_id) {
-    Statement row = db.query(
-        "SELECT id FROM jobs WHERE erosion_id = ? ORDER BY state IN ('queued', 'running') DESC,"
-        " state = 'done' DESC, seq",
-        erosion_id);
-    std::vector<std::string> jobs;
-    while (row.step()) jobs.push_back(row.text(0));
-    return jobs;
-  }
-
-  static void give_own_erosion(Tx& tx, const std::string& job, std::int64_t like) {
-    tx.db.run(
-        "INSERT INTO erosions (mesh_sha256, params, params_key)"
-        " SELECT mesh_sha256, params, params_key FROM erosions WHERE id = ?",
-        like);
-    tx.db.run("UPDATE jobs SET erosion_id = ? WHERE id = ?", tx.db.last_insert_rowid(), job);
-    queue_again(tx, job, "prepare");
-    add_task(tx, job, v1::TASK_KIND_PREPARE);
-  }
-
-  /// Back to a stage.  What had failed for other reasons or was cancelled stays so, and can be resumed.
-  static void queue_again(Tx& tx, const std::string& job, const char* stage) {
-    tx.db.run(
-        "UPDATE jobs SET stage = ?, skeleton_points = 0, quality = NULL,"
-        " (state, finished_ms, error_code, error_message) ="
-        " (SELECT iif(again, 'queued', state), iif(again, 0, finished_ms), iif(again, NULL, error_code),"
-        "  iif(again, '', error_message)"
-        "  FROM (SELECT state = 'done' OR ifnull(error_code, '') = 'DAMAGED' AS again))"
-        " WHERE id = ?",
-        stage, job);
   }
 
   // Artefacts

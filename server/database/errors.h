@@ -14,6 +14,7 @@ class StoreError : public std::runtime_error {
     kExists,        ///< the request id was used for other content
     kPrecondition,  ///< the job's state does not allow it
     kFenced,        ///< the lease is gone
+    kForbidden,     ///< the caller is not trusted with this
     kLimit,         ///< too large
     kUnusable,      ///< the database file is not ours, newer, or damaged
     kDamaged,       ///< stored bytes are not those that were stored

@@ -233,7 +233,8 @@ void add_policy(CLI::App& app, PolicyWords& words) {
       "points x "
       "directions)");
   add("--quota", words.quotas, "[OWNER:]NAME=VALUE",
-      "The same for each owner, or for the one that is named, repeatable");
+      "The same for each owner, or for the one that is named, repeatable; and priority (0 .. 9): the highest "
+      "that counts against other owners' jobs, 5 unless told");
   add("--retention", words.retentions, "[OWNER:]NAME=VALUE",
       "How long what is finished is kept, repeatable: results-age, jobs-age (90d, 12h), stored-bytes; of the "
       "whole "

@@ -119,9 +119,21 @@ void set_limit(Policy& policy, const Entry& entry) {
   }
 }
 
+/// 0 .. 9, without a suffix.
+std::int64_t priority_of(const Entry& entry) {
+  if (entry.value.size() != 1 || entry.value[0] < '0' || entry.value[0] > '9') {
+    refuse(entry, "expected a priority 0 .. 9");
+  }
+  return entry.value[0] - '0';
+}
+
 void set_quota(Policy& policy, const Entry& entry) {
+  if (entry.name == "priority") {
+    policy_of(policy, entry).priority = priority_of(entry);
+    return;
+  }
   if (!set(policy_of(policy, entry).quota, entry, kQuotas)) {
-    refuse(entry, "expected queued-jobs, mesh-bytes, stored-bytes or chords");
+    refuse(entry, "expected queued-jobs, mesh-bytes, stored-bytes, chords or priority");
   }
 }
 

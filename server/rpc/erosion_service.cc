@@ -127,7 +127,15 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::ResumeJob(grpc::CallbackServerCont
                                                         const v1::ResumeJobRequest* request,
                                                         v1::Job* response) {
   return answer(Method::kResumeJob, *context, *response, [this, request, response](const Identity& caller) {
-    *response = jobs_.with_reason(store_.resume(job_ref(request->job(), caller)));
+    const JobRef job = job_ref(request->job(), caller);
+    if (request->distrust().empty()) {
+      *response = jobs_.with_reason(store_.resume(job));
+      return;
+    }
+    if (jobs_of(caller.role) != Jobs::kAll) {
+      throw StoreError(StoreError::Code::kForbidden, "only an administrator distrusts a worker");
+    }
+    *response = jobs_.with_reason(store_.resume_without(job, request->distrust()));
   });
 }
 
@@ -163,7 +171,25 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::ListJobEvents(grpc::CallbackServer
                   const auto after = static_cast<std::int64_t>(
                       std::min<std::uint64_t>(request->after(), std::numeric_limits<std::int64_t>::max()));
                   *response = store_.events(job_ref(request->job(), caller), after);
+                  if (jobs_of(caller.role) == Jobs::kAll) return;
+                  for (v1::Giver& giver : *response->mutable_givers()) giver.clear_host();
                 });
+}
+
+grpc::ServerUnaryReactor* ErosionServiceImpl::VerifyJob(grpc::CallbackServerContext* context,
+                                                        const v1::VerifyJobRequest* request,
+                                                        v1::Verification* response) {
+  return answer(Method::kVerifyJob, *context, *response, [this, request, response](const Identity& caller) {
+    const auto number = static_cast<std::int64_t>(
+        std::min<std::uint64_t>(request->verification(), std::numeric_limits<std::int64_t>::max()));
+    *response = store_.verify(job_ref(request->job(), caller), request->share(), number);
+    jobs_.add_reason(*response);
+    if (jobs_of(caller.role) == Jobs::kAll) return;
+    for (v1::VerifiedSample& sample : *response->mutable_samples()) {
+      for (v1::Giver& giver : *sample.mutable_givers()) giver.clear_host();
+      sample.mutable_verifier()->clear_host();
+    }
+  });
 }
 
 grpc::ServerWriteReactor<v1::FetchArtifactResponse>* ErosionServiceImpl::FetchArtifact(

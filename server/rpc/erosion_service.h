@@ -49,6 +49,9 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
   grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
                                       const v1::DeleteJobRequest* request,
                                       v1::DeleteJobResponse* response) override;
+  grpc::ServerUnaryReactor* VerifyJob(grpc::CallbackServerContext* context,
+                                      const v1::VerifyJobRequest* request,
+                                      v1::Verification* response) override;
   grpc::ServerWriteReactor<v1::FetchArtifactResponse>* FetchArtifact(
       grpc::CallbackServerContext* context, const v1::FetchArtifactRequest* request) override;
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,

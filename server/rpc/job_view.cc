@@ -19,10 +19,13 @@ struct Rivals {
   std::int64_t others = 0;  ///< with jobs of other owners
 };
 
-Rivals rivals_of(const v1::Job& job, const std::vector<BusyWith>& busy) {
+/// @param most highest priority of the owner's jobs that counts across owners.
+Rivals rivals_of(const v1::Job& job, std::int64_t most, const std::vector<BusyWith>& busy) {
   Rivals rivals;
+  const std::int64_t priority = job.priority();
   for (const BusyWith& with : busy) {
-    const bool higher = with.priority > job.priority();
+    const bool higher =
+        with.owner == job.owner() ? with.priority > priority : with.rank > std::min(priority, most);
     (higher ? rivals.higher : with.owner == job.owner() ? rivals.own : rivals.others) += with.workers;
   }
   return rivals;
@@ -79,7 +82,8 @@ class JobView::Reasons {
       job.set_waiting_reason("no worker is connected");
     } else if (std::none_of(workers.begin(), workers.end(), idle)) {
       if (!busy_) busy_ = store_.busy_with();
-      job.set_waiting_reason(busy_text(workers.size(), rivals_of(job, *busy_)));
+      job.set_waiting_reason(busy_text(
+          workers.size(), rivals_of(job, store_.options().policy.of(job.owner()).priority, *busy_)));
     }
   }
 
@@ -115,6 +119,23 @@ v1::Job JobView::with_reason(v1::Job job) const {
 void JobView::add_reasons(std::vector<v1::Job>& jobs) const {
   Reasons reasons(store_, registry_);
   for (v1::Job& job : jobs) reasons.add_to(job);
+}
+
+void JobView::add_reason(v1::Verification& verification) const {
+  std::vector<v1::WorkerInfo> workers = registry_.list();
+  std::erase_if(workers, [](const v1::WorkerInfo& worker) { return worker.silent(); });
+  if (!verification.finished() && workers.empty()) {
+    return verification.set_waiting_reason("no worker is connected");
+  }
+  for (const v1::VerifiedSample& sample : verification.samples()) {
+    const bool other = std::any_of(workers.begin(), workers.end(), [&](const v1::WorkerInfo& worker) {
+      return std::none_of(sample.givers().begin(), sample.givers().end(),
+                          [&](const v1::Giver& giver) { return giver.worker() == worker.id(); });
+    });
+    if (sample.finished() || other) continue;
+    return verification.set_waiting_reason(
+        "needs a worker that did not give these directions itself; connect another one");
+  }
 }
 
 }  // namespace affskel::server

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "affskel/v1/types.pb.h"
+#include "affskel/v1/client_service.pb.h"
 #include "rpc/event_hub.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
@@ -22,6 +22,8 @@ class JobView {
   v1::Job with_reason(v1::Job job) const;
   /// The same for many.
   void add_reasons(std::vector<v1::Job>& jobs) const;
+  /// Adds the reason why a verification gets no further, if there is one.
+  void add_reason(v1::Verification& verification) const;
 
  private:
   class Reasons;

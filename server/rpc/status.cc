@@ -27,6 +27,8 @@ grpc::StatusCode code_of(StoreError::Code code) {
       return grpc::StatusCode::FAILED_PRECONDITION;
     case StoreError::Code::kFenced:
       return grpc::StatusCode::ABORTED;
+    case StoreError::Code::kForbidden:
+      return grpc::StatusCode::PERMISSION_DENIED;
     case StoreError::Code::kLimit:
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case StoreError::Code::kUnusable:

@@ -51,7 +51,7 @@ void ReportCall::begin(const v1::ReportErosionHeader& header) {
   with_lease(room(), registry_, header.token(), [&] {
     const Store::ErodeLease lease = store_.erode_lease(header.token());
     job_ = lease.job;
-    batch_.emplace(lease.points, lease.directions);
+    batch_.emplace(lease.points, lease.directions, lease.volume);
     return false;
   });
 }

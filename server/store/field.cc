@@ -24,6 +24,9 @@ constexpr std::size_t kStretchPoints = 256;
 // no more than this, for every reader keeps them in memory.
 constexpr std::int64_t kMaxLogBytes = std::int64_t{32} << 20;
 
+// Of the volume, by which E may exceed it: E has 36 significant bits.
+constexpr double kRoundedUp = 1 + 0x1p-30;
+
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
 
@@ -123,8 +126,8 @@ std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std
 
 }  // namespace
 
-RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, std::uint64_t expected)
-    : points_(points), directions_(directions) {
+RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, double volume, std::uint64_t expected)
+    : points_(points), directions_(directions), most_(volume * kRoundedUp) {
   records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), std::uint64_t{kMostRecordsHeld}}));
 }
 
@@ -143,13 +146,14 @@ void RecordBatch::append(const v1::FieldRecords& records) {
     if (record.direction >= directions_) {
       refuse("direction " + std::to_string(record.direction) + " of " + std::to_string(directions_));
     }
-    if (!std::isfinite(record.erosion) || record.erosion < 0 || !std::isfinite(record.area) ||
-        record.area < 0) {
-      refuse("E or area of point " + std::to_string(record.point) + " is negative or not finite");
+    if (!(record.erosion > 0 && record.erosion <= most_)) {
+      refuse("E of point " + std::to_string(record.point) + " is " + std::to_string(record.erosion) +
+             ": not above 0 and at most the volume of the solid");
     }
-    // One zero only: equal values must be equal bytes, whatever the order of merging.
-    record.erosion += 0.0;
-    record.area += 0.0;
+    if (!std::isfinite(record.area) || record.area < 0) {
+      refuse("the area of point " + std::to_string(record.point) + " is negative or not finite");
+    }
+    record.area += 0.0;  // one zero only: equal values must be equal bytes, whatever the order of merging
     records_.push_back(record);
   }
 }
@@ -243,6 +247,29 @@ void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points) {
   sort_by_chunk(log);
   merge_into_chunks(db, erosion_id, points, log);
   db.run("DELETE FROM field_log WHERE erosion_id = ?", erosion_id);
+}
+
+std::int64_t remove_values(Database& db, std::int64_t erosion_id, std::int64_t points,
+                           const std::function<bool(std::uint32_t direction)>& gone) {
+  settle_field(db, erosion_id, points);
+  char none[kRecordBytes];
+  wire::encode_field_record(none, {});
+  std::int64_t removed = 0;
+  for (std::int64_t index = 0; index < field_chunk_count(points); ++index) {
+    std::string chunk = load_chunk(db, erosion_id, index);
+    const std::int64_t before = removed;
+    for (std::size_t at = 0; at < chunk.size(); at += kRecordBytes) {
+      const wire::FieldRecord record = wire::decode_field_record(chunk.data() + at);
+      if (record.direction == wire::kNoDirection || !gone(record.direction)) continue;
+      chunk.replace(at, kRecordBytes, none, kRecordBytes);
+      ++removed;
+    }
+    if (removed == before) continue;
+    db.run("UPDATE field_chunks SET data = ? WHERE erosion_id = ? AND idx = ?", Blob{chunk}, erosion_id,
+           index);
+    sign_chunk(db, erosion_id, index, chunk);
+  }
+  return removed;
 }
 
 std::int64_t field_chunk_count(std::int64_t points) {

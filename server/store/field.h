@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,14 @@ inline constexpr std::size_t kMostRecordsHeld = std::size_t{1} << 17;
 class RecordBatch {
  public:
   /// @param points, directions bounds of the job: R and K.
+  /// @param volume of its solid, mesh units cubed: no chord is larger.
   /// @param expected number of records to make room for, as far as that is likely; there may be others.
-  RecordBatch(std::int64_t points, std::int64_t directions, std::uint64_t expected = 0);
+  RecordBatch(std::int64_t points, std::int64_t directions, double volume, std::uint64_t expected = 0);
 
-  /// @throws StoreError kInvalid when arrays differ in length, a point or direction is out of bounds, E or
-  ///   the area is negative or not finite, or there are more records than a report can need.
+  /// @throws StoreError kInvalid when arrays differ in length, a point or direction is out of bounds, E is
+  /// not
+  ///   above 0 and at most the volume, the area is negative or not finite, or there are more records than a
+  ///   report can need.
   void append(const v1::FieldRecords& records);
 
   /// Groups the records by chunk.
@@ -42,15 +46,21 @@ class RecordBatch {
  private:
   std::int64_t points_;
   std::int64_t directions_;
+  double most_;  // E
   std::int64_t cleared_ = 0;
   std::vector<wire::PointRecord> records_;
 };
 
 /// Merges records, sorted by chunk, into the field of `points` points: per point the lexicographic minimum of
-/// (E, direction), the area travelling with it.  Scattered records are only logged; dense ones, or a log grown
-/// long, are merged into the stored chunks, of which only what they touch is loaded and rewritten.
+/// (E, direction), the area travelling with it.  Scattered records are only logged; dense ones, or a log
+/// grown long, are merged into the stored chunks, of which only what they touch is loaded and rewritten.
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                    const std::vector<wire::PointRecord>& records);
+
+/// Takes the values out of a field that `gone(direction)` is true of: their points count as not reached yet.
+/// Returns how many there were.
+std::int64_t remove_values(Database& db, std::int64_t erosion_id, std::int64_t points,
+                           const std::function<bool(std::uint32_t direction)>& gone);
 
 /// Merges what is logged into the chunks: for fields that are finished.
 void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points);

@@ -47,6 +47,7 @@ struct StoreFigures {
 /// Workers that hold leases for jobs of one owner and priority.
 struct BusyWith {
   std::int64_t priority = 0;
+  std::int64_t rank = 0;  ///< what of it counts across owners
   std::string owner;
   std::int64_t workers = 0;
 };

@@ -23,6 +23,7 @@ struct Retention {
 
 struct OwnerPolicy {
   Quota quota;
+  std::int64_t priority = 5;  ///< highest that counts against other owners' jobs, 0 .. 9
   Retention retention;
 };
 

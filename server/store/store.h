@@ -58,7 +58,7 @@ class Store final : public TokenSource {
   /// acknowledged from then on, and whoever runs the store should end.
   bool lost() const;
 
-  // For clients: store_submit.cc, store_jobs.cc, store_keeping.cc
+  // For clients: store_submit.cc, store_jobs.cc, store_keeping.cc, store_verify.cc
 
   struct Submitted {
     v1::Job job;
@@ -80,6 +80,11 @@ class Store final : public TokenSource {
   /// A failed or cancelled job goes on from where it was, and a done one whose results were removed begins
   /// anew; an active one stays as it is.
   v1::Job resume(const JobRef& job_ref);
+  /// The same in any state, without what `worker` gave: see store/distrust.h.
+  v1::Job resume_without(const JobRef& job_ref, const std::string& worker);
+  /// Begins to have a `share` of the directions computed again, unless that is under way, or tells how far
+  /// `verification` is: see store/verification.h.
+  v1::Verification verify(const JobRef& job_ref, double share, std::int64_t verification);
   /// Keeps a job from retention, or no longer.
   v1::Job pin(const JobRef& job_ref, bool pinned);
   /// Deletes a job that is not active, and marks what no other job needs for tidy().  Returns its id.
@@ -132,6 +137,7 @@ class Store final : public TokenSource {
     std::string job;
     std::int64_t points = 0;      ///< R
     std::int64_t directions = 0;  ///< K
+    double volume = 0;            ///< of the solid, mesh units cubed
   };
   /// What a leased ERODE task is about, for checking a report while it arrives.
   ErodeLease erode_lease(const std::string& token);
@@ -206,6 +212,7 @@ class Store final : public TokenSource {
   void tell_room();
   bool tidy_step();
   bool shorten_log();
+  v1::ReportResponse complete_sample(const std::string& token, std::string_view fresh);
   v1::ReportResponse reply(bool cancelled) const;
   v1::Job write_job(const JobRef& job_ref, const std::function<void(Tx&, const JobRow&)>& change);
 

@@ -17,6 +17,9 @@
 namespace affskel::server {
 namespace {
 
+// No machine's memory is larger, bytes: a task that needed more would wait for ever.
+constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 48;
+
 // Kept and sent with the job from then on: reasons of failure, advice on a skeleton.
 constexpr std::size_t kMaxReasonBytes = 4000;
 
@@ -154,11 +157,13 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
   if (wire::sha256_hex(data) != header.sha256()) refuse("the data does not have the announced SHA-256");
   const std::optional<Prepared> parts =
       header.has_prepared() ? std::optional(checked_prepared(header, data)) : std::nullopt;
+  const v1::TaskKind kind = read([&](Database& db) { return task_of_token(db, header.token()).kind; });
+  if (kind == v1::TASK_KIND_VERIFY && !parts) return complete_sample(header.token(), data);
   return write([&](Tx& tx) {
     const TaskRow task = held_task(tx, header.token());
     if (task.state == "done") return reply(false);
     tx.require_room();
-    if (parts && task.on_request) {
+    if (parts && task.on_request && task.kind == v1::TASK_KIND_PREPARE) {
       restore_prepared(tx, task, header, *parts);
       finish_task(tx, task);
       return reply(false);
@@ -177,6 +182,13 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
       }
       store_prepared(tx, task, header, *parts);
     } else {
+      const JobRow job = get_job(tx.db, task.job_id);
+      if (const auto error =
+              over_stored_room(tx.db, options_.policy, job.owner, static_cast<std::int64_t>(data.size()))) {
+        give_up(tx, task, *error);
+        settle_job(tx, task.job_id);
+        return reply(true);
+      }
       store_derived(tx, task, header, data);
     }
     finish_task(tx, task);
@@ -201,6 +213,10 @@ void wait_for_larger(Tx& tx, const TaskRow& task, std::uint64_t bytes) {
 
 v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable,
                                std::uint64_t memory_needed) {
+  if (memory_needed > kMostMemory) {
+    throw StoreError(StoreError::Code::kInvalid,
+                     "no machine has the " + std::to_string(memory_needed) + " bytes of memory_needed");
+  }
   v1::JobError known = error;
   known.set_code(known_code(error.code()));
   known.set_message(base::shortened(error.message(), kMaxReasonBytes));

@@ -91,12 +91,16 @@ DiskFigures Store::disk_figures() {
 }
 
 std::vector<BusyWith> Store::busy_with() {
-  return read([](Database& db) {
+  return read([this](Database& db) {
     Statement row = db.query(
         "SELECT j.priority, j.owner, count(DISTINCT t.worker) FROM tasks t JOIN jobs j ON j.id = t.job_id"
         " WHERE t.state = 'leased' GROUP BY j.priority, j.owner");
     std::vector<BusyWith> busy;
-    while (row.step()) busy.push_back({row.integer(0), row.text(1), row.integer(2)});
+    while (row.step()) {
+      const std::int64_t priority = row.integer(0);
+      busy.push_back({priority, std::min(priority, options_.policy.of(row.text(1)).priority), row.text(1),
+                      row.integer(2)});
+    }
     return busy;
   });
 }

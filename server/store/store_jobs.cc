@@ -2,6 +2,8 @@
 
 #include "base/number_text.h"
 #include "database/errors.h"
+#include "store/distrust.h"
+#include "store/givers.h"
 #include "store/job_events.h"
 #include "store/memory_need.h"
 #include "store/quota.h"
@@ -29,7 +31,12 @@ JobPage Store::list(const ListFilter& filter) {
 }
 
 v1::ListJobEventsResponse Store::events(const JobRef& job_ref, std::int64_t after) {
-  return read([&](Database& db) { return job_events(db, resolve_job(db, job_ref), after); });
+  return read([&](Database& db) {
+    const JobRow job = get_job(db, resolve_job(db, job_ref));
+    v1::ListJobEventsResponse events = job_events(db, job.id, after);
+    for (v1::Giver& giver : givers_of(db, job.erosion_id)) *events.add_givers() = std::move(giver);
+    return events;
+  });
 }
 
 Store::Counts Store::counts() {
@@ -39,7 +46,9 @@ Store::Counts Store::counts() {
         count("SELECT count(*) FROM jobs WHERE state = 'queued'"),
         count("SELECT count(*) FROM jobs WHERE state = 'running'"),
         count("SELECT count(*) FROM jobs"),
-        count("SELECT count(*) FROM tasks WHERE on_request = 1 AND state IN ('pending', 'leased')"),
+        // A sample may wait for another worker for long: nobody is kept by it.
+        count("SELECT count(*) FROM tasks WHERE on_request = 1 AND state IN ('pending', 'leased')"
+              " AND (kind <> 'verify' OR state = 'leased')"),
     };
   });
 }
@@ -121,26 +130,35 @@ void forget_memory_needs(Tx& tx, const std::string& job) {
   }
 }
 
+void go_on(Tx& tx, const JobRow& job) {
+  if (job.state == v1::JOB_STATE_DONE && job.removed_ms > 0) return compute_again(tx, job);
+  if (job.state == v1::JOB_STATE_DONE) {
+    throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " is done: nothing to resume");
+  }
+  if (job.active() && !job.cancel_requested) return;
+  if (!job.active()) require_queue_room(tx.db, tx.options.policy, job.owner);
+  tx.db.run(
+      "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
+      " finished_ms = 0, queued_ms = iif(cancel_requested, queued_ms, ?), error_code = NULL,"
+      " error_message = '', error_line = 0, removed_ms = 0, expires_ms = 0 WHERE id = ?",
+      tx.wall_ms, job.id);
+  tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
+  forget_memory_needs(tx, job.id);
+  tx.changes.work = true;
+  add_event(tx, job.id, {.event = "resumed"});
+  settle_job(tx, job.id);
+}
+
 }  // namespace
 
 v1::Job Store::resume(const JobRef& job_ref) {
-  return write_job(job_ref, [](Tx& tx, const JobRow& job) {
-    if (job.state == v1::JOB_STATE_DONE && job.removed_ms > 0) return compute_again(tx, job);
-    if (job.state == v1::JOB_STATE_DONE) {
-      throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " is done: nothing to resume");
-    }
-    if (job.active() && !job.cancel_requested) return;
-    if (!job.active()) require_queue_room(tx.db, tx.options.policy, job.owner);
-    tx.db.run(
-        "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
-        " finished_ms = 0, queued_ms = iif(cancel_requested, queued_ms, ?), error_code = NULL,"
-        " error_message = '', error_line = 0, removed_ms = 0, expires_ms = 0 WHERE id = ?",
-        tx.wall_ms, job.id);
-    tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
-    forget_memory_needs(tx, job.id);
-    tx.changes.work = true;
-    add_event(tx, job.id, {.event = "resumed"});
-    settle_job(tx, job.id);
+  return write_job(job_ref, go_on);
+}
+
+v1::Job Store::resume_without(const JobRef& job_ref, const std::string& worker) {
+  return write_job(job_ref, [&worker](Tx& tx, const JobRow& job) {
+    distrust(tx, job, worker);
+    go_on(tx, get_job(tx.db, job.id));
   });
 }
 

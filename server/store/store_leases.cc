@@ -3,10 +3,12 @@
 #include <utility>
 
 #include "database/errors.h"
+#include "store/distrust.h"
 #include "store/job_events.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
 #include "store/turn.h"
+#include "store/verification.h"
 #include "wire/artifact_kinds.h"
 #include "wire/identity.h"
 #include "wire/version.h"
@@ -103,7 +105,10 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
   lease.set_kind(task.kind);
   *lease.mutable_job() = job_message(tx.db, task.job_id);
   const JobRow job = get_job(tx.db, task.job_id);
-  lease.set_field(database_id(tx.db) + "/" + std::to_string(job.erosion_id));
+  lease.set_field(
+      database_id(tx.db) + "/" + std::to_string(job.erosion_id) + "." +
+      std::to_string(
+          tx.db.integer("SELECT revision FROM erosions WHERE id = ?", job.erosion_id).value_or(0)));
   lease.set_lease_ms(static_cast<std::uint32_t>(tx.options.lease_ms));
   lease.set_report_interval_ms(static_cast<std::uint32_t>(tx.options.report_interval_ms));
   if (task.kind == v1::TASK_KIND_ERODE) {
@@ -113,6 +118,7 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
       positions->set_end(static_cast<std::uint64_t>(range.end));
     }
   }
+  if (task.kind == v1::TASK_KIND_VERIFY) lease.MergeFromString(task.params);
   if (const wire::ArtifactKindInfo* kind = wire::find_derived_kind(task.kind)) {
     wire::set_task_params(kind->params, task.params, lease);
   }
@@ -158,7 +164,7 @@ void renew_held(Tx& tx, const std::string& token) {
 void drop_old_requests(Tx& tx, const std::set<std::int64_t>& orphans) {
   for (const std::int64_t id : orphans) {
     const std::optional<TaskRow> task = find_task(tx.db, id);
-    if (!task || !task->on_request || task->state == "failed") continue;
+    if (!task || !task->on_request || task->kind == v1::TASK_KIND_VERIFY || task->state == "failed") continue;
     tx.db.run("DELETE FROM tasks WHERE id = ?", id);
     add_event(tx, task->job_id,
               task_event("request_withdrawn", *task, "nobody has asked again since the restart"));
@@ -174,7 +180,10 @@ bool Store::requests_turn(std::int64_t leased_requests, std::int64_t leased_bloc
 }
 
 std::optional<std::int64_t> Store::choose_task(Database& db, const Seeker& seeker) {
-  const std::optional<std::int64_t> request = task_in_turn(db, seeker, true, options_.owner_order);
+  // A sample is a request that not everybody may take: the older of the two comes first.
+  std::optional<std::int64_t> request = task_in_turn(db, seeker, true, options_.owner_order);
+  const std::optional<std::int64_t> sample = sample_for(db, seeker);
+  if (sample && (!request || *sample < *request)) request = sample;
   const std::optional<std::int64_t> next = task_in_turn(db, seeker, false, options_.owner_order);
   if (!next || !request) return next ? next : request;
   const Leased leased = count_leased(db);
@@ -194,6 +203,11 @@ std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const st
     mutex_.assert_held();
     expire(tx);
     for (const std::string& token : held_tokens) renew_held(tx, token);
+    if (is_distrusted(tx.db, worker.id())) {
+      throw StoreError(
+          StoreError::Code::kForbidden,
+          "an administrator distrusts this worker; look after its machine before it is started anew");
+    }
     if (!tx.room) return std::nullopt;  // what would come of it could not be stored
     remember_core_version(tx, worker.core_version());
     const std::int64_t held =

@@ -1,6 +1,7 @@
 #include <exception>
 
 #include "database/errors.h"
+#include "store/givers.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/tasks.h"
@@ -103,7 +104,10 @@ std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job
 Store::ErodeLease Store::erode_lease(const std::string& token) {
   return read([&](Database& db) {
     const JobRow job = get_job(db, of_erosion(task_of_token(db, token)).job_id);
-    return ErodeLease{job.id, job.points, job.directions};
+    Statement row = db.query("SELECT prepared FROM erosions WHERE id = ?", job.erosion_id);
+    v1::PreparedSummary prepared;
+    if (row.step()) prepared.ParseFromString(std::string(row.blob(0)));
+    return ErodeLease{job.id, job.points, job.directions, prepared.volume()};
   });
 }
 
@@ -139,7 +143,10 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     const Progress progress = add_positions(tx, job, ranges);
     reported = job;
     reported.directions_done += progress.added;
-    if (!job.finished) merge_records(tx.db, job.erosion_id, job.points, records.records());
+    if (!job.finished) {
+      note_given(tx.db, job, {task.worker, task.host}, ranges, records.records());
+      merge_records(tx.db, job.erosion_id, job.points, records.records());
+    }
     count_report(tx, task, progress);
     if (task.state == "done") return reply(false);
     if (header.block_done()) {
@@ -173,7 +180,10 @@ void Store::report_part(const std::string& token, const RecordBatch& records) {
       return false;
     }
     tx.require_room();
-    if (!job.finished) merge_records(tx.db, job.erosion_id, job.points, records.records());
+    if (!job.finished) {
+      note_given(tx.db, job, {task.worker, task.host}, {}, records.records());
+      merge_records(tx.db, job.erosion_id, job.points, records.records());
+    }
     if (task.state == "leased") renew_lease(tx, task);
     return true;
   });

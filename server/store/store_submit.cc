@@ -30,21 +30,40 @@ std::string find_request(Database& db, const Submission& submission) {
   return row.text(0);
 }
 
+/// As in jobs.content.
+std::string content_of(const Submission& submission) {
+  return submission.header.mesh_sha256() + " " + submission.params_key;
+}
+
 /// Job that does or did exactly this for the same owner under the same name; "" when there is none.
 std::string find_equal_job(Database& db, const Submission& submission) {
   Statement row = db.query(
-      "SELECT j.id FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
-      " WHERE e.mesh_sha256 = ? AND e.params_key = ? AND (e.core_version IS NULL OR e.core_version = ?)"
-      " AND j.owner = ? AND j.name = ? AND j.skeleton_key = ?"
-      " AND j.state IN ('queued', 'running', 'done') AND j.cancel_requested = 0 AND j.removed_ms = 0 ORDER "
-      "BY j.seq DESC LIMIT 1",
-      submission.header.mesh_sha256(), submission.params_key, current_core_version(db),
-      submission.header.owner(), submission.header.name(), submission.skeleton_key);
+      "SELECT j.id FROM jobs j INDEXED BY jobs_by_content CROSS JOIN erosions e ON e.id = j.erosion_id"
+      " WHERE j.owner = ? AND j.name = ? AND j.content = ? AND j.skeleton_key = ?"
+      " AND (e.core_version IS NULL OR e.core_version = ?)"
+      " AND j.state IN ('queued', 'running', 'done') AND j.cancel_requested = 0 AND j.removed_ms = 0"
+      " ORDER BY j.seq DESC LIMIT 1",
+      submission.header.owner(), submission.header.name(), content_of(submission), submission.skeleton_key,
+      current_core_version(db));
   return row.step() ? row.text(0) : std::string();
 }
 
+// Each is kept as long as the job.
+constexpr std::int64_t kMostRequestIds = 1000;
+
 void remember_request(Tx& tx, const Submission& submission, const std::string& job_id) {
   if (submission.header.request_id().empty()) return;
+  const std::int64_t known =
+      tx.db
+          .integer(
+              "SELECT count(*) FROM (SELECT 1 FROM requests WHERE job_id = ? AND request_id <> ? LIMIT ?)",
+              job_id, submission.header.request_id(), kMostRequestIds)
+          .value_or(0);
+  if (known == kMostRequestIds) {
+    throw StoreError(StoreError::Code::kLimit,
+                     "job " + job_id + " answers " + std::to_string(known) +
+                         " request ids, and no more are kept; submit it with one of these, or without");
+  }
   tx.db.run("INSERT INTO requests (owner, request_id, job_id) VALUES (?, ?, ?) ON CONFLICT DO NOTHING",
             submission.header.owner(), submission.header.request_id(), job_id);
 }
@@ -69,10 +88,11 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
   std::string id = wire::random_id();
   tx.db.run(
       "INSERT INTO jobs"
-      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms, queued_ms)"
-      " VALUES (?1, ?2, ?3, ?4, 'queued', 'prepare', ?5, ?6, ?7, ?8, ?8)",
+      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms, queued_ms, "
+      "content)"
+      " VALUES (?1, ?2, ?3, ?4, 'queued', 'prepare', ?5, ?6, ?7, ?8, ?8, ?9)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
-      submission.skeleton_key, tx.wall_ms);
+      submission.skeleton_key, tx.wall_ms, content_of(submission));
   tx.db.run("DELETE FROM server_state WHERE key IN ('repeated_job/', 'repeated_job/' || ?)", header.owner());
   tx.changes.jobs.insert(id);
   add_event(

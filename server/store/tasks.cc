@@ -12,6 +12,7 @@
 #include "store/field.h"
 #include "store/job_events.h"
 #include "store/memory_need.h"
+#include "store/verification.h"
 #include "wire/words.h"
 
 namespace affskel::server {
@@ -24,7 +25,7 @@ v1::TaskKind kind_of(const std::string& name) {
 
 constexpr const char* kTaskColumns =
     "SELECT id, job_id, kind, state, on_request, first_position, end_position, params, params_key, losses,"
-    " worker, core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
+    " worker, host, core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
 
 TaskRow read_task(const Statement& row) {
   Columns columns(row);
@@ -40,6 +41,7 @@ TaskRow read_task(const Statement& row) {
   task.params_key = columns.text();
   task.losses = columns.integer();
   task.worker = columns.text();
+  task.host = columns.text();
   task.core_version = columns.text();
   task.granted_ms = columns.integer();
   task.reported_ms = columns.integer_or_null();
@@ -201,8 +203,8 @@ std::int64_t enqueue(Tx& tx, const std::string& job_id, const NewTask& task) {
       " seq, priority, owner, turn, parked, needs_memory, needs_core)"
       " SELECT j.id, ?2, 'pending', ?3, ?4, ?5, ?6, ?7, j.seq, j.priority, j.owner,"
       "  ifnull((SELECT max(turn) FROM tasks WHERE job_id = j.id), 0),"
-      "  ?3 = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1), ?8,"
-      "  iif(?2 = 'erode' OR (?2 = 'prepare' AND ?3 = 1), ifnull(e.core_version, ''), '')"
+      "  ?2 = 'verify' OR ?3 = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1), ?8,"
+      "  iif(?2 IN ('erode', 'verify') OR (?2 = 'prepare' AND ?3 = 1), ifnull(e.core_version, ''), '')"
       " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?1",
       job_id, wire::word(task.kind), task.on_request, position(&Range::begin), position(&Range::end),
       task.params, task.params_key, memory_need_of(tx.db, job_id, task.kind, params));
@@ -235,6 +237,12 @@ std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request) {
   return enqueue(tx, job_id, {kind, on_request, std::nullopt, Blob{params}, params_key});
+}
+
+std::int64_t add_sample_task(Tx& tx, const std::string& job_id, const std::string& positions,
+                             std::int64_t sample) {
+  return enqueue(tx, job_id,
+                 {v1::TASK_KIND_VERIFY, true, std::nullopt, Blob{positions}, std::to_string(sample)});
 }
 
 std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
@@ -365,6 +373,7 @@ void give_up(Tx& tx, const TaskRow& task, const v1::JobError& error) {
         "UPDATE tasks SET state = 'failed', error_code = ?, error_message = ?, deadline_ms = ?"
         " WHERE id = ?",
         error.code(), error.message(), tx.lease_ms + kFailedRequestMs, task.id);
+    if (task.kind == v1::TASK_KIND_VERIFY) fail_sample(tx, task, error.code() + ": " + error.message());
     add_event(tx, task.job_id, task_event("request_failed", task, error.code() + ": " + error.message()));
     return;
   }
@@ -415,6 +424,14 @@ void settle_job(Tx& tx, const std::string& job_id) {
   tx.db.run("UPDATE jobs SET state = 'cancelled', cancel_requested = 0, finished_ms = ? WHERE id = ?",
             tx.wall_ms, job_id);
   tell_end(tx, job, v1::JOB_STATE_CANCELLED, progress_text(job));
+}
+
+void finish_whole_blocks(Tx& tx, const std::string& job_id) {
+  tx.db.run(
+      "UPDATE tasks SET state = 'done' WHERE job_id = ? AND kind = 'erode' AND state = 'pending' AND EXISTS"
+      " (SELECT 1 FROM done_ranges r JOIN jobs j ON j.erosion_id = r.erosion_id WHERE j.id = tasks.job_id"
+      "  AND r.first_position <= tasks.first_position AND r.end_position >= tasks.end_position)",
+      job_id);
 }
 
 void settle_finished_blocks(Tx& tx) {

@@ -23,6 +23,7 @@ struct TaskRow {
   std::string params_key;
   std::int64_t losses = 0;
   std::string worker;
+  std::string host;
   std::string core_version;
   std::int64_t granted_ms = 0;
   std::optional<std::int64_t> reported_ms;
@@ -51,6 +52,10 @@ std::int64_t add_prepare_request(Tx& tx, const std::string& job_id);
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block);
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request);
+
+/// Directions to be computed again by a worker that did not give them, see store/verification.h.
+std::int64_t add_sample_task(Tx& tx, const std::string& job_id, const std::string& positions,
+                             std::int64_t sample);
 
 /// Renews the deadline.
 void renew_lease(Tx& tx, const TaskRow& task);
@@ -86,6 +91,9 @@ void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error);
 /// Moves a job on as far as it can go without a worker: next stage, done, cancelled.  Called after every
 /// change to its tasks.
 void settle_job(Tx& tx, const std::string& job_id);
+
+/// Marks the pending blocks as done of which nothing is left.
+void finish_whole_blocks(Tx& tx, const std::string& job_id);
 
 /// Moves on the jobs whose last block ended when there was no room for their fields.
 void settle_finished_blocks(Tx& tx);

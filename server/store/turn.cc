@@ -14,11 +14,13 @@ struct Need {
 /// An owner with ready tasks, among all owners.
 struct OwnersTurn {
   std::string owner;
-  std::int64_t priority = 0;
+  std::int64_t rank = 0;      ///< what of the priority counts across owners
+  std::int64_t priority = 0;  ///< among the owner's own
   std::int64_t turn = 0;
 
   bool before(const OwnersTurn& other) const {
-    return std::tie(other.priority, turn, owner) < std::tie(priority, other.turn, other.owner);
+    return std::tie(other.rank, turn, owner, other.priority) <
+           std::tie(rank, other.turn, other.owner, priority);
   }
 };
 
@@ -55,12 +57,26 @@ std::optional<OwnersTurn> owner_in_turn(Database& db, const Seeker& seeker, bool
   std::optional<OwnersTurn> first;
   for_each_need(db, seeker, on_request, [&](const Need& need) {
     Statement row = db.query(
-        "SELECT owner, priority, turn FROM queues WHERE on_request = ? AND needs_core = ? AND needs_memory = "
-        "?"
-        " ORDER BY priority DESC, turn, owner LIMIT 1",
+        "SELECT owner, rank, priority, turn FROM queues WHERE on_request = ? AND needs_core = ?"
+        " AND needs_memory = ? ORDER BY rank DESC, turn, owner, priority DESC LIMIT 1",
         on_request, need.core_version, need.memory);
     if (!row.step()) return;
-    OwnersTurn found{row.text(0), row.integer(1), row.integer(2)};
+    OwnersTurn found{row.text(0), row.integer(1), row.integer(2), row.integer(3)};
+    if (!first || found.before(*first)) first = std::move(found);
+  });
+  return first;
+}
+
+/// The owner's highest priority among ready tasks of jobs, and its rank.
+std::optional<OwnersTurn> turn_of_owner(Database& db, const Seeker& seeker, const std::string& owner) {
+  std::optional<OwnersTurn> first;
+  for_each_need(db, seeker, false, [&](const Need& need) {
+    Statement row = db.query(
+        "SELECT owner, rank, priority, turn FROM queues WHERE owner = ? AND on_request = 0 AND needs_core = ?"
+        " AND needs_memory = ? ORDER BY priority DESC LIMIT 1",
+        owner, need.core_version, need.memory);
+    if (!row.step()) return;
+    OwnersTurn found{row.text(0), row.integer(1), row.integer(2), row.integer(3)};
     if (!first || found.before(*first)) first = std::move(found);
   });
   return first;
@@ -82,15 +98,22 @@ std::optional<Candidate> first_of_owner(Database& db, const Seeker& seeker, bool
   return first;
 }
 
-std::optional<Candidate> of_held_job(Database& db, const Seeker& seeker, std::int64_t priority) {
+/// A task of the job that the worker holds, if that is of its owner's highest priority, and this counts as
+/// much as that of the owner whose turn it is.
+std::optional<Candidate> of_held_job(Database& db, const Seeker& seeker, const OwnersTurn& turn) {
   if (seeker.preferred_job.empty()) return std::nullopt;
   Statement row = db.query(
-      "SELECT id, turn, seq, job_id, owner FROM tasks WHERE job_id = ? AND state = 'pending' AND parked = 0"
-      " AND on_request = 0 AND priority = ? AND needs_core IN ('', ?) AND needs_memory <= ? ORDER BY id "
-      "LIMIT 1",
-      seeker.preferred_job, priority, seeker.core_version, seeker.memory);
+      "SELECT id, turn, seq, job_id, owner, priority FROM tasks WHERE job_id = ? AND state = 'pending'"
+      " AND parked = 0 AND on_request = 0 AND needs_core IN ('', ?) AND needs_memory <= ? ORDER BY id LIMIT "
+      "1",
+      seeker.preferred_job, seeker.core_version, seeker.memory);
   if (!row.step()) return std::nullopt;
-  return Candidate{row.integer(0), row.integer(1), row.integer(2), row.text(3), row.text(4)};
+  Candidate held{row.integer(0), row.integer(1), row.integer(2), row.text(3), row.text(4)};
+  const std::int64_t priority = row.integer(5);
+  const std::optional<OwnersTurn> own =
+      held.owner == turn.owner ? turn : turn_of_owner(db, seeker, held.owner);
+  if (!own || own->rank != turn.rank || own->priority != priority) return std::nullopt;
+  return held;
 }
 
 /// Workers beside this one that work on an owner's jobs.
@@ -114,11 +137,12 @@ std::int64_t others_on_job(Database& db, const Seeker& seeker, const std::string
 
 /// Whether going on with the job that it holds leaves nobody worse off.
 bool may_keep(Database& db, const Seeker& seeker, const Candidate& held, const Candidate& next,
-              std::int64_t priority, OwnerOrder order) {
+              OwnerOrder order) {
   std::optional<Candidate> owners_next = next;
   if (held.owner != next.owner) {
     if (others_on_owner(db, seeker, held.owner) >= others_on_owner(db, seeker, next.owner)) return false;
-    owners_next = first_of_owner(db, seeker, false, held.owner, priority);
+    const std::optional<OwnersTurn> own = turn_of_owner(db, seeker, held.owner);
+    owners_next = own ? first_of_owner(db, seeker, false, held.owner, own->priority) : std::nullopt;
   }
   if (order == OwnerOrder::kFirstCome || !owners_next || owners_next->job == held.job) return true;
   return others_on_job(db, seeker, held.job) < others_on_job(db, seeker, owners_next->job);
@@ -133,8 +157,8 @@ std::optional<std::int64_t> task_in_turn(Database& db, const Seeker& seeker, boo
   const std::optional<Candidate> next = first_of_owner(db, seeker, on_request, turn->owner, turn->priority);
   if (!next) return std::nullopt;
   if (on_request) return next->id;
-  const std::optional<Candidate> held = of_held_job(db, seeker, turn->priority);
-  return held && may_keep(db, seeker, *held, *next, turn->priority, order) ? held->id : next->id;
+  const std::optional<Candidate> held = of_held_job(db, seeker, *turn);
+  return held && may_keep(db, seeker, *held, *next, order) ? held->id : next->id;
 }
 
 void end_turn(Tx& tx, const TaskRow& task) {
@@ -152,6 +176,16 @@ void end_turn(Tx& tx, const TaskRow& task) {
 }
 
 void settle_turns(Tx& tx) {
+  const Policy& policy = tx.options.policy;
+  tx.db.run("DELETE FROM priority_quotas");
+  tx.db.run("INSERT INTO priority_quotas (owner, most) VALUES ('', ?)", policy.everyone.priority);
+  for (const auto& [owner, own] : policy.owners) {
+    tx.db.run("INSERT INTO priority_quotas (owner, most) VALUES (?, ?)", owner, own.priority);
+  }
+  tx.db.run(
+      "UPDATE queues SET rank = min(priority, coalesce("
+      "(SELECT most FROM priority_quotas WHERE owner = queues.owner), ?))",
+      policy.everyone.priority);
   if (tx.options.owner_order == OwnerOrder::kRoundRobin) return;
   tx.db.run("UPDATE tasks SET turn = 0 WHERE turn <> 0");
 }

@@ -21,12 +21,12 @@ struct Seeker {
 
 /// The ready task whose turn it is, or nothing.
 ///
-/// Of the tasks that the worker can do, those of the highest priority count.  Among their owners it is the
-/// turn of the one whose last grant lies back furthest, and among the owner's tasks, as `order` says, that of
-/// the oldest job, or of the job whose last grant lies back furthest.  But a worker goes on with the job that
-/// it holds (instead of reading another mesh for every block) where nobody is worse off: its owner then has
-/// no more workers than the one whose turn it is and, where jobs take turns, the job no more than its owner's
-/// next one.
+/// Of the tasks that the worker can do, those of the highest rank count: the priority, as far as the owner's
+/// quota allows.  Among their owners it is the turn of the one whose last grant lies back furthest, and among
+/// the owner's tasks of the highest priority, as `order` says, that of the oldest job, or of the job whose
+/// last grant lies back furthest.  But a worker goes on with the job that it holds (instead of reading
+/// another mesh for every block) where nobody is worse off: its owner then has no more workers than the one
+/// whose turn it is and, where jobs take turns, the job no more than its owner's next one.
 ///
 /// A few steps in an index for each core version and each amount of memory that tasks need, however many
 /// wait. A function of database and seeker: the same after a restart.
@@ -39,7 +39,7 @@ std::optional<std::int64_t> task_in_turn(Database& db, const Seeker& seeker, boo
 /// The task is granted: its owner's next turn comes after all others', and where jobs take turns, its job's.
 void end_turn(Tx& tx, const TaskRow& task);
 
-/// Makes the turns of jobs those of the order that the store was opened with.
+/// Makes turns and ranks of jobs those of the order and the quotas that the store was opened with.
 void settle_turns(Tx& tx);
 
 }  // namespace affskel::server

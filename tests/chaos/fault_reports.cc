@@ -1,6 +1,7 @@
 // A worker of the driver's own that lies: its points are better than any true ones, so that a single one of
 // them in the field shows.
 #include <unistd.h>
+#include <limits>
 
 #include "faults.h"
 #include "wire/identity.h"
@@ -71,7 +72,7 @@ v1::ReportErosionRequest poison(std::uint32_t records) {
   for (std::uint32_t point = 0; point < records; ++point) {
     message.mutable_records()->add_point(point);
     message.mutable_records()->add_direction(0);
-    message.mutable_records()->add_erosion(0);
+    message.mutable_records()->add_erosion(std::numeric_limits<double>::min());
     message.mutable_records()->add_area(1);
   }
   return message;

@@ -58,7 +58,7 @@ class MadeUpWorker {
     v1::CompleteTaskHeader header;
     v1::PreparedSummary& summary = *header.mutable_prepared();
     summary.set_triangles(12);
-    summary.set_volume(2);
+    summary.set_volume(2.0 + options_.points);  // above every E that it makes up
     summary.set_spacing(0.25);
     for (int axis = 0; axis < 3; ++axis) {
       summary.add_bbox_min(0);

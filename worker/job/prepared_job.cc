@@ -1,16 +1,17 @@
 #include "job/prepared_job.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
-#include "wire/field_record.h"
 #include "wire/limits.h"
 #include "wire/words.h"
 
@@ -188,6 +189,11 @@ double PreparedJob::volume_unit() const {
 }
 double PreparedJob::area_unit() const {
   return std::ldexp(1.0, 2 * solid_.exponent);
+}
+
+wire::FieldRecord PreparedJob::record(const core::FieldValue& value) const {
+  return {std::max(value.erosion * volume_unit(), std::numeric_limits<double>::min()),
+          value.area * area_unit(), value.direction};
 }
 
 core::Erosion& PreparedJob::erosion(unsigned threads, std::string_view stored) {

@@ -12,6 +12,7 @@
 #include "core/erosion/erosion.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid.h"
+#include "wire/field_record.h"
 
 namespace affskel::worker {
 
@@ -46,6 +47,10 @@ class PreparedJob {
   /// Mesh units cubed per scaled unit cubed, and squared.
   double volume_unit() const;
   double area_unit() const;
+
+  /// A value as the server has it.  E is greater than 0 inside: where nothing that doubles resolve is left,
+  /// at a tip, it is the least normal number.
+  wire::FieldRecord record(const core::FieldValue& value) const;
 
  private:
   std::uint64_t polygons_cut_ = 0;  // before solid_, whose making sets it

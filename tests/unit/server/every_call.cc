@@ -53,6 +53,8 @@ every_call(const std::string& job) {
        unary(&Client::Stub::DeleteJob, about(v1::DeleteJobRequest()), v1::DeleteJobResponse(), client)},
       {"ListJobEvents", unary(&Client::Stub::ListJobEvents, about(v1::ListJobEventsRequest()),
                               v1::ListJobEventsResponse(), client)},
+      {"VerifyJob",
+       unary(&Client::Stub::VerifyJob, about(v1::VerifyJobRequest()), v1::Verification(), client)},
       {"FetchArtifact",
        [=](const std::shared_ptr<grpc::Channel>& channel) {
          v1::FetchArtifactRequest request = about(v1::FetchArtifactRequest());

@@ -64,7 +64,7 @@ PrepareResult prepare_result(const std::string& token, std::uint32_t points, std
   v1::CompleteTaskHeader& header = result.header;
   header.set_token(token);
   header.mutable_prepared()->set_triangles(directions);
-  header.mutable_prepared()->set_volume(2.0);
+  header.mutable_prepared()->set_volume(16.0);  // above every E that tests report
   header.mutable_prepared()->set_spacing(0.25);
   for (int axis = 0; axis < 3; ++axis) {
     header.mutable_prepared()->add_bbox_min(0.0);
@@ -91,7 +91,7 @@ v1::CompleteTaskHeader derive_header(const std::string& token, const std::string
 
 double made_up_erosion(std::uint32_t point, std::uint32_t direction) {
   // Few different values, so that ties between directions are common.
-  return static_cast<double>((point * 2654435761U ^ direction * 40503U) % 7) / 8.0;
+  return static_cast<double>((point * 2654435761U ^ direction * 40503U) % 7 + 1) / 8.0;
 }
 
 double made_up_area(std::uint32_t point, std::uint32_t direction) {
@@ -181,7 +181,8 @@ v1::ReportResponse StoreTest::report(const v1::Lease& lease, const std::vector<v
   for (const v1::PositionRange& range : ranges) *header.add_positions_done() = range;
   header.set_block_done(block_done);
   RecordBatch batch(static_cast<std::int64_t>(lease.job().prepared().points()),
-                    static_cast<std::int64_t>(lease.job().directions_total()));
+                    static_cast<std::int64_t>(lease.job().directions_total()),
+                    lease.job().prepared().volume());
   batch.append(records);
   batch.sort();
   return store_->report(header, batch);

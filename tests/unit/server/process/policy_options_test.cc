@@ -36,6 +36,17 @@ TEST(PolicyOptionsTest, OwnersReplaceSingleNames) {
   EXPECT_EQ(policy.grace_ms, 30'000);
 }
 
+TEST(PolicyOptionsTest, PrioritiesAreQuotasOfOwners) {
+  EXPECT_EQ(parse_policy({}).of("ada").priority, 5);
+  const Policy policy = parse_policy({{}, {"ada:priority=9", "priority=3"}, {}});
+  EXPECT_EQ(policy.of("ada").priority, 9);
+  EXPECT_EQ(policy.of("bob").priority, 3);
+  for (const char* value : {"10", "-1", "", "5K"}) {
+    EXPECT_THROW(parse_policy({{}, {std::string("priority=") + value}, {}}), std::invalid_argument) << value;
+  }
+  EXPECT_THROW(parse_policy({{"priority=5"}, {}, {}}), std::invalid_argument);
+}
+
 TEST(PolicyOptionsTest, RefusesWhatItDoesNotUnderstand) {
   const auto why = [](const PolicyWords& words) {
     try {

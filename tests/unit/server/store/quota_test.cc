@@ -136,6 +136,38 @@ TEST_F(QuotaTest, StoredBytesAreLookedAtWhenTheFieldIsKnown) {
   EXPECT_EQ(use("ada").stored_bytes, 5) << "nothing of it was kept";
 }
 
+// What is made while the quota fills up does not go over it, and goes on when there is room.
+TEST_F(QuotaTest, WhatAWorkerBringsCountsBeforeItIsStored) {
+  const v1::Job job = submit();
+  erode(10, 20);
+  const std::int64_t used = use("ada").stored_bytes;
+  options_.policy.everyone.quota.stored_bytes = used + 100;
+  open();
+  const std::string large(101, 'x');
+  const v1::Lease task = lease();
+  EXPECT_TRUE(store_->complete(derive_header(task.token(), large, 3), large).cancelled());
+  EXPECT_EQ(store_->job(job.id()).error().code(), "LIMIT");
+  EXPECT_EQ(use("ada").stored_bytes, used);
+  store_->resume(job.id());
+  derive();
+  EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
+}
+
+TEST_F(QuotaTest, RequestIdsOfAJob) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.set_owner("ada");
+  for (int i = 0; i < 1000; ++i) {
+    header.set_request_id("r" + std::to_string(i));
+    store_->submit(header, "OFF 1");
+  }
+  EXPECT_NO_THROW(store_->submit(header, "OFF 1")) << "known";
+  header.set_request_id("one more");
+  const std::string why = refused([&] { store_->submit(header, "OFF 1"); });
+  EXPECT_NE(why.find("1000 request ids"), std::string::npos) << why;
+  header.clear_request_id();
+  EXPECT_TRUE(store_->submit(header, "OFF 1").existed);
+}
+
 TEST_F(QuotaTest, WhoeverIsAboveStoredBytesAsksForNothingMore) {
   const v1::Job done = complete_job(10, 20);
   limit([](Policy& policy) { policy.everyone.quota.stored_bytes = 100; });

@@ -107,14 +107,14 @@ TEST_F(ReportTest, LoggedRecordsAreInTheField) {
   v1::FieldRecords one;
   one.add_point(8999);
   one.add_direction(3);
-  one.add_erosion(0);
+  one.add_erosion(0.01);
   one.add_area(2.0);
   report(first, {}, one);
   EXPECT_GT(logged(), 0);
   const std::string before = read_all(*store_->open_input(first.token(), v1::ARTIFACT_KIND_FIELD));
   double erosion = 1;
   std::memcpy(&erosion, before.data() + 8999 * 20, 8);
-  EXPECT_EQ(erosion, 0);
+  EXPECT_EQ(erosion, 0.01);
   open();
   EXPECT_EQ(read_all(*store_->open_input(first.token(), v1::ARTIFACT_KIND_FIELD)), before);
   one_by_one(first, 15, 16);
@@ -294,7 +294,7 @@ TEST_F(ReportTest, BadReportsAreRefusedWhole) {
 }
 
 TEST_F(ReportTest, FloodOfRecordsIsRefused) {
-  RecordBatch batch(1, 16);
+  RecordBatch batch(1, 16, 2.0);
   v1::FieldRecords records;
   for (int i = 0; i < 65; ++i) {
     records.add_point(0);
@@ -305,15 +305,34 @@ TEST_F(ReportTest, FloodOfRecordsIsRefused) {
   EXPECT_STORE_ERROR(batch.append(records), kInvalid);
 }
 
+// A worker that says E = 0 everywhere would make a job that is done, with an empty skeleton.
+TEST_F(ReportTest, OnlyVolumesOfThisSolidAreTaken) {
+  const auto batch_of = [](double erosion) {
+    RecordBatch batch(1, 16, 2.0);
+    v1::FieldRecords records;
+    records.add_point(0);
+    records.add_direction(0);
+    records.add_erosion(erosion);
+    records.add_area(1);
+    batch.append(records);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {0.0, -0.0, -1.0, 2.0001, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_STORE_ERROR(batch_of(wrong), kInvalid);
+  }
+  for (const double right : {std::numeric_limits<double>::min(), 1.0, 2.0, 2.0 * (1 + 0x1p-36)}) {
+    EXPECT_NO_THROW(batch_of(right)) << right;
+  }
+}
+
 TEST_F(ReportTest, NegativeZeroIsStoredAsZero) {
-  RecordBatch batch(1, 16);
+  RecordBatch batch(1, 16, 2.0);
   v1::FieldRecords records;
   records.add_point(0);
   records.add_direction(0);
-  records.add_erosion(-0.0);
+  records.add_erosion(1);
   records.add_area(-0.0);
   batch.append(records);
-  EXPECT_FALSE(std::signbit(batch.records()[0].erosion));
   EXPECT_FALSE(std::signbit(batch.records()[0].area));
 }
 

@@ -92,9 +92,39 @@ TEST_F(TurnTest, AnOwnersLastTurnIsRemembered) {
 }
 
 TEST_F(TurnTest, PriorityComesBeforeTurns) {
-  submit_as("ada", 9);
-  for (int i = 0; i < 3; ++i) submit_as("bob", 5);
+  submit_as("ada", 5);
+  for (int i = 0; i < 3; ++i) submit_as("bob", 4);
   EXPECT_EQ(owners(5), "aaaaa");
+}
+
+// Everybody could take 9.
+TEST_F(TurnTest, AcrossOwnersAPriorityCountsUpToTheQuota) {
+  submit_as("ada", 9);
+  submit_as("bob", 5);
+  EXPECT_EQ(owners(6), "ababab");
+  options_.policy.owners["ada"].priority = 9;
+  open();
+  EXPECT_EQ(owners(3), "aaa");
+  options_.policy.owners.clear();
+  options_.policy.everyone.priority = 4;
+  open();
+  const std::string mixed = owners(6);
+  EXPECT_EQ(std::count(mixed.begin(), mixed.end(), 'a'), 3) << mixed;
+}
+
+TEST_F(TurnTest, AmongAnOwnersOwnJobsEveryPriorityCounts) {
+  const std::string low = submit_as("ada", 5), high = submit_as("ada", 9);
+  const v1::Lease first = take("solo");
+  EXPECT_EQ(first.job().id(), high);
+  finish(first);
+  submit_as("bob", 5);
+  std::set<std::string> seen;
+  for (int i = 0; i < 8; ++i) {
+    const v1::Lease task = take("other", low);
+    seen.insert(task.job().id());
+    finish(task);
+  }
+  EXPECT_FALSE(seen.contains(low)) << "held, but not the first of its owner's";
 }
 
 TEST_F(TurnTest, ARestartForgetsNoTurn) {

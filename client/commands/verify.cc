@@ -1,0 +1,68 @@
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "client/cli/interrupt.h"
+#include "client/cli/value_checks.h"
+#include "client/commands/commands.h"
+#include "client/commands/shared/job_options.h"
+#include "client/text/message_json.h"
+#include "client/text/verification_text.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr auto kPause = std::chrono::milliseconds(500);
+
+struct VerifyOptions {
+  std::string job;
+  double share = 0.01;
+};
+
+/// Asks until nothing more will happen; tells once why it waits.
+v1::Verification follow_verification(Context& context, const VerifyOptions& options) {
+  v1::Verification verification = context.session().verify(options.job, options.share, 0);
+  set_interrupt_message("The verification goes on; affskel-client verify " + verification.job() +
+                        " follows it again.");
+  std::string told;
+  while (!verification.finished()) {
+    if (const std::string& why = verification.waiting_reason(); !why.empty() && why != told) {
+      context.console().note("waits: " + why);
+      told = why;
+    }
+    std::this_thread::sleep_for(kPause);
+    verification = context.session().verify(verification.job(), options.share, verification.id());
+  }
+  set_interrupt_message("");
+  return verification;
+}
+
+void run(Context& context, const VerifyOptions& options) {
+  const v1::Verification verification = follow_verification(context, options);
+  context.console().result(verification_details(verification));
+  context.console().document(to_json(verification));
+  if (const std::string why = difference_text(verification); !why.empty()) {
+    throw ClientError(ExitCode::kJobFailed, why);
+  }
+  if (const std::string why = gap_text(verification); !why.empty()) {
+    throw ClientError(ExitCode::kCancelled, why);
+  }
+}
+
+}  // namespace
+
+void add_verify(CommandLine& line) {
+  const auto options = std::make_shared<VerifyOptions>();
+  CLI::App* command =
+      line.add("verify", "Have a sample of a job's field computed again by other workers, and compare",
+               "  affskel-client verify @last\n  affskel-client verify 3f2a9c --share 10%",
+               [options](Context& context) { run(context, *options); });
+  add_job(command, options->job);
+  command
+      ->add_option("--share", options->share, "Of each worker's directions; at least one is computed again")
+      ->transform(share_or_all())
+      ->default_str("1%")
+      ->type_name("P%");
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,107 @@
+#include "store/distrust.h"
+
+#include <vector>
+
+#include "base/number_text.h"
+#include "base/quoted.h"
+#include "database/errors.h"
+#include "store/field.h"
+#include "store/givers.h"
+#include "store/job_events.h"
+#include "store/restart.h"
+#include "store/tasks.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::size_t kShortestPrefix = 6;
+
+std::vector<Giver> named(Database& db, const JobRow& job, const std::string& who) {
+  std::vector<Giver> of_host, of_prefix;
+  for (const v1::Giver& giver : givers_of(db, job.erosion_id)) {
+    if (giver.worker() == who) return {Giver{giver.worker(), giver.host()}};
+    if (giver.host() == who) of_host.push_back({giver.worker(), giver.host()});
+    if (who.size() >= kShortestPrefix && giver.worker().starts_with(who)) {
+      of_prefix.push_back({giver.worker(), giver.host()});
+    }
+  }
+  if (!of_host.empty()) return of_host;
+  if (of_prefix.size() > 1) {
+    throw StoreError(StoreError::Code::kInvalid,
+                     "worker " + base::quoted(who) + ": more than one worker's id begins so");
+  }
+  if (of_prefix.empty()) {
+    throw StoreError(StoreError::Code::kNotFound, "no worker " + base::quoted(who) +
+                                                      " has told anything about the field of job " + job.id +
+                                                      "; affskel-client log names those that have");
+  }
+  return of_prefix;
+}
+
+/// The done ranges without those that were given.
+void undo(Database& db, std::int64_t erosion_id, const std::vector<Range>& given) {
+  std::vector<Range> kept;
+  for (Range done : done_ranges(db, erosion_id)) {
+    for (const Range& gone : given) {
+      if (gone.end <= done.begin || gone.begin >= done.end) continue;
+      if (gone.begin > done.begin) kept.push_back({done.begin, gone.begin});
+      done.begin = gone.end;
+      if (done.begin >= done.end) break;
+    }
+    if (done.begin < done.end) kept.push_back(done);
+  }
+  db.run("DELETE FROM done_ranges WHERE erosion_id = ?", erosion_id);
+  for (const Range& range : kept) add_done_range(db, erosion_id, range);
+}
+
+/// Its leases on other jobs, too; the tasks go to others.
+void bar(Tx& tx, const Giver& giver) {
+  tx.db.run(
+      "INSERT INTO distrusted (worker, host, since_ms) VALUES (?, ?, ?) ON CONFLICT (worker) DO NOTHING",
+      giver.worker, giver.host, tx.wall_ms);
+  std::vector<std::int64_t> held;
+  {
+    Statement row = tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND worker = ?", giver.worker);
+    while (row.step()) held.push_back(row.integer(0));
+  }
+  for (const std::int64_t id : held) {
+    const TaskRow task = *find_task(tx.db, id);
+    release_task(tx, task);
+    settle_job(tx, task.job_id);
+  }
+}
+
+}  // namespace
+
+void distrust(Tx& tx, const JobRow& job, const std::string& who) {
+  if (job.core_version.empty() || job.removed_ms > 0) {
+    throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " has no field yet");
+  }
+  const std::vector<Giver> givers = named(tx.db, job, who);
+  tx.require_room();
+  const std::vector<Range> given = given_by(tx.db, job.erosion_id, givers);
+  const DirectionPositions positions(
+      job.directions, tx.db.integer("SELECT stride FROM erosions WHERE id = ?", job.erosion_id).value_or(1));
+  const std::int64_t removed = remove_values(tx.db, job.erosion_id, job.points, [&](std::uint32_t direction) {
+    return contains(given, positions.position(direction));
+  });
+  undo(tx.db, job.erosion_id, removed > 0 ? std::vector<Range>{{0, job.directions}} : given);
+  for (const Giver& giver : givers) {
+    tx.db.run("DELETE FROM given_ranges WHERE erosion_id = ? AND worker = ?", job.erosion_id, giver.worker);
+    add_event(tx, job.id,
+              {.event = "distrusted",
+               .worker = giver.worker,
+               .message = base::counted(removed, "value") + " taken out, " +
+                          (removed > 0 ? "all directions" : "its directions") + " are computed again"});
+  }
+  tx.db.run("DELETE FROM verifications WHERE job_id = ?", job.id);
+  restart_erosion(tx, job.erosion_id, job.directions);
+  for (const Giver& giver : givers) bar(tx, giver);
+  tx.changes.work = true;
+}
+
+bool is_distrusted(Database& db, const std::string& worker) {
+  return db.integer("SELECT 1 FROM distrusted WHERE worker = ?", worker).has_value();
+}
+
+}  // namespace affskel::server

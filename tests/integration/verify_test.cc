@@ -1,0 +1,165 @@
+// A worker that lies, among real ones: it is found and named, and what it gave is mended.
+#include <grpcpp/create_channel.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <memory>
+#include <optional>
+
+#include "affskel/v1/worker_service.grpc.pb.h"
+#include "lab.h"
+#include "wire/direction_order.h"
+#include "wire/limits.h"
+
+namespace affskel::integration {
+namespace {
+
+constexpr const char* kLiar = "11111111111111111111111111111111";
+
+/// Speaks the workers' protocol, and tells what it likes.
+class LyingWorker {
+ public:
+  LyingWorker(const std::string& address, std::string core_version)
+      : stub_(v1::WorkerService::NewStub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()))),
+        core_version_(std::move(core_version)) {}
+
+  grpc::Status lease(v1::Lease& lease) {
+    v1::LeaseTaskRequest request;
+    v1::WorkerIdentity& worker = *request.mutable_worker();
+    worker.set_id(kLiar);
+    worker.set_host("broken-host");
+    worker.set_pid(1);
+    worker.set_threads(1);
+    worker.set_core_version(core_version_);
+    request.set_wait_ms(10000);
+    grpc::ClientContext context;
+    v1::LeaseTaskResponse response;
+    const grpc::Status status = stub_->LeaseTask(&context, request, &response);
+    lease = response.lease();
+    return status;
+  }
+
+  /// The whole block as done, with `erosion` at every point under its first direction; of no points at all
+  /// when it is not given.
+  grpc::Status report(const v1::Lease& lease, std::optional<double> erosion) {
+    grpc::ClientContext context;
+    v1::ReportResponse response;
+    const auto writer = stub_->ReportErosion(&context, &response);
+    v1::ReportErosionRequest message;
+    message.mutable_header()->set_token(lease.token());
+    *message.mutable_header()->mutable_positions_done() = lease.positions();
+    message.mutable_header()->set_block_done(true);
+    writer->Write(message);
+    const auto points = static_cast<std::uint32_t>(erosion ? lease.job().prepared().points() : 0);
+    const auto direction = static_cast<std::uint32_t>(wire::direction_at(
+        lease.positions(0).begin(), lease.job().order_stride(), lease.job().directions_total()));
+    for (std::uint32_t point = 0; point < points;) {
+      v1::FieldRecords& records = *message.mutable_records();
+      for (records.Clear(); point < points && records.point_size() < wire::kRecordsPerMessage; ++point) {
+        records.add_point(point);
+        records.add_direction(direction);
+        records.add_erosion(*erosion);
+        records.add_area(1);
+      }
+      writer->Write(message);
+    }
+    writer->WritesDone();
+    return writer->Finish();
+  }
+
+ private:
+  std::unique_ptr<v1::WorkerService::Stub> stub_;
+  std::string core_version_;
+};
+
+class VerifyTest : public testing::Test {
+ protected:
+  static std::string submit(const Lab& lab) {
+    lab.make_torus(512);
+    return lab.submit({"--points", "20000", "--directions", "random:2000:1"});
+  }
+
+  static std::string field(const Lab& lab, const std::string& job) {
+    EXPECT_EQ(lab.client({"fetch", job, "field", "-o", lab.path("field.dat")}).exit_code, 0);
+    return lab.read("field.dat");
+  }
+
+  static std::string honest_field() {
+    const Lab lab;
+    const Process server = lab.server({"--workers", "1"});
+    const std::string job = submit(lab);
+    lab.follow_to_end(job);
+    return field(lab, job);
+  }
+
+  /// Submits and prepares the job by a real worker, which leaves; then the liar takes its first block.
+  std::string begin_with_lie(std::optional<double> share_of_volume) {
+    const std::string job = submit(lab_);
+    v1::Job prepared;
+    {
+      Process worker = lab_.worker({"--threads", "1"});
+      prepared = lab_.follow(job, [](const v1::Job& j) { return j.directions_total() > 0; });
+      worker.send(SIGTERM);
+      worker.wait();
+    }
+    EXPECT_LT(lab_.job(job).directions_done(), prepared.directions_total());
+    liar_ = std::make_unique<LyingWorker>(lab_.address(), prepared.core_version());
+    v1::Lease lease;
+    EXPECT_TRUE(liar_->lease(lease).ok());
+    EXPECT_EQ(lease.kind(), v1::TASK_KIND_ERODE);
+    std::optional<double> erosion;
+    if (share_of_volume) {
+      const double volume = prepared.prepared().volume();
+      EXPECT_EQ(liar_->report(lease, 0.0).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+      EXPECT_EQ(liar_->report(lease, 2 * volume).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+      erosion = *share_of_volume * volume;
+    }
+    EXPECT_TRUE(liar_->report(lease, erosion).ok());
+    return job;
+  }
+
+  Lab lab_;
+  std::unique_ptr<LyingWorker> liar_;
+};
+
+TEST_F(VerifyTest, TooSmallValuesAreFoundAndMended) {
+  const std::string honest = honest_field();
+  const Process server = lab_.server();
+  const std::string job = begin_with_lie(1e-6);
+  const Process first = lab_.worker({"--threads", "1"}), second = lab_.worker({"--threads", "1"});
+  ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+  EXPECT_NE(field(lab_, job), honest);
+
+  const Output found = lab_.client({"verify", job});
+  EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
+  EXPECT_NE(found.out.find(std::string(kLiar) + " on broken-host"), std::string::npos) << found.out;
+  EXPECT_NE(found.err.find("resume " + job + " --distrust " + kLiar), std::string::npos) << found.err;
+  EXPECT_NE(lab_.client({"log", job}).out.find(std::string("given by ") + kLiar), std::string::npos);
+
+  EXPECT_EQ(lab_.client({"resume", job, "--distrust", "broken-host"}).exit_code, 0);
+  ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+  EXPECT_EQ(field(lab_, job), honest);
+  const Output clean = lab_.client({"verify", job, "--share", "2%"});
+  EXPECT_EQ(clean.exit_code, 0) << clean.out << clean.err;
+  v1::Lease lease;
+  EXPECT_EQ(liar_->lease(lease).error_code(), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(lab_.run({AFFSKEL_SERVER_BINARY, "check", "--data-dir", lab_.path("data")}).exit_code, 0);
+}
+
+TEST_F(VerifyTest, SilenceIsFoundAndMended) {
+  const std::string honest = honest_field();
+  const Process server = lab_.server();
+  const std::string job = begin_with_lie(std::nullopt);
+  const Process first = lab_.worker({"--threads", "1"}), second = lab_.worker({"--threads", "1"});
+  ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+  EXPECT_NE(field(lab_, job), honest);
+  const Output found = lab_.client({"verify", job, "--share", "10%"});
+  EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
+  EXPECT_NE(found.err.find(kLiar), std::string::npos) << found.err;
+  EXPECT_EQ(lab_.client({"resume", job, "--distrust", std::string(kLiar).substr(0, 12)}).exit_code, 0);
+  ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+  EXPECT_EQ(field(lab_, job), honest);
+}
+
+}  // namespace
+}  // namespace affskel::integration
