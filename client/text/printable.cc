@@ -1,21 +1,26 @@
 #include "client/text/printable.h"
 
+#include <unicode/uchar.h>
+#include <unicode/utf8.h>
+
 #include <algorithm>
+#include <cstdint>
 
 #include "base/utf8.h"
 
 namespace affskel::client {
 namespace {
 
-bool is_control(std::string_view character) {
-  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(character[n]); };
-  if (character.size() == 1)
-    return (byte(0) < 0x20 && character != "\n" && character != "\t") || byte(0) == 0x7f;
-  if (character.size() == 2) return byte(0) == 0xC2 && byte(1) < 0xA0;  // C1: U+0080 .. U+009F
-  if (character.size() != 3 || byte(0) != 0xE2) return false;
-  // What turns the direction of writing: U+200E, U+200F, U+202A .. U+202E, U+2066 .. U+2069; and line ends.
-  return (byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE))) ||
-         (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9);
+/// Joiners and the selectors of emoji: they shape letters that are seen.
+bool shapes_letters(UChar32 c) {
+  return c == 0x200C || c == 0x200D || c == 0xFE0E || c == 0xFE0F;
+}
+
+bool is_unseen(UChar32 c) {
+  if (c == '\n' || c == '\t' || shapes_letters(c)) return false;
+  constexpr std::uint32_t kMask = U_GC_CC_MASK | U_GC_ZL_MASK | U_GC_ZP_MASK;
+  return (U_GET_GC_MASK(c) & kMask) != 0 || u_hasBinaryProperty(c, UCHAR_BIDI_CONTROL) != 0 ||
+         u_hasBinaryProperty(c, UCHAR_DEFAULT_IGNORABLE_CODE_POINT) != 0;
 }
 
 }  // namespace
@@ -24,12 +29,16 @@ std::string printable(std::string_view text) {
   const std::string whole = base::to_utf8(text);
   std::string safe;
   safe.reserve(whole.size());
-  for (std::string_view rest = whole; !rest.empty();) {
-    std::size_t length = 1;
-    while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0) == 0x80) ++length;
-    const std::string_view character = rest.substr(0, length);
-    safe += is_control(character) ? "?" : character;
-    rest.remove_prefix(length);
+  const auto size = static_cast<std::int32_t>(whole.size());
+  for (std::int32_t at = 0; at < size;) {
+    const std::int32_t begin = at;
+    UChar32 character = 0;
+    U8_NEXT_UNSAFE(whole.data(), at, character);  // it is well-formed
+    if (is_unseen(character)) {
+      safe += '?';
+    } else {
+      safe.append(whole, static_cast<std::size_t>(begin), static_cast<std::size_t>(at - begin));
+    }
   }
   return safe;
 }

@@ -2,13 +2,14 @@
 
 #include <openssl/rand.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "access/owner_name.h"
 #include "base/quoted.h"
-#include "base/utf8.h"
 #include "database/errors.h"
 #include "wire/sha256.h"
 #include "wire/words.h"
@@ -17,7 +18,6 @@ namespace affskel::server {
 namespace {
 
 constexpr std::size_t kTokenBytes = 32;
-constexpr std::size_t kMaxOwnerBytes = 100;
 
 constexpr const char* kColumns =
     "SELECT id, owner, role, created_ms, expires_ms, revoked_ms, last_used_ms FROM tokens ";
@@ -49,43 +49,21 @@ std::string base64url(const unsigned char* bytes, std::size_t size) {
   return text;
 }
 
-/// Characters that nobody sees: control and format characters, separators of lines, the byte order mark. With
-/// them two owners' names could look alike.
-constexpr std::pair<char32_t, char32_t> kUnseen[] = {
-    {0, 0x1F},        {0x7F, 0xA0},     {0xAD, 0xAD},      {0x61C, 0x61C},   {0x180E, 0x180E},
-    {0x2000, 0x200F}, {0x2028, 0x202F}, {0x205F, 0x206F},  {0x3000, 0x3000}, {0xFE00, 0xFE0F},
-    {0xFEFF, 0xFEFF}, {0xFFF0, 0xFFFB}, {0xE0000, 0xE0FFF}};
-
-/// The first character of well-formed UTF-8, taken off it.
-char32_t take_character(std::string_view& text) {
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::size_t size = byte(0) < 0x80 ? 1 : byte(0) < 0xE0 ? 2 : byte(0) < 0xF0 ? 3 : 4;
-  char32_t character = size == 1 ? byte(0) : byte(0) & (0x7F >> size);
-  for (std::size_t i = 1; i < size; ++i) character = (character << 6) | (byte(i) & 0x3F);
-  text.remove_prefix(size);
-  return character;
+std::vector<std::string> owners_of_tokens(Database& db) {
+  Statement row = db.query("SELECT DISTINCT owner FROM tokens");
+  std::vector<std::string> owners;
+  while (row.step()) owners.push_back(row.text(0));
+  return owners;
 }
 
-bool can_be_seen(std::string_view text) {
-  while (!text.empty()) {
-    const char32_t character = take_character(text);
-    for (const auto& [first, last] : kUnseen) {
-      if (character >= first && character <= last) return false;
-    }
-  }
-  return true;
-}
-
-void check_owner(const std::string& owner) {
-  if (!owner.empty() && owner.size() <= kMaxOwnerBytes && base::is_utf8(owner) && can_be_seen(owner) &&
-      owner.front() != ' ' && owner.back() != ' ') {
-    return;
-  }
-  throw StoreError(
-      StoreError::Code::kInvalid,
-      "the owner " + base::quoted(owner) +
-          " is no name: expected 1 .. 100 bytes of UTF-8 without characters that nobody sees, and "
-          "no blank at either end");
+void check_new_owner(Database& db, const std::string& owner) {
+  const std::vector<std::string> owners = owners_of_tokens(db);
+  if (std::find(owners.begin(), owners.end(), owner) != owners.end()) return;  // whatever was allowed then
+  check_owner_name(owner);
+  const std::string other = look_alike(owner, owners);
+  if (other.empty()) return;
+  throw StoreError(StoreError::Code::kInvalid, "the owner " + base::quoted(owner) + " looks like " +
+                                                   base::quoted(other) + ", who has a token already");
 }
 
 }  // namespace
@@ -100,7 +78,7 @@ std::string new_token() {
 
 std::int64_t add_token(Database& db, const std::string& token, const std::string& owner, v1::Role role,
                        std::int64_t now_ms, std::optional<std::int64_t> expires_ms) {
-  check_owner(owner);
+  check_new_owner(db, owner);
   db.run("INSERT INTO tokens (sha256, owner, role, created_ms, expires_ms) VALUES (?, ?, ?, ?, ?)",
          wire::sha256_hex(token), owner, wire::word(role), now_ms, expires_ms);
   return db.last_insert_rowid();

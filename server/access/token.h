@@ -31,7 +31,7 @@ std::string new_token();
 
 /// Enters a token; only its SHA-256 is stored.  A token has 256 random bits, so that neither salt nor a slow
 /// hash would make it harder to guess.
-/// @param owner 1 .. 100 bytes of UTF-8 without invisible characters and blanks at the ends.  @param role
+/// @param owner a good name (check_owner_name) that looks like no other owner's.  @param role
 /// USER, WORKER or ADMIN.
 /// @throws StoreError kInvalid for another owner or role.
 /// @return its id.

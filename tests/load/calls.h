@@ -25,14 +25,15 @@ class Calls {
     return status.ok();
   }
 
+  /// Keeps the time of a call that was made otherwise.
+  void add(const std::string& name, std::chrono::steady_clock::duration time, const grpc::Status& status);
+
   /// One line for each name: number, median, 99th percentile and longest in milliseconds; then the failures.
   void print() const;
 
   std::size_t failures() const;
 
  private:
-  void add(const std::string& name, std::chrono::steady_clock::duration time, const grpc::Status& status);
-
   mutable std::mutex mutex_;
   std::map<std::string, std::vector<double>> times_ms_;
   std::map<std::string, std::size_t> failures_;

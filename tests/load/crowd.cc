@@ -1,4 +1,6 @@
+#include <atomic>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <thread>
@@ -6,6 +8,7 @@
 #include "../integration/lab.h"
 #include "loads.h"
 #include "made_up_worker.h"
+#include "open_watches.h"
 #include "process_stats.h"
 #include "tools/exposition.h"
 #include "tools/http_get.h"
@@ -13,6 +16,8 @@
 
 namespace affskel::load {
 namespace {
+
+constexpr int kSenders = 8;
 
 grpc::Status get(v1::ErosionService::Stub& stub, const std::string& id) {
   grpc::ClientContext context;
@@ -59,6 +64,26 @@ void run_client(const std::string& address, int number, const std::stop_token& s
   }
 }
 
+/// Jobs that nobody works on yet, sent by several at once.
+std::vector<std::string> queue_jobs(const std::string& address, int number, Calls& calls) {
+  std::vector<std::string> ids(static_cast<std::size_t>(number));
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::jthread> senders;
+  for (int i = 0; i < kSenders; ++i) {
+    senders.emplace_back([&] {
+      const auto stub = v1::ErosionService::NewStub(connect(address));
+      for (std::size_t n = next++; n < ids.size(); n = next++) {
+        const std::string mesh = "queued mesh " + std::to_string(n);
+        v1::Job job;
+        calls.timed("queue", [&] { return submit(*stub, mesh, mesh, &job); });
+        ids[n] = job.id();
+      }
+    });
+  }
+  senders.clear();
+  return ids;
+}
+
 /// As often as a collector asks at most; what it gets must be well-formed.
 void run_scraper(const std::string& address, const std::stop_token& stop, Calls& calls) {
   while (!stop.stop_requested()) {
@@ -83,12 +108,16 @@ bool run_crowd(const LoadOptions& options) {
   const integration::Process server = lab.server(
       options.metrics ? std::vector<std::string>{"--metrics", "127.0.0.1:0"} : std::vector<std::string>());
   Calls calls;
+  const std::vector<std::string> ids = queue_jobs(lab.address(), options.queued, calls);
+  std::optional<OpenWatches> watches;
+  if (options.queued > 0) watches.emplace(lab.address(), ids, options.watches, calls);
   std::stop_source stop;
   std::vector<std::thread> threads;
   std::vector<MadeUpWorkerOptions> workers(static_cast<std::size_t>(options.workers));
   for (std::size_t i = 0; i < workers.size(); ++i) {
     workers[i].address = lab.address();
     workers[i].id = "made-up-" + std::to_string(i);
+    workers[i].work_waits = options.queued > 0;
     threads.emplace_back([&, i] { run_made_up_worker(workers[i], stop.get_token(), calls); });
   }
   for (int i = 0; i < options.clients; ++i) {
@@ -101,7 +130,9 @@ bool run_crowd(const LoadOptions& options) {
   const ProcessStats stats = stats_of(server.pid());
   stop.request_stop();
   for (std::thread& thread : threads) thread.join();
-  std::printf("crowd: %d clients, %d workers, %d s\n", options.clients, options.workers, options.seconds);
+  watches.reset();
+  std::printf("crowd: %d clients, %d workers, %d jobs queued before, %d watches, %d s\n", options.clients,
+              options.workers, options.queued, options.queued > 0 ? options.watches : 0, options.seconds);
   calls.print();
   std::printf("server: peak %.0f MiB, %ld threads, %ld descriptors\n\n",
               static_cast<double>(stats.peak_kib) / 1024, static_cast<long>(stats.threads),

@@ -9,6 +9,8 @@ struct LoadOptions {
   int jobs = 10000;
   int megabytes = 1000;
   int kills = 20;
+  int queued = 0;        ///< crowd: jobs that wait before it comes
+  int watches = 0;       ///< crowd: streams that are open all the time
   bool metrics = false;  ///< crowd: the server tells metrics, and they are asked for all the time
 };
 

@@ -30,14 +30,21 @@ class MadeUpWorker {
       worker.set_core_version("made-up");
       request.set_wait_ms(200);
       v1::LeaseTaskResponse response;
-      // It waits for work: its time is none of the server's.
-      grpc::ClientContext context;
-      context.set_wait_for_ready(true);
-      if (stub_->LeaseTask(&context, request, &response).ok() && response.has_lease()) work(response.lease());
+      if (lease(request, response) && response.has_lease()) work(response.lease());
     }
   }
 
  private:
+  bool lease(const v1::LeaseTaskRequest& request, v1::LeaseTaskResponse& response) {
+    const auto ask = [&] {
+      grpc::ClientContext context;
+      context.set_wait_for_ready(true);
+      return stub_->LeaseTask(&context, request, &response);
+    };
+    // Where it waits for work, its time is none of the server's.
+    return options_.work_waits ? calls_.timed("lease", ask) : ask().ok();
+  }
+
   void work(const v1::Lease& lease) {
     if (lease.kind() == v1::TASK_KIND_PREPARE) return prepare(lease);
     if (lease.kind() == v1::TASK_KIND_ERODE) return erode(lease);

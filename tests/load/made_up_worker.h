@@ -18,6 +18,7 @@ struct MadeUpWorkerOptions {
   std::chrono::milliseconds pause{1000};  ///< between two reports, as real workers have it
   std::uint32_t positions = 8;            ///< finished directions in a report
   std::uint32_t records = 2000;           ///< improved points in a report, at most all
+  bool work_waits = false;                ///< at all times: calls have a "lease" for each
   /// Called after each report, with its bytes on the wire.
   std::function<void(std::size_t bytes)> acknowledged = [](std::size_t) {};
 };

@@ -22,6 +22,10 @@ int main(int argc, char** argv) {
   app.add_option("--kills", options.kills, "kills: how many")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--queued", options.queued, "crowd: jobs that wait before it comes")->capture_default_str();
+  app.add_option("--watches", options.watches,
+                 "crowd: streams that are open all the time, on what was queued")
+      ->capture_default_str();
   app.add_flag("--metrics", options.metrics, "crowd: scrape the server's metrics once a second meanwhile");
   app.fallthrough();
   app.require_subcommand(1);

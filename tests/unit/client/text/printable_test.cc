@@ -25,6 +25,20 @@ TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable(std::string_view("\0", 1)), "?");
 }
 
+TEST(Printable, ReplacesWhatIsNotSeen) {
+  for (const char* unseen :
+       {"\u061C", "\uFEFF", "\u2060", "\u200B", "\u00AD", "\u3164", "\u034F", "\U000E0041"}) {
+    EXPECT_EQ(printable(std::string("a") + unseen + "b"), "a?b") << unseen;
+  }
+}
+
+TEST(Printable, LeavesWhatShapesLetters) {
+  for (const char* text :
+       {"\u0645\u06CC\u200C\u062E\u0648\u0627\u0647\u0645", "\U0001F469\u200D\U0001F52C", "\u2764\uFE0F"}) {
+    EXPECT_EQ(printable(text), text);
+  }
+}
+
 TEST(Printable, OneLineHasNoLineEnds) {
   EXPECT_EQ(one_line("a\nb\tc"), "a b c");
 }

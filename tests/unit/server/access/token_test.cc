@@ -96,5 +96,20 @@ TEST_F(TokenTest, RefusesNamesThatCannotBeShown) {
     EXPECT_NO_THROW(add_token(db_, owner, owner, v1::ROLE_USER, 0, std::nullopt)) << owner;
 }
 
+TEST_F(TokenTest, RefusesOwnersThatLookLikeAnother) {
+  const auto add = [&](const char* owner) { add_token(db_, owner, owner, v1::ROLE_USER, 0, std::nullopt); };
+  add("ada");
+  add("Zo\u00EB");
+  for (const char* owner : {"\u0430d\u0430", "\u0430\u0501\u0430", "ad\u0430", "Zoe\u0308", "a\u3164da",
+                            "a\u034Fda", "\u2800ada", "ada\u2800"}) {
+    SCOPED_TRACE(owner);
+    EXPECT_STORE_ERROR(add(owner), kInvalid);
+  }
+  EXPECT_EQ(list_tokens(db_).size(), 2u);
+  EXPECT_NO_THROW(add_token(db_, "another", "ada", v1::ROLE_WORKER, 0, std::nullopt)) << "the same owner";
+  EXPECT_NO_THROW(add("Ada"));
+  EXPECT_NO_THROW(add("\u0438\u0432\u0430\u043D"));
+}
+
 }  // namespace
 }  // namespace affskel::server
