@@ -356,7 +356,7 @@ void Database::execute(const std::string& script) {
 }
 
 Transaction::Transaction(Database& db, Kind kind) : db_(db) {
-  db_.execute(kind == Kind::kImmediate ? "BEGIN IMMEDIATE" : "BEGIN");
+  db_.run(kind == Kind::kImmediate ? "BEGIN IMMEDIATE" : "BEGIN");
 }
 
 Transaction::~Transaction() {
@@ -367,7 +367,7 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
-  db_.execute("COMMIT");
+  db_.run("COMMIT");
   open_ = false;
 }
 

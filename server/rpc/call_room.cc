@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "database/sqlite.h"
 #include "rpc/status.h"
@@ -56,7 +57,7 @@ AnswerOptions answers_of(const CallLimits& limits) {
 
 CallRoom::CallRoom(const CallLimits& given, std::uint64_t most_upload_bytes)
     : limits(given),
-      client_calls({.threads = 4}),
+      client_calls({.threads = std::clamp(std::thread::hardware_concurrency(), 2U, 8U)}),
       client_streams({.threads = 4}),
       worker_calls({.threads = 6}),
       worker_inputs({.threads = 2}),

@@ -10,6 +10,8 @@
 namespace affskel::server {
 namespace {
 
+constexpr std::chrono::milliseconds kBusyFor{200};  // a count of what workers are busy with holds
+
 constexpr const char* kDiskFull = "the server's disk is full; it goes on when there is room";
 
 /// Workers that are busy, seen from a job that waits for one of them.
@@ -49,11 +51,11 @@ std::string busy_text(std::size_t workers, const Rivals& rivals) {
 constexpr std::uint64_t kMegabyte = 1'000'000;
 
 /// Why none of the workers is offered a task that needs so much memory; "" when one is, or there are none.
-std::string too_large_for(const std::vector<v1::WorkerInfo>& workers, std::uint64_t need) {
+std::string too_large_for(const std::vector<WorkerRegistry::Present>& workers, std::uint64_t need) {
   std::uint64_t most = 0;
-  for (const v1::WorkerInfo& worker : workers) {
-    if (worker.memory() == 0 || worker.memory() >= need) return {};
-    most = std::max(most, worker.memory());
+  for (const WorkerRegistry::Present& worker : workers) {
+    if (worker.memory == 0 || worker.memory >= need) return {};
+    most = std::max(most, worker.memory);
   }
   if (workers.empty()) return {};
   return "needs a worker with about " + std::to_string((need + kMegabyte - 1) / kMegabyte) +
@@ -66,40 +68,38 @@ std::string too_large_for(const std::vector<v1::WorkerInfo>& workers, std::uint6
 /// What decides why jobs wait, as it is now; read when the first of them asks.
 class JobView::Reasons {
  public:
-  Reasons(Store& store, const WorkerRegistry& registry) : store_(store), registry_(registry) {}
+  explicit Reasons(const JobView& view) : view_(view), store_(view.store_), registry_(view.registry_) {}
 
   void add_to(v1::Job& job) {
     const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
     if (active && store_.disk_full()) return job.set_waiting_reason(kDiskFull);
     if (!active || !job.waiting_reason().empty()) return;
-    const std::vector<v1::WorkerInfo>& workers = connected();
+    const std::vector<WorkerRegistry::Present>& workers = connected();
     if (const std::string why = too_large_for(workers, job.memory_needed()); !why.empty()) {
       return job.set_waiting_reason(why);
     }
     if (job.state() != v1::JOB_STATE_QUEUED) return;
-    const auto idle = [](const v1::WorkerInfo& worker) { return worker.task().empty(); };
+    const auto idle = [](const WorkerRegistry::Present& worker) { return !worker.busy; };
     if (workers.empty()) {
       job.set_waiting_reason("no worker is connected");
     } else if (std::none_of(workers.begin(), workers.end(), idle)) {
-      if (!busy_) busy_ = store_.busy_with();
+      if (!busy_) busy_ = view_.busy();
       job.set_waiting_reason(busy_text(
           workers.size(), rivals_of(job, store_.options().policy.of(job.owner()).priority, *busy_)));
     }
   }
 
  private:
-  const std::vector<v1::WorkerInfo>& connected() {
-    if (!workers_) {
-      workers_ = registry_.list();
-      std::erase_if(*workers_, [](const v1::WorkerInfo& worker) { return worker.silent(); });
-    }
+  const std::vector<WorkerRegistry::Present>& connected() {
+    if (!workers_) workers_ = registry_.present();
     return *workers_;
   }
 
+  const JobView& view_;
   Store& store_;
   const WorkerRegistry& registry_;
-  std::optional<std::vector<v1::WorkerInfo>> workers_;
-  std::optional<std::vector<BusyWith>> busy_;
+  std::optional<std::vector<WorkerRegistry::Present>> workers_;
+  std::shared_ptr<const std::vector<BusyWith>> busy_;
 };
 
 EventHub::JobPtr JobView::load(const std::string& job_id) const {
@@ -111,13 +111,23 @@ EventHub::JobPtr JobView::load(const std::string& job_id) const {
   }
 }
 
+std::shared_ptr<const std::vector<BusyWith>> JobView::busy() const {
+  const base::MutexLock lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (!busy_ || now - counted_ > kBusyFor) {
+    busy_ = std::make_shared<const std::vector<BusyWith>>(store_.busy_with());
+    counted_ = now;
+  }
+  return busy_;
+}
+
 v1::Job JobView::with_reason(v1::Job job) const {
-  Reasons(store_, registry_).add_to(job);
+  Reasons(*this).add_to(job);
   return job;
 }
 
 void JobView::add_reasons(std::vector<v1::Job>& jobs) const {
-  Reasons reasons(store_, registry_);
+  Reasons reasons(*this);
   for (v1::Job& job : jobs) reasons.add_to(job);
 }
 

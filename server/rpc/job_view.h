@@ -1,9 +1,12 @@
 #pragma once
 
+#include <chrono>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "affskel/v1/client_service.pb.h"
+#include "base/mutex.h"
 #include "rpc/event_hub.h"
 #include "rpc/worker_registry.h"
 #include "store/store.h"
@@ -28,8 +31,15 @@ class JobView {
  private:
   class Reasons;
 
+  /// With what workers are busy, as of a moment ago: a crowd that asks does not make the server count for
+  /// each.
+  std::shared_ptr<const std::vector<BusyWith>> busy() const;
+
   Store& store_;
   const WorkerRegistry& registry_;
+  mutable base::Mutex mutex_;
+  mutable std::shared_ptr<const std::vector<BusyWith>> busy_ ABSL_GUARDED_BY(mutex_);
+  mutable std::chrono::steady_clock::time_point counted_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace affskel::server

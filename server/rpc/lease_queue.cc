@@ -16,6 +16,7 @@ namespace {
 using Time = std::chrono::steady_clock::time_point;
 
 constexpr std::uint32_t kMaxWaitMs = 30000;
+constexpr std::size_t kMostTogether = 64;  // polls in a transaction
 
 }  // namespace
 
@@ -173,7 +174,7 @@ void LeaseQueue::run() {
     }
     work_ = false;
     lock.unlock();
-    serve(candidates);
+    serve(std::move(candidates));
     end_expired();
     lock.lock();
     const auto something_to_do = [this] {
@@ -193,36 +194,56 @@ void LeaseQueue::run() {
   }
 }
 
-void LeaseQueue::serve(const std::list<PollPtr>& polls) {
-  for (const PollPtr& poll : polls) {
+void LeaseQueue::serve(std::list<PollPtr> polls) {
+  while (!polls.empty()) {
+    std::vector<PollPtr> together;
     {
       const base::MutexLock lock(mutex_);
       if (stopping_) return;
-      if (std::find(waiting_.begin(), waiting_.end(), poll) == waiting_.end()) continue;
+      for (; !polls.empty() && together.size() < kMostTogether; polls.pop_front()) {
+        const PollPtr& poll = polls.front();
+        if (std::find(waiting_.begin(), waiting_.end(), poll) != waiting_.end()) together.push_back(poll);
+      }
     }
-    std::optional<v1::Lease> lease;
+    serve_together(together);
+  }
+}
+
+/// Several in one transaction, so that a hundred workers do not wait for the disk a hundred times.
+void LeaseQueue::serve_together(const std::vector<PollPtr>& polls) {
+  std::vector<Store::LeaseAsk> asks;
+  for (const PollPtr& poll : polls) {
     const v1::LeaseTaskRequest& request = poll->request();
-    const grpc::Status status = guarded([&] {
-      lease =
-          store_.lease(request.worker(), request.preferred_job(), registry_.is_supervised(request.worker()),
-                       {request.held().begin(), request.held().end()});
-    });
-    if (status.ok() && !lease) continue;
-    {
-      const base::MutexLock lock(mutex_);
-      waiting_.remove(poll);
-    }
-    if (!lease) {
-      poll->answer(status);
-      continue;
-    }
-    registry_.granted(request.worker(), *lease);
-    const std::string token = lease->token();
-    if (!poll->answer(grpc::Status::OK, std::move(lease))) {
-      registry_.ended(token);
-      guarded([&] { store_.give_back(token); });
+    asks.push_back({request.worker(),
+                    request.preferred_job(),
+                    registry_.is_supervised(request.worker()),
+                    {request.held().begin(), request.held().end()}});
+  }
+  std::vector<Store::LeaseAnswer> answers;
+  const grpc::Status status = guarded([&] { answers = store_.lease_all(asks); });
+  for (std::size_t i = 0; i < polls.size(); ++i) {
+    if (!status.ok()) {
+      end_poll(polls[i], status);
+    } else if (answers[i].refused) {
+      end_poll(polls[i], guarded([&] { std::rethrow_exception(answers[i].refused); }));
+    } else if (answers[i].lease) {
+      hand_over(polls[i], *std::move(answers[i].lease));
     }
   }
+}
+
+void LeaseQueue::end_poll(const PollPtr& poll, const grpc::Status& status) {
+  remove(poll);
+  poll->answer(status);
+}
+
+void LeaseQueue::hand_over(const PollPtr& poll, v1::Lease lease) {
+  remove(poll);
+  registry_.granted(poll->request().worker(), lease);
+  const std::string token = lease.token();
+  if (poll->answer(grpc::Status::OK, std::move(lease))) return;
+  registry_.ended(token);
+  guarded([&] { store_.give_back(token); });
 }
 
 void LeaseQueue::end_expired() {

@@ -6,6 +6,7 @@
 #include <list>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "affskel/v1/worker_service.grpc.pb.h"
 #include "base/mutex.h"
@@ -37,7 +38,10 @@ class LeaseQueue {
   using PollPtr = std::shared_ptr<Poll>;
 
   void run();
-  void serve(const std::list<PollPtr>& polls);
+  void serve(std::list<PollPtr> polls);
+  void serve_together(const std::vector<PollPtr>& polls);
+  void end_poll(const PollPtr& poll, const grpc::Status& status);
+  void hand_over(const PollPtr& poll, v1::Lease lease);
   void end_expired();
   void remove(const PollPtr& poll);
 

@@ -113,6 +113,15 @@ std::int64_t WorkerRegistry::oldest_ms() const {
   return clock_.lease_ms() - kForgetMs;
 }
 
+std::vector<WorkerRegistry::Present> WorkerRegistry::present() const {
+  const base::MutexLock lock(mutex_);
+  std::vector<Present> present;
+  for (const auto& [id, entry] : workers_) {
+    if (!is_silent(entry)) present.push_back({entry.info.memory(), !entry.tasks.empty()});
+  }
+  return present;
+}
+
 std::vector<v1::WorkerInfo> WorkerRegistry::list() const {
   const base::MutexLock lock(mutex_);
   std::vector<v1::WorkerInfo> infos;

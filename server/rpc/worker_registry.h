@@ -33,6 +33,13 @@ class WorkerRegistry {
   void used(const std::string& token);
   void ended(const std::string& token);
 
+  /// What of a worker decides whether jobs wait.
+  struct Present {
+    std::uint64_t memory = 0;  ///< bytes; 0: it does not say
+    bool busy = false;
+  };
+  /// Those that are not silent.
+  std::vector<Present> present() const;
   /// Heard from in the last minute.
   std::vector<v1::WorkerInfo> list() const;
 

@@ -26,7 +26,8 @@ constexpr const char* kJobColumns =
     "j.directions_repeated,"
     " j.reports, j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
     " j.skeleton_points, e.stride, j.quality, j.pinned, j.removed_ms, j.expires_ms,"
-    " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0),"
+    " iif(j.state IN ('queued', 'running'),"
+    " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0), 0),"
     " e.core_version"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
 

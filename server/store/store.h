@@ -1,12 +1,17 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,9 +43,10 @@ void check_worker(const v1::WorkerIdentity& worker);
 
 /// The only writer of the database: jobs, their tasks and leases, fields and artefacts.
 ///
-/// Every public function is one transaction: when it throws, nothing was changed; when it returns, the
-/// change is on the disk.  Thread-safe.  All throw StoreError for what the caller did wrong and SqliteError
-/// for what the database did.  JOB in a parameter's name means an id, a prefix or "@last".
+/// Every public function is one transaction, or part of one with others that came at the same time: when it
+/// throws, nothing was changed; when it returns, the change is on the disk.  Thread-safe.  All throw
+/// StoreError for what the caller did wrong and SqliteError for what the database did.  JOB in a parameter's
+/// name means an id, a prefix or "@last".
 class Store final : public TokenSource {
  public:
   /// Opens or creates `file`, migrates it, and gives every lease that a predecessor left a new deadline:
@@ -128,8 +134,21 @@ class Store final : public TokenSource {
 
   // For workers: store_leases.cc, store_reports.cc, store_complete.cc
 
-  /// Grants the task whose turn it is (store/turn.h), or nothing.  `preferred_job` is the one that the worker
-  /// holds mesh and field of; the leases of the tokens `held` are renewed first.
+  /// A worker that asks for work.
+  struct LeaseAsk {
+    const v1::WorkerIdentity& worker;
+    std::string preferred_job;      ///< the one that it holds mesh and field of
+    bool supervised = false;        ///< it was started by this server
+    std::vector<std::string> held;  ///< tokens of leases, which are renewed first
+  };
+  struct LeaseAnswer {
+    std::optional<v1::Lease> lease;  ///< of the task whose turn it is (store/turn.h), or nothing
+    std::exception_ptr refused;      ///< a StoreError about this worker
+  };
+  /// Grants tasks to workers, in their order, in one transaction: each answer belongs to the ask at its
+  /// place.
+  std::vector<LeaseAnswer> lease_all(const std::vector<LeaseAsk>& asks);
+  /// The same for one.
   std::optional<v1::Lease> lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
                                  bool supervised, const std::vector<std::string>& held = {});
 
@@ -190,10 +209,30 @@ class Store final : public TokenSource {
   std::vector<Holder> supervised_holders();
 
  private:
+  /// What a caller wants to write.  It lives on the caller's stack, and is the business of the thread that
+  /// commits it from its coming until it has ended.
+  struct Change {
+    explicit Change(std::function<void(Tx&)> what) : body(std::move(what)) {}
+
+    const std::function<void(Tx&)> body;
+    const std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now();
+    Changes changes;           ///< of its last run
+    bool room = true;          ///< it may write more than bookkeeping
+    bool alone = false;        ///< it is not made with others
+    bool undone = false;       ///< another one of its transaction failed
+    std::exception_ptr error;  ///< why it cannot be made
+    bool ended = false;        ///< under turn_mutex_
+    std::condition_variable_any woken;
+  };
+
   template <typename Body>
   auto write(Body&& body);
-  template <typename Body>
-  auto commit(Body&& body, Changes& changes, bool& room);
+  void make(Change& change);
+  void commit(Change& change);
+  void wait_for_turn(Change& change);
+  std::size_t next_together() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(turn_mutex_);
+  void commit_together(std::span<Change* const> together);
+  void commit_all(std::span<Change* const> together);
   template <typename Body>
   auto write_field(const std::string& token, Body&& body);
   template <typename Body>
@@ -204,6 +243,7 @@ class Store final : public TokenSource {
   void expect_orphans() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool requests_turn(std::int64_t leased_requests, std::int64_t leased_blocks) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::optional<v1::Lease> grant_next(Tx& tx, const LeaseAsk& ask) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   std::optional<std::int64_t> choose_task(Database& db, const Seeker& seeker)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void make_room(const Changes& undone);
@@ -222,6 +262,8 @@ class Store final : public TokenSource {
   ChangeListener* const listener_;
   Metrics* const metrics_;
 
+  base::Mutex turn_mutex_;
+  std::deque<Change*> turns_ ABSL_GUARDED_BY(turn_mutex_);  // the first are being made
   base::Mutex mutex_;
   DiskReserve reserve_ ABSL_GUARDED_BY(mutex_);
   Database db_ ABSL_GUARDED_BY(mutex_);

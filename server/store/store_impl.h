@@ -4,7 +4,9 @@
 
 #include <spdlog/spdlog.h>
 
-#include <chrono>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "base/mutex.h"
 #include "metrics/metrics.h"
@@ -12,49 +14,21 @@
 
 namespace affskel::server {
 
-template <typename Body>
-auto Store::commit(Body&& body, Changes& changes, bool& room) {
-  const auto asked = std::chrono::steady_clock::now();
-  const base::MutexLock lock(mutex_);
-  const auto begun = std::chrono::steady_clock::now();
-  room = room && has_room();
-  Transaction transaction(db_);
-  Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), changes, room};
-  auto value = body(tx);
-  db_.claim_pages();
-  transaction.commit();
-  require_not_lost();
-  const auto committed = std::chrono::steady_clock::now();
-  changes.counts.push_back([=](Metrics& metrics) { metrics.transaction(begun - asked, committed - begun); });
-  if (changes.grown || changes.eased) reserve_.allow_retry();
-  return value;
-}
-
-/// Runs `body` in a transaction; on a disk that turns out to be full once more, on what the reserve gives and
-/// for bookkeeping only.
+/// Runs `body` in a transaction, maybe with those of others, and maybe more than once: nothing of what it did
+/// before is kept then.  Returns when it is on the disk.
 template <typename Body>
 auto Store::write(Body&& body) {
-  Changes changes;
-  auto result = [&] {
-    bool room = true;
-    try {
-      return commit(body, changes, room);
-    } catch (const SqliteError& error) {
-      if (error.primary_code() != SQLITE_FULL) throw;
-      make_room(changes);
-      if (!room) throw;  // it had the reserve already
-    }
-    changes = {};
-    room = false;
-    return commit(body, changes, room);
-  }();
+  std::optional<std::invoke_result_t<Body&, Tx&>> result;
+  Change change([&](Tx& tx) { result.emplace(body(tx)); });
+  make(change);
+  const Changes& changes = change.changes;
   if (changes.dropped) untidy_ = true;
   for (const std::string& line : changes.log) spdlog::info(line);
   if (metrics_ != nullptr) {
     for (const auto& count : changes.counts) count(*metrics_);
   }
   if (listener_ != nullptr) listener_->on_change(changes);
-  return result;
+  return *std::move(result);
 }
 
 template <typename Body>

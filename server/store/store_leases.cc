@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -160,6 +161,26 @@ void renew_held(Tx& tx, const std::string& token) {
   renew_lease(tx, resume_if_late(tx, *std::move(task)));
 }
 
+void check_asking(const Store::LeaseAsk& ask) {
+  check_worker(ask.worker);
+  if (ask.held.size() <= kMaxHeldTokens) return;
+  throw StoreError(StoreError::Code::kInvalid,
+                   "a worker that asks for work names at most " + std::to_string(kMaxHeldTokens) +
+                       " leases that it holds, not " + std::to_string(ask.held.size()));
+}
+
+void require_trusted(Database& db, const std::string& worker) {
+  if (!is_distrusted(db, worker)) return;
+  throw StoreError(
+      StoreError::Code::kForbidden,
+      "an administrator distrusts this worker; look after its machine before it is started anew");
+}
+
+/// Not about the database, or a change that was begun.
+bool is_about_caller(const StoreError& error) {
+  return error.code() == StoreError::Code::kInvalid || error.code() == StoreError::Code::kForbidden;
+}
+
 /// Requests for artefacts that nobody waits for any more, or whose failure nobody asks for.
 void drop_old_requests(Tx& tx, const std::set<std::int64_t>& orphans) {
   for (const std::int64_t id : orphans) {
@@ -191,39 +212,51 @@ std::optional<std::int64_t> Store::choose_task(Database& db, const Seeker& seeke
   return last_was_request_ ? request : next;
 }
 
-std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
-                                      bool supervised, const std::vector<std::string>& held_tokens) {
-  check_worker(worker);
-  if (held_tokens.size() > kMaxHeldTokens) {
-    throw StoreError(StoreError::Code::kInvalid,
-                     "a worker that asks for work names at most " + std::to_string(kMaxHeldTokens) +
-                         " leases that it holds, not " + std::to_string(held_tokens.size()));
+std::optional<v1::Lease> Store::grant_next(Tx& tx, const LeaseAsk& ask) {
+  check_asking(ask);
+  for (const std::string& token : ask.held) renew_held(tx, token);
+  require_trusted(tx.db, ask.worker.id());
+  if (!tx.room) return std::nullopt;  // what would come of it could not be stored
+  remember_core_version(tx, ask.worker.core_version());
+  const std::int64_t held =
+      tx.db.integer("SELECT count(*) FROM tasks WHERE state = 'leased' AND worker = ?", ask.worker.id())
+          .value_or(0);
+  if (held >= tx.options.max_leases_held) return std::nullopt;
+  const Seeker seeker = seeker_of(ask.worker, ask.preferred_job);
+  while (const std::optional<std::int64_t> id = choose_task(tx.db, seeker)) {
+    const TaskRow task = *find_task(tx.db, *id);
+    if (adopt_instead(tx, task, ask.worker.core_version())) continue;
+    const std::string token = wire::random_id();
+    grant(tx, task, ask.worker, ask.supervised, token);
+    return lease_message(tx, task, token);
   }
-  return write([&](Tx& tx) -> std::optional<v1::Lease> {
+  return std::nullopt;
+}
+
+std::vector<Store::LeaseAnswer> Store::lease_all(const std::vector<LeaseAsk>& asks) {
+  return write([&](Tx& tx) {
     mutex_.assert_held();
     expire(tx);
-    for (const std::string& token : held_tokens) renew_held(tx, token);
-    if (is_distrusted(tx.db, worker.id())) {
-      throw StoreError(
-          StoreError::Code::kForbidden,
-          "an administrator distrusts this worker; look after its machine before it is started anew");
+    std::vector<LeaseAnswer> answers;
+    for (const LeaseAsk& ask : asks) {
+      LeaseAnswer& answer = answers.emplace_back();
+      try {
+        answer.lease = grant_next(tx, ask);
+      } catch (const StoreError& error) {
+        // Others get theirs; what a refusal leaves is what it has renewed.
+        if (!is_about_caller(error)) throw;
+        answer.refused = std::current_exception();
+      }
     }
-    if (!tx.room) return std::nullopt;  // what would come of it could not be stored
-    remember_core_version(tx, worker.core_version());
-    const std::int64_t held =
-        tx.db.integer("SELECT count(*) FROM tasks WHERE state = 'leased' AND worker = ?", worker.id())
-            .value_or(0);
-    if (held >= tx.options.max_leases_held) return std::nullopt;
-    const Seeker seeker = seeker_of(worker, preferred_job);
-    while (const std::optional<std::int64_t> id = choose_task(tx.db, seeker)) {
-      const TaskRow task = *find_task(tx.db, *id);
-      if (adopt_instead(tx, task, worker.core_version())) continue;
-      const std::string token = wire::random_id();
-      grant(tx, task, worker, supervised, token);
-      return lease_message(tx, task, token);
-    }
-    return std::nullopt;
+    return answers;
   });
+}
+
+std::optional<v1::Lease> Store::lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
+                                      bool supervised, const std::vector<std::string>& held) {
+  LeaseAnswer answer = std::move(lease_all({{worker, preferred_job, supervised, held}}).front());
+  if (answer.refused) std::rethrow_exception(answer.refused);
+  return std::move(answer.lease);
 }
 
 v1::ReportResponse Store::renew(const std::string& token) {

@@ -36,6 +36,11 @@ void Calls::print() const {
   for (const auto& [what, number] : failures_) std::printf("failed %zu times: %s\n", number, what.c_str());
 }
 
+void Calls::forget_times() {
+  const std::lock_guard lock(mutex_);
+  times_ms_.clear();
+}
+
 std::size_t Calls::failures() const {
   const std::lock_guard lock(mutex_);
   std::size_t sum = 0;

@@ -31,6 +31,9 @@ class Calls {
   /// One line for each name: number, median, 99th percentile and longest in milliseconds; then the failures.
   void print() const;
 
+  /// From now on only later calls are told; failures are kept.
+  void forget_times();
+
   std::size_t failures() const;
 
  private:

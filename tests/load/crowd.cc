@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <optional>
@@ -18,6 +19,7 @@ namespace affskel::load {
 namespace {
 
 constexpr int kSenders = 8;
+constexpr int kFirstSeconds = 10;
 
 grpc::Status get(v1::ErosionService::Stub& stub, const std::string& id) {
   grpc::ClientContext context;
@@ -126,7 +128,14 @@ bool run_crowd(const LoadOptions& options) {
   if (options.metrics) {
     threads.emplace_back([&] { run_scraper(lab.metrics_address(), stop.get_token(), calls); });
   }
-  tests::let_pass(std::chrono::seconds(options.seconds));
+  const int first = std::min(options.seconds, kFirstSeconds);
+  tests::let_pass(std::chrono::seconds(first));
+  if (options.seconds > first) {
+    std::printf("crowd: the first %d s, in which all come at once\n", first);
+    calls.print();
+    calls.forget_times();
+  }
+  tests::let_pass(std::chrono::seconds(options.seconds - first));
   const ProcessStats stats = stats_of(server.pid());
   stop.request_stop();
   for (std::thread& thread : threads) thread.join();

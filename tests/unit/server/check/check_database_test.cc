@@ -371,7 +371,7 @@ const Planted kPlanted[] = {
     {"QueueOwner", sql("UPDATE tasks SET owner = 'eve' WHERE job_id = JOB(queued)"),
      "its place in the queue"},
     {"QueueMissing", sql("DELETE FROM queues"), "counts 0 ready tasks of priority 5, there are "},
-    {"QueueLeftOver", sql("INSERT INTO queues VALUES ('ada', 0, 'c', 0, 7, 0, 2)"),
+    {"QueueLeftOver", sql("INSERT INTO queues VALUES ('ada', 0, 'c', 0, 7, 0, 2, 5)"),
      "counts 2 ready tasks of priority 7, there are none"},
     {"QueueTurn", sql("UPDATE queues SET turn = turn + 1"), "does not have its owner's turn"},
     {"ErosionParams", sql("UPDATE erosions SET params = x'ff'"), ", parameters: a stored message"},

@@ -367,7 +367,7 @@ TEST_F(RetentionTest, ALongRunGoesInShortStepsAndTheFileShrinks) {
           " directions, stride, directions_done, 1 FROM erosions WHERE mesh_sha256 = ?1 LIMIT 1",
           mesh, i);
       const std::int64_t erosion = db.last_insert_rowid();
-      db.run("INSERT INTO field_chunks (erosion_id, idx, data) VALUES (?, 0, zeroblob(2000))", erosion);
+      db.run("INSERT INTO field_chunks (erosion_id, idx, data) VALUES (?, 0, zeroblob(8000))", erosion);
       db.run(
           "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
           "created_ms,"
