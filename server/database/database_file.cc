@@ -93,9 +93,17 @@ void remove_with_logs(const std::string& file) {
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) unlink((file + suffix).c_str());
 }
 
+/// SQLite does not tell why it could not make a file.
+void make_empty(const std::string& file) {
+  const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (fd < 0) throw std::system_error(errno, std::generic_category(), "database " + file);
+  close(fd);
+}
+
 void make_database(const std::string& file) {
   const std::string unfinished = file + ".new";
   remove_with_logs(unfinished);
+  make_empty(unfinished);
   try {
     Database db(unfinished, Database::Mode::kReadWrite);
     migrate(db);

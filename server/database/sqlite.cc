@@ -32,14 +32,39 @@ constexpr int kPagesCopied = 1024;
 // The database file grows in steps of this size.
 constexpr int kGrowthBytes = 1 << 20;
 
+/// The error of making a small file beside this one; 0 when that works.  The file itself must not be opened:
+/// closing it would release SQLite's locks.
+int probe_disk(const std::string& file) {
+  const std::string probe = file + ".probe";
+  unlink(probe.c_str());  // of one who was killed here
+  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (fd < 0) return errno;
+  const int error = posix_fallocate(fd, 0, kPageBytes);
+  close(fd);
+  unlink(probe.c_str());
+  return error;
+}
+
+std::string name_of(sqlite3* db) {
+  const char* name = sqlite3_db_filename(db, "main");
+  return name == nullptr ? "" : name;
+}
+
+bool means_no_room(int cause) {
+  return cause == ENOSPC || cause == EDQUOT;
+}
+
 /// The error code.  SQLite reports a full quota, and a full disk while it writes the log's index, as I/O
-/// errors: they become SQLITE_FULL.
+/// errors, and a log that cannot be made for want of an inode without its cause: they become SQLITE_FULL.
 int code_of(sqlite3* db) {
   const int code = sqlite3_extended_errcode(db);
   const int primary = code & 0xff;
   const int cause = sqlite3_system_errno(db);
-  const bool no_room = cause == ENOSPC || cause == EDQUOT;
-  return no_room && (primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN) ? SQLITE_FULL : code;
+  if (primary != SQLITE_IOERR && primary != SQLITE_CANTOPEN) return code;
+  if (means_no_room(cause)) return SQLITE_FULL;
+  const bool tells = primary == SQLITE_IOERR || cause == EMFILE || cause == ENFILE;
+  const std::string file = name_of(db);
+  return !tells && !file.empty() && means_no_room(probe_disk(file)) ? SQLITE_FULL : code;
 }
 
 bool failed_reading(int code) {
@@ -51,12 +76,12 @@ bool failed_reading(int code) {
 std::string describe(sqlite3* db, int code, int cause, const std::string& context) {
   if (db == nullptr) return "database " + context + ": out of memory";
   const int primary = code & 0xff;
-  const char* name = sqlite3_db_filename(db, "main");
-  const std::string file = name == nullptr || *name == '\0' ? context : name;
+  const std::string name = name_of(db), file = name.empty() ? context : name;
   if (primary == SQLITE_IOERR) {
     const std::string why = cause != 0 ? std::strerror(cause) : sqlite3_errmsg(db);
     return "database " + file + (failed_reading(code) ? ": cannot be read: " : ": cannot be written: ") + why;
   }
+  if (code == SQLITE_FULL) return "database " + file + ": no room on the disk (space or inodes)";
   if (primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB) {
     return "database " + file + ": is damaged (" + sqlite3_errmsg(db) + "): stop the server and run" +
            " affskel-server check --repair, or restore a backup";
@@ -252,23 +277,6 @@ Statement Database::prepare(const char* sql) {
   slot->busy = true;
   return {slot->statement, &slot->busy};
 }
-
-namespace {
-
-/// The error of making a small file beside this one; 0 when that works.  The file itself must not be opened:
-/// closing it would release SQLite's locks.
-int probe_disk(const std::string& file) {
-  const std::string probe = file + ".probe";
-  unlink(probe.c_str());  // of one who was killed here
-  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (fd < 0) return errno;
-  const int error = posix_fallocate(fd, 0, kPageBytes);
-  close(fd);
-  unlink(probe.c_str());
-  return error;
-}
-
-}  // namespace
 
 void Database::claim_pages() {
   sqlite3_int64 bytes =

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "base/regular_file.h"
@@ -24,12 +25,17 @@ namespace {
   throw std::runtime_error("data directory " + path + ": " + why);
 }
 
+/// With the system's reason, by which the caller tells what may pass by itself.
+[[noreturn]] void refuse(const std::string& path, const char* what, int error) {
+  throw std::system_error(error, std::generic_category(), "data directory " + path + what);
+}
+
 std::string make_directory(const std::string& path) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
   if (error) refuse(path, error.message());
   if (absolute.has_parent_path()) std::filesystem::create_directories(absolute.parent_path(), error);
-  if (mkdir(absolute.c_str(), 0700) != 0 && errno != EEXIST) refuse(path, std::strerror(errno));
+  if (mkdir(absolute.c_str(), 0700) != 0 && errno != EEXIST) refuse(path, "", errno);
   if (!std::filesystem::is_directory(absolute, error)) refuse(path, "not a directory");
   return absolute.lexically_normal().string();
 }
@@ -70,12 +76,12 @@ DataDir::DataDir(const std::string& path, std::chrono::milliseconds patience) : 
     refuse(path_, std::string("server.lock is ") + kind + ", not a regular file");
   }
   lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (lock_ < 0) refuse(path_, "server.lock: " + std::string(std::strerror(errno)));
+  if (lock_ < 0) refuse(path_, ": server.lock", errno);
   if (!lock_within(lock_, patience)) {
     const int error = errno;
     const std::string holder = read_pid(lock_);
     close(lock_);
-    if (error != EWOULDBLOCK) refuse(path_, "server.lock: " + std::string(std::strerror(error)));
+    if (error != EWOULDBLOCK) refuse(path_, ": server.lock", error);
     throw DataDirInUse("data directory " + path_ + ": another affskel-server uses it (" + holder + ")");
   }
   // For people and for the message above only; the lock itself is what counts.
@@ -83,9 +89,9 @@ DataDir::DataDir(const std::string& path, std::chrono::milliseconds patience) : 
   const bool told = ftruncate(lock_, 0) == 0 && pwrite(lock_, pid.data(), pid.size(), 0) >= 0;
   // On a full disk this must not keep the server from starting: it is what jobs are deleted with.
   if (!told && errno != ENOSPC && errno != EDQUOT) {
-    const std::string why = std::strerror(errno);
+    const int error = errno;
     close(lock_);
-    refuse(path_, "server.lock: " + why);
+    refuse(path_, ": server.lock", error);
   }
 }
 
@@ -113,7 +119,7 @@ void DataDir::publish(const std::vector<std::string>& addresses, const std::opti
   out << json.dump() << '\n';
   out.close();
   if (!out || rename(temporary.c_str(), file.c_str()) != 0) {
-    refuse(path_, "cannot write server.json: " + std::string(std::strerror(errno)));
+    refuse(path_, ": cannot write server.json", errno);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -262,10 +263,11 @@ ExitCode exit_code_of(const SqliteError& error) {
                                                                                 : ExitCode::kInternal;
 }
 
-/// Threads and memory may be there again in a moment: a service manager is to try.
+/// Threads, memory, descriptors, room and inodes may be there again in a moment: a service manager is to try.
 ExitCode exit_code_of(const std::system_error& error) {
-  const bool short_of_something = error.code() == std::errc::resource_unavailable_try_again ||
-                                  error.code() == std::errc::not_enough_memory;
+  const int code = error.code().value();
+  if (code == ENOSPC || code == EDQUOT) return ExitCode::kLimit;
+  const bool short_of_something = code == EAGAIN || code == ENOMEM || code == EMFILE || code == ENFILE;
   return short_of_something ? ExitCode::kInternal : ExitCode::kUsage;
 }
 

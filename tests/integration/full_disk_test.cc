@@ -37,6 +37,21 @@ class FullDiskTest : public testing::Test {
   Lab lab_;
 };
 
+// The directory itself takes two, the last number lets the database be made but not server.json.
+TEST_F(FullDiskTest, AStartWithoutInodesIsForAServiceManagerToRepeat) {
+  for (int inodes = 2; inodes <= 8; ++inodes) {
+    SCOPED_TRACE(inodes);
+    const Output start =
+        lab_.run(lab_.on_small_disk("size=64m,nr_inodes=" + std::to_string(inodes),
+                                    {AFFSKEL_SERVER_BINARY, "--data-dir", lab_.path("disk/data"), "--listen",
+                                     lab_.address(), "--idle-exit", "0"}));
+    EXPECT_EQ(start.exit_code, kLimit) << start.err;
+    EXPECT_TRUE(start.err.find("No space left") != std::string::npos ||
+                start.err.find("inodes") != std::string::npos)
+        << start.err;
+  }
+}
+
 // The field of the large job alone is 60 MB, its first report 72 MB, and they go through a log.
 TEST_F(FullDiskTest, CancelAndDeleteMakeRoomForTheNextJob) {
   const Process server = lab_.server_on_small_disk("100m", {"--workers", "1"});

@@ -183,13 +183,21 @@ bool Lab::can_mount() const {
   return run(arguments).exit_code == 0;
 }
 
-Process Lab::server_on_small_disk(const std::string& size, const std::vector<std::string>& options) const {
+std::vector<std::string> Lab::on_small_disk(const std::string& limits,
+                                            const std::vector<std::string>& command) const {
+  std::filesystem::create_directory(path("disk"));
   std::vector<std::string> arguments =
-      in_own_mounts("mount -t tmpfs -o size=\"$1\" none \"$2\" && shift 2 && exec \"$@\"");
-  arguments.insert(arguments.end(), {size, path("disk"), AFFSKEL_SERVER_BINARY, "--data-dir",
-                                     path("disk/data"), "--listen", address()});
-  arguments.insert(arguments.end(), options.begin(), options.end());
-  Process process(arguments, path("server.log"));
+      in_own_mounts("mount -t tmpfs -o \"$1\" none \"$2\" && shift 2 && exec \"$@\"");
+  arguments.insert(arguments.end(), {limits, path("disk")});
+  arguments.insert(arguments.end(), command.begin(), command.end());
+  return arguments;
+}
+
+Process Lab::server_on_small_disk(const std::string& size, const std::vector<std::string>& options) const {
+  std::vector<std::string> command = {AFFSKEL_SERVER_BINARY, "--data-dir", path("disk/data"), "--listen",
+                                      address()};
+  command.insert(command.end(), options.begin(), options.end());
+  Process process(on_small_disk("size=" + size, command), path("server.log"));
   wait_for_server();
   return process;
 }

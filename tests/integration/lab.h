@@ -70,6 +70,9 @@ class Lab {
   /// The same where data directory and everything else in path("disk") share so many bytes.  Only this server
   /// sees what is in there.
   Process server_on_small_disk(const std::string& size, const std::vector<std::string>& options = {}) const;
+  /// A command that has path("disk") to itself, with limits as tmpfs takes them: "size=100m", "nr_inodes=5".
+  std::vector<std::string> on_small_disk(const std::string& limits,
+                                         const std::vector<std::string>& command) const;
   /// Whether this process may do that.
   bool can_mount() const;
   Process worker(const std::vector<std::string>& options = {}) const;
