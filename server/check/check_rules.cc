@@ -48,6 +48,9 @@ constexpr const char* kProgress[] = {
     "SELECT 'erosion ' || id, 'is finished, but not all of its field is merged' FROM erosions e"
     " WHERE finished = 1 AND dropped = 0 AND EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)",
 
+    "SELECT 'erosion ' || e.id, 'has ' || e.mesh_bytes || ' bytes of mesh noted, the mesh has ' || m.bytes"
+    " FROM erosions e JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE e.mesh_bytes <> m.bytes",
+
     "SELECT 'artefact ' || a.id, 'a ' || a.kind || ' of erosion ' || e.id || ', which is not finished'"
     " FROM artifacts a JOIN erosions e ON e.id = a.erosion_id"
     " WHERE a.kind NOT IN ('lattice', 'directions') AND e.finished = 0 AND e.dropped = 0",

@@ -21,15 +21,16 @@ Enum value_of(const std::string& word) {
 // In the order in which read_job takes them.
 constexpr const char* kJobColumns =
     "SELECT j.seq, j.erosion_id, j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton,"
-    " e.mesh_sha256, m.bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms,"
+    " e.mesh_sha256, e.mesh_bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms,"
     " j.finished_ms, j.error_code, j.error_message, j.error_line, j.directions_reported, "
     "j.directions_repeated,"
     " j.reports, j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
     " j.skeleton_points, e.stride, j.quality, j.pinned, j.removed_ms, j.expires_ms,"
-    " iif(j.state IN ('queued', 'running'),"
+    " iif(EXISTS (SELECT 1 FROM tasks INDEXED BY tasks_in_need WHERE job_id = j.id AND state = 'pending'"
+    " AND parked = 0 AND needs_memory > 0),"
     " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0), 0),"
     " e.core_version"
-    " FROM jobs j JOIN erosions e ON e.id = j.erosion_id JOIN meshes m ON m.sha256 = e.mesh_sha256 ";
+    " FROM jobs j JOIN erosions e ON e.id = j.erosion_id ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
   if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {

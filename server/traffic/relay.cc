@@ -18,6 +18,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <boost/system/system_error.hpp>
 #include <cerrno>
 #include <system_error>
 #include <thread>
@@ -180,13 +181,19 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     if (server_ == nullptr && guard_.begun()) connect();
     if (server_ == nullptr || !unsent_.empty()) unsent_.append(piece.first(got));
     if (server_ == nullptr) co_return true;
-    if (unsent_.empty()) {
-      co_await server_->write(asio::buffer(piece.first(got)));
-    } else {
-      co_await server_->write(asio::buffer(unsent_));
-      unsent_ = {};
+    if (unsent_.empty()) co_return co_await pass_to_server(piece.first(got));
+    const std::string first = std::exchange(unsent_, {});
+    co_return co_await pass_to_server(first);
+  }
+
+  /// False when gRPC has hung up: the client is still to hear what it has said before.
+  asio::awaitable<bool> pass_to_server(std::string_view bytes) {
+    try {
+      co_await server_->write(asio::buffer(bytes));
+      co_return true;
+    } catch (const boost::system::system_error&) {
+      co_return false;
     }
-    co_return true;
   }
 
   asio::awaitable<void> pause(Clock::duration wait) {

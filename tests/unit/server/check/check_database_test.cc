@@ -327,6 +327,7 @@ const Planted kPlanted[] = {
      sql("UPDATE tasks SET end_position = end_position - 1 WHERE job_id = JOB(eroding) AND first_position = "
          "0"),
      "do not cover"},
+    {"NotedMeshBytes", sql("UPDATE erosions SET mesh_bytes = mesh_bytes + 1"), "bytes of mesh noted"},
     {"AllBlocks", sql("DELETE FROM tasks WHERE job_id = JOB(eroding)"), "do not cover"},
     {"BlockDone", sql("UPDATE tasks SET state = 'done' WHERE job_id = JOB(eroding)"),
      "is done, but not all of its positions are"},
