@@ -6,7 +6,7 @@
 namespace affskel::worker {
 namespace {
 
-// Measured, see the README's limits.
+// Measured, see core/README.md, limits.
 constexpr std::uint64_t kPerTriangle = 235;
 constexpr std::uint64_t kPerPoint = 52;
 

@@ -10,7 +10,7 @@
 namespace affskel::server {
 namespace {
 
-// Measured, see the README's limits.
+// Measured, see worker/core/README.md, limits.
 constexpr std::uint64_t kPerTriangle = 235;
 constexpr std::uint64_t kPerPoint = 52;
 constexpr std::uint64_t kSheetPerPoint = 200;

@@ -1,4 +1,4 @@
-"""Runs the commands of the README's `sh` blocks, all of them, in their order, in one shell and one folder.
+"""Runs the commands of the `sh` blocks of the README and of the pages that go on with it, in one shell and one folder.
 
 Every command must exit 0.  Servers, workers and the web page stay until the end, as in terminals of their own: the next
 command is typed once they are up.  What a command names with -o or > must be there and not empty afterwards.
@@ -7,8 +7,8 @@ With the programs of a build tree, lines of deploy/ and cmake are left out, for 
 which the checkout is copied, deploy/quickstart installs and builds in it first, and what it says that it leaves must be
 there; deploy/run-tests, which runs this test, and cmake are left out.
 
-Usage: readme_test.py README BINARY-FOLDER
-       readme_test.py README --root ROOT-TARBALL FOLDER-OF-hosts.py
+Usage: readme_test.py SOURCES BINARY-FOLDER
+       readme_test.py SOURCES --root ROOT-TARBALL FOLDER-OF-hosts.py
 """
 
 import os
@@ -26,13 +26,14 @@ import threading
 STAY = re.compile(r"affskel-server --data-dir|affskel-worker --|affskel-client( --\S+( [^-]\S*)?)* web\b")
 LEFT_OUT = re.compile(r"(deploy/|cmake |export PATH=)")
 UP = re.compile(r"event=(listening|ready)|^https?://")  # of a server, a worker, the page
+PAGES = ("README.md", "server/README.md")  # in their order
 LIMIT = 120  # seconds for one command
 BUILD_LIMIT = 7200  # for installing and building
 
 
-def commands_of(readme):
+def commands_of(page):
     """The command lines, without comments; a line that ends in \\ goes on in the next."""
-    for block in re.findall(r"^```sh\n(.*?)^```$", readme, re.M | re.S):
+    for block in re.findall(r"^```sh\n(.*?)^```$", page, re.M | re.S):
         for line in block.replace("\\\n", " ").splitlines():
             words = shlex.split(line, comments=True)
             if words and not LEFT_OUT.match(line):
@@ -155,13 +156,16 @@ def in_bare_root(lines, checkout, tarball):
 
 
 def main():
-    readme = pathlib.Path(sys.argv[1])
-    lines = list(commands_of(readme.read_text(encoding="utf-8")))
-    if len(lines) < 20:
-        raise SystemExit("the README has lost its commands")
+    sources = pathlib.Path(sys.argv[1])
+    lines = []
+    for page in PAGES:
+        found = list(commands_of((sources / page).read_text(encoding="utf-8")))
+        if not found:
+            raise SystemExit(f"{page} has lost its commands")
+        lines += found
     if sys.argv[2] == "--root":
         sys.path.insert(0, sys.argv[4])
-        in_bare_root(lines, readme.parent, sys.argv[3])
+        in_bare_root(lines, sources, sys.argv[3])
     else:
         with_programs(lines, sys.argv[2])
     print(f"{len(lines)} commands")
