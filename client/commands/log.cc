@@ -11,13 +11,14 @@ namespace {
 void run(Context& context, const std::string& name) {
   const v1::ListJobEventsResponse response = context.session().job_events(name);
   context.console().result(event_lines(response));
-  for (const v1::JobEvent& event : response.events()) {
-    nlohmann::ordered_json document = {{"job", response.job()}};
-    document.update(to_json(event));
+  // Every line is an event; the last one also says whose values the job has by now.
+  nlohmann::ordered_json told = to_json(response);
+  nlohmann::ordered_json& events = told["events"];
+  if (!events.empty()) events.back()["givers"] = told["givers"];
+  for (const nlohmann::ordered_json& event : events) {
+    nlohmann::ordered_json document = {{"job", told["job"]}};
+    document.update(event);
     context.console().document(document);
-  }
-  for (const v1::Giver& giver : response.givers()) {
-    context.console().document({{"job", response.job()}, {"giver", to_json(giver)}});
   }
 }
 
@@ -28,7 +29,8 @@ void add_log(CommandLine& line) {
   CLI::App* command =
       line.add("log", "What happened to a job, oldest first",
                "  affskel-client log @last\n"
-               "  affskel-client --json log @last | jq -r 'select(.event == \"lease_lost\").worker'",
+               "  affskel-client --json log @last | jq -r 'select(.event == \"lease_lost\").worker'\n"
+               "  affskel-client --json log @last | jq -r '.givers[]?.worker'",
                [job](Context& context) { run(context, *job); });
   add_job(command, *job);
 }

@@ -139,6 +139,10 @@ TEST_F(OperatorsTest, AJobsLogTellsItsLife) {
     }
   }
   EXPECT_TRUE(running.empty());
+  EXPECT_FALSE(all.front().contains("givers"));
+  const json& givers = all.back().at("givers");
+  ASSERT_EQ(givers.size(), 1U) << givers;
+  EXPECT_EQ(givers.at(0).at("directions"), 2048) << "the one worker gave them all";
   EXPECT_NE(lab_.client({"log", "@last"}).out.find("submitted  "), std::string::npos);
   EXPECT_EQ(lab_.client({"log", "000000"}).exit_code, 4);
 }
