@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "available_memory.h"
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "core/base/error.h"
@@ -27,6 +26,7 @@
 #include "core/solid/solid.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
+#include "job/available_memory.h"
 #include "wire/direction_order.h"
 #include "wire/sha256.h"
 

@@ -16,7 +16,7 @@
 #include "base/stop_signals.h"
 #include "compute.h"
 #include "core/base/error.h"
-#include "lease_loop.h"
+#include "loop/lease_loop.h"
 #include "wire/address.h"
 #include "wire/grpc_log.h"
 #include "wire/version.h"

@@ -9,8 +9,8 @@
 #include "database/errors.h"
 #include "database/migrate.h"
 #include "store/clock.h"
+#include "store/job_life.h"
 #include "store/restart.h"
-#include "store/tasks.h"
 #include "store/tx.h"
 
 namespace affskel::server {

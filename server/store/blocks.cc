@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "store/tasks.h"
+#include "store/task_rows.h"
 
 namespace affskel::server {
 namespace {

@@ -8,8 +8,10 @@
 #include "store/field.h"
 #include "store/givers.h"
 #include "store/job_events.h"
+#include "store/job_life.h"
 #include "store/restart.h"
-#include "store/tasks.h"
+#include "store/task_leases.h"
+#include "store/task_rows.h"
 
 namespace affskel::server {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "affskel/v1/client_service.pb.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 #include "store/tx.h"
 
 namespace affskel::server {

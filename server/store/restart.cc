@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "store/blocks.h"
+#include "store/job_life.h"
 #include "store/rows.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 
 namespace affskel::server {
 namespace {

@@ -5,7 +5,7 @@
 #include "store/job_events.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 
 namespace affskel::server {
 namespace {

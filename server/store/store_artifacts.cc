@@ -9,7 +9,7 @@
 #include "store/job_events.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 #include "wire/artifact_kinds.h"
 #include "wire/words.h"
 

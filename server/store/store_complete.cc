@@ -7,10 +7,12 @@
 #include "database/errors.h"
 #include "store/blocks.h"
 #include "store/job_events.h"
+#include "store/job_life.h"
 #include "store/memory_need.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
-#include "store/tasks.h"
+#include "store/task_leases.h"
+#include "store/task_rows.h"
 #include "wire/artifact_kinds.h"
 #include "wire/sha256.h"
 

@@ -5,11 +5,12 @@
 #include "store/distrust.h"
 #include "store/givers.h"
 #include "store/job_events.h"
+#include "store/job_life.h"
 #include "store/memory_need.h"
 #include "store/quota.h"
 #include "store/retention.h"
 #include "store/store_impl.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 #include "wire/words.h"
 
 namespace affskel::server {

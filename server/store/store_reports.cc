@@ -2,9 +2,11 @@
 
 #include "database/errors.h"
 #include "store/givers.h"
+#include "store/job_life.h"
 #include "store/space.h"
 #include "store/store_impl.h"
-#include "store/tasks.h"
+#include "store/task_leases.h"
+#include "store/task_rows.h"
 #include "wire/words.h"
 
 namespace affskel::server {

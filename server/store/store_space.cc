@@ -11,9 +11,9 @@
 #include "base/logfmt.h"
 #include "base/mutex.h"
 #include "database/errors.h"
+#include "store/job_life.h"
 #include "store/space.h"
 #include "store/store_impl.h"
-#include "store/tasks.h"
 
 namespace affskel::server {
 namespace {

@@ -5,7 +5,7 @@
 #include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/submission.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 #include "wire/identity.h"
 
 namespace affskel::server {

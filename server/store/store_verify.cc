@@ -1,5 +1,6 @@
 #include "database/errors.h"
 #include "store/store_impl.h"
+#include "store/task_leases.h"
 #include "store/verification.h"
 #include "wire/words.h"
 

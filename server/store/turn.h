@@ -6,7 +6,7 @@
 #include <string>
 
 #include "database/sqlite.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 #include "store/tx.h"
 
 namespace affskel::server {

@@ -8,7 +8,7 @@
 
 #include "affskel/v1/client_service.pb.h"
 #include "store/givers.h"
-#include "store/tasks.h"
+#include "store/task_rows.h"
 #include "store/turn.h"
 
 namespace affskel::server {

@@ -32,7 +32,7 @@ class IncludeArrows(unittest.TestCase):
             ({"proto/wire": [], "server/store": []}, "may not include proto/wire"),
             ({"server/store": ["proto/wire"], "proto/wire": []}, "does not stand above it"),
             ({"proto/wire": []}, "its room is not listed"),
-            ({"proto/wire": [], "server/store": ["proto/wire"], "server/rpc": []}, "there is no source in it"),
+            ({"proto/wire": [], "server/store": ["proto/wire"], "server/services": []}, "there is no source in it"),
             ({"a": [], "proto/wire": ["a"], "server/store": ["proto/wire"]}, "may include a, but does not"),
         ]
         for rooms, words in cases:

@@ -10,7 +10,7 @@
 
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "affskel/v1/worker_service.grpc.pb.h"
-#include "rpc/server.h"
+#include "services/server.h"
 #include "store_fixture.h"
 
 namespace affskel::server {

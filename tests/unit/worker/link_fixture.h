@@ -13,9 +13,9 @@
 
 #include "fake_server.h"
 #include "job/prepared_job.h"
-#include "last_report.h"
+#include "link/last_report.h"
+#include "link/server_link.h"
 #include "sample_job.h"
-#include "server_link.h"
 
 namespace affskel::worker {
 

@@ -19,9 +19,9 @@
 #include "process/options.h"
 #include "process/run.h"
 #include "process/supervisor.h"
-#include "rpc/listen.h"
-#include "rpc/server.h"
+#include "services/server.h"
 #include "store_fixture.h"
+#include "traffic/listen.h"
 
 namespace affskel::server {
 namespace {

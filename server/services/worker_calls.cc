@@ -1,0 +1,165 @@
+#include "services/worker_calls.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "database/errors.h"
+#include "wire/limits.h"
+
+namespace affskel::server {
+namespace {
+
+[[noreturn]] void refuse(const char* why) {
+  throw StoreError(StoreError::Code::kInvalid, why);
+}
+
+[[noreturn]] void refuse_without_header() {
+  refuse("the first message must be the header");
+}
+
+}  // namespace
+
+ReportCall::ReportCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store,
+                       WorkerRegistry& registry, BoundsExchange& bounds, v1::ReportResponse& response)
+    : Receiving(room, room.worker_calls, context, Method::kReportErosion, room.reports),
+      store_(store),
+      registry_(registry),
+      bounds_(bounds),
+      response_(response),
+      held_(room.records_bytes) {}
+
+void ReportCall::on_message(v1::ReportErosionRequest& message) {
+  if (!header_) {
+    if (!message.has_header()) refuse_without_header();
+    begin(message.header());
+    return;
+  }
+  if (!message.has_records()) refuse("only records may follow the header of a report");
+  if (message.records().point_size() > wire::kRecordsPerMessage) {
+    refuse("a message has at most 32768 records");
+  }
+  with_lease(room(), registry_, header_->token(), [&] {
+    take(message.records());
+    return false;
+  });
+}
+
+void ReportCall::begin(const v1::ReportErosionHeader& header) {
+  header_ = header;
+  if (header.bounds_for().size() > kMaxWorkerIdBytes) refuse("a worker's id has at most 64 bytes");
+  with_lease(room(), registry_, header.token(), [&] {
+    const Store::ErodeLease lease = store_.erode_lease(header.token());
+    job_ = lease.job;
+    batch_.emplace(lease.points, lease.directions, lease.volume);
+    return false;
+  });
+}
+
+void ReportCall::take(const v1::FieldRecords& records) {
+  const auto count = static_cast<std::uint64_t>(records.point_size());
+  // Parts are as large as there is room for, over all reports.
+  if (batch_->full() || !held_.take(count * sizeof(wire::PointRecord))) merge();
+  batch_->append(records);
+  received_ += count;
+}
+
+void ReportCall::merge() {
+  if (!batch_->records().empty()) {
+    batch_->sort();
+    store_.report_part(header_->token(), *batch_);
+    if (!header_->bounds_for().empty()) {
+      bounds_.pass_on(job_, header_->bounds_for(), batch_->records());
+    }
+  }
+  batch_->clear();
+  held_.give_back();
+}
+
+void ReportCall::on_end() {
+  if (!header_) refuse_without_header();
+  with_lease(room(), registry_, header_->token(), [&] { return finish(); });
+}
+
+bool ReportCall::finish() {
+  // A stream that broke can look like one that ended; what it carried may be only half of a report.
+  if (is_cancelled() || (header_->has_records() && header_->records() != received_)) {
+    refuse("the report broke off: not all of its records arrived");
+  }
+  batch_->sort();
+  response_ = store_.report(*header_, *batch_);
+  if (!header_->bounds_for().empty()) {
+    const std::uint32_t room = header_->bounds_bytes() == 0
+                                   ? wire::kUsualBoundsBytes
+                                   : std::min(header_->bounds_bytes(), wire::kMostBoundsBytes);
+    bounds_.exchange(job_, header_->bounds_for(), batch_->records(), room, response_);
+    if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(job_);
+  }
+  return response_.cancelled() || header_->block_done();
+}
+
+ResultCall::ResultCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store,
+                       WorkerRegistry& registry, v1::ReportResponse& response)
+    : Receiving(room, room.worker_calls, context, Method::kCompleteTask, room.results),
+      store_(store),
+      registry_(registry),
+      response_(response) {}
+
+void ResultCall::on_message(v1::CompleteTaskRequest& message) {
+  if (header_) {
+    registry_.used(header_->token());
+    try {
+      data_->add_message(message);
+    } catch (const CallEnded&) {
+      room().relieve_uploads();
+      throw;
+    }
+    return;
+  }
+  if (!message.has_header()) refuse_without_header();
+  header_ = message.header();
+  if (header_->bytes() > wire::kMaxResultBytes) {
+    throw StoreError(StoreError::Code::kLimit, "a result has at most 2^31 - 1 bytes");
+  }
+  data_.emplace(room().upload_bytes, header_->bytes());
+}
+
+void ResultCall::on_end() {
+  if (!header_) refuse_without_header();
+  with_lease(room(), registry_, header_->token(), [&] {
+    response_ = store_.complete(*header_, data_->data());
+    return true;
+  });
+}
+
+InputCall::InputCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store,
+                     WorkerRegistry& registry, const v1::FetchInputRequest& request)
+    : Sending(room, room.worker_inputs, context, Method::kFetchInput),
+      store_(store),
+      registry_(registry),
+      request_(request) {}
+
+StreamCall::After InputCall::open() {
+  const std::weak_ptr<StreamCall> weak = weak_from_this();
+  room().inputs.enter_later(caller(), weak, [this, weak](const grpc::Status& status, CallLimit::Place place) {
+    const auto alive = weak.lock();
+    if (alive == nullptr) return;
+    const auto held = std::make_shared<CallLimit::Place>(std::move(place));
+    run([this, status, held] {
+      if (!status.ok()) throw CallEnded(status);
+      return send_input(std::move(*held));
+    });
+  });
+  return After::kWait;
+}
+
+StreamCall::After InputCall::send_input(CallLimit::Place place) {
+  std::unique_ptr<BlobReader> reader;
+  with_lease(room(), registry_, request_.token(), [&] {
+    reader = store_.open_input(request_.token(), request_.kind());
+    return false;
+  });
+  return send(std::move(place), std::move(reader), nullptr);
+}
+
+}  // namespace affskel::server

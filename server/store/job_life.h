@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "affskel/v1/types.pb.h"
+#include "store/tx.h"
+
+namespace affskel::server {
+
+/// A job's stage ends, and the next one, which the caller sets, begins: counts how long it took.
+void end_stage(Tx& tx, const std::string& job_id);
+
+/// Fails an active job.
+void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error);
+
+/// Moves a job on as far as it can go without a worker: next stage, done, cancelled.  Called after every
+/// change to its tasks.
+void settle_job(Tx& tx, const std::string& job_id);
+
+/// Marks the pending blocks as done of which nothing is left.
+void finish_whole_blocks(Tx& tx, const std::string& job_id);
+
+/// Moves on the jobs whose last block ended when there was no room for their fields.
+void settle_finished_blocks(Tx& tx);
+
+}  // namespace affskel::server

@@ -1,0 +1,39 @@
+#include "job/job_shelf.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace affskel::worker {
+namespace {
+
+// Measured, see core/README.md, limits.
+constexpr std::uint64_t kPerTriangle = 235;
+constexpr std::uint64_t kPerPoint = 52;
+
+}  // namespace
+
+std::uint64_t bytes_of(const PreparedJob& job) {
+  return job.solid().mesh.triangles.size() * kPerTriangle + job.lattice().points * kPerPoint;
+}
+
+void JobShelf::put(ShelvedJob job) {
+  jobs_.push_front(std::move(job));
+  while (!jobs_.empty() && bytes() > budget_) jobs_.pop_back();
+}
+
+std::unique_ptr<PreparedJob> JobShelf::take(const std::string& id, const std::string& field) {
+  const auto found =
+      std::find_if(jobs_.begin(), jobs_.end(), [&](const ShelvedJob& shelved) { return shelved.id == id; });
+  if (found == jobs_.end()) return nullptr;
+  std::unique_ptr<PreparedJob> job = found->field == field ? std::move(found->job) : nullptr;
+  jobs_.erase(found);
+  return job;
+}
+
+std::uint64_t JobShelf::bytes() const {
+  std::uint64_t sum = 0;
+  for (const ShelvedJob& shelved : jobs_) sum += bytes_of(*shelved.job);
+  return sum;
+}
+
+}  // namespace affskel::worker

@@ -1,0 +1,454 @@
+#include "loop/lease_loop.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <random>
+#include <set>
+#include <stop_token>
+#include <utility>
+
+#include "base/logfmt.h"
+#include "base/mutex.h"
+#include "base/service_manager.h"
+#include "core/base/error.h"
+#include "core/base/version.h"
+#include "core/lattice/lattice_memory.h"
+#include "derive/derive.h"
+#include "job/available_memory.h"
+#include "job/job_shelf.h"
+#include "job/prepare_limit.h"
+#include "job/prepared_job.h"
+#include "job/result_bytes.h"
+#include "link/backoff.h"
+#include "link/last_report.h"
+#include "link/lease_keeper.h"
+#include "link/server_link.h"
+#include "link/task_context.h"
+#include "tasks/erode_task.h"
+#include "tasks/failure.h"
+#include "tasks/sample_task.h"
+#include "wire/direction_order.h"
+#include "wire/identity.h"
+#include "wire/words.h"
+
+namespace affskel::worker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+// For work, in one call: what idle workers cost the server.  Work that comes is given to whoever waits at
+// once.
+constexpr auto kLongestWait = std::chrono::milliseconds(10000), kLeastWait = std::chrono::milliseconds(1);
+constexpr int kExitServerGone = 5;
+constexpr int kExitNotAllowed = 7;
+// Pauses after a task that failed but may be tried again.  They must be shorter than the silence after which
+// the server counts a worker as silent.
+constexpr auto kFirstRest = std::chrono::milliseconds(250);
+constexpr auto kMaxRest = std::chrono::milliseconds(4000);
+// Jobs on the shelf take a quarter of the memory at most; the rest is for the job in hand.
+constexpr std::uint64_t kShelfShare = 4;
+
+/// Enough of a lease's token to find its lines; the whole would let others report.
+std::string short_token(const std::string& token) {
+  return token.substr(0, 8);
+}
+
+v1::WorkerIdentity own_identity(const std::string& id, unsigned threads, std::uint64_t memory) {
+  v1::WorkerIdentity identity;
+  identity.set_id(id);
+  identity.set_host(wire::host_name());
+  identity.set_pid(static_cast<std::uint32_t>(getpid()));
+  identity.set_threads(threads);
+  identity.set_core_version(core::kCoreVersion);
+  identity.set_memory(memory);
+  return identity;
+}
+
+// Jobs of versions without frames have none stored: their lattice is parallel to the axes of the mesh.
+bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& own) {
+  constexpr std::array<double, 9> kMesh = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const auto frame_is = [&](const auto& frame) {
+    return std::equal(frame.begin(), frame.end(), own.frame().begin(), own.frame().end());
+  };
+  return stored.frame_size() == 0 ? frame_is(kMesh) : frame_is(stored.frame());
+}
+
+// Points and directions are sent by number: server and worker must number the same ones.
+void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
+  const v1::PreparedSummary& stored = lease.job().prepared();
+  const v1::PreparedSummary own = job.summary();
+  if (own.points() != stored.points() || own.spacing() != stored.spacing() ||
+      own.directions() != lease.job().directions_total() || !same_frame(stored, own)) {
+    throw core::CoreError(core::CoreError::Code::kInternal,
+                          "this worker's core lays another lattice than the one that prepared the job");
+  }
+}
+
+// The job's parameters with the spacing that its prepare task found.  The search for it compares doubles:
+// done anew, on another machine, it may end one rounding away, at another lattice.
+v1::ErosionParams prepared_params(const v1::Job& job) {
+  v1::ErosionParams params = job.params();
+  if (job.has_prepared() && !params.sampling().has_spacing()) {
+    params.mutable_sampling()->set_spacing(job.prepared().spacing());
+  }
+  return params;
+}
+
+class LeaseLoop {
+ public:
+  LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
+      : options_(options),
+        memory_(options.memory != 0 ? options.memory : available_memory()),
+        stop_(stop),
+        id_(wire::random_id()),
+        link_({options.server, options.patience, id_, options.access}, stop),
+        last_report_([this](const std::string& token, const std::exception_ptr& problem) {
+          tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
+        }) {
+    *request_.mutable_worker() = own_identity(id_, options.threads, memory_);
+  }
+
+  int run() {
+    spdlog::info(base::logfmt("ready", {{"worker", request_.worker().id()},
+                                        {"server", options_.server},
+                                        {"threads", options_.threads},
+                                        {"memory", request_.worker().memory()}}));
+    base::tell_service_manager(base::ServiceState::kReady);
+    while (!stop_.stop_requested()) {
+      const std::optional<v1::Lease> lease = next_lease();
+      if (lease) {
+        if (!accept(*lease)) break;
+        work_on(*lease);
+        last_work_ = Clock::now();
+        continue;
+      }
+      settle_last_report();
+      if (options_.idle_exit.count() > 0 && idle_time_left().count() <= 0) {
+        spdlog::info(base::logfmt("leaving", {{"worker", request_.worker().id()}, {"reason", "idle"}}));
+        break;
+      }
+    }
+    // Idle, or with jobs enough; who is asked to leave says so at once, see run_lease_loop().
+    if (!stop_.stop_requested()) base::tell_service_manager(base::ServiceState::kStopping);
+    settle_last_report();
+    give_back_next();
+    return 0;
+  }
+
+ private:
+  std::optional<v1::Lease> next_lease() {
+    if (next_) return std::exchange(next_, std::nullopt);
+    describe_hands({});
+    const auto wait = options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kLeastWait, kLongestWait)
+                                                     : kLongestWait;
+    request_.set_wait_ms(static_cast<std::uint32_t>(wait.count()));
+    return link_.lease(request_);
+  }
+
+  // Tells in the request what the worker has in hand: a job, and leases.  One of them may have ended without
+  // this worker's knowledge, and it must not be given its task as a new one.
+  void describe_hands(const std::string& present) {
+    request_.set_preferred_job(job_id_);
+    request_.clear_held();
+    for (const std::string& token : {present, last_report_.token()}) {
+      if (!token.empty()) request_.add_held(token);
+    }
+  }
+
+  // Until the worker leaves for want of work, rounded up.
+  std::chrono::milliseconds idle_time_left() const {
+    return options_.idle_exit - std::chrono::floor<std::chrono::milliseconds>(Clock::now() - last_work_);
+  }
+
+  // Takes the next lease, if there is one, while the present one's task is still computed.
+  void look_ahead(const v1::Lease& present) {
+    describe_hands(present.token());
+    request_.set_wait_ms(0);
+    next_ = link_.lease(request_);
+  }
+
+  // Waits until the last report has ended, and acts on how it did.
+  void settle_last_report() {
+    try {
+      last_report_.wait();
+    } catch (const LeaseLost& lost) {
+      spdlog::warn(base::logfmt("lease_lost", {{"job", job_id_}, {"message", lost.what()}}));
+      forget();
+    }
+  }
+
+  void give_back_next() {
+    if (next_) link_.give_back(next_->token());
+    next_.reset();
+  }
+
+  bool accept(const v1::Lease& lease) {
+    if (options_.max_jobs != 0 && jobs_.count(lease.job().id()) == 0 && jobs_.size() == options_.max_jobs) {
+      link_.give_back(lease.token());
+      return false;
+    }
+    if (options_.max_jobs != 0) jobs_.insert(lease.job().id());
+    return true;
+  }
+
+  void work_on(const v1::Lease& lease) {
+    spdlog::debug(base::logfmt("leased", {{"job", lease.job().id()},
+                                          {"kind", wire::word(lease.kind())},
+                                          {"lease", short_token(lease.token())}}));
+    TaskContext context(stop_);
+    try {
+      dispatch(lease, context);
+      failures_.reset();
+    } catch (const ServerGone&) {
+      throw;
+    } catch (const InputDamaged& damaged) {
+      lose(lease, damaged.what());
+      pause(failures_.next());
+    } catch (const LeaseLost& lost) {
+      // The call may have ended because of what the lease keeper found; the context knows.
+      context.why() == TaskContext::Why::kCancelled ? drop(lease, context.why()) : lose(lease, lost.what());
+    } catch (...) {
+      const std::exception_ptr problem = std::current_exception();
+      if (context.stop_requested()) {
+        drop(lease, context.why());
+      } else {
+        forget();
+        shelf_.clear();  // it may be memory that is short
+        // At once, the task would most likely fail again, and a job has few attempts.
+        if (tell_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
+      }
+    }
+  }
+
+  void pause(std::chrono::milliseconds time) {
+    base::Mutex mutex;
+    base::MutexLock lock(mutex);
+    std::condition_variable_any().wait_for(lock, stop_, time, [] { return false; });
+  }
+
+  void lose(const v1::Lease& lease, const char* cause) {
+    spdlog::warn(
+        base::logfmt("lease_lost",
+                     {{"job", lease.job().id()}, {"lease", short_token(lease.token())}, {"message", cause}}));
+    forget();
+    // Perhaps only the block before lost its lease.  Not given back, this one would lie idle until its
+    // deadline.
+    link_.give_back(lease.token());
+  }
+
+  // Ends a task that the context has stopped.
+  void drop(const v1::Lease& lease, TaskContext::Why why) {
+    switch (why) {
+      case TaskContext::Why::kWorkerStops:
+        return link_.give_back(lease.token());
+      case TaskContext::Why::kLeaseLost:
+        return lose(lease, "it was not renewed in time, or its job is gone");
+      default:
+        spdlog::info(base::logfmt(
+            "task_dropped",
+            {{"job", lease.job().id()}, {"lease", short_token(lease.token())}, {"message", "cancelled"}}));
+        if (next_ && next_->job().id() == lease.job().id()) give_back_next();
+        forget();
+    }
+  }
+
+  // Whether the task will be tried again.
+  bool tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
+    const Failure failure = describe(problem, request_.worker());
+    spdlog::error(base::logfmt("task_failed", {{"job", job},
+                                               {"lease", short_token(token)},
+                                               {"code", failure.error.code()},
+                                               {"message", failure.error.message()}}));
+    v1::FailTaskRequest request;
+    request.set_token(token);
+    *request.mutable_error() = failure.error;
+    request.set_retryable(failure.retryable);
+    request.set_memory_needed(failure.memory_needed);
+    try {
+      link_.fail(request);
+    } catch (const LeaseLost&) {
+      // Somebody else works on it already.
+    }
+    return failure.retryable;
+  }
+
+  void dispatch(const v1::Lease& lease, TaskContext& context) {
+    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) {
+      const LeaseKeeper keeper(link_, lease, context);
+      last_report_.wait();
+    }
+    switch (lease.kind()) {
+      case v1::TASK_KIND_PREPARE:
+        return prepare(lease, context);
+      case v1::TASK_KIND_ERODE:
+        return erode_block(lease, context);
+      case v1::TASK_KIND_SKELETON:
+      case v1::TASK_KIND_SURFACE:
+      case v1::TASK_KIND_DIVERGENCE:
+      case v1::TASK_KIND_ERODED_POINTS:
+      case v1::TASK_KIND_ERODED_SURFACE:
+        return derive(lease, context);
+      case v1::TASK_KIND_VERIFY:
+        return verify(lease, context);
+      default:
+        throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
+    }
+  }
+
+  void prepare(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
+    v1::CompleteTaskHeader header;
+    header.set_token(lease.token());
+    *header.mutable_prepared() = job.summary();
+    header.set_order_stride(wire::direction_stride(job.directions().size()));
+    std::string data;
+    append_result(data, job.lattice_message(), "the lattice (a wider spacing has fewer lines)");
+    header.set_lattice_bytes(data.size());
+    append_result(data, job.directions_message(), "the direction set (take fewer directions)");
+    link_.complete(header, data);
+  }
+
+  void erode_block(const v1::Lease& lease, TaskContext& context) {
+    core::Erosion* erosion = nullptr;
+    {
+      const LeaseKeeper keeper(link_, lease, context);
+      PreparedJob& job = obtain(lease, context);
+      require_same_job(lease, job);
+      const std::string stored = job.has_erosion()
+                                     ? std::string()
+                                     : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+      core::throw_if_stopped(&context);
+      erosion = &job.erosion(options_.threads, stored);
+    }
+    switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [&] { look_ahead(lease); })) {
+      case ErodeEnd::kBlockDone:
+        break;
+      case ErodeEnd::kStopped:
+        link_.give_back(lease.token());
+        break;
+      case ErodeEnd::kCancelled:
+        if (next_ && next_->job().id() == lease.job().id()) give_back_next();
+        forget();
+        break;
+    }
+  }
+
+  void derive(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
+    require_same_job(lease, job);
+    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+    core::throw_if_stopped(&context);
+    const Derived derived = affskel::worker::derive(lease, job, stored, &context, options_.threads);
+    v1::CompleteTaskHeader header;
+    header.set_token(lease.token());
+    header.set_points(derived.items);
+    if (derived.quality) *header.mutable_quality() = *derived.quality;
+    link_.complete(header, derived.data);
+  }
+
+  void verify(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    const PreparedJob& job = obtain(lease, context);
+    require_same_job(lease, job);
+    v1::CompleteTaskHeader header;
+    header.set_token(lease.token());
+    header.set_points(lease.job().prepared().points());
+    link_.complete(header, sample_field(lease, job, context, options_.threads));
+  }
+
+  // The prepared job of the lease: the one in hand, or made from the mesh.
+  PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
+    if (job_ && job_id_ == lease.job().id() && field_ == lease.field()) return *job_;
+    shelve();
+    job_ = shelf_.take(lease.job().id(), lease.field());
+    if (job_ == nullptr) make(lease, context);
+    job_id_ = lease.job().id();
+    field_ = lease.field();
+    return *job_;
+  }
+
+  void make(const v1::Lease& lease, TaskContext& context) {
+    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
+    // A prepared job has fitted into the memory of some worker: one that is short of it must not fail the job
+    // for all.
+    const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
+    // For the same reason only the first is bound in its time.
+    PrepareLimit limit(context, first ? options_.prepare_limit : std::chrono::seconds(0));
+    try {
+      job_ = std::make_unique<PreparedJob>(
+          mesh, prepared_params(lease.job()), options_.threads, &limit,
+          first ? std::function<std::uint64_t()>([this] { return memory_left(); })
+                : std::function<std::uint64_t()>());
+    } catch (const core::LatticeMemoryError&) {
+      throw;
+    } catch (const core::CoreError& error) {
+      throw limit.reason(error);
+    }
+  }
+
+  // Leaves the job in hand for another, with all of its field acknowledged.
+  void shelve() {
+    last_report_.drop();
+    if (job_) shelf_.put({job_id_, field_, std::move(job_)});
+    job_id_.clear();
+  }
+
+  // Bytes that may be taken now; 0 when nothing is known.
+  std::uint64_t memory_left() const {
+    const std::uint64_t left = available_memory();
+    if (options_.memory == 0) return left;
+    const std::uint64_t own = options_.memory - std::min(options_.memory, shelf_.bytes());
+    return left == 0 ? own : std::min(left, own);
+  }
+
+  void forget() {
+    last_report_.drop();
+    job_.reset();
+    job_id_.clear();
+  }
+
+  LeaseLoopOptions options_;
+  const std::uint64_t memory_;  // bytes that it may take; 0 = unknown
+  std::stop_token stop_;
+  const std::string id_;
+  ServerLink link_;
+  v1::LeaseTaskRequest request_;
+  std::set<std::string> jobs_;
+  Clock::time_point last_work_ = Clock::now();
+  // Kept between tasks of the same job, on the shelf while it is others' turn.  Dropped whenever the
+  // erosion's field may hold work that the server did not acknowledge: such points would not be reported
+  // again.
+  std::unique_ptr<PreparedJob> job_;
+  std::string job_id_;
+  std::string field_;  // of Lease.field
+  Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
+  JobShelf shelf_{memory_ / kShelfShare};
+  LastReport last_report_;         // uses job_
+  std::optional<v1::Lease> next_;  // taken ahead
+};
+
+}  // namespace
+
+int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
+  const std::stop_callback stopping(stop, [] { base::tell_service_manager(base::ServiceState::kStopping); });
+  try {
+    return LeaseLoop(options, stop).run();
+  } catch (const NotAllowed& refused) {
+    spdlog::error(base::logfmt("not_allowed", {{"server", options.server}, {"message", refused.what()}}));
+    return kExitNotAllowed;
+  } catch (const ServerGone& gone) {
+    if (stop.stop_requested()) return 0;
+    spdlog::error(base::logfmt("server_gone", {{"server", options.server}, {"message", gone.what()}}));
+    return kExitServerGone;
+  }
+}
+
+}  // namespace affskel::worker
