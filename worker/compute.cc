@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <stdexcept>
 #include <system_error>
@@ -15,6 +14,7 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
+#include "base/read_file.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/base/version.h"
@@ -33,23 +33,13 @@
 namespace affskel::worker {
 namespace {
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be opened for reading");
-  constexpr std::size_t kStep = std::size_t{1} << 20;
-  std::string bytes;
-  std::error_code unknown;  // the size of a pipe
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  if (!unknown) bytes.reserve(size + kStep);
-  for (std::size_t got = kStep; got == kStep;) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + kStep);
-    file.read(bytes.data() + before, kStep);
-    got = static_cast<std::size_t>(file.gcount());
-    bytes.resize(before + got);
+std::string read(const std::string& path) {
+  try {
+    return base::read_file(path);
+  } catch (const base::FileError& error) {
+    const bool opened = error.action() == "cannot read";
+    throw std::runtime_error(path + (opened ? ": reading failed" : ": cannot be opened for reading"));
   }
-  if (file.bad()) throw std::runtime_error(path + ": reading failed");
-  return bytes;
 }
 
 double peak_rss_mb() {
@@ -92,7 +82,7 @@ struct ReadMesh {
 };
 
 ReadMesh read_mesh(const std::string& path) {
-  const std::string bytes = read_file(path);
+  const std::string bytes = read(path);
   core::MeshFile file = core::parse_mesh_file(extension_of(path), bytes);
   const bool off = file.format == core::FileFormat::kOff;
   const std::string sha256 = wire::sha256_hex(off ? bytes : core::write_off(file.off.mesh));

@@ -12,6 +12,7 @@
 
 #include "affskel/v1/types.pb.h"
 #include "base/end_limit.h"
+#include "base/exit_code.h"
 #include "base/logfmt.h"
 #include "base/stop_signals.h"
 #include "compute.h"
@@ -26,56 +27,51 @@ namespace {
 
 using affskel::core::CoreError;
 
-// Exit codes of the command-line contract.
-constexpr int kUsage = 2;
-constexpr int kBadInput = 3;
-constexpr int kNotAllowed = 7;
-constexpr int kLimit = 8;
-constexpr int kInternal = 70;
+using affskel::base::ExitCode;
 
-int exit_code(const CoreError& error) {
+ExitCode exit_code(const CoreError& error) {
   switch (error.code()) {
     case CoreError::Code::kBadInput:
-      return kBadInput;
+      return ExitCode::kBadInput;
     case CoreError::Code::kLimit:
-      return kLimit;
+      return ExitCode::kLimit;
     default:
-      return kInternal;
+      return ExitCode::kInternal;
   }
 }
 
 // Of an output that cannot be written.
-int exit_code(const std::error_code& error) {
+ExitCode exit_code(const std::error_code& error) {
   for (const std::errc full : {std::errc::no_space_on_device, std::errc::file_too_large}) {
-    if (error == full) return kLimit;
+    if (error == full) return ExitCode::kLimit;
   }
-  if (error.value() == EDQUOT) return kLimit;
+  if (error.value() == EDQUOT) return ExitCode::kLimit;
   for (const std::errc closed :
        {std::errc::permission_denied, std::errc::operation_not_permitted, std::errc::read_only_file_system}) {
-    if (error == closed) return kNotAllowed;
+    if (error == closed) return ExitCode::kNotAllowed;
   }
-  return kUsage;
+  return ExitCode::kUsage;
 }
 
-int run_compute(const affskel::worker::ComputeOptions& options) {
+ExitCode run_compute(const affskel::worker::ComputeOptions& options) {
   try {
     affskel::worker::compute(options);
-    return 0;
+    return ExitCode::kDone;
   } catch (const CoreError& error) {
     std::fprintf(stderr, "affskel-worker: %s: %s\n", options.file.c_str(), error.what());
     return exit_code(error);
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "affskel-worker: %s: not enough memory\n", options.file.c_str());
-    return kLimit;
+    return ExitCode::kLimit;
   } catch (const std::system_error& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
     return exit_code(error.code());
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
-    return kUsage;
+    return ExitCode::kUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
-    return kBadInput;
+    return ExitCode::kBadInput;
   }
 }
 
@@ -87,30 +83,30 @@ void limit_the_end() {
   limit.limit = kLongestEnd;
   limit.entry =
       "event=stuck message=\"the end takes too long; leaving without it, the lease ends by itself\"";
-  limit.exit_code = kInternal;
+  limit.exit_code = static_cast<int>(ExitCode::kInternal);
   affskel::base::set_end_limit(limit);
 }
 
-int run_worker(const affskel::worker::LeaseLoopOptions& options) {
+ExitCode run_worker(const affskel::worker::LeaseLoopOptions& options) {
   try {
     affskel::wire::parse_address(options.server);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
-    return kUsage;
+    return ExitCode::kUsage;
   }
   limit_the_end();
   std::stop_source stop;
   try {
     const affskel::base::StopSignals signals([&stop](int) { stop.request_stop(); });
-    const int code = run_lease_loop(options, stop.get_token());
+    const ExitCode code = run_lease_loop(options, stop.get_token());
     affskel::base::limit_end();
     return code;
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "affskel-worker: %s\n", error.what());
-    return kUsage;
+    return ExitCode::kUsage;
   } catch (const std::exception& error) {
     spdlog::critical(affskel::base::logfmt("internal_error", {{"message", error.what()}}));
-    return kInternal;
+    return ExitCode::kInternal;
   }
 }
 
@@ -219,9 +215,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (!*compute && flags.loop.server.empty()) throw CLI::RequiredError("--server or the command compute");
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsage;
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
   }
-  if (*compute) return run_compute(flags.compute);
+  if (*compute) return static_cast<int>(run_compute(flags.compute));
   const auto logger = spdlog::stderr_logger_mt("affskel-worker");
   // The format of the server's log, in which the lines of supervised workers appear.
   logger->set_pattern(affskel::base::kLogPattern, spdlog::pattern_time_type::utc);
@@ -233,5 +229,5 @@ int main(int argc, char** argv) {
   flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
   flags.loop.prepare_limit = std::chrono::seconds(flags.prepare_limit_s);
   flags.loop.patience = std::chrono::seconds(flags.patience_s);
-  return run_worker(flags.loop);
+  return static_cast<int>(run_worker(flags.loop));
 }

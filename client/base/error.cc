@@ -4,33 +4,6 @@
 #include <cstring>
 
 namespace affskel::client {
-const char* exit_code_name(ExitCode code) {
-  switch (code) {
-    case ExitCode::kDone:
-      return "DONE";
-    case ExitCode::kJobFailed:
-      return "JOB_FAILED";
-    case ExitCode::kUsage:
-      return "USAGE";
-    case ExitCode::kBadInput:
-      return "BAD_INPUT";
-    case ExitCode::kNotFound:
-      return "NOT_FOUND";
-    case ExitCode::kUnreachable:
-      return "UNREACHABLE";
-    case ExitCode::kCancelled:
-      return "CANCELLED";
-    case ExitCode::kNotAllowed:
-      return "NOT_ALLOWED";
-    case ExitCode::kLimit:
-      return "LIMIT";
-    case ExitCode::kClosedPipe:
-      return "CLOSED_PIPE";
-    case ExitCode::kInternal:
-      break;
-  }
-  return "INTERNAL";
-}
 
 std::string ClientError::for_people() const {
   std::string text = file_;

@@ -5,28 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "base/atomic_file.h"
+#include "base/exit_code.h"
+#include "base/file_error.h"
 #include "core/base/error.h"
 
 namespace affskel::client {
 
-/// What the process exits with; fixed, scripts rely on it.
-enum class ExitCode : int {
-  kDone = 0,
-  kJobFailed = 1,
-  kUsage = 2,
-  kBadInput = 3,
-  kNotFound = 4,
-  kUnreachable = 5,
-  kCancelled = 6,
-  kNotAllowed = 7,
-  kLimit = 8,
-  kInternal = 70,
-  kClosedPipe = 141,  ///< who read the output is gone: as a shell reports SIGPIPE
-};
-
-/// Stable upper-case name of an exit code for JSON errors, e.g. "BAD_INPUT".
-const char* exit_code_name(ExitCode code);
+using base::exit_code_name;
+using base::ExitCode;
 
 /// The one error type of the client: what to tell people, where, and how to exit.
 class ClientError : public std::runtime_error {

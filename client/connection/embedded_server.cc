@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/find_program.h"
 #include "wire/sha256.h"
 
 extern char** environ;
@@ -30,11 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxSocketPath = sizeof(sockaddr_un::sun_path) - 1;
 constexpr const char* kServerName = "affskel-server";
-
-bool is_program(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-}
 
 // The last lines of a log that may be long.
 std::string tail_of(const fs::path& file, std::size_t lines) {
@@ -95,11 +91,6 @@ class DetachedSpawn {
   posix_spawn_file_actions_t actions_;
   posix_spawnattr_t attributes_;
 };
-
-fs::path own_directory() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).parent_path();
-}
 
 // One old log is kept.
 void rotate(const fs::path& log) {
@@ -186,13 +177,8 @@ void make_private_directory(const fs::path& directory, bool only_ours) {
 }
 
 fs::path find_server_program(const fs::path& beside, const Environment& environment) {
-  if (is_program(beside / kServerName)) return beside / kServerName;
-  std::istringstream path(environment.get("PATH").value_or(""));
-  for (std::string directory; std::getline(path, directory, ':');) {
-    if (fs::path(directory).is_absolute() && is_program(fs::path(directory) / kServerName)) {
-      return fs::path(directory) / kServerName;
-    }
-  }
+  fs::path found = base::find_program(kServerName, beside, environment.get("PATH").value_or(""));
+  if (!found.empty()) return found;
   throw ClientError(ExitCode::kUnreachable, "no server is configured, and affskel-server is neither in " +
                                                 beside.string() +
                                                 " nor in $PATH; name a server with --server ADDR");
@@ -204,7 +190,7 @@ wire::Address ensure_embedded_server(const EmbeddedPaths& paths, const EmbeddedO
   if (!paths.socket_dir.empty()) make_private_directory(paths.socket_dir, true);
   if (!wire::socket_answers(paths.socket)) {
     const fs::path program =
-        options.program.empty() ? find_server_program(own_directory(), environment) : options.program;
+        options.program.empty() ? find_server_program(base::own_directory(), environment) : options.program;
     console.note("starting a private server; its data is in " + paths.home.string() +
                  ", it leaves by itself when idle");
     rotate(paths.log);

@@ -1,24 +1,19 @@
 #include "client/web/random_key.h"
 
-#include <sys/random.h>
+#include <cerrno>
+#include <stdexcept>
 
-#include <array>
-
+#include "base/random.h"
 #include "client/base/error.h"
 
 namespace affskel::client {
 
 std::string random_key() {
-  std::array<unsigned char, 32> bytes{};
-  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+  try {
+    return base::random_hex(32);
+  } catch (const std::runtime_error&) {
     throw error_from_errno(errno, "cannot get random bytes", "", ExitCode::kInternal);
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (const unsigned char byte : bytes) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
   }
-  return text;
 }
 
 }  // namespace affskel::client

@@ -1,12 +1,9 @@
 #pragma once
 
-// First: Asio 1.74 uses std::exchange without its header.
-#include <utility>
-
-#include <boost/asio/ssl/context.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
+
+#include "net/tls_files.h"
 
 namespace affskel::client {
 
@@ -16,7 +13,7 @@ class TlsIdentity {
  public:
   /// @param certificate PEM, the chain from the service's own; @param key PEM, not encrypted.
   /// @throws ClientError kUsage naming the file and the cause.
-  TlsIdentity(std::filesystem::path certificate, std::filesystem::path key);
+  TlsIdentity(const std::string& certificate, const std::string& key);
 
   /// For new connections.  Where changed files cannot be used, the context as it was.
   std::shared_ptr<boost::asio::ssl::context> context();
@@ -25,15 +22,7 @@ class TlsIdentity {
   bool names(const std::string& host) const;
 
  private:
-  struct Stamp {
-    std::filesystem::file_time_type certificate, key;
-    bool operator==(const Stamp&) const = default;
-  };
-  Stamp stamp() const;
-
-  std::filesystem::path certificate_, key_;
-  Stamp stamp_;
-  std::shared_ptr<boost::asio::ssl::context> context_;
+  net::TlsFiles files_;
 };
 
 }  // namespace affskel::client

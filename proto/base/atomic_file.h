@@ -3,33 +3,17 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <system_error>
+
+#include "base/file_error.h"
 
 namespace affskel::base {
 
-/// What could not be done to a file.
-class FileError : public std::system_error {
- public:
-  /// @param error_number errno; @param action what failed, e.g. "cannot write"; @param file as its user named
-  /// it.
-  FileError(int error_number, const std::string& action, const std::string& file)
-      : std::system_error(error_number, std::generic_category(), file + ": " + action),
-        action_(action),
-        file_(file) {}
-
-  const std::string& action() const { return action_; }
-  const std::string& file() const { return file_; }
-
- private:
-  std::string action_, file_;
-};
-
 /// A file that appears under its name complete or not at all: written to a temporary file in the same
-/// directory, synced, renamed.  Without `commit` nothing is left behind, also after a signal whose
-/// handler calls remove_guarded_files.  A target
-/// that is no regular file (a device, a pipe), and the standard output, "-", get everything at `commit`, from
-/// a temporary file in $TMPDIR or /tmp: a transfer that breaks off and begins again sends them nothing twice.
-/// A symbolic link is followed.  All members throw FileError naming the target.
+/// directory, synced, renamed.  Without `commit` nothing is left behind, also after a signal whose handler
+/// calls remove_guarded_files.  A target that is no regular file (a device, a pipe), and the standard
+/// output, "-", get everything at `commit`, from a temporary file in $TMPDIR or /tmp: a transfer that breaks
+/// off and begins again sends them nothing twice.  A symbolic link is followed.  All members throw FileError
+/// naming the target.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);

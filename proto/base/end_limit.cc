@@ -87,7 +87,7 @@ void set_end_limit(const EndLimit& limit) {
   action.sa_handler = on_alarm;
   sigfillset(&action.sa_mask);
   sigaction(SIGALRM, &action, nullptr);
-  // Whoever started this process may have blocked it.
+  // The process that started this one may have blocked it.
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGALRM);

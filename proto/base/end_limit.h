@@ -17,14 +17,14 @@ struct EndLimit {
 /// SIGALRM and ITIMER_REAL for itself.
 void set_end_limit(const EndLimit& limit);
 
-/// From now on the process ends within the limit, whatever hangs: an end that has not come by then is made by
-/// a signal handler, by _exit.  Only the first call counts, and none before set_end_limit().  Takes no
-/// memory, no thread and no lock, since an end hangs for want of these; to be called by whoever ends the
-/// process before anything that waits, by destructors too.  Async-signal-safe; any thread.
+/// From now on the process ends within the limit, whatever hangs: an end that has not come by then is made
+/// by a signal handler, by _exit.  Only the first call counts, and none before set_end_limit().  Takes no
+/// memory, no thread and no lock, since an end hangs for want of these; to be called by the code that ends
+/// the process before anything that waits, by destructors too.  Async-signal-safe; any thread.
 void limit_end() noexcept;
 
 /// Writes an entry to stderr, with time and level before it, and leaves by _exit.  Async-signal-safe; any
-/// thread.  An entry that stderr does not take at once, a pipe that nobody reads, is lost.
+/// thread.  An entry that stderr does not take at once, a pipe without a reader, is lost.
 /// @param level of the log: "info", "critical".
 [[noreturn]] void leave_at_once(const char* level, const char* entry, int exit_code) noexcept;
 

@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "base/atomic_file.h"
+#include "base/file_error.h"
 
 namespace affskel::base {
 namespace {

@@ -18,7 +18,7 @@ class MemoryFile {
   /// Under which this process can open it.
   const std::string& path() const { return path_; }
 
-  /// Whoever opens the path from now on reads these bytes, whoever did before reads the old ones on.
+  /// A reader that opens the path from now on gets these bytes, one that did before gets the old ones on.
   /// @throws FileError, and the old bytes stay.
   void replace(std::string_view bytes);
 

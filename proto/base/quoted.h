@@ -17,7 +17,7 @@ inline std::string shortened(std::string text, std::size_t max_bytes) {
   return text + "...";
 }
 
-/// Somebody's text for a message: in single quotes, control characters as \xNN, so that it stays one line and
+/// A caller's text for a message: in single quotes, control characters as \xNN, so that it stays one line and
 /// nothing is cut off at a NUL, and "..." for what lies beyond `max_bytes` bytes, cut at a character of
 /// UTF-8.
 inline std::string quoted(std::string_view text, std::size_t max_bytes = 64) {

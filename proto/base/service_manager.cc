@@ -9,7 +9,7 @@
 
 namespace affskel::base {
 
-void tell_service_manager(ServiceState state) {
+void notify_service_manager(ServiceState state) {
   const char* text = state == ServiceState::kReady ? "READY=1" : "STOPPING=1";
   if (const int told = sd_notify(0, text); told < 0) {
     spdlog::warn(logfmt("service_manager_not_told", {{"state", text}, {"message", std::strerror(-told)}}));

@@ -9,8 +9,8 @@ enum class ServiceState {
 };
 
 /// Tells the service manager, by one datagram to the socket that $NOTIFY_SOCKET names, as sd_notify(3) says.
-/// Without that variable nobody asked, and nothing happens.  When it cannot be told, the default logger of
-/// spdlog says why: the manager will then end the service for not being ready in time.
-void tell_service_manager(ServiceState state);
+/// Without that variable nothing was asked, and nothing happens.  When it cannot be told, the default logger
+/// of spdlog says why: the manager will then end the service for not being ready in time.
+void notify_service_manager(ServiceState state);
 
 }  // namespace affskel::base

@@ -48,7 +48,7 @@ void AnswerThreads::forget(const Work& work) {
   if (--own->second.works == 0) turns_.erase(own);
 }
 
-// Of those who have the fewest under way, the one whose turn was longest ago.
+// Of the askers with the fewest under way, the one whose turn was longest ago.
 AnswerThreads::Works::iterator AnswerThreads::next() {
   auto found = waiting_.end();
   std::pair<std::size_t, std::uint64_t> best;

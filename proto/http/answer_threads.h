@@ -16,19 +16,19 @@
 
 namespace affskel::http {
 
-/// Threads on which answers are made.  Whoever asks takes turns with the others, so that one with many
-/// requests delays only himself.  Thread-safe.
+/// Threads on which answers are made.  Those that ask take turns, so that one with many requests
+/// delays only itself.  Thread-safe.
 class AnswerThreads {
  public:
   /// An answer to be made.
   struct Work {
-    std::string whose;           ///< who takes turns
+    std::string whose;           ///< the asker that takes turns
     std::function<void()> run;   ///< must not throw
-    std::stop_source stop = {};  ///< told when nobody wants it any more
+    std::stop_source stop = {};  ///< told when it is not wanted any more
   };
 
   /// @param limits of these threads. @param waiting works at a time, those under way included.
-  /// @param waiting_of_one of them, of one who asks.
+  /// @param waiting_of_one of them, of one asker.
   AnswerThreads(ThreadLimits limits, std::size_t waiting, std::size_t waiting_of_one);
   /// Tells the works under way to stop and waits for them; those that wait are forgotten.
   ~AnswerThreads();
@@ -37,7 +37,7 @@ class AnswerThreads {
 
   /// @return false when too many wait already.
   bool add(std::shared_ptr<Work> work);
-  /// Nobody wants it any more: forgotten where it waits, told to stop where it is under way.
+  /// It is not wanted any more: forgotten where it waits, told to stop where it is under way.
   void drop(const std::shared_ptr<Work>& work);
 
  private:
@@ -57,7 +57,7 @@ class AnswerThreads {
   std::condition_variable_any changed_;
   Works waiting_ ABSL_GUARDED_BY(mutex_);
   Works under_way_ ABSL_GUARDED_BY(mutex_);
-  std::map<std::string, Turn> turns_ ABSL_GUARDED_BY(mutex_);  // of those who have works
+  std::map<std::string, Turn> turns_ ABSL_GUARDED_BY(mutex_);  // of the askers with works
   std::uint64_t begun_ ABSL_GUARDED_BY(mutex_) = 0;
   bool ending_ ABSL_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;  // last: they use all of the others

@@ -33,7 +33,7 @@ constexpr std::size_t kReadBytes = 64 * 1024;
 // Of what a refused peer still sends, so much is passed over, for so long.
 constexpr std::uint64_t kPassedOver = 64 << 20;
 constexpr std::chrono::milliseconds kPassingTime{2000};
-// Between looks whether somebody still waits for an answer.
+// Between looks whether the peer still waits for an answer.
 constexpr std::chrono::milliseconds kLook{250};
 
 // What every answer says unless it says otherwise: nothing is kept, guessed, embedded, run or told to others.
@@ -48,24 +48,21 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kForAll = {{
 }};
 
 // Ends transfers that hardly move.
-class Pace {
+class PacedTransfer {
  public:
-  explicit Pace(const Limits& limits) : limits_(limits) {}
+  explicit PacedTransfer(const Limits& limits) : pace_(limits.pace) {}
 
-  // @throws system_error timed_out
+  // The peer's turn: it is to send or take something.
+  void begin_turn() { pace_.turn(Clock::now()); }
+
+  // It has.  @throws system_error timed_out
   void moved(std::size_t bytes) {
-    bytes_ += bytes;
-    const Clock::time_point now = Clock::now();
-    if (now - begin_ < limits_.stretch) return;
-    if (bytes_ < limits_.stretch_bytes) throw system_error(asio::error::timed_out);
-    begin_ = now;
-    bytes_ = 0;
+    pace_.moved(bytes, Clock::now());
+    if (pace_.fell_short()) throw system_error(asio::error::timed_out);
   }
 
  private:
-  const Limits& limits_;
-  Clock::time_point begin_ = Clock::now();
-  std::uint64_t bytes_ = 0;
+  base::Pace pace_;
 };
 
 std::string lower(beast::string_view text) {
@@ -280,7 +277,7 @@ class Conversation {
   asio::awaitable<std::optional<Response>> read_body(Parser& parser, std::uint64_t max_bytes) {
     parser.body_limit(max_bytes);
     parser.eager(true);
-    Pace pace(limits_);
+    PacedTransfer transfer(limits_);
     std::uint64_t taken = 0;
     error_code error;
     while (!parser.is_done()) {
@@ -297,10 +294,11 @@ class Conversation {
         if (buffer_.size() > limits_.header_bytes)
           co_return plain(431, "a chunk's extensions or trailers are too long");
       }
-      transport_.allow(limits_.stretch);
+      transport_.allow(limits_.pace.window);
+      transfer.begin_turn();
       const std::size_t got = co_await fill();
       if (got == 0) throw system_error(asio::error::eof);
-      pace.moved(got);
+      transfer.moved(got);
     }
     co_return std::nullopt;
   }
@@ -342,7 +340,7 @@ class Conversation {
   // Ends the connection: what the peer still sends is passed over for a moment, so that it reads the answer.
   asio::awaitable<void> refuse(const Response& response) {
     co_await send(response, false);
-    transport_.allow(std::min(limits_.stretch, kPassingTime));
+    transport_.allow(std::min(limits_.pace.window, kPassingTime));
     std::size_t got = 1;
     for (std::uint64_t passed = 0; got > 0 && passed < kPassedOver; passed += got) {
       buffer_.clear();
@@ -379,12 +377,13 @@ class Conversation {
   }
 
   asio::awaitable<void> write(std::string_view bytes) {
-    Pace pace(limits_);
+    PacedTransfer transfer(limits_);
     while (!bytes.empty()) {
-      transport_.allow(limits_.stretch);
+      transport_.allow(limits_.pace.window);
+      transfer.begin_turn();
       const std::size_t put = co_await transport_.write(asio::buffer(bytes.data(), bytes.size()));
       bytes.remove_prefix(put);
-      pace.moved(put);
+      transfer.moved(put);
     }
   }
 

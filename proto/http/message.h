@@ -24,7 +24,7 @@ struct Request {
   std::string body;                                          ///< unless a file took it
   bool secure = false;                                       ///< over TLS
   std::string peer;                                          ///< see peer_key
-  std::stop_token gone;                                      ///< when nobody waits for the answer any more
+  std::stop_token gone;                                      ///< when the answer is not waited for any more
 
   /// The value of the only header of this name (lower case); nothing when there is none or several.
   std::optional<std::string_view> header(std::string_view name) const;
@@ -44,10 +44,10 @@ struct Response {
 /// are not quick are dropped when the peer closes its end.
 enum class AnswerKind { kQuick, kComputed, kAwaited };
 
-/// What becomes of an admitted request's body, and who answers then.
+/// What becomes of an admitted request's body, and what answers then.
 struct Reception {
   std::uint64_t max_bytes = 0;  ///< a longer body is refused with status 413
-  std::string owner;            ///< who asks, where that is known: takes part in places and threads by it
+  std::string owner;            ///< the asker, where that is known: takes part in places and threads by it
   std::filesystem::path file;   ///< takes the body, unless empty: a new file
   AnswerKind kind = AnswerKind::kQuick;
   std::function<Response(const Request&)>

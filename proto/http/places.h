@@ -17,7 +17,7 @@ namespace affskel::http {
 std::string peer_key(const boost::asio::ip::address& address);
 
 /// All connections of a server: whose they are, and which of them do nothing.  A newcomer for whom there is
-/// no room takes the place of another.  Those of people who are known go last.  Of the others first go those
+/// no room takes the place of another.  Those of known owners go last.  Of the others first go those
 /// that never made a request, then those idle for longest, then those whose request or answer is on its way
 /// for longest, and at last those whose answer has been waited for for longest.  Strangers at one address
 /// have at most half of the places while others are connected.  Not thread-safe.
@@ -68,7 +68,7 @@ class Places::Place {
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
-  /// Who made the request: of somebody who is known, or, empty, of a stranger.
+  /// Of the last request: an owner that is known, or, empty, a stranger.
   /// @return false when they have their share of places already, and use all of them.
   bool belongs_to(const std::string& owner);
   /// From now on the peer's next request is waited for.

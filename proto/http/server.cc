@@ -110,7 +110,7 @@ class Server::Impl {
     try {
       co_await converse(*transport, *place, peer, shared);
     } catch (const boost::system::system_error&) {
-      // The peer went away, was too slow or had to give way: nobody is there to be told.
+      // The peer went away, was too slow or had to give way: no peer is left to be told.
     }
   }
 

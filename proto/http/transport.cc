@@ -7,6 +7,8 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 
+#include "net/read_some.h"
+
 namespace affskel::http {
 namespace {
 
@@ -33,13 +35,7 @@ class StreamTransport : public Transport {
   }
 
   asio::awaitable<std::size_t> read(asio::mutable_buffer room) override {
-    error_code error;
-    const std::size_t got =
-        co_await stream_.async_read_some(room, asio::redirect_error(use_awaitable, error));
-    // A peer over TLS that hangs up without a word has ended, too: requests say how long they are.
-    if (error && error != asio::error::eof && error != asio::ssl::error::stream_truncated)
-      throw boost::system::system_error(error);
-    co_return got;
+    return net::read_some(stream_, room);
   }
 
   asio::awaitable<std::size_t> write(asio::const_buffer bytes) override {

@@ -14,7 +14,7 @@ struct Address {
 
   /// For gRPC: `unix:PATH`, `HOST:PORT` or `[V6]:PORT`.
   std::string target() const;
-  /// Whether nobody outside this machine can reach it.
+  /// Whether only this machine can reach it.
   bool is_local() const;
 };
 
@@ -22,7 +22,7 @@ struct Address {
 /// @throws std::invalid_argument with a message for people.
 Address parse_address(std::string_view text);
 
-/// Whether somebody accepts connections on the Unix socket at `path`; does not wait.
+/// Whether a process accepts connections on the Unix socket at `path`; does not wait.
 /// @throws std::runtime_error when this process can make no socket.
 bool socket_answers(const std::string& path);
 

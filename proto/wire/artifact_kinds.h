@@ -23,7 +23,7 @@ struct ArtifactKindInfo {
   v1::ArtifactKind kind;
   ArtifactParams params;
   /// That computes it: PREPARE and ERODE on the way of every job, the others from the finished field, for
-  /// whoever asks.  UNSPECIFIED for the mesh, which is given.
+  /// those that ask.  UNSPECIFIED for the mesh, which is given.
   v1::TaskKind task;
   /// Full name of the serialized message; empty for bytes that are described with ArtifactKind.
   std::string_view message;

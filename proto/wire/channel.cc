@@ -4,21 +4,16 @@
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/client_interceptor.h>
 #include <sys/prctl.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/mutex.h"
+#include "base/read_file.h"
 #include "base/regular_file.h"
+#include "base/watched_files.h"
 
 namespace affskel::wire {
 namespace {
@@ -26,29 +21,29 @@ namespace {
 // Far above any certificate chain and any token.
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
 
-std::string read_file(const std::string& path, const char* what) {
+std::string read_access_file(const std::string& path, const char* what) {
   if (const char* kind = base::kind_unless_regular(path))
     throw std::invalid_argument(path + ": " + kind + ", not a file with a " + what);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::invalid_argument(path + ": cannot read the " + what + ": " + std::strerror(errno));
   std::string text;
-  for (std::istreambuf_iterator<char> at(in), end; at != end && text.size() <= kMaxFileBytes; ++at)
-    text.push_back(*at);
-  if (in.bad()) throw std::invalid_argument(path + ": cannot read the " + what + ": " + std::strerror(errno));
+  try {
+    text = base::read_file(path, kMaxFileBytes);
+  } catch (const base::FileError& error) {
+    throw std::invalid_argument(path + ": cannot read the " + what + ": " + error.code().message());
+  }
   if (text.size() > kMaxFileBytes)
     throw std::invalid_argument(path + ": too large for a " + std::string(what));
   return text;
 }
 
 std::string read_pem(const std::string& path, const char* what) {
-  std::string text = read_file(path, what);
+  std::string text = read_access_file(path, what);
   if (text.find("-----BEGIN ") != std::string::npos) return text;
   throw std::invalid_argument(path + ": no " + what + " in PEM form");
 }
 
 /// The first line.  Metadata of gRPC are printable ASCII; the message quotes nothing of it.
 std::string read_token(const std::string& path) {
-  std::string text = read_file(path, "token");
+  std::string text = read_access_file(path, "token");
   text.resize(std::min(text.find_first_of("\r\n"), text.size()));
   const bool good =
       !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7F; });
@@ -59,14 +54,12 @@ std::string read_token(const std::string& path) {
 /// The token of a file, as the file is now.  Thread-safe.
 class Token {
  public:
-  explicit Token(std::string path) : path_(std::move(path)), text_(read_token(path_)), seen_(look()) {}
+  explicit Token(std::string path) : path_(std::move(path)), watched_({path_}), text_(read_token(path_)) {}
 
   /// A file that is gone or broken leaves the token that was there.
   std::string text() {
     const base::MutexLock lock(mutex_);
-    const Seen now = look();
-    if (now != seen_) {
-      seen_ = now;
+    if (watched_.changed()) {
       try {
         text_ = read_token(path_);
       } catch (const std::invalid_argument&) {
@@ -76,18 +69,10 @@ class Token {
   }
 
  private:
-  using Seen = std::pair<ino_t, std::pair<time_t, long>>;
-
-  Seen look() const {
-    struct stat status {};
-    if (stat(path_.c_str(), &status) != 0) return {};
-    return {status.st_ino, {status.st_mtim.tv_sec, status.st_mtim.tv_nsec}};
-  }
-
   const std::string path_;
   base::Mutex mutex_;
+  base::WatchedFiles watched_ ABSL_GUARDED_BY(mutex_);
   std::string text_ ABSL_GUARDED_BY(mutex_);
-  Seen seen_ ABSL_GUARDED_BY(mutex_);
 };
 
 /// Puts the token into a call's metadata.  An interceptor serves every transport; gRPC's call credentials

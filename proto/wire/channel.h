@@ -14,7 +14,7 @@ namespace affskel::wire {
 /// a command line.
 struct AccessFiles {
   std::string token_file = {};  ///< its first line is the token; empty = none is shown
-  std::string tls_ca = {};      ///< PEM, who may have signed the server's certificate; empty = no TLS
+  std::string tls_ca = {};      ///< PEM, the possible signers of the server's certificate; empty = no TLS
   std::string tls_cert = {};    ///< PEM, this program's own certificate, for servers that ask for one
   std::string tls_key = {};     ///< PEM, its key
 };

@@ -1,25 +1,15 @@
 #include "wire/identity.h"
 
-#include <openssl/rand.h>
 #include <unistd.h>
 
 #include <array>
-#include <stdexcept>
+
+#include "base/random.h"
 
 namespace affskel::wire {
 
 std::string random_id() {
-  std::array<unsigned char, 16> bytes{};
-  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
-    throw std::runtime_error("the system's random generator failed");
-  }
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string hex;
-  for (unsigned char byte : bytes) {
-    hex.push_back(kDigits[byte >> 4]);
-    hex.push_back(kDigits[byte & 15]);
-  }
-  return hex;
+  return base::random_hex(16);
 }
 
 std::string host_name() {

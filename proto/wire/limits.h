@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kMaxResultBytes = (std::uint64_t{1} << 31) - 1;
 /// Bounds in one answer to a report: what gRPC's clients take unless told otherwise has room for the first,
 /// for workers that say nothing; ours take up to the second.
 inline constexpr std::uint32_t kUsualBoundsBytes = std::uint32_t{3} << 20;
-inline constexpr std::uint32_t kMostBoundsBytes = std::uint32_t{32} << 20;
+inline constexpr std::uint32_t kMaxBoundsBytes = std::uint32_t{32} << 20;
 
 /// Jobs in one answer to ListJobs.
 inline constexpr std::uint32_t kMaxListedJobs = 1000;

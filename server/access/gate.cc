@@ -15,8 +15,8 @@ constexpr std::int64_t kNoteMs = 60'000;
 
 constexpr std::string_view kScheme = "bearer ";
 
-/// The token of an authorization; another scheme is a token that nobody has.  RFC 9110: the scheme's name may
-/// be written in small or large letters.
+/// The token of an authorization; another scheme is a token without an owner.  RFC 9110: the scheme's name
+/// may be written in small or large letters.
 std::string_view token_of(std::string_view authorization) {
   const std::string_view scheme = authorization.substr(0, kScheme.size());
   const bool bearer = std::equal(

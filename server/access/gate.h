@@ -39,7 +39,7 @@ class TokenSource {
   virtual void note_tokens_used(const std::map<std::int64_t, std::int64_t>& last_used_ms) = 0;
 };
 
-/// What the gate says: a status, and when that is OK, who it is.
+/// What the gate says: a status, and when that is OK, the caller.
 struct Admission {
   grpc::Status status;
   Identity identity;
@@ -50,12 +50,12 @@ struct GateOptions {
   std::function<std::int64_t()> now_ms;  ///< Unix time in milliseconds
 };
 
-/// Decides who a caller is, and whether it may make a call.
+/// Identifies a caller, and decides whether it may make a call.
 ///
-/// A token says who its holder is, on any transport.  Without one, a caller on a Unix socket is the user
+/// A token identifies its owner, on any transport.  Without one, a caller on a Unix socket is the user
 /// whose process it is: the server's own user and root are admins.  A caller on TCP without a token is
 /// admitted only by a server that never had any token: then all of them are one admin without a name, to whom
-/// nobody's job is another's.  Thread-safe.
+/// no job is another's.  Thread-safe.
 class Gate {
  public:
   /// @param tokens must outlive it.

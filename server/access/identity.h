@@ -7,9 +7,9 @@
 
 namespace affskel::server {
 
-/// Who makes a call.
+/// The maker of a call.
 struct Identity {
-  std::string owner;  ///< whose jobs are the caller's own; empty: nobody's in particular (see Gate)
+  std::string owner;  ///< of the caller's own jobs; empty: of none in particular (see Gate)
   v1::Role role = v1::ROLE_UNSPECIFIED;
   std::int64_t token = 0;  ///< the id of the token that said so; 0 = none
 };

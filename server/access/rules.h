@@ -49,7 +49,7 @@ struct MethodRule {
   bool admin;
 };
 
-/// One row for each method.  A method without one may be called by nobody.
+/// One row for each method.  A method without one may not be called.
 std::span<const MethodRule> method_rules();
 
 /// @throws std::logic_error for a method without a row.
@@ -74,7 +74,7 @@ struct Attempt {
   bool has_token = false;          ///< it shows one,
   std::optional<TokenRow> token;   ///< which is this; absent = it is not known here
   std::int64_t now_ms = 0;         ///< against which the token's times are held
-  bool needs_token = false;        ///< nothing else says who it is
+  bool needs_token = false;        ///< nothing else identifies the caller
   bool needs_certificate = false;  ///< the server asks for client certificates on this transport,
   bool has_certificate = false;    ///< and it has shown one that is good
   v1::Role role = v1::ROLE_UNSPECIFIED;

@@ -1,7 +1,5 @@
 #include "access/token.h"
 
-#include <openssl/rand.h>
-
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -10,6 +8,7 @@
 
 #include "access/owner_name.h"
 #include "base/quoted.h"
+#include "base/random.h"
 #include "database/errors.h"
 #include "wire/sha256.h"
 #include "wire/words.h"
@@ -70,9 +69,7 @@ void check_new_owner(Database& db, const std::string& owner) {
 
 std::string new_token() {
   std::array<unsigned char, kTokenBytes> bytes{};
-  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
-    throw std::runtime_error("the system's random generator failed");
-  }
+  base::fill_with_random(bytes);
   return "affskel_" + base64url(bytes.data(), bytes.size());
 }
 

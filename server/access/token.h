@@ -11,7 +11,7 @@
 
 namespace affskel::server {
 
-/// What a server keeps of a token.  The token itself is told once, to whoever had it made.
+/// What a server keeps of a token.  The token itself is told once, to the administrator that had it made.
 struct TokenRow {
   std::int64_t id = 0;
   std::string owner;

@@ -10,7 +10,7 @@ namespace affskel::server {
 void Answers::check(const Caller& caller) const {
   const base::MutexLock lock(mutex_);
   const auto reader = readers_.find(caller.connection);
-  // Who reads what it asks for is not refused for others who do not, unless these are very many.
+  // A peer that reads what it asks for is not refused for others that do not, unless these are very many.
   const std::uint64_t own = reader == readers_.end() ? 0 : reader->second.bytes;
   if (own < options_.of_connection && bytes_ < (own < options_.little ? 2 : 1) * options_.of_all) return;
   throw CallEnded({grpc::StatusCode::UNAVAILABLE,
@@ -18,21 +18,21 @@ void Answers::check(const Caller& caller) const {
                        std::to_string(bytes_) + " on all; read them, and try again"});
 }
 
-Answers::Share Answers::enter(const Caller& caller, std::uint64_t bytes, std::weak_ptr<Endable> call) {
+Answers::Answer Answers::enter(const Caller& caller, std::uint64_t bytes, std::weak_ptr<Endable> call) {
   const std::uint64_t taken = taken_(caller.connection).value_or(0);
   const base::MutexLock lock(mutex_);
   const auto [found, is_new] = readers_.try_emplace(caller.connection);
   Reader& reader = found->second;
   if (is_new) {
     reader.taken = taken;
-    reader.pace = Pace(options_.pace);
+    reader.pace = base::Pace(options_.pace);
     reader.pace.turn(options_.now());
   }
   reader.bytes += bytes;
   ++reader.answers;
   bytes_ += bytes;
   const std::uint64_t number = next_number_++;
-  answers_.emplace(number, Answer{caller.connection, bytes, std::move(call)});
+  answers_.emplace(number, Entry{caller.connection, bytes, std::move(call)});
   return {this, number};
 }
 
@@ -48,7 +48,7 @@ void Answers::leave(std::uint64_t number) {
 }
 
 bool Answers::is_late(std::uint64_t connection, Reader& reader) const {
-  const Pace::Time now = options_.now();
+  const base::Pace::Time now = options_.now();
   const std::uint64_t taken = taken_(connection).value_or(reader.taken);
   if (taken > reader.taken) {
     reader.pace.moved(taken - reader.taken, now);

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "base/pace.h"
 #include "calls/call_limit.h"
-#include "calls/pace.h"
 
 namespace affskel::server {
 
@@ -19,7 +19,7 @@ struct AnswerOptions {
   std::uint64_t of_all = std::uint64_t{192} << 20;        ///< all of them ...
   std::uint64_t little = std::uint64_t{1}
                          << 20;  ///< ... and as much again, of those that leave less than this
-  PaceOptions pace;              ///< at which a connection must take answers while some wait
+  base::PaceOptions pace;        ///< at which a connection must take answers while some wait
   std::function<std::chrono::steady_clock::time_point()> now = [] {
     return std::chrono::steady_clock::now();
   };
@@ -37,20 +37,20 @@ class Answers {
   Answers& operator=(const Answers&) = delete;
 
   /// One answer, until it is destroyed: gRPC has sent it, or given it up.
-  class Share {
+  class Answer {
    public:
-    Share() = default;
-    Share(Share&& other) noexcept
+    Answer() = default;
+    Answer(Answer&& other) noexcept
         : answers_(std::exchange(other.answers_, nullptr)), number_(other.number_) {}
-    Share& operator=(Share&&) = delete;
-    ~Share() { leave(); }
+    Answer& operator=(Answer&&) = delete;
+    ~Answer() { leave(); }
     void leave() {
       if (answers_ != nullptr) std::exchange(answers_, nullptr)->leave(number_);
     }
 
    private:
     friend class Answers;
-    Share(Answers* answers, std::uint64_t number) : answers_(answers), number_(number) {}
+    Answer(Answers* answers, std::uint64_t number) : answers_(answers), number_(number) {}
     Answers* answers_ = nullptr;
     std::uint64_t number_ = 0;
   };
@@ -62,7 +62,7 @@ class Answers {
   /// An answer is about to be given to gRPC.
   /// @param bytes of memory that it takes.
   /// @param call is ended when its peer takes too little for too long.
-  Share enter(const Caller& caller, std::uint64_t bytes, std::weak_ptr<Endable> call);
+  Answer enter(const Caller& caller, std::uint64_t bytes, std::weak_ptr<Endable> call);
 
   /// Ends the calls whose peers take too little.  Call now and then.
   void tick();
@@ -71,7 +71,7 @@ class Answers {
   std::uint64_t bytes() const;
 
  private:
-  struct Answer {
+  struct Entry {
     std::uint64_t connection;
     std::uint64_t bytes;
     std::weak_ptr<Endable> call;
@@ -80,7 +80,7 @@ class Answers {
     std::uint64_t bytes = 0;
     std::size_t answers = 0;
     std::uint64_t taken = 0;  // at the last look
-    Pace pace;
+    base::Pace pace;
   };
 
   void leave(std::uint64_t number);
@@ -89,7 +89,7 @@ class Answers {
   const AnswerOptions options_;
   const Taken taken_;
   mutable base::Mutex mutex_;
-  std::map<std::uint64_t, Answer> answers_ ABSL_GUARDED_BY(mutex_);  // by the order of their coming
+  std::map<std::uint64_t, Entry> answers_ ABSL_GUARDED_BY(mutex_);   // by the order of their coming
   std::map<std::uint64_t, Reader> readers_ ABSL_GUARDED_BY(mutex_);  // by connection: those with answers
   std::uint64_t bytes_ ABSL_GUARDED_BY(mutex_) = 0;
   std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;

@@ -19,7 +19,7 @@ constexpr std::size_t kWaitersPerPlace = 16;
 constexpr double kRelieveSeconds = 60;
 
 // Between two lines of the log that say how many calls were ended.
-constexpr std::chrono::seconds kTellEvery{10};
+constexpr std::chrono::seconds kLogEvery{10};
 
 const auto by_peer = [](const Caller& caller) { return caller.peer; };
 const auto by_connection = [](const Caller& caller) { return caller.connection; };
@@ -30,7 +30,7 @@ void run(const std::vector<std::function<void()>>& later) {
 
 }  // namespace
 
-CallLimit::CallLimit(CallLimitOptions options) : options_(std::move(options)), log_(kTellEvery) {}
+CallLimit::CallLimit(CallLimitOptions options) : options_(std::move(options)), log_(kLogEvery) {}
 
 CallLimit::Place::Place(Place&& other) noexcept
     : limit_(std::exchange(other.limit_, nullptr)), number_(other.number_) {}
@@ -108,15 +108,16 @@ std::optional<CallLimit::Place> CallLimit::try_enter(const Caller& caller, const
   if (options_.half_for_a_peer && of_peer(caller.peer) >= std::max<std::size_t>(1, options_.most / 2)) {
     return std::nullopt;
   }
-  const Pace::Time now = options_.now();
+  const base::Pace::Time now = options_.now();
   if (holders_.size() >= options_.most && !make_room(caller, now, later)) return std::nullopt;
   const std::uint64_t number = next_number_++;
-  holders_.emplace(number, Holder{caller, call, Pace(options_.pace.value_or(PaceOptions{})), now});
+  holders_.emplace(number,
+                   Holder{caller, call, base::Pace(options_.pace.value_or(base::PaceOptions{})), now});
   return Place(this, number);
 }
 
 /// Takes a place from a call that has less right to it than this caller's next one.
-bool CallLimit::make_room(const Caller& caller, Pace::Time now, Later& later) {
+bool CallLimit::make_room(const Caller& caller, base::Pace::Time now, Later& later) {
   if (options_.pace) {
     const auto slow = slowest(now, [&](const Holder& holder) { return holder.pace.slow(now); });
     if (slow != holders_.end()) {
@@ -128,7 +129,7 @@ bool CallLimit::make_room(const Caller& caller, Pace::Time now, Later& later) {
          take_from(by_connection, std::max<std::size_t>(1, options_.most / 8), caller, "connection", later);
 }
 
-/// Takes a place from who has more than its share, if this caller has less.
+/// Takes a place from a peer or connection with more than its share, if this caller has less.
 template <typename Key>
 bool CallLimit::take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later) {
   std::map<decltype(key(caller)), std::size_t> counts;
@@ -143,7 +144,7 @@ bool CallLimit::take_from(Key key, std::size_t share, const Caller& caller, cons
 
 /// The slowest of the calls that can be ended and for which belongs(holder) holds.
 template <typename Belongs>
-CallLimit::Holders::iterator CallLimit::slowest(Pace::Time now, Belongs belongs) {
+CallLimit::Holders::iterator CallLimit::slowest(base::Pace::Time now, Belongs belongs) {
   const auto worse = [&](const Holder& a, const Holder& b) {
     const double one = a.pace.rate(now), other = b.pace.rate(now);
     return one != other ? one < other : a.entered < b.entered;
@@ -160,7 +161,7 @@ CallLimit::Holders::iterator CallLimit::slowest(Pace::Time now, Belongs belongs)
 }
 
 void CallLimit::evict(Holders::iterator holder, const std::string& why, Later& later) {
-  tell(holder->second, why);
+  log_eviction(holder->second, why);
   later.push_back(
       [call = holder->second.call,
        status = grpc::Status(grpc::StatusCode::UNAVAILABLE, "the call was ended: " + why + "; try again")] {
@@ -169,7 +170,7 @@ void CallLimit::evict(Holders::iterator holder, const std::string& why, Later& l
   holders_.erase(holder);
 }
 
-void CallLimit::tell(const Holder& holder, const std::string& why) {
+void CallLimit::log_eviction(const Holder& holder, const std::string& why) {
   const auto number = log_.happened(options_.now());
   if (!number) return;
   spdlog::warn(base::logfmt("call_ended", {{"number", *number},
@@ -185,7 +186,7 @@ std::size_t CallLimit::of_peer(const std::string& peer) const {
       holders_.begin(), holders_.end(), [&](const auto& entry) { return entry.second.caller.peer == peer; }));
 }
 
-/// Gives free places to those who wait, in the order of their coming.
+/// Gives free places to the waiters, in the order of their coming.
 void CallLimit::serve_waiters(Later& later) {
   while (!waiters_.empty() && holders_.size() < options_.most) {
     Waiter waiter = std::move(waiters_.front());
@@ -204,7 +205,7 @@ void CallLimit::tick() {
   Later later;
   {
     const base::MutexLock lock(mutex_);
-    const Pace::Time now = options_.now();
+    const base::Pace::Time now = options_.now();
     for (auto holder = holders_.begin(); options_.pace && holder != holders_.end();) {
       const auto next = std::next(holder);
       if (holder->second.pace.late(now) && !holder->second.call.expired()) {
@@ -231,7 +232,7 @@ bool CallLimit::relieve() {
   Later later;
   {
     const base::MutexLock lock(mutex_);
-    const Pace::Time now = options_.now();
+    const base::Pace::Time now = options_.now();
     const auto seconds = [&](const Holder& holder) {
       const bool judged = holder.pace.judged(now) && !holder.call.expired();
       return judged ? static_cast<double>(holder.pace.total()) / (holder.pace.rate(now) + 1) : 0.0;

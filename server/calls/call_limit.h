@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/mutex.h"
-#include "calls/pace.h"
+#include "base/pace.h"
 #include "traffic/caller.h"
 #include "traffic/rare_log.h"
 
@@ -33,9 +33,9 @@ struct CallLimitOptions {
   std::size_t most = 1;
   bool half_for_a_peer = false;           ///< no peer has more than half of the places, ever
   std::chrono::milliseconds patience{0};  ///< how long a call waits for its turn
-  std::optional<PaceOptions> pace;        ///< none: calls are never too slow
+  std::optional<base::PaceOptions> pace;  ///< none: calls are never too slow
   grpc::StatusCode refusal = grpc::StatusCode::UNAVAILABLE;
-  std::function<Pace::Time()> now = [] { return std::chrono::steady_clock::now(); };
+  std::function<base::Pace::Time()> now = [] { return std::chrono::steady_clock::now(); };
 };
 
 /// Bounds the calls of one kind.  Any call may take a free place.  When none is free, a new call takes the
@@ -81,14 +81,14 @@ class CallLimit {
   /// As enter, but waits for a turn as long as patience lasts.  May call `granted` before it returns.
   void enter_later(const Caller& caller, std::weak_ptr<Endable> call, Granted granted);
 
-  /// Ends the calls whose peers are late, and refuses who has waited for too long.  Call now and then.
+  /// Ends the calls whose peers are late, and refuses waiters that have waited too long.  Call now and then.
   void tick();
 
   /// When memory is short: ends the call that, at its present pace, takes longest to bring what it holds
   /// once more, if that is over a minute.  False when there is none.
   bool relieve();
 
-  /// Refuses all that come from now on, and who waits.
+  /// Refuses all that come from now on, and the waiters.
   void close(const grpc::Status& why);
 
   /// Ends all calls under way.
@@ -105,14 +105,14 @@ class CallLimit {
   struct Holder {
     Caller caller;
     std::weak_ptr<Endable> call;
-    Pace pace;
-    Pace::Time entered;
+    base::Pace pace;
+    base::Pace::Time entered;
   };
   struct Waiter {
     Caller caller;
     std::weak_ptr<Endable> call;
     Granted granted;
-    Pace::Time until;
+    base::Pace::Time until;
   };
   using Holders = std::map<std::uint64_t, Holder>;  // by the order of their coming
   /// What is to be done when the lock is gone.
@@ -120,12 +120,13 @@ class CallLimit {
 
   std::optional<Place> try_enter(const Caller& caller, const std::weak_ptr<Endable>& call, Later& later)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  bool make_room(const Caller& caller, Pace::Time now, Later& later) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool make_room(const Caller& caller, base::Pace::Time now, Later& later)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void evict(Holders::iterator holder, const std::string& why, Later& later)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void tell(const Holder& holder, const std::string& why);
+  void log_eviction(const Holder& holder, const std::string& why);
   template <typename Belongs>
-  Holders::iterator slowest(Pace::Time now, Belongs belongs) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Holders::iterator slowest(base::Pace::Time now, Belongs belongs) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   template <typename Key>
   bool take_from(Key key, std::size_t share, const Caller& caller, const char* who, Later& later)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

@@ -11,7 +11,7 @@
 namespace affskel::server {
 namespace {
 
-CallLimitOptions places(const char* what, std::size_t most, std::optional<PaceOptions> pace = {}) {
+CallLimitOptions places(const char* what, std::size_t most, std::optional<base::PaceOptions> pace = {}) {
   CallLimitOptions options;
   options.what = what;
   options.most = most;
@@ -105,7 +105,7 @@ void CallRoom::stop() {
 
 namespace {
 
-/// What gRPC knows of who has made a call.
+/// What gRPC knows of the caller.
 Credentials credentials_of(const grpc::CallbackServerContext& context, const Caller& caller) {
   Credentials credentials;
   credentials.uid = caller.uid;
@@ -118,7 +118,8 @@ Credentials credentials_of(const grpc::CallbackServerContext& context, const Cal
   return credentials;
 }
 
-/// Who calls cannot be known while the disk cannot be read: that says nothing about what the call is for.
+/// The caller cannot be identified while the disk cannot be read: that says nothing about what the call is
+/// for.
 Admission admitted(Gate& gate, Method method, const Credentials& credentials) {
   try {
     return gate.admit(method, credentials);
@@ -135,10 +136,10 @@ Admission admitted(Gate& gate, Method method, const Credentials& credentials) {
 }  // namespace
 
 CallScope::CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Method method)
-    : use_(room.connections.begin(context.peer(), rule_of(method).side)) {
-  const Admission admission = admitted(*room.gate, method, credentials_of(context, use_.caller()));
+    : call_(room.connections.begin(context.peer(), rule_of(method).side)) {
+  const Admission admission = admitted(*room.gate, method, credentials_of(context, call_.caller()));
   if (!admission.status.ok()) throw CallEnded(admission.status);
-  use_.identify(admission.identity);
+  call_.identify(admission.identity);
   if (rule_of(method).side == Side::kClient) activity_ = std::make_unique<Activity::Call>(room.activity);
 }
 

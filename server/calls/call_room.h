@@ -70,10 +70,10 @@ class CallScope {
   /// @throws CallEnded when the connection has no room for it, or the caller no right to it.
   CallScope(CallRoom& room, const grpc::CallbackServerContext& context, Method method);
 
-  const Caller& caller() const { return use_.caller(); }
+  const Caller& caller() const { return call_.caller(); }
 
  private:
-  Connections::Use use_;
+  Connections::Call call_;
   std::unique_ptr<Activity::Call> activity_;
 };
 

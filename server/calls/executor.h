@@ -19,7 +19,7 @@ struct ExecutorOptions {
 };
 
 /// Runs the parts of calls that may block, on a fixed number of threads.  Callers take turns,
-/// so that one who posts a thousand bodies delays only himself.  Thread-safe.
+/// so that one that posts a thousand bodies delays only itself.  Thread-safe.
 class Executor {
  public:
   explicit Executor(const ExecutorOptions& options = {});

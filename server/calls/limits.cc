@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kReserved = 1536;
 
 // A connection over TLS costs some 75 kB, whatever the limit on descriptors is.
-constexpr std::uint64_t kMostConnections = 8192;
+constexpr std::uint64_t kMaxConnections = 8192;
 
 // The client's socket, and a pair between the relay and gRPC.
 constexpr std::uint64_t kDescriptorsPerConnection = 3;
@@ -24,7 +24,7 @@ CallLimits limits_for(std::uint64_t open_files) {
   CallLimits limits;
   const std::uint64_t reserve = std::min(kReserved, open_files / 4);
   limits.connections =
-      std::clamp<std::uint64_t>((open_files - reserve) / kDescriptorsPerConnection, 1, kMostConnections);
+      std::clamp<std::uint64_t>((open_files - reserve) / kDescriptorsPerConnection, 1, kMaxConnections);
   // Two descriptors to a download or an input, so that all of them together take a quarter at most, and half
   // of the reserve where descriptors are few.
   const std::uint64_t taken = kDescriptorsPerConnection * limits.connections;

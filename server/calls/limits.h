@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "calls/pace.h"
+#include "base/pace.h"
 
 namespace affskel::server {
 
@@ -24,8 +24,8 @@ struct CallLimits {
   std::uint64_t grpc_bytes = std::uint64_t{512} << 20;     ///< that gRPC may take for what is on its way
 
   std::chrono::milliseconds patience{5000};  ///< how long a download waits for its turn
-  PaceOptions receiving;
-  PaceOptions sending{.least_per_s = 8192};
+  base::PaceOptions receiving;
+  base::PaceOptions sending{.least_per_s = 8192};
 
   std::chrono::milliseconds idle{8000};  ///< a connection without calls is closed after this
   int streams = 1024;                    ///< calls of one connection at once

@@ -45,7 +45,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor,
   }
 
   void OnDone() override {
-    share_.reset();
+    unread_.reset();
     const std::shared_ptr<UnaryCall> self = std::move(self_);  // the last use of this object
     const base::MutexLock lock(mutex_);
     done_ = true;
@@ -78,7 +78,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor,
     });
     // What gRPC keeps: the message, and the message in the form that is sent.
     if (status.ok())
-      share_.emplace(
+      unread_.emplace(
           room_.answers.enter(caller, answer_.SpaceUsedLong() + answer_.ByteSizeLong(), weak_from_this()));
     finish(status);
   }
@@ -96,7 +96,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor,
   const CallTimer timer_;
   std::optional<CallScope> scope_;
   std::optional<std::uint64_t> posted_;
-  std::optional<Answers::Share> share_;
+  std::optional<Answers::Answer> unread_;
   base::Mutex mutex_;
   bool done_ ABSL_GUARDED_BY(mutex_) = false;  // with the context, too
   std::shared_ptr<UnaryCall> self_;

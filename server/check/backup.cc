@@ -63,7 +63,7 @@ class TemporaryFile {
   }
 
  private:
-  // Whoever has made a file of that name meanwhile keeps it.
+  // A file of that name that was made meanwhile is kept.
   bool rename_to_new() const {
     if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return true;
     // Not every file system can do that.

@@ -79,8 +79,8 @@ void check_all_messages(Database& db, FaultLog& faults) {
 /// The summary of the prepare stage against the columns that were taken from it.
 void check_summaries(Database& db, FaultLog& faults) {
   Statement row = db.query(
-      "SELECT 'erosion ' || id, prepared, points, directions, stride FROM erosions WHERE core_version IS NOT"
-      " NULL");
+      "SELECT 'erosion ' || id, prepared, points, directions, stride FROM erosions"
+      " WHERE core_version IS NOT NULL");
   while (row.step()) {
     Columns columns(row);
     const std::string erosion = columns.text();

@@ -66,8 +66,8 @@ constexpr const char* kJobs[] = {
     " ELSE 'erode' END, iif(e.finished, 'complete', ''))",
 
     "SELECT 'job ' || j.id, 'is done, but its skeleton is missing' FROM jobs j WHERE j.state = 'done'"
-    " AND j.removed_ms = 0 AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id AND kind "
-    "= 'skeleton'"
+    " AND j.removed_ms = 0 AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id"
+    " AND kind = 'skeleton'"
     " AND params_key = j.skeleton_key)",
 
     "SELECT 'job ' || j.id, 'tells of ' || j.skeleton_points || ' skeleton points, its skeleton has '"
@@ -127,15 +127,15 @@ constexpr const char* kTasks[] = {
 // The ready tasks by owner, which triggers keep: see migration 8.  A row too few, and the tasks wait for
 // ever.
 constexpr const char* kQueues[] = {
-    "WITH counted AS (SELECT owner, on_request, needs_core, needs_memory, priority, count(*) AS ready FROM "
-    "tasks"
+    "WITH counted AS (SELECT owner, on_request, needs_core, needs_memory, priority, count(*) AS ready"
+    " FROM tasks"
     " WHERE state = 'pending' AND parked = 0 GROUP BY owner, on_request, needs_core, needs_memory, priority)"
-    " SELECT 'queue of owner ' || quote(c.owner), 'counts ' || ifnull(q.ready, 0) || ' ready tasks of "
-    "priority '"
+    " SELECT 'queue of owner ' || quote(c.owner),"
+    " 'counts ' || ifnull(q.ready, 0) || ' ready tasks of priority '"
     " || c.priority || ', there are ' || c.ready FROM counted c LEFT JOIN queues q USING (owner, on_request,"
     " needs_core, needs_memory, priority) WHERE q.ready IS NOT c.ready"
-    " UNION ALL SELECT 'queue of owner ' || quote(q.owner), 'counts ' || q.ready || ' ready tasks of "
-    "priority '"
+    " UNION ALL SELECT 'queue of owner ' || quote(q.owner),"
+    " 'counts ' || q.ready || ' ready tasks of priority '"
     " || q.priority || ', there are none' FROM queues q LEFT JOIN counted c USING (owner, on_request,"
     " needs_core, needs_memory, priority) WHERE c.ready IS NULL",
 
@@ -145,23 +145,23 @@ constexpr const char* kQueues[] = {
 
 // What owners use, which triggers count: see migration 9.
 constexpr const char* kUse[] = {
-    "SELECT 'erosion ' || id, 'is counted with ' || bytes || ' bytes, it has ' || n FROM (SELECT e.id, "
-    "e.bytes,"
-    " iif(EXISTS (SELECT 1 FROM jobs WHERE erosion_id = e.id AND removed_ms > 0), 0, 20 * ifnull(e.points, "
-    "0))"
+    "SELECT 'erosion ' || id, 'is counted with ' || bytes || ' bytes, it has ' || n"
+    " FROM (SELECT e.id, e.bytes,"
+    " iif(EXISTS (SELECT 1 FROM jobs WHERE erosion_id = e.id"
+    " AND removed_ms > 0), 0, 20 * ifnull(e.points, 0))"
     " + (SELECT ifnull(sum(bytes), 0) FROM artifacts WHERE erosion_id = e.id) AS n FROM erosions e"
     " WHERE e.dropped = 0) WHERE n <> bytes",
 
-    "SELECT 'use of owner ' || quote(owner), 'is counted as ' || counted || ', is ' || there FROM (SELECT "
-    "u.owner,"
+    "SELECT 'use of owner ' || quote(owner), 'is counted as ' || counted || ', is ' || there"
+    " FROM (SELECT u.owner,"
     " u.queued_jobs || ' jobs, ' || u.mesh_bytes || ' and ' || u.stored_bytes || ' bytes' AS counted,"
-    " (SELECT count(*) FROM jobs WHERE owner = u.owner AND state IN ('queued', 'running')) || ' jobs, ' || "
-    "m.bytes"
+    " (SELECT count(*) FROM jobs WHERE owner = u.owner"
+    " AND state IN ('queued', 'running')) || ' jobs, ' || m.bytes"
     " || ' and ' || (m.bytes + (SELECT ifnull(sum(bytes), 0) FROM erosions WHERE id IN"
     "  (SELECT erosion_id FROM jobs WHERE owner = u.owner))) || ' bytes' AS there"
     " FROM owner_use u JOIN (SELECT u.owner, (SELECT ifnull(sum(bytes), 0) FROM meshes WHERE sha256 IN"
-    "  (SELECT e.mesh_sha256 FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.owner = u.owner)) AS "
-    "bytes"
+    "  (SELECT e.mesh_sha256 FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
+    " WHERE j.owner = u.owner)) AS bytes"
     "  FROM owner_use u) m USING (owner)) WHERE counted <> there",
 };
 

@@ -35,7 +35,7 @@ bool check_schema(Database& db, int schema, FaultLog& faults) {
   const std::vector<Part> found = parts_of(db), known = parts_of(model);
   bool readable = true;
   for (const Part& part : found) {
-    // A trigger of somebody else's changes what is stored, a table may have one.
+    // A trigger that is not ours changes what is stored, a table may have one.
     if (std::binary_search(known.begin(), known.end(), part) || part.name.starts_with("sqlite_")) continue;
     if (part.kind != "column") faults.add(part.kind + " " + part.name, "is none of this program's");
   }

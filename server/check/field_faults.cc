@@ -12,7 +12,7 @@
 namespace affskel::server {
 namespace {
 
-using Tell = std::function<void(FieldFault)>;
+using OnFault = std::function<void(FieldFault)>;
 
 bool natural(double value) {
   return std::isfinite(value) && value >= 0;
@@ -57,7 +57,7 @@ std::string fault_of_chunk(Database& db, const FieldShape& field, std::int64_t i
   return bad_points(field, index, chunk);
 }
 
-void find_in_chunks(Database& db, const FieldShape& field, const Tell& tell) {
+void find_in_chunks(Database& db, const FieldShape& field, const OnFault& on_fault) {
   const std::string name = "erosion " + std::to_string(field.erosion_id);
   const std::int64_t count = field_chunk_count(field.points);
   std::int64_t found = 0;
@@ -66,17 +66,17 @@ void find_in_chunks(Database& db, const FieldShape& field, const Tell& tell) {
     if (row.integer(0) < count) ++found;
     std::string what = fault_of_chunk(db, field, row.integer(0), row.blob(1));
     if (what.empty()) continue;
-    tell({"field_chunks", row.integer(2), name + ", field chunk " + row.text(0), std::move(what)});
+    on_fault({"field_chunks", row.integer(2), name + ", field chunk " + row.text(0), std::move(what)});
   }
   Statement lost = db.query(
       "SELECT idx FROM field_sums s WHERE erosion_id = ?1 AND NOT EXISTS"
       " (SELECT 1 FROM field_chunks WHERE erosion_id = ?1 AND idx = s.idx)",
       field.erosion_id);
-  while (lost.step()) tell({nullptr, 0, name + ", field chunk " + lost.text(0), "is missing"});
+  while (lost.step()) on_fault({nullptr, 0, name + ", field chunk " + lost.text(0), "is missing"});
   if (field.finished && found < count) {
-    tell({nullptr, 0, name,
-          "is finished, but only " + std::to_string(found) + " of " + std::to_string(count) +
-              " chunks of its field are there"});
+    on_fault({nullptr, 0, name,
+              "is finished, but only " + std::to_string(found) + " of " + std::to_string(count) +
+                  " chunks of its field are there"});
   }
 }
 
@@ -91,19 +91,20 @@ std::string fault_of_log(const FieldShape& field, std::string_view bytes, std::i
   return bad == 0 ? std::string() : std::to_string(bad) + " records that no report can have brought";
 }
 
-void find_in_log(Database& db, const FieldShape& field, const Tell& tell) {
+void find_in_log(Database& db, const FieldShape& field, const OnFault& on_fault) {
   Statement row = db.query("SELECT id, data, sum FROM field_log WHERE erosion_id = ?", field.erosion_id);
   while (row.step()) {
     std::string what = fault_of_log(field, row.blob(1), row.integer(2));
     if (what.empty()) continue;
-    tell({"field_log", row.integer(0),
-          "erosion " + std::to_string(field.erosion_id) + ", logged report " + row.text(0), std::move(what)});
+    on_fault({"field_log", row.integer(0),
+              "erosion " + std::to_string(field.erosion_id) + ", logged report " + row.text(0),
+              std::move(what)});
   }
 }
 
 }  // namespace
 
-void for_each_field(Database& db, const std::function<void(const FieldShape&)>& tell) {
+void for_each_field(Database& db, const std::function<void(const FieldShape&)>& visit) {
   std::vector<FieldShape> fields;
   {
     Statement row = db.query(
@@ -119,12 +120,13 @@ void for_each_field(Database& db, const std::function<void(const FieldShape&)>& 
       field.done = columns.integer();
     }
   }
-  for (const FieldShape& field : fields) tell(field);
+  for (const FieldShape& field : fields) visit(field);
 }
 
-void find_field_faults(Database& db, const FieldShape& field, const std::function<void(FieldFault)>& tell) {
-  find_in_chunks(db, field, tell);
-  find_in_log(db, field, tell);
+void find_field_faults(Database& db, const FieldShape& field,
+                       const std::function<void(FieldFault)>& on_fault) {
+  find_in_chunks(db, field, on_fault);
+  find_in_log(db, field, on_fault);
 }
 
 }  // namespace affskel::server

@@ -26,11 +26,12 @@ struct FieldFault {
   std::string what;
 };
 
-/// Calls `tell` for every field that is not marked for deletion.
-void for_each_field(Database& db, const std::function<void(const FieldShape&)>& tell);
+/// Calls `visit` for every field that is not marked for deletion.
+void for_each_field(Database& db, const std::function<void(const FieldShape&)>& visit);
 
 /// Checks the rows of a field: their checksums, sizes and places, and whether each value is one that a report
 /// may have brought.
-void find_field_faults(Database& db, const FieldShape& field, const std::function<void(FieldFault)>& tell);
+void find_field_faults(Database& db, const FieldShape& field,
+                       const std::function<void(FieldFault)>& on_fault);
 
 }  // namespace affskel::server

@@ -23,7 +23,7 @@ std::string fault_of(Statement piece, std::int64_t bytes_recorded, const std::st
 
 }  // namespace
 
-void find_mesh_faults(Database& db, const TellPieceFault& tell) {
+void find_mesh_faults(Database& db, const OnPieceFault& on_fault) {
   Statement row =
       db.query("SELECT sha256, bytes FROM meshes WHERE sha256 NOT IN (SELECT sha256 FROM dropped_meshes)");
   while (row.step()) {
@@ -33,11 +33,11 @@ void find_mesh_faults(Database& db, const TellPieceFault& tell) {
     fault.what =
         fault_of(db.query("SELECT idx, data FROM mesh_chunks WHERE sha256 = ? ORDER BY idx", fault.name),
                  row.integer(1), fault.name);
-    if (!fault.what.empty()) tell(fault);
+    if (!fault.what.empty()) on_fault(fault);
   }
 }
 
-void find_artifact_faults(Database& db, const TellPieceFault& tell) {
+void find_artifact_faults(Database& db, const OnPieceFault& on_fault) {
   Statement row = db.query(
       "SELECT a.id, a.kind, a.erosion_id, a.bytes, a.sha256, a.params_key FROM artifacts a"
       " JOIN erosions e ON e.id = a.erosion_id WHERE e.dropped = 0");
@@ -55,7 +55,7 @@ void find_artifact_faults(Database& db, const TellPieceFault& tell) {
     fault.what = fault_of(
         db.query("SELECT idx, data FROM artifact_chunks WHERE artifact_id = ? ORDER BY idx", fault.artifact),
         bytes, sha256);
-    if (!fault.what.empty()) tell(fault);
+    if (!fault.what.empty()) on_fault(fault);
   }
 }
 

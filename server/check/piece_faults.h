@@ -18,10 +18,10 @@ struct PieceFault {
   std::string what;
 };
 
-using TellPieceFault = std::function<void(const PieceFault&)>;
+using OnPieceFault = std::function<void(const PieceFault&)>;
 
 /// Checks sizes and SHA-256 of what is not marked for deletion.
-void find_mesh_faults(Database& db, const TellPieceFault& tell);
-void find_artifact_faults(Database& db, const TellPieceFault& tell);
+void find_mesh_faults(Database& db, const OnPieceFault& on_fault);
+void find_artifact_faults(Database& db, const OnPieceFault& on_fault);
 
 }  // namespace affskel::server

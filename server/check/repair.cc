@@ -48,7 +48,7 @@ class Repairer {
     transaction.commit();
   }
 
-  void tell(const std::string& action) {
+  void report(const std::string& action) {
     repaired_ = true;
     on_action_(action);
   }
@@ -67,7 +67,7 @@ class Repairer {
     }
     if (sound) return;
     db_.execute("REINDEX");
-    tell("the indexes were built anew");
+    report("the indexes were built anew");
   }
 
   // Fields
@@ -85,9 +85,9 @@ class Repairer {
       tx.db.run("DELETE FROM done_ranges WHERE erosion_id = ?", field.erosion_id);
       restart_erosion(tx, field.erosion_id, field.directions);
     });
-    tell(faults.front().where + ": " + faults.front().what +
-         (faults.size() > 1 ? ", and " + std::to_string(faults.size() - 1) + " more faults" : "") + "; all " +
-         std::to_string(field.directions) + " directions are computed again");
+    report(faults.front().where + ": " + faults.front().what +
+           (faults.size() > 1 ? ", and " + std::to_string(faults.size() - 1) + " more faults" : "") +
+           "; all " + std::to_string(field.directions) + " directions are computed again");
   }
 
   static void delete_row(Tx& tx, const FieldFault& fault) {
@@ -99,7 +99,7 @@ class Repairer {
 
   // Artefacts
 
-  /// Lattice and directions are made again when somebody asks for them, everything else is derived from the
+  /// Lattice and directions are made again when a client asks for them, everything else is derived from the
   /// field again.
   void repair_artifact(const PieceFault& fault) {
     write([&](Tx& tx) {
@@ -111,7 +111,7 @@ class Repairer {
         settle_job(tx, job);
       }
     });
-    tell(fault.where + ": " + fault.what + "; it is made again");
+    report(fault.where + ": " + fault.what + "; it is made again");
   }
 
   static std::vector<std::string> jobs_with_skeleton(Database& db, const PieceFault& fault) {

@@ -39,7 +39,7 @@ bool has_bytes(const std::string& file) {
   return stat(file.c_str(), &status) == 0 && status.st_size > 0;
 }
 
-/// SQLite would wait for ever for somebody to write into a FIFO.
+/// SQLite would wait for ever for a process to write into a FIFO.
 void refuse_irregular(const std::string& database) {
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
     const std::string file = database + suffix;

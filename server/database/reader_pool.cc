@@ -6,7 +6,7 @@ namespace {
 
 // Connections kept open: as many as are used at once on most machines.  Each keeps a few descriptors and a
 // cache of 256 KiB.
-constexpr std::size_t kMostIdle = 8;
+constexpr std::size_t kMaxIdle = 8;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::unique_ptr<Database> ReaderPool::take() {
 
 void ReaderPool::give_back(std::unique_ptr<Database> db) {
   const base::MutexLock lock(mutex_);
-  if (idle_.size() < kMostIdle) idle_.push_back(std::move(db));
+  if (idle_.size() < kMaxIdle) idle_.push_back(std::move(db));
 }
 
 }  // namespace affskel::server

@@ -36,7 +36,7 @@ constexpr int kGrowthBytes = 1 << 20;
 /// closing it would release SQLite's locks.
 int probe_disk(const std::string& file) {
   const std::string probe = file + ".probe";
-  unlink(probe.c_str());  // of one who was killed here
+  unlink(probe.c_str());  // of a process that was killed here
   const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (fd < 0) return errno;
   const int error = posix_fallocate(fd, 0, kPageBytes);

@@ -29,11 +29,11 @@ http::Response text(int status, const char* type, std::string body) {
 http::Limits limits_of(const EndpointOptions& options) {
   http::Limits limits;
   limits.places = {.connections = options.connections, .for_known = 0};
-  // Of each kind all connections may wait: whoever asks is answered.
+  // Of each kind all connections may wait: every peer is answered.
   limits.waiting = limits.waiting_of_one = options.connections;
   // Health does not wait for metrics, which take longer; nothing computes.
   limits.threads = {{{1, 1}, {0, 1}, {1, 1}}};
-  limits.header = limits.idle = limits.stretch = options.patience;
+  limits.header = limits.idle = limits.pace.window = options.patience;
   return limits;
 }
 
@@ -75,7 +75,7 @@ class MetricsEndpoint::Service {
     reception.kind = health ? http::AnswerKind::kQuick : http::AnswerKind::kAwaited;
     reception.respond = [this, health](const http::Request& request) {
       try {
-        return health ? tell_health() : tell_metrics();
+        return health ? health_answer() : metrics_answer();
       } catch (const std::exception& error) {
         spdlog::warn(base::logfmt("metrics_failed", {{"path", request.path}, {"message", error.what()}}));
         return text(503, kPlainType, std::string(error.what()) + "\n");
@@ -84,11 +84,11 @@ class MetricsEndpoint::Service {
     return reception;
   }
 
-  http::Response tell_metrics() const {
+  http::Response metrics_answer() const {
     return text(200, kMetricsType, prometheus::TextSerializer().Serialize(sources_.metrics()));
   }
 
-  http::Response tell_health() const {
+  http::Response health_answer() const {
     const std::string why = sources_.trouble();
     return why.empty() ? text(200, kPlainType, "ok\n") : text(503, kPlainType, why + "\n");
   }

@@ -28,8 +28,8 @@ struct EndpointOptions {
 };
 
 /// Serves GET /metrics, in the text format of Prometheus, and GET /healthz, 200 or 503, over HTTP, without
-/// asking who comes.  Has threads of its own, one for each of both: whoever is slow to ask or to read holds
-/// up nobody.
+/// asking for a name.  Has threads of its own, one for each of both: a peer that is slow to ask or to read
+/// holds up no other.
 class MetricsEndpoint {
  public:
   /// Listens and answers until destroyed.

@@ -125,7 +125,7 @@ void Metrics::transaction(Duration waited, Duration worked) {
 std::string Metrics::known_owner(const std::string& owner) {
   const base::MutexLock lock(mutex_);
   if (owners_.contains(owner)) return owner_label(owner);
-  if (owners_.size() >= kMostOwners) return kOtherOwners;
+  if (owners_.size() >= kMaxOwners) return kOtherOwners;
   owners_.insert(owner);
   return owner_label(owner);
 }

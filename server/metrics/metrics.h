@@ -15,8 +15,8 @@
 namespace affskel::server {
 
 /// Owners that have a label of their own; all others share kOtherOwners, so that names do not fill the
-/// memory of whoever collects.
-inline constexpr std::size_t kMostOwners = 100;
+/// memory of the collector.
+inline constexpr std::size_t kMaxOwners = 100;
 inline constexpr const char* kOtherOwners = "(others)";
 
 /// The label of an owner: "(nobody)" for a caller without a name.  Names that begin with '(' get another one,
@@ -47,7 +47,7 @@ class Metrics {
   void lease_granted(const std::string& kind);
   /// It has expired, or its worker has ended.
   void lease_lost(const std::string& kind);
-  /// Somebody used a lease that had ended.
+  /// A worker used a lease that had ended.
   void lease_fenced();
   /// Done, so long after it was leased.
   void task_finished(const std::string& kind, Duration time);

@@ -10,28 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Errors by the names that the client gives them.
-const char* name_of(ExitCode code) {
-  switch (code) {
-    case ExitCode::kFaults:
-      return "FAULT";
-    case ExitCode::kUsage:
-      return "USAGE";
-    case ExitCode::kBadInput:
-      return "BAD_INPUT";
-    case ExitCode::kNotFound:
-      return "NOT_FOUND";
-    case ExitCode::kCancelled:
-      return "CANCELLED";
-    case ExitCode::kNotAllowed:
-      return "NOT_ALLOWED";
-    case ExitCode::kLimit:
-      return "LIMIT";
-    default:
-      return "INTERNAL";
-  }
-}
-
 // Paths and damaged rows may hold any bytes.
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -66,9 +44,17 @@ void Console::print(const std::string& text) const {
   }
 }
 
-void Console::error(ExitCode code, const std::string& message) const {
+void Console::error(base::ExitCode code, const std::string& message) const {
+  report(base::exit_code_name(code), message);
+}
+
+void Console::fault(const std::string& message) const {
+  report("FAULT", message);
+}
+
+void Console::report(const char* name, const std::string& message) const {
   if (json_) {
-    std::cerr << dump({{"error", {{"code", name_of(code)}, {"message", message}}}}) << '\n';
+    std::cerr << dump({{"error", {{"code", name}, {"message", message}}}}) << '\n';
   } else {
     std::cerr << "affskel-server: " << one_line(message) << '\n';
   }

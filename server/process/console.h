@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "process/exit_code.h"
+#include "base/exit_code.h"
 
 namespace affskel::server {
 
@@ -19,11 +19,15 @@ class Console {
   void result(const nlohmann::ordered_json& document) const;
   /// Text for stdout.  @throws std::system_error when it cannot be written.
   void print(const std::string& text) const;
-  void error(ExitCode code, const std::string& message) const;
+  void error(base::ExitCode code, const std::string& message) const;
+  /// Of the database, found by check.
+  void fault(const std::string& message) const;
   /// For people only.
   void note(const std::string& message) const;
 
  private:
+  void report(const char* name, const std::string& message) const;
+
   bool json_;
 };
 

@@ -62,8 +62,8 @@ bool lock_within(int fd, std::chrono::milliseconds patience) {
 std::optional<std::string> data_dir_holder(const std::string& path) {
   const int fd = open((path + "/server.lock").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return std::nullopt;
-  // Shared, so that two who ask at once do not take each other for a server; given back with the descriptor.
-  // A server that starts in between waits a little longer than that.
+  // Shared, so that two processes that ask at once do not take each other for a server; given back with the
+  // descriptor. A server that starts in between waits a little longer than that.
   const bool held = flock(fd, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   const std::string holder = read_pid(fd);
   close(fd);

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/exit_code.h"
 #include "check/backup.h"
 #include "check/check_database.h"
 #include "check/repair.h"
@@ -18,7 +19,6 @@
 #include "database/sqlite.h"
 #include "process/console.h"
 #include "process/data_dir.h"
-#include "process/exit_code.h"
 #include "process/token_command.h"
 
 namespace affskel::server {
@@ -37,11 +37,9 @@ std::int64_t repair(const Options& options, const Console& console) {
   return repairs;
 }
 
-ExitCode check_command(const Options& options, const Console& console) {
+base::ExitCode check_command(const Options& options, const Console& console) {
   const std::int64_t repairs = options.repair ? repair(options, console) : 0;
-  const auto on_fault = [&](const Fault& fault) {
-    console.error(ExitCode::kFaults, fault.where + ": " + fault.what);
-  };
+  const auto on_fault = [&](const Fault& fault) { console.fault(fault.where + ": " + fault.what); };
   const std::string server = data_dir_holder(options.data_dir).value_or("none");
   const CheckResult found = check_database(options.data_dir, on_fault);
   if (found.schema > 0 && found.schema < newest_schema()) {
@@ -62,7 +60,7 @@ ExitCode check_command(const Options& options, const Console& console) {
                                    {"sound", found.faults == 0}};
   if (options.repair) result["repairs"] = repairs;
   console.result(result);
-  return found.faults == 0 ? ExitCode::kDone : ExitCode::kFaults;
+  return found.faults == 0 ? base::ExitCode::kDone : base::ExitCode::kFaults;
 }
 
 /// Signals that would end the program wait, so that nothing half-written stays behind.
@@ -96,18 +94,18 @@ class HeldSignals {
   sigset_t before_{};
 };
 
-ExitCode backup_command(const Options& options, const Console& console) {
+base::ExitCode backup_command(const Options& options, const Console& console) {
   const HeldSignals signals;
   const Backup backup =
       back_up(options.data_dir, options.output, {options.force, [&] { return !signals.take(); }});
   if (!backup.complete) {
-    console.error(ExitCode::kCancelled, "interrupted; " + options.output + " was not written");
-    return ExitCode::kCancelled;
+    console.error(base::ExitCode::kCancelled, "interrupted; " + options.output + " was not written");
+    return base::ExitCode::kCancelled;
   }
   console.result({{"backup", options.output}, {"bytes", backup.bytes}, {"schema", backup.schema}});
   while (signals.take()) {  // too late: it is written
   }
-  return ExitCode::kDone;
+  return base::ExitCode::kDone;
 }
 
 /// Refused before anything is changed: opening a database for writing changes its journal mode.
@@ -116,7 +114,7 @@ int schema_before(const std::string& file) {
   return checked_schema(db);
 }
 
-ExitCode migrate_command(const Options& options, const Console& console) {
+base::ExitCode migrate_command(const Options& options, const Console& console) {
   // Looked for first: taking hold of the directory would make it.
   const std::string file = existing_database_file(options.data_dir);
   const DataDir held(options.data_dir);
@@ -124,14 +122,14 @@ ExitCode migrate_command(const Options& options, const Console& console) {
   if (from == newest_schema()) {
     console.note("the schema is up to date, nothing to do");
     console.result({{"database", file}, {"from", from}, {"to", from}});
-    return ExitCode::kDone;
+    return base::ExitCode::kDone;
   }
   Database db(file, Database::Mode::kReadWrite);
   console.result({{"database", file}, {"from", from}, {"to", migrate(db)}});
-  return ExitCode::kDone;
+  return base::ExitCode::kDone;
 }
 
-ExitCode run_command(const Options& options, const Console& console) {
+base::ExitCode run_command(const Options& options, const Console& console) {
   switch (options.command) {
     case Command::kCheck:
       return check_command(options, console);
@@ -151,41 +149,41 @@ ExitCode run_command(const Options& options, const Console& console) {
   throw std::logic_error("not a command on a data directory");
 }
 
-ExitCode code_of(const StoreError& error) {
+base::ExitCode code_of(const StoreError& error) {
   switch (error.code()) {
     case StoreError::Code::kInvalid:
-      return ExitCode::kUsage;
+      return base::ExitCode::kUsage;
     case StoreError::Code::kNotFound:
-      return ExitCode::kNotFound;
+      return base::ExitCode::kNotFound;
     default:
-      return ExitCode::kBadInput;
+      return base::ExitCode::kBadInput;
   }
 }
 
-ExitCode code_of(const SqliteError& error) {
+base::ExitCode code_of(const SqliteError& error) {
   switch (error.primary_code()) {
     case SQLITE_FULL:
-      return ExitCode::kLimit;
+      return base::ExitCode::kLimit;
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return ExitCode::kNotAllowed;
+      return base::ExitCode::kNotAllowed;
     case SQLITE_IOERR:
-      return ExitCode::kBadInput;
+      return base::ExitCode::kBadInput;
     default:
-      return error.blames_the_file() ? ExitCode::kBadInput : ExitCode::kInternal;
+      return error.blames_the_file() ? base::ExitCode::kBadInput : base::ExitCode::kInternal;
   }
 }
 
-ExitCode code_of(const std::system_error& error) {
+base::ExitCode code_of(const std::system_error& error) {
   switch (error.code().value()) {
     case ENOSPC:
     case EDQUOT:
     case EFBIG:
-      return ExitCode::kLimit;
+      return base::ExitCode::kLimit;
     case EEXIST:
-      return ExitCode::kNotAllowed;
+      return base::ExitCode::kNotAllowed;
     default:
-      return ExitCode::kBadInput;
+      return base::ExitCode::kBadInput;
   }
 }
 
@@ -193,7 +191,7 @@ ExitCode code_of(const std::system_error& error) {
 
 int run_maintenance(const Options& options) {
   const Console console(options.json);
-  const auto fail = [&](ExitCode code, const std::exception& error) {
+  const auto fail = [&](base::ExitCode code, const std::exception& error) {
     console.error(code, error.what());
     return static_cast<int>(code);
   };
@@ -204,16 +202,16 @@ int run_maintenance(const Options& options) {
   } catch (const SqliteError& error) {
     return fail(code_of(error), error);
   } catch (const DataDirInUse& error) {
-    return fail(ExitCode::kNotAllowed, error);
+    return fail(base::ExitCode::kNotAllowed, error);
   } catch (const std::system_error& error) {
-    const ExitCode code = code_of(error);
-    const char* remedy = code == ExitCode::kNotAllowed ? "; --force replaces it" : "";
+    const base::ExitCode code = code_of(error);
+    const char* remedy = code == base::ExitCode::kNotAllowed ? "; --force replaces it" : "";
     console.error(code, error.what() + std::string(remedy));
     return static_cast<int>(code);
   } catch (const std::runtime_error& error) {  // a directory that cannot be used
-    return fail(ExitCode::kBadInput, error);
+    return fail(base::ExitCode::kBadInput, error);
   } catch (const std::exception& error) {
-    return fail(ExitCode::kInternal, error);
+    return fail(base::ExitCode::kInternal, error);
   }
 }
 

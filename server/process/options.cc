@@ -9,8 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/exit_code.h"
 #include "base/regular_file.h"
-#include "process/exit_code.h"
 #include "process/policy_options.h"
 #include "wire/version.h"
 #include "wire/words.h"
@@ -352,7 +352,7 @@ ParsedOptions parse_options(int argc, char** argv) {
       throw CLI::ValidationError("--report-interval-ms", "must be less than --lease-ms");
     }
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+    parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::kUsage);
   }
   return parsed;
 }

@@ -17,11 +17,11 @@
 #include <thread>
 
 #include "base/end_limit.h"
+#include "base/exit_code.h"
 #include "base/logfmt.h"
 #include "base/service_manager.h"
 #include "database/errors.h"
 #include "process/data_dir.h"
-#include "process/exit_code.h"
 #include "process/file_limit.h"
 #include "process/maintenance.h"
 #include "process/signals.h"
@@ -38,7 +38,7 @@ namespace {
 // Between looks at workers that are due and at idleness; signals are noticed at once.
 constexpr std::chrono::milliseconds kTick{100};
 
-// Workers finish the direction in hand and report; whoever needs longer loses at most that.
+// Workers finish the direction in hand and report; one that needs longer loses at most that.
 constexpr std::chrono::milliseconds kWorkerGrace{5000};
 
 // Calls that are under way by then.
@@ -68,7 +68,7 @@ std::vector<wire::Address> listen_addresses(const Options& options, const std::s
   if (addresses.empty() || (!has_socket && (options.workers > 0 || !options.tls_cert.empty()))) {
     addresses.push_back(wire::parse_address("unix:" + data_dir + "/server.sock"));
   }
-  // The working directory may be another one for the workers and for whoever reads server.json.
+  // The working directory may be another one for the workers and for readers of server.json.
   for (wire::Address& address : addresses) {
     if (address.is_unix && address.path[0] != '/') {
       address = wire::parse_address("unix:" + std::filesystem::absolute(address.path).string());
@@ -100,7 +100,7 @@ SupervisorOptions supervisor_options(const Options& options, const Server& serve
   return result;
 }
 
-/// Somebody deleted or moved the data directory.  There is nothing left to finish, and a successor may
+/// The data directory was deleted or moved.  There is nothing left to finish, and a successor may
 /// already live in a new directory of the same name: an orderly end would take its socket away.
 void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
   if (!data_dir.lost()) return;
@@ -110,7 +110,7 @@ void leave_if_lost(const DataDir& data_dir, Supervisor& supervisor) {
       {{"data_dir", data_dir.path()}, {"message", "deleted or moved while the server ran; leaving"}}));
   spdlog::default_logger()->flush();
   supervisor.terminate(std::chrono::milliseconds(0));
-  std::_Exit(static_cast<int>(ExitCode::kUsage));
+  std::_Exit(static_cast<int>(base::ExitCode::kUsage));
 }
 
 /// The database was removed or replaced under the server: what comes now could not be kept.
@@ -122,10 +122,10 @@ void leave_if_database_lost(Server& server, Supervisor& supervisor) {
       {{"file", server.store().file()}, {"message", "removed or replaced while the server ran; leaving"}}));
   spdlog::default_logger()->flush();
   supervisor.terminate(std::chrono::milliseconds(0));
-  std::_Exit(static_cast<int>(ExitCode::kUsage));
+  std::_Exit(static_cast<int>(base::ExitCode::kUsage));
 }
 
-/// Until a signal says so, or nobody needs the server any more.
+/// Until a signal says so, or the server is not needed any more.
 void serve(const Options& options, const DataDir& data_dir, const Signals& signals, Server& server,
            Supervisor& supervisor) {
   for (;;) {
@@ -158,7 +158,7 @@ void keep_memory_small() {
 void leave_if_deaf() {
   base::leave_at_once("critical",
                       "event=deaf message=\"no answer to its own calls; leaving, to be started again\"",
-                      static_cast<int>(ExitCode::kInternal));
+                      static_cast<int>(base::ExitCode::kInternal));
 }
 
 // The workers of this process, for the signal handler that ends it.
@@ -173,7 +173,7 @@ void limit_the_end() {
   base::EndLimit limit;
   limit.limit = kLongestEnd;
   limit.entry = "event=stuck message=\"the end takes too long; leaving without it, nothing is lost\"";
-  limit.exit_code = static_cast<int>(ExitCode::kInternal);
+  limit.exit_code = static_cast<int>(base::ExitCode::kInternal);
   limit.before = kill_workers;
   base::set_end_limit(limit);
 }
@@ -235,7 +235,7 @@ void run_server(const Options& options) {
   }
   data_dir.publish(targets, metrics, SystemClock().wall_ms());
   const Watchdog watchdog(nearest(server).target(), WatchdogOptions(), leave_if_deaf);
-  base::tell_service_manager(base::ServiceState::kReady);
+  base::notify_service_manager(base::ServiceState::kReady);
   try {
     serve(options, data_dir, signals, server, supervisor);
   } catch (...) {
@@ -243,12 +243,12 @@ void run_server(const Options& options) {
     throw;
   }
   base::limit_end();
-  // Of these the first began the end, unless nobody needed the server any more.
+  // Of these the first began the end, unless the server was not needed any more.
   const unsigned heard = std::min(signals.count(), 1U);
-  base::tell_service_manager(base::ServiceState::kStopping);
+  base::notify_service_manager(base::ServiceState::kStopping);
   leave_if_lost(data_dir, supervisor);
   data_dir.withdraw();
-  // First whoever works may finish what is in hand, then what is left is cut off: 10 s at most.  A second
+  // First the workers may finish what is in hand, then what is left is cut off: 10 s at most.  A second
   // signal ends the first stage.
   server.drain();
   bool hurried = false;
@@ -257,21 +257,21 @@ void run_server(const Options& options) {
   spdlog::info(base::logfmt("stopped"));
 }
 
-ExitCode exit_code_of(const SqliteError& error) {
-  if (error.primary_code() == SQLITE_FULL) return ExitCode::kLimit;
-  return error.blames_the_file() || error.says_damaged() || error.says_device() ? ExitCode::kUsage
-                                                                                : ExitCode::kInternal;
+base::ExitCode exit_code_of(const SqliteError& error) {
+  if (error.primary_code() == SQLITE_FULL) return base::ExitCode::kLimit;
+  return error.blames_the_file() || error.says_damaged() || error.says_device() ? base::ExitCode::kUsage
+                                                                                : base::ExitCode::kInternal;
 }
 
 /// Threads, memory, descriptors, room and inodes may be there again in a moment: a service manager is to try.
-ExitCode exit_code_of(const std::system_error& error) {
+base::ExitCode exit_code_of(const std::system_error& error) {
   const int code = error.code().value();
-  if (code == ENOSPC || code == EDQUOT) return ExitCode::kLimit;
+  if (code == ENOSPC || code == EDQUOT) return base::ExitCode::kLimit;
   const bool short_of_something = code == EAGAIN || code == ENOMEM || code == EMFILE || code == ENFILE;
-  return short_of_something ? ExitCode::kInternal : ExitCode::kUsage;
+  return short_of_something ? base::ExitCode::kInternal : base::ExitCode::kUsage;
 }
 
-int fail(ExitCode code, const std::exception& error) {
+int fail(base::ExitCode code, const std::exception& error) {
   base::limit_end();
   std::cerr << "affskel-server: " << error.what() << '\n';
   return static_cast<int>(code);
@@ -288,17 +288,17 @@ int run(const Options& options) {
     run_server(options);
     return 0;
   } catch (const StoreError& error) {
-    return fail(ExitCode::kUsage, error);
+    return fail(base::ExitCode::kUsage, error);
   } catch (const SqliteError& error) {
     return fail(exit_code_of(error), error);
   } catch (const std::system_error& error) {
     return fail(exit_code_of(error), error);
   } catch (const std::runtime_error& error) {
-    return fail(ExitCode::kUsage, error);
+    return fail(base::ExitCode::kUsage, error);
   } catch (const std::invalid_argument& error) {
-    return fail(ExitCode::kUsage, error);
+    return fail(base::ExitCode::kUsage, error);
   } catch (const std::exception& error) {
-    return fail(ExitCode::kInternal, error);
+    return fail(base::ExitCode::kInternal, error);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <ctime>
 
 #include "base/end_limit.h"
-#include "process/exit_code.h"
+#include "base/exit_code.h"
 
 namespace affskel::server {
 namespace {
@@ -27,7 +27,7 @@ void Signals::take(int number) {
     base::leave_at_once("info",
                         number == SIGINT ? "event=stopping signal=2 message=\"during the start\""
                                          : "event=stopping signal=15 message=\"during the start\"",
-                        static_cast<int>(ExitCode::kDone));
+                        static_cast<int>(base::ExitCode::kDone));
   }
   number_ = number;
   ++count_;

@@ -18,6 +18,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/find_program.h"
 #include "base/logfmt.h"
 
 namespace affskel::server {
@@ -58,15 +59,11 @@ base::LogField describe(int status) {
   return {"signal", WTERMSIG(status)};
 }
 
-/// Leaves it to be waited for: until then its number is nobody else's.
+/// Leaves it to be waited for: until then its number is no other process's.
 bool has_ended(pid_t pid, int options) {
   siginfo_t state{};
   return waitid(P_PID, static_cast<id_t>(pid), &state, WEXITED | WNOWAIT | options) == 0 &&
          state.si_pid == pid;
-}
-
-bool executable(const std::filesystem::path& file) {
-  return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
 }
 
 }  // namespace
@@ -172,24 +169,16 @@ unsigned Supervisor::running() const {
 
 std::string find_worker_binary(const std::string& given) {
   if (!given.empty()) {
-    if (!executable(given)) throw std::runtime_error("--worker-binary " + given + ": not a program");
+    if (!base::is_program(given)) throw std::runtime_error("--worker-binary " + given + ": not a program");
     return std::filesystem::absolute(given).string();
   }
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error && executable(self.parent_path() / "affskel-worker")) {
-    return (self.parent_path() / "affskel-worker").string();
-  }
   const char* path = std::getenv("PATH");
-  std::istringstream directories(path == nullptr ? "" : path);
-  for (std::string directory; std::getline(directories, directory, ':');) {
-    if (!directory.empty() && executable(std::filesystem::path(directory) / "affskel-worker")) {
-      return directory + "/affskel-worker";
-    }
-  }
+  const std::filesystem::path found =
+      base::find_program("affskel-worker", base::own_directory(), path == nullptr ? "" : path);
+  if (!found.empty()) return found.string();
   throw std::runtime_error(
-      "--workers: no program affskel-worker next to affskel-server or on the PATH; give --worker-binary "
-      "FILE");
+      "--workers: no program affskel-worker next to affskel-server or on the PATH;"
+      " give --worker-binary FILE");
 }
 
 }  // namespace affskel::server

@@ -15,7 +15,7 @@ struct SupervisorOptions {
   std::vector<std::string> command;             ///< program (a path) and arguments of every worker
   std::chrono::milliseconds first_delay{100};   ///< before the restart of a worker that died young ...
   std::chrono::milliseconds last_delay{30000};  ///< ... doubled each time up to this
-  std::chrono::milliseconds healthy{30000};     ///< who lived this long starts again without delay
+  std::chrono::milliseconds healthy{30000};     ///< a worker that lived this long starts again without delay
 };
 
 /// Keeps a number of child processes running.  For one thread only, which must live as long as the
@@ -34,12 +34,13 @@ class Supervisor {
   /// Reaps children that have ended and starts those that are due.  Call on SIGCHLD and now and then.
   void tick();
 
-  /// Sends SIGTERM to all and waits; kills who has not ended within `grace`.  Starts none afterwards.
+  /// Sends SIGTERM to all and waits; kills workers that have not ended within `grace`.  Starts none
+  /// afterwards.
   /// @param hurry asked again and again; true ends the grace.
   void terminate(
       std::chrono::milliseconds grace, const std::function<bool()>& hurry = [] { return false; });
 
-  /// Kills who runs and waits for nobody, for a process that leaves at once.  Async-signal-safe; any thread.
+  /// Kills all workers and does not wait, for a process that leaves at once.  Async-signal-safe; any thread.
   void kill_all() const noexcept;
 
   /// Children that run.

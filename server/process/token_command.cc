@@ -74,7 +74,7 @@ Json json_of(const TokenRow& token, std::int64_t now_ms) {
 
 }  // namespace
 
-ExitCode add_token_command(const Options& options, const Console& console) {
+base::ExitCode add_token_command(const Options& options, const Console& console) {
   TokenDatabase db(options.data_dir, true);
   const std::string token = new_token();
   const std::int64_t now = unix_ms();
@@ -93,10 +93,10 @@ ExitCode add_token_command(const Options& options, const Console& console) {
                  wire::word(options.role) + ", good until " + time_text(expires, "it is revoked") +
                  "; it is not shown again");
   }
-  return ExitCode::kDone;
+  return base::ExitCode::kDone;
 }
 
-ExitCode list_tokens_command(const Options& options, const Console& console) {
+base::ExitCode list_tokens_command(const Options& options, const Console& console) {
   TokenDatabase db(options.data_dir, false);
   const std::int64_t now = unix_ms();
   const std::vector<TokenRow> tokens = list_tokens(*db);
@@ -104,7 +104,7 @@ ExitCode list_tokens_command(const Options& options, const Console& console) {
     Json all = Json::array();
     for (const TokenRow& token : tokens) all.push_back(json_of(token, now));
     console.print(all.dump() + "\n");
-    return ExitCode::kDone;
+    return base::ExitCode::kDone;
   }
   std::string table = fmt::format("{:>4}  {:<7}  {:<7}  {:<16}  {:<16}  {:<16}  {}\n", "ID", "ROLE", "STATE",
                                   "CREATED", "EXPIRES", "LAST USED", "OWNER");
@@ -115,14 +115,14 @@ ExitCode list_tokens_command(const Options& options, const Console& console) {
                          token.owner);
   }
   console.print(table);
-  return ExitCode::kDone;
+  return base::ExitCode::kDone;
 }
 
-ExitCode revoke_token_command(const Options& options, const Console& console) {
+base::ExitCode revoke_token_command(const Options& options, const Console& console) {
   TokenDatabase db(options.data_dir, false);
   revoke_token(*db, options.token, unix_ms());
   console.note("token " + std::to_string(options.token) + " is worth nothing any more");
-  return ExitCode::kDone;
+  return base::ExitCode::kDone;
 }
 
 }  // namespace affskel::server

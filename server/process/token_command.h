@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/exit_code.h"
 #include "process/console.h"
-#include "process/exit_code.h"
 #include "process/options.h"
 
 namespace affskel::server {
@@ -10,12 +10,12 @@ namespace affskel::server {
 /// server's first start: the database is made then.  What they throw is what run_maintenance tells.
 
 /// Prints the new token, alone on a line; with --json an object with its id, owner, role and expiry, too.
-ExitCode add_token_command(const Options& options, const Console& console);
+base::ExitCode add_token_command(const Options& options, const Console& console);
 
 /// A table, or with --json one object a token in an array.
-ExitCode list_tokens_command(const Options& options, const Console& console);
+base::ExitCode list_tokens_command(const Options& options, const Console& console);
 
 /// @throws StoreError kNotFound when there is no such token.
-ExitCode revoke_token_command(const Options& options, const Console& console);
+base::ExitCode revoke_token_command(const Options& options, const Console& console);
 
 }  // namespace affskel::server

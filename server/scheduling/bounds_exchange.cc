@@ -68,7 +68,7 @@ std::vector<BoundsExchange::Message> BoundsExchange::pack(
   return messages;
 }
 
-/// Notes who works on the job; whether it has company.
+/// Notes the worker of a job; whether it has company.
 bool BoundsExchange::enter(const std::string& job, const std::string& worker) {
   if (seen_.size() >= options_.jobs && !seen_.contains(job)) seen_.clear();
   auto& workers = seen_[job];

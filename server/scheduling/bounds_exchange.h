@@ -39,10 +39,10 @@ class BoundsExchange {
   void pass_on(const std::string& job, const std::string& worker,
                const std::vector<wire::PointRecord>& records);
 
-  /// The field is finished: nobody needs its bounds any more.
+  /// The field is finished: its bounds are not needed any more.
   void forget(const std::string& job);
 
-  /// Reports that are kept for those who have not heard of them, of all jobs.
+  /// Reports that are kept for workers that have not heard of them, of all jobs.
   std::size_t kept() const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 using Time = std::chrono::steady_clock::time_point;
 
 constexpr std::uint32_t kMaxWaitMs = 30000;
-constexpr std::size_t kMostTogether = 64;  // polls in a transaction
+constexpr std::size_t kMaxTogether = 64;  // polls in a transaction
 
 }  // namespace
 
@@ -62,7 +62,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
       *response_->mutable_lease() = *std::move(lease);
     }
     if (scope_) {
-      share_.emplace(queue_.room_.answers.enter(
+      unread_.emplace(queue_.room_.answers.enter(
           scope_->caller(), response_->SpaceUsedLong() + response_->ByteSizeLong(), weak_from_this()));
     }
     timer_.ended(status);
@@ -80,7 +80,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
       });
     }
     place_.leave();
-    share_.reset();
+    unread_.reset();
     const PollPtr self = std::move(self_);  // the last use of this object
     const base::MutexLock lock(mutex_);
     done_ = true;
@@ -104,7 +104,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
   std::string token_;
   std::optional<CallScope> scope_;
   CallLimit::Place place_;
-  std::optional<Answers::Share> share_;
+  std::optional<Answers::Answer> unread_;
   PollPtr self_;
 };
 
@@ -120,7 +120,7 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
                                             v1::LeaseTaskResponse* response) {
   const auto poll = std::make_shared<Poll>(*this, context, *request, response);
   poll->hold(poll);
-  // Before the registry: whoever does not say who it is must not fill the list of workers.
+  // Before the registry: a worker without an identity must not fill the list of workers.
   grpc::Status status = guarded([&] {
     poll->enter();
     check_worker(request->worker());
@@ -200,7 +200,7 @@ void LeaseQueue::serve(std::list<PollPtr> polls) {
     {
       const base::MutexLock lock(mutex_);
       if (stopping_) return;
-      for (; !polls.empty() && together.size() < kMostTogether; polls.pop_front()) {
+      for (; !polls.empty() && together.size() < kMaxTogether; polls.pop_front()) {
         const PollPtr& poll = polls.front();
         if (std::find(waiting_.begin(), waiting_.end(), poll) != waiting_.end()) together.push_back(poll);
       }

@@ -13,7 +13,8 @@
 
 namespace affskel::server {
 
-/// Who was heard from lately.  Only for people to look at: scheduling relies on leases alone.  Thread-safe.
+/// The workers heard from lately.  Only for people to look at: scheduling relies on leases alone.
+/// Thread-safe.
 class WorkerRegistry {
  public:
   /// @param silence_ms a worker that calls no more for this long is silent: a lease's length.

@@ -11,7 +11,7 @@
 
 namespace affskel::server {
 
-/// Counts who waits for what each task is to bring, so that a request which nobody waits for any more is
+/// Counts the calls that wait for what each task is to bring, so that a request without any is
 /// taken back.  Thread-safe.
 class ArtifactWaiters {
  public:
@@ -30,7 +30,7 @@ class ArtifactWaiters {
   /// One gives up: the task is withdrawn when this was the last.
   void give_up(std::int64_t task);
 
-  /// Takes back, once more, what could not be taken back, and what nobody has joined since.
+  /// Takes back, once more, what could not be taken back, and what no call has joined since.
   void retry();
 
   /// From now on nothing is withdrawn: the server closes, and its successor decides.

@@ -201,11 +201,11 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::GetServerInfo(grpc::CallbackServer
                                                             const v1::GetServerInfoRequest*,
                                                             v1::ServerInfo* response) {
   return answer(Method::kGetServerInfo, *context, *response,
-                [this, response](const Identity& caller) { tell_about_itself(caller, *response); });
+                [this, response](const Identity& caller) { describe_server(caller, *response); });
 }
 
 /// Its own place, and the workers', are for admins, and so is what others have.
-void ErosionServiceImpl::tell_about_itself(const Identity& caller, v1::ServerInfo& response) {
+void ErosionServiceImpl::describe_server(const Identity& caller, v1::ServerInfo& response) {
   const bool sees_all = jobs_of(caller.role) == Jobs::kAll;
   const Store::Counts counts = sees_all ? store_.counts() : store_.counts_of(caller.owner);
   response.set_version(wire::kVersion);

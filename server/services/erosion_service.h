@@ -61,7 +61,7 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
   /// Requests for artefacts that end from now on are left to the next server.
   void close() { waiters_.close(); }
 
-  /// Takes requests back that nobody waits for and that could not be taken back before, on a full disk say.
+  /// Takes requests back that no call waits for and that could not be taken back before, on a full disk say.
   void retry_withdrawals() { waiters_.retry(); }
 
  private:
@@ -69,7 +69,7 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
                                    const google::protobuf::Message& response,
                                    std::function<void(const Identity&)> body);
   void list(const Identity& caller, const v1::ListJobsRequest& request, v1::ListJobsResponse& response);
-  void tell_about_itself(const Identity& caller, v1::ServerInfo& response);
+  void describe_server(const Identity& caller, v1::ServerInfo& response);
 
   CallRoom& room_;
   Store& store_;

@@ -91,7 +91,7 @@ void EventHub::on_change(const Changes& changes) {
     try {
       jobs_.insert(changes.jobs.begin(), changes.jobs.end());
     } catch (const std::bad_alloc&) {
-      all_ = true;  // the change is committed: whoever waits for it must hear of it
+      all_ = true;  // the change is committed: the calls that wait for it must hear of it
     }
   }
   changed_.notify_all();
@@ -111,10 +111,10 @@ void EventHub::run() {
     const std::map<std::uint64_t, std::string> fresh = std::exchange(fresh_, {});
     lock.unlock();
     if (work) on_work_();
-    const bool told = all ? tell_all() : tell_some(jobs, fresh);
+    const bool told = all ? notify_all() : notify_some(jobs, fresh);
     lock.lock();
     if (told) continue;
-    // For want of memory or of the disk.  Nobody may wait for ever for what was not told.
+    // For want of memory or of the disk.  No call may wait for ever for what was not told.
     all_ = true;
     changed_.wait_for(lock, kTryAgain, [this] {
       mutex_.assert_held();
@@ -123,18 +123,18 @@ void EventHub::run() {
   }
 }
 
-bool EventHub::tell_some(const std::set<std::string>& jobs,
-                         const std::map<std::uint64_t, std::string>& fresh) {
+bool EventHub::notify_some(const std::set<std::string>& jobs,
+                           const std::map<std::uint64_t, std::string>& fresh) {
   bool told = true;
-  for (const std::string& job : jobs) told = tell(job) && told;
+  for (const std::string& job : jobs) told = notify(job) && told;
   for (const auto& [number, job] : fresh) {
-    if (!jobs.contains(job)) told = tell(job, number) && told;
+    if (!jobs.contains(job)) told = notify(job, number) && told;
   }
   return told;
 }
 
-/// The newest state of every job that somebody follows.
-bool EventHub::tell_all() {
+/// The newest state of every job that is followed.
+bool EventHub::notify_all() {
   bool told = true;
   return guarded([&] {
            std::set<std::string> jobs;
@@ -142,13 +142,13 @@ bool EventHub::tell_all() {
              const base::MutexLock lock(mutex_);
              for (const auto& [job, callbacks] : subscribers_) jobs.insert(job);
            }
-           for (const std::string& job : jobs) told = tell(job) && told;
+           for (const std::string& job : jobs) told = notify(job) && told;
          }).ok() &&
          told;
 }
 
 /// Tells all subscribers of a job, or only one.  False when that must be tried again.
-bool EventHub::tell(const std::string& job_id, std::uint64_t only) {
+bool EventHub::notify(const std::string& job_id, std::uint64_t only) {
   return guarded([&] {
            std::vector<std::shared_ptr<JobCallback>> callbacks;
            {

@@ -57,9 +57,9 @@ class EventHub final : public ChangeListener {
 
  private:
   void run();
-  bool tell_some(const std::set<std::string>& jobs, const std::map<std::uint64_t, std::string>& fresh);
-  bool tell_all();
-  bool tell(const std::string& job_id, std::uint64_t only = 0);
+  bool notify_some(const std::set<std::string>& jobs, const std::map<std::uint64_t, std::string>& fresh);
+  bool notify_all();
+  bool notify(const std::string& job_id, std::uint64_t only = 0);
   void unsubscribe(const std::string& job_id, std::uint64_t number);
 
   Loader load_;
@@ -74,7 +74,7 @@ class EventHub final : public ChangeListener {
       ABSL_GUARDED_BY(mutex_);  // subscriptions that have heard nothing yet, with their jobs
   bool work_ ABSL_GUARDED_BY(mutex_) = false;
   bool all_ ABSL_GUARDED_BY(mutex_) =
-      false;  // something was not told: tell the state of every job that somebody follows
+      false;  // something was not told: tell the state of every job that is followed
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   std::uint64_t next_number_ ABSL_GUARDED_BY(mutex_) = 1;
   std::thread thread_;

@@ -37,7 +37,7 @@ class FetchCall final : public Sending {
   // Of the bodies, and of the end:
   CallLimit::Place waiting_;
   std::int64_t task_ = 0;  // that it waits for
-  bool counted_ = false;   // the task was still there when this call was counted among those who wait
+  bool counted_ = false;   // the task was still there when this call was counted among those that wait
 };
 
 }  // namespace affskel::server

@@ -40,15 +40,15 @@ void add_queue(Gauges& gauges, const StoreFigures& figures) {
 /// Those with most jobs by name, all others together.
 void add_owners(Gauges& gauges, std::vector<OwnerFigures> owners) {
   for (OwnerFigures& of : owners) of.owner = owner_label(of.owner);
-  if (owners.size() > kMostOwners) {
+  if (owners.size() > kMaxOwners) {
     OwnerFigures others{kOtherOwners, 0, 0, 0, 0};
-    for (auto of = owners.begin() + kMostOwners; of != owners.end(); ++of) {
+    for (auto of = owners.begin() + kMaxOwners; of != owners.end(); ++of) {
       others.jobs += of->jobs;
       others.active_jobs += of->active_jobs;
       others.mesh_bytes += of->mesh_bytes;
       others.result_bytes += of->result_bytes;
     }
-    owners.resize(kMostOwners);
+    owners.resize(kMaxOwners);
     owners.push_back(std::move(others));
   }
   const auto by_owner = [&](const char* name, const std::string& help, auto value) {

@@ -20,6 +20,7 @@
 #include "database/database_file.h"
 #include "services/figures.h"
 #include "traffic/listen.h"
+#include "traffic/tls.h"
 #include "wire/channel.h"
 #include "wire/identity.h"
 
@@ -38,7 +39,7 @@ constexpr int kReflectionThreads = 8;
 constexpr int kKeepaliveMs = 30000;
 constexpr int kKeepaliveTimeoutMs = 20000;
 // Workers ask whether a connection still lives, see worker/server_link.cc.
-constexpr int kLeastPingPauseMs = 5000;
+constexpr int kMinPingPauseMs = 5000;
 
 // Between looks at calls that are too slow.
 constexpr std::chrono::milliseconds kTick{200};
@@ -48,7 +49,7 @@ constexpr std::chrono::milliseconds kLookAtCalls{5};
 
 // Between looks at what the allocator holds, and what it may hold unused: giving it back takes milliseconds.
 constexpr std::chrono::seconds kTrimPause{10};
-constexpr std::size_t kMostUnusedBytes = std::size_t{32} << 20;
+constexpr std::size_t kMaxUnusedBytes = std::size_t{32} << 20;
 
 // gRPC waits for each connection to acknowledge the end, which an idle peer may do seconds later.
 constexpr std::chrono::milliseconds kGoodbye{100};
@@ -67,7 +68,7 @@ void set_limits(grpc::ServerBuilder& builder, const CallLimits& limits) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
-  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kLeastPingPauseMs);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kMinPingPauseMs);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, static_cast<int>(limits.idle.count()));
   grpc::ResourceQuota quota("affskel-server");
   quota.Resize(static_cast<std::size_t>(limits.grpc_bytes));
@@ -108,7 +109,7 @@ void release_dead_workers(Store& store) {
 
 /// What a crowd has taken goes back to the system when it has left.
 void give_memory_back() {
-  if (mallinfo2().fordblks > kMostUnusedBytes) malloc_trim(0);
+  if (mallinfo2().fordblks > kMaxUnusedBytes) malloc_trim(0);
 }
 
 }  // namespace
@@ -144,7 +145,7 @@ void Server::start(const ServerOptions& options) {
       room_, *store_, registry_, *jobs_, hub_,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
   hub_.start([this](const std::string& id) { return jobs_->load(id); }, [this] { queue_->on_work(); });
-  if (options.metrics) tell_metrics(*options.metrics);
+  if (options.metrics) serve_metrics(*options.metrics);
   serve(options);
   maintenance_ = std::thread([this] { maintain(); });
   ticker_ = std::thread([this] { tick(); });
@@ -163,7 +164,7 @@ void Server::serve(const ServerOptions& options) {
   set_limits(builder, options.limits);
   builder.RegisterService(worker_service_.get());
   builder.RegisterService(erosion_service_.get());
-  if (!options.tls.certificate.empty()) tls_files_.emplace(options.tls);
+  if (!options.tls.certificate.empty()) tls_files_.emplace(options.tls, speak_http2);
   relay_ = std::make_unique<Relay>(relay_options(options.limits));
   grpc_ = builder.BuildAndStart();
   if (grpc_ == nullptr) throw std::runtime_error("cannot start serving (see the log above)");
@@ -179,7 +180,7 @@ std::optional<wire::Address> Server::metrics_address() const {
 }
 
 /// Each kind of figures from where it is: what has happened since the start, and what is there now.
-void Server::tell_metrics(const wire::Address& address) {
+void Server::serve_metrics(const wire::Address& address) {
   const auto started_ms = static_cast<std::uint64_t>(clock_.wall_ms());
   const auto collect = [this, started_ms] {
     std::vector<prometheus::MetricFamily> families = room_.metrics.collect();
@@ -210,12 +211,12 @@ bool Server::take(int connection, const PeerIdentity& peer) {
     room_.connections.hand_over(number, socket, has_certificate);
     grpc::AddInsecureChannelFromFd(grpc_.get(), socket);
   };
-  const auto refused = [this, peer](const std::string& why) { tell_refused(peer, why); };
+  const auto refused = [this, peer](const std::string& why) { log_refused(peer, why); };
   line->start({begun, refused, [this, number = *number] { room_.connections.forget(number); }});
   return true;
 }
 
-void Server::tell_refused(const PeerIdentity& peer, const std::string& why) {
+void Server::log_refused(const PeerIdentity& peer, const std::string& why) {
   const auto number = refused_.happened(std::chrono::steady_clock::now());
   if (!number) return;
   spdlog::warn(

@@ -17,6 +17,7 @@
 #include "calls/call_room.h"
 #include "calls/limits.h"
 #include "metrics/endpoint.h"
+#include "net/tls_files.h"
 #include "scheduling/lease_queue.h"
 #include "scheduling/worker_registry.h"
 #include "services/erosion_service.h"
@@ -28,7 +29,6 @@
 #include "traffic/listener.h"
 #include "traffic/rare_log.h"
 #include "traffic/relay.h"
-#include "traffic/tls.h"
 #include "wire/address.h"
 
 namespace affskel::server {
@@ -36,10 +36,10 @@ namespace affskel::server {
 struct ServerOptions {
   std::string data_dir;  ///< must exist; holds affskel.db
   std::vector<wire::Address> listen;
-  mode_t socket_mode = 0600;  ///< of Unix sockets: who may connect
-  TlsOptions tls;             ///< of all TCP addresses
+  mode_t socket_mode = 0600;  ///< of Unix sockets: the users that may connect
+  net::TlsOptions tls;        ///< of all TCP addresses
   bool insecure = false;      ///< addresses that other machines reach need neither TLS nor tokens
-  /// Where metrics are told to whoever asks; other machines only with `insecure`.
+  /// Where metrics are told to every peer; other machines only with `insecure`.
   std::optional<wire::Address> metrics;
   StoreOptions store;
   /// Uploads in memory at once; at least one mesh of the greatest size always finds room.
@@ -85,7 +85,7 @@ class Server {
  private:
   void start(const ServerOptions& options);
   void serve(const ServerOptions& options);
-  void tell_metrics(const wire::Address& address);
+  void serve_metrics(const wire::Address& address);
   std::string trouble();
   void keep_secrets();
   void maintain();
@@ -93,7 +93,7 @@ class Server {
   void tick();
   void tidy();
   bool take(int connection, const PeerIdentity& peer);
-  void tell_refused(const PeerIdentity& peer, const std::string& why);
+  void log_refused(const PeerIdentity& peer, const std::string& why);
   void await_calls(std::chrono::milliseconds grace) const;
 
   SystemClock clock_;
@@ -105,7 +105,7 @@ class Server {
   std::unique_ptr<LeaseQueue> queue_;
   std::unique_ptr<WorkerServiceImpl> worker_service_;
   std::unique_ptr<ErosionServiceImpl> erosion_service_;
-  std::optional<TlsFiles> tls_files_;  // looked at by the thread that maintains
+  std::optional<net::TlsFiles> tls_files_;  // looked at by the thread that maintains
   RareLog refused_{std::chrono::seconds(10)};
   std::unique_ptr<Relay> relay_;
   std::unique_ptr<grpc::Server> grpc_;

@@ -27,11 +27,11 @@ StreamCall::After WatchCall::open() {
   place_ = room().watches.enter(caller(), weak_from_this());
   run([this] {
     const std::string id = store_.resolve(job_ref(job_, caller().identity));
-    const auto tell = [weak = weak_from_this()](const EventHub::JobPtr& job) {
+    const auto notify = [weak = weak_from_this()](const EventHub::JobPtr& job) {
       const auto self = std::static_pointer_cast<WatchCall>(weak.lock());
       if (self != nullptr) self->deliver(job);
     };
-    subscription_ = hub_.subscribe(id, tell, true);
+    subscription_ = hub_.subscribe(id, notify, true);
     return After::kWait;
   });
   return After::kWait;

@@ -20,8 +20,8 @@ std::shared_ptr<grpc::Channel> connect(const std::string& target) {
   return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
 }
 
-/// How the calls of a round ended.  Shared with gRPC, which may keep a call for longer than anybody waits for
-/// it.
+/// How the calls of a round ended.  Shared with gRPC, which may keep a call for longer than it is waited
+/// for.
 class Outcome {
  public:
   explicit Outcome(std::size_t calls) : pending_(calls) {}
@@ -51,8 +51,9 @@ class Outcome {
   bool late_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
-/// The calls of a round.  Its contexts hold the channel, and whoever drops the last of them joins gRPC's
-/// threads: so the watchdog's thread must, and never a call's end, which runs on one of those threads.
+/// The calls of a round.  Its contexts hold the channel, and the thread that drops the last of them joins
+/// gRPC's threads: so the watchdog's thread must, and never a call's end, which runs on one of those
+/// threads.
 struct Round {
   explicit Round(std::size_t calls)
       : contexts(calls), responses(calls), outcome(std::make_shared<Outcome>(calls)) {}
@@ -63,7 +64,7 @@ struct Round {
   std::shared_ptr<Outcome> outcome;
 };
 
-/// With a lease that nobody has.  Any answer is one: that it is refused, above all.
+/// With a lease that no worker has.  Any answer is one: that it is refused, above all.
 bool answers(v1::WorkerService::Stub& stub, Round& round, const WatchdogOptions& options,
              const std::stop_token& stop) {
   round.request.set_token(kWatchdogToken);

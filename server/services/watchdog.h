@@ -9,7 +9,7 @@
 
 namespace affskel::server {
 
-/// The lease that it renews and nobody has.
+/// The lease that it renews and no worker has.
 inline constexpr const char* kWatchdogToken = "watchdog";
 
 struct WatchdogOptions {

@@ -91,7 +91,7 @@ bool ReportCall::finish() {
   if (!header_->bounds_for().empty()) {
     const std::uint32_t room = header_->bounds_bytes() == 0
                                    ? wire::kUsualBoundsBytes
-                                   : std::min(header_->bounds_bytes(), wire::kMostBoundsBytes);
+                                   : std::min(header_->bounds_bytes(), wire::kMaxBoundsBytes);
     bounds_.exchange(job_, header_->bounds_for(), batch_->records(), room, response_);
     if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(job_);
   }

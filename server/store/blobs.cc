@@ -172,7 +172,7 @@ bool mesh_is_damaged(const std::string& file, const std::string& sha256, std::st
 }
 
 void heal_mesh(Tx& tx, const std::string& sha256, std::string_view bytes) {
-  // Dropped meanwhile, it is stored anew by whoever needs it.
+  // Dropped meanwhile, it is stored anew by the worker that needs it.
   if (!tx.db.integer("SELECT 1 FROM meshes WHERE sha256 = ?", sha256)) return;
   tx.require_room();
   tx.db.run("DELETE FROM mesh_chunks WHERE sha256 = ?", sha256);

@@ -128,7 +128,7 @@ std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std
 
 RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, double volume, std::uint64_t expected)
     : points_(points), directions_(directions), most_(volume * kRoundedUp) {
-  records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), std::uint64_t{kMostRecordsHeld}}));
+  records_.reserve(std::min({expected, static_cast<std::uint64_t>(points), std::uint64_t{kMaxRecordsHeld}}));
 }
 
 void RecordBatch::append(const v1::FieldRecords& records) {

@@ -16,7 +16,7 @@ namespace affskel::server {
 inline constexpr std::int64_t kChunkPoints = 4096;
 
 /// Records of a report that are held before they are merged: 3 MiB.  A report may bring any number of them.
-inline constexpr std::size_t kMostRecordsHeld = std::size_t{1} << 17;
+inline constexpr std::size_t kMaxRecordsHeld = std::size_t{1} << 17;
 
 /// Improved records of a report, or of a part of it, checked on the way in.
 class RecordBatch {
@@ -36,7 +36,7 @@ class RecordBatch {
   void sort();
 
   /// Whether so much has come together that it should be merged before there is more.
-  bool full() const { return records_.size() >= kMostRecordsHeld; }
+  bool full() const { return records_.size() >= kMaxRecordsHeld; }
 
   /// Forgets the records; they still count towards what one report may bring.
   void clear();

@@ -109,7 +109,7 @@ std::vector<v1::Giver> givers_of(Database& db, std::int64_t erosion_id) {
 }
 
 std::vector<GivenPart> given_parts(Database& db, std::int64_t erosion_id, std::int64_t directions) {
-  // Where somebody's range begins or ends; between two such places the givers are the same.
+  // Where a giver's range begins or ends; between two such places the givers are the same.
   std::map<std::int64_t, std::vector<std::pair<Giver, bool>>> changes;
   changes[0];
   changes[directions];

@@ -37,16 +37,16 @@ class DirectionPositions {
 void note_given(Database& db, const JobRow& job, const Giver& giver, const std::vector<Range>& ranges,
                 const std::vector<wire::PointRecord>& records);
 
-/// Who told about an erosion, by worker, and about how many directions.
+/// The workers that told about an erosion, and about how many directions each.
 std::vector<v1::Giver> givers_of(Database& db, std::int64_t erosion_id);
 
 /// Positions about which the same workers told.
 struct GivenPart {
-  std::set<Giver> givers;  ///< empty: done before the server kept who did it
+  std::set<Giver> givers;  ///< empty: done before the server kept the givers
   std::vector<Range> ranges;
 };
 
-/// All positions of an erosion of `directions` directions, by who told about them.
+/// All positions of an erosion of `directions` directions, by the workers that told about them.
 std::vector<GivenPart> given_parts(Database& db, std::int64_t erosion_id, std::int64_t directions);
 
 /// What these workers told about, ascending and disjoint.

@@ -33,7 +33,7 @@ void store(Tx& tx, const std::string& job_id, std::int64_t number, const JobEven
       " VALUES (?, ?, ?, ?, nullif(?, 0), ?, ?, ?)",
       job_id, number, tx.wall_ms, event.event, event.task, wire::word(event.kind), event.worker,
       base::shortened(event.message, kMaxMessageBytes));
-  if (number <= kMostJobEvents) return;
+  if (number <= kMaxJobEvents) return;
   tx.db.run(
       "DELETE FROM job_events WHERE job_id = ?1 AND number ="
       " (SELECT min(number) FROM job_events WHERE job_id = ?1 AND number > ?2)",

@@ -23,7 +23,7 @@ struct JobEvent {
 JobEvent task_event(std::string_view event, const TaskRow& task, std::string message = {});
 
 // Of more events than these, the first of the job and the latest are kept; what lies between is left out.
-inline constexpr std::int64_t kMostJobEvents = 200;
+inline constexpr std::int64_t kMaxJobEvents = 200;
 inline constexpr std::int64_t kFirstJobEvents = 50;
 
 /// Adds to the events of a job, in the transaction that it tells of, and once that is committed to the

@@ -21,7 +21,7 @@ namespace affskel::server {
 namespace {
 
 /// The job has come to its end, or to a stop.
-void tell_end(Tx& tx, const JobRow& job, v1::JobState state, std::string message) {
+void record_end(Tx& tx, const JobRow& job, v1::JobState state, std::string message) {
   const std::string word = wire::word(state);
   add_event(tx, job.id, {.event = word, .message = std::move(message)});
   tx.changes.counts.push_back([word](Metrics& metrics) { metrics.job_ended(word); });
@@ -84,7 +84,7 @@ bool finish_derive(Tx& tx, const JobRow& job) {
   tx.db.run(
       "DELETE FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0 AND state = 'pending'",
       job.id);
-  tell_end(tx, job, v1::JOB_STATE_DONE, "");
+  record_end(tx, job, v1::JOB_STATE_DONE, "");
   return true;
 }
 
@@ -98,7 +98,7 @@ void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error) {
       " error_message = ?, error_line = ? WHERE id = ?",
       tx.wall_ms, error.code(), error.message(), error.line(), job_id);
   tx.changes.jobs.insert(job_id);
-  tell_end(tx, job, v1::JOB_STATE_FAILED, error.code() + ": " + error.message());
+  record_end(tx, job, v1::JOB_STATE_FAILED, error.code() + ": " + error.message());
 }
 
 void end_stage(Tx& tx, const std::string& job_id) {
@@ -133,7 +133,7 @@ void settle_job(Tx& tx, const std::string& job_id) {
   }
   tx.db.run("UPDATE jobs SET state = 'cancelled', cancel_requested = 0, finished_ms = ? WHERE id = ?",
             tx.wall_ms, job_id);
-  tell_end(tx, job, v1::JOB_STATE_CANCELLED, progress_text(job));
+  record_end(tx, job, v1::JOB_STATE_CANCELLED, progress_text(job));
 }
 
 void finish_whole_blocks(Tx& tx, const std::string& job_id) {

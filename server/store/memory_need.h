@@ -10,7 +10,7 @@
 namespace affskel::server {
 
 /// Memory that a worker needs for a task, bytes: an estimate that is rather too low, for a worker that finds
-/// it too low says so, while work that nobody is offered waits in vain.
+/// it too low says so, while work that no worker is offered waits in vain.
 ///
 /// Before a mesh is read, from its bytes and the number of points asked for (a spacing tells none);
 /// afterwards 235 bytes per triangle and 52 per sample point, and for a sheet 200 per point more.

@@ -10,7 +10,7 @@
 namespace affskel::server {
 namespace {
 
-// While somebody waits for an artefact of a job.
+// While a call waits for an artefact of a job.
 constexpr std::int64_t kPostponedMs = 60'000;
 
 /// Age since a job's end after which its results, or the job itself, go; 0 = never.  Results never outlive
@@ -27,8 +27,8 @@ const char* age_rule(const Retention& retention, bool removed) {
 bool asked_for(Database& db, const std::string& job) {
   return db
       .integer(
-          "SELECT 1 FROM tasks WHERE job_id = ? AND state IN ('pending', 'leased') AND on_request = 1 LIMIT "
-          "1",
+          "SELECT 1 FROM tasks WHERE job_id = ? AND state IN ('pending', 'leased') AND on_request = 1"
+          " LIMIT 1",
           job)
       .has_value();
 }
@@ -84,8 +84,8 @@ class Planner {
   std::int64_t planned_bytes(const std::string& owner) {
     return db_
         .integer(
-            "SELECT sum(iif(j.removed_ms > 0, m.bytes, e.bytes)) FROM jobs j JOIN erosions e ON e.id = "
-            "j.erosion_id"
+            "SELECT sum(iif(j.removed_ms > 0, m.bytes, e.bytes)) FROM jobs j"
+            " JOIN erosions e ON e.id = j.erosion_id"
             " JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.expires_ms > 0 AND j.owner = ?",
             owner)
         .value_or(0);
@@ -101,8 +101,8 @@ class Planner {
     std::vector<Old> jobs;
     for (const std::string& owner : owners) {
       Statement row = db_.query(
-          "SELECT j.id, j.finished_ms, iif(?2, m.bytes, e.bytes) FROM jobs j JOIN erosions e ON e.id = "
-          "j.erosion_id"
+          "SELECT j.id, j.finished_ms, iif(?2, m.bytes, e.bytes) FROM jobs j"
+          " JOIN erosions e ON e.id = j.erosion_id"
           " JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.owner = ?1 AND (j.removed_ms > 0) = ?2"
           " AND j.pinned = 0 AND j.expires_ms = 0 AND j.finished_ms > 0 ORDER BY j.finished_ms LIMIT ?3",
           owner, removed, most_);
@@ -153,8 +153,8 @@ void remove_results(Tx& tx, const JobRow& job) {
     // What the mesh is like stays known.
     const std::int64_t old = job.erosion_id;
     tx.db.run(
-        "INSERT INTO erosions (mesh_sha256, params, params_key, core_version, prepared, points, directions, "
-        "stride)"
+        "INSERT INTO erosions (mesh_sha256, params, params_key, core_version, prepared, points, directions,"
+        " stride)"
         " SELECT mesh_sha256, params, params_key, core_version, prepared, points, directions, stride"
         " FROM erosions WHERE id = ?",
         old);

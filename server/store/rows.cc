@@ -22,8 +22,8 @@ Enum value_of(const std::string& word) {
 constexpr const char* kJobColumns =
     "SELECT j.seq, j.erosion_id, j.id, j.name, j.owner, j.priority, j.state, j.stage, e.params, j.skeleton,"
     " e.mesh_sha256, e.mesh_bytes, e.prepared, e.directions_done, e.directions, j.created_ms, j.started_ms,"
-    " j.finished_ms, j.error_code, j.error_message, j.error_line, j.directions_reported, "
-    "j.directions_repeated,"
+    " j.finished_ms, j.error_code, j.error_message, j.error_line, j.directions_reported,"
+    " j.directions_repeated,"
     " j.reports, j.leases_granted, j.leases_lost, j.longest_gap_ms, j.directions_lost, j.cancel_requested,"
     " j.skeleton_points, e.stride, j.quality, j.pinned, j.removed_ms, j.expires_ms,"
     " iif(EXISTS (SELECT 1 FROM tasks INDEXED BY tasks_in_need WHERE job_id = j.id AND state = 'pending'"

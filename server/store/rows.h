@@ -45,7 +45,7 @@ struct JobRow {
 /// Reads a job that must exist.  @throws StoreError kNotFound.
 JobRow get_job(Database& db, const std::string& id);
 
-/// A job as somebody names it: by its id, a unique prefix of at least 6 characters, or "@last".
+/// A job as a caller names it: by its id, a unique prefix of at least 6 characters, or "@last".
 struct JobRef {
   JobRef(std::string what) : text(std::move(what)) {}
   JobRef(const char* what) : text(what) {}

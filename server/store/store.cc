@@ -105,7 +105,7 @@ void Store::require_not_lost() const {
                        " was kept");
 }
 
-/// Requests that a predecessor had: whoever waits for them asks again soon.
+/// Requests that a predecessor had: clients that wait for them ask again soon.
 void Store::expect_orphans() {
   orphans_until_ms_ = clock_.lease_ms() + options_.orphan_grace_ms;
   Statement row = db_.query("SELECT id FROM tasks WHERE on_request = 1 AND state IN ('pending', 'leased')");

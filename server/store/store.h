@@ -38,7 +38,7 @@ struct Seeker;
 /// Longest id of a worker.
 inline constexpr std::size_t kMaxWorkerIdBytes = 64;
 
-/// @throws StoreError kInvalid when a worker does not tell who it is as the contract says.
+/// @throws StoreError kInvalid when a worker does not identify itself as the contract says.
 void check_worker(const v1::WorkerIdentity& worker);
 
 /// The only writer of the database: jobs, their tasks and leases, fields and artefacts.
@@ -61,7 +61,7 @@ class Store final : public TokenSource {
   /// Whether the disk has no room for more than bookkeeping.
   bool disk_full() const { return disk_full_; }
   /// Whether the database was removed or replaced by another file since it was opened.  Nothing is
-  /// acknowledged from then on, and whoever runs the store should end.
+  /// acknowledged from then on, and the process that runs the store should end.
   bool lost() const;
 
   // For clients: store_submit.cc, store_jobs.cc, store_keeping.cc, store_verify.cc
@@ -100,13 +100,13 @@ class Store final : public TokenSource {
     std::int64_t queued = 0;
     std::int64_t running = 0;
     std::int64_t total = 0;
-    std::int64_t requests = 0;  ///< artefacts that somebody asked for and that are not there yet
+    std::int64_t requests = 0;  ///< artefacts that a client asked for and that are not there yet
   };
   Counts counts();
   /// The same for the jobs of one owner.
   Counts counts_of(const std::string& owner);
 
-  /// Whom the workers are busy with: who waits learns why from it.
+  /// The owners that the workers are busy with: a client that waits learns why from it.
   std::vector<BusyWith> busy_with();
 
   /// Everything that metrics tell of the database at the moment; takes no lock of writers: store_figures.cc.
@@ -125,11 +125,10 @@ class Store final : public TokenSource {
   /// @param asked the task that an earlier call answered this request with, or 0.  When it has failed, the
   ///   answer is its error, and nothing is queued anew.
   /// @throws StoreError kNotFound when the job was deleted; kPrecondition when it is not as far yet, or the
-  ///   request was cancelled;
-  ///   kInvalid for parameters out of range.
+  ///   request was cancelled; kInvalid for parameters out of range.
   ArtifactState open_artifact(const v1::FetchArtifactRequest& request, std::int64_t asked = 0);
 
-  /// Nobody waits for what this task was to bring: takes a request back, also from the worker that has it.
+  /// No call waits for what this task was to bring: takes a request back, also from the worker that has it.
   void withdraw(std::int64_t task);
 
   // For workers: store_leases.cc, store_reports.cc, store_complete.cc
@@ -177,7 +176,7 @@ class Store final : public TokenSource {
   // For the maintenance thread and the supervisor: store_leases.cc
 
   /// Requeues what leases held that have expired or made no progress; returns how many there were.  Takes
-  /// back the requests for artefacts that a restart has left without anybody who waits.
+  /// back the requests for artefacts that a restart has left without a waiting call.
   int expire_leases();
   /// A worker process of this machine has ended: its leases are lost now, not at their deadline.
   int release_worker(const std::string& host, std::int64_t pid);
@@ -249,7 +248,7 @@ class Store final : public TokenSource {
   void make_room(const Changes& undone);
   bool has_room() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void live_on_reserve() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void tell_room();
+  void notify_room();
   bool tidy_step();
   bool shorten_log();
   v1::ReportResponse complete_sample(const std::string& token, std::string_view fresh);
@@ -271,13 +270,13 @@ class Store final : public TokenSource {
   int schema_version_ = 0;
   TimesLeft times_left_;
   OpenFile identity_;  // of the database and its log; set once
-  /// Requests for artefacts that nobody has asked for since the start.
+  /// Requests for artefacts that no client has asked for since the start.
   std::set<std::int64_t> orphans_ ABSL_GUARDED_BY(mutex_);
   std::int64_t orphans_until_ms_ ABSL_GUARDED_BY(mutex_) = 0;
   bool last_was_request_ ABSL_GUARDED_BY(mutex_) = false;  // the last grant, while jobs waited, too
   std::int64_t full_disk_ms_ ABSL_GUARDED_BY(mutex_) = 0;  // when the reserve was last needed
   std::atomic<bool> disk_full_ = false;                    // the reserve is given away
-  std::atomic<bool> room_again_ = false;                   // and nobody was told yet
+  std::atomic<bool> room_again_ = false;                   // and the callers were not told yet
   std::atomic<bool> untidy_ = true;                        // there may be something for tidy()
   std::atomic<std::int64_t> full_disk_told_ms_ = 0;        // when the log was last told of it; 0: never
 };

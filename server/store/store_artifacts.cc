@@ -186,7 +186,7 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
 void Store::withdraw(std::int64_t task) {
   write([&](Tx& tx) {
     const std::optional<TaskRow> row = find_task(tx.db, task);
-    // A task of the job itself stays, whoever waits for it.
+    // A task of the job itself stays, waited for or not.
     if (!row || !row->on_request) return false;
     tx.db.run("DELETE FROM tasks WHERE id = ?", task);
     tx.changes.jobs.insert(row->job_id);

@@ -14,7 +14,7 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::size_t kMostTogether = 32;
+constexpr std::size_t kMaxTogether = 32;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void Store::wait_for_turn(Change& change) {
     return change.ended || turns_.front() == &change;
   });
   if (change.ended) return;
-  std::array<Change*, kMostTogether>
+  std::array<Change*, kMaxTogether>
       first{};  // on the stack: what waits must leave the queue whatever happens
   const std::span together(first.data(), next_together());
   std::copy_n(turns_.begin(), together.size(), together.begin());
@@ -71,7 +71,7 @@ void Store::wait_for_turn(Change& change) {
 /// Of those that wait, how many of the first may be made together.
 std::size_t Store::next_together() const {
   if (turns_.front()->alone) return 1;
-  const auto end = turns_.begin() + static_cast<std::ptrdiff_t>(std::min(turns_.size(), kMostTogether));
+  const auto end = turns_.begin() + static_cast<std::ptrdiff_t>(std::min(turns_.size(), kMaxTogether));
   const auto apart = std::find_if(turns_.begin(), end, [](const Change* change) { return change->alone; });
   return static_cast<std::size_t>(apart - turns_.begin());
 }

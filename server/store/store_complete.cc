@@ -20,7 +20,7 @@ namespace affskel::server {
 namespace {
 
 // No machine's memory is larger, bytes: a task that needed more would wait for ever.
-constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 48;
+constexpr std::uint64_t kMaxMemory = std::uint64_t{1} << 48;
 
 // Kept and sent with the job from then on: reasons of failure, advice on a skeleton.
 constexpr std::size_t kMaxReasonBytes = 4000;
@@ -215,7 +215,7 @@ void wait_for_larger(Tx& tx, const TaskRow& task, std::uint64_t bytes) {
 
 v1::ReportResponse Store::fail(const std::string& token, const v1::JobError& error, bool retryable,
                                std::uint64_t memory_needed) {
-  if (memory_needed > kMostMemory) {
+  if (memory_needed > kMaxMemory) {
     throw StoreError(StoreError::Code::kInvalid,
                      "no machine has the " + std::to_string(memory_needed) + " bytes of memory_needed");
   }

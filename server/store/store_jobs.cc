@@ -17,7 +17,7 @@ namespace affskel::server {
 
 v1::Job Store::job(const JobRef& job_ref) {
   v1::Job job = read([&](Database& db) { return job_message(db, resolve_job(db, job_ref)); });
-  times_left_.tell(job, clock_.lease_ms());
+  times_left_.fill_in(job, clock_.lease_ms());
   return job;
 }
 
@@ -27,7 +27,7 @@ std::string Store::resolve(const JobRef& job_ref) {
 
 JobPage Store::list(const ListFilter& filter) {
   JobPage page = read([&](Database& db) { return list_jobs(db, filter); });
-  for (v1::Job& job : page.jobs) times_left_.tell(job, clock_.lease_ms());
+  for (v1::Job& job : page.jobs) times_left_.fill_in(job, clock_.lease_ms());
   return page;
 }
 
@@ -47,7 +47,7 @@ Store::Counts Store::counts() {
         count("SELECT count(*) FROM jobs WHERE state = 'queued'"),
         count("SELECT count(*) FROM jobs WHERE state = 'running'"),
         count("SELECT count(*) FROM jobs"),
-        // A sample may wait for another worker for long: nobody is kept by it.
+        // A sample may wait for another worker for long: no client is kept by it.
         count("SELECT count(*) FROM tasks WHERE on_request = 1 AND state IN ('pending', 'leased')"
               " AND (kind <> 'verify' OR state = 'leased')"),
     };
@@ -105,8 +105,8 @@ void compute_again(Tx& tx, const JobRow& job) {
   tx.require_room();
   begin_erosion_anew(tx, job);
   tx.db.run(
-      "UPDATE jobs SET state = 'queued', stage = 'prepare', finished_ms = 0, queued_ms = ?, skeleton_points "
-      "= 0,"
+      "UPDATE jobs SET state = 'queued', stage = 'prepare', finished_ms = 0, queued_ms = ?,"
+      " skeleton_points = 0,"
       " quality = NULL, removed_ms = 0, expires_ms = 0 WHERE id = ?",
       tx.wall_ms, job.id);
   tx.changes.jobs.insert(job.id);

@@ -183,7 +183,7 @@ bool is_about_caller(const StoreError& error) {
   return error.code() == StoreError::Code::kInvalid || error.code() == StoreError::Code::kForbidden;
 }
 
-/// Requests for artefacts that nobody waits for any more, or whose failure nobody asks for.
+/// Requests for artefacts that no call waits for any more, or whose failure none asks for.
 void drop_old_requests(Tx& tx, const std::set<std::int64_t>& orphans) {
   for (const std::int64_t id : orphans) {
     const std::optional<TaskRow> task = find_task(tx.db, id);

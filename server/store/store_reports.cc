@@ -84,7 +84,7 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
 }
 
 /// A report that the full disk cannot take.  Its worker will try again and keeps its lease meanwhile, unless
-/// nobody wants the rest any more.
+/// the rest is not wanted any more.
 std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job) {
   if (task.state == "leased" && (!job.active() || job.cancel_requested)) {
     release_task(tx, task);
@@ -95,8 +95,8 @@ std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job
   }
   // It tries several times a second, and every commit takes a little of what is left.
   tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2 WHERE id = ?3 AND state = 'leased' AND deadline_ms < ?1 + ?2 / "
-      "2",
+      "UPDATE tasks SET deadline_ms = ?1 + ?2 WHERE id = ?3 AND state = 'leased'"
+      " AND deadline_ms < ?1 + ?2 / 2",
       tx.lease_ms, tx.options.lease_ms, task.id);
   return std::make_exception_ptr(full_disk(tx.db));
 }

@@ -19,7 +19,7 @@ namespace affskel::server {
 namespace {
 
 // The log may be on the full disk, and workers try their reports again several times a second.
-constexpr std::int64_t kTellFullDiskMs = 60000;
+constexpr std::int64_t kLogFullDiskMs = 60000;
 
 constexpr std::int64_t kTryAgainMs = 60000;
 
@@ -125,12 +125,12 @@ void Store::live_on_reserve() {
   db_.set_log_limit(kFullDiskLogBytes);
 }
 
-/// A write found the disk full: gives the reserve away, unless another one has done so meanwhile.  Whoever
-/// follows one of the jobs that the change was about learns why it gets no further.
+/// A write found the disk full: gives the reserve away, unless another one has done so meanwhile.  A client
+/// that follows one of the jobs that the change was about learns why it gets no further.
 void Store::make_room(const Changes& undone) {
   const std::int64_t now = clock_.lease_ms();
   std::int64_t told = full_disk_told_ms_;
-  if ((told == 0 || now - told >= kTellFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
+  if ((told == 0 || now - told >= kLogFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
     spdlog::error(base::logfmt("disk_full", {{"file", file_}}));
   }
   {
@@ -152,7 +152,7 @@ void Store::make_room(const Changes& undone) {
 }
 
 /// Jobs that were stuck go on.
-void Store::tell_room() {
+void Store::notify_room() {
   write([](Tx& tx) {
     settle_finished_blocks(tx);
     return true;
@@ -175,7 +175,7 @@ bool Store::tidy() {
     const base::MutexLock lock(mutex_);
     has_room();
   }
-  if (room_again_.exchange(false)) tell_room();
+  if (room_again_.exchange(false)) notify_room();
   return more;
 }
 

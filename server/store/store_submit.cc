@@ -49,7 +49,7 @@ std::string find_equal_job(Database& db, const Submission& submission) {
 }
 
 // Each is kept as long as the job.
-constexpr std::int64_t kMostRequestIds = 1000;
+constexpr std::int64_t kMaxRequestIds = 1000;
 
 void remember_request(Tx& tx, const Submission& submission, const std::string& job_id) {
   if (submission.header.request_id().empty()) return;
@@ -57,9 +57,9 @@ void remember_request(Tx& tx, const Submission& submission, const std::string& j
       tx.db
           .integer(
               "SELECT count(*) FROM (SELECT 1 FROM requests WHERE job_id = ? AND request_id <> ? LIMIT ?)",
-              job_id, submission.header.request_id(), kMostRequestIds)
+              job_id, submission.header.request_id(), kMaxRequestIds)
           .value_or(0);
-  if (known == kMostRequestIds) {
+  if (known == kMaxRequestIds) {
     throw StoreError(StoreError::Code::kLimit,
                      "job " + job_id + " answers " + std::to_string(known) +
                          " request ids, and no more are kept; submit it with one of these, or without");
@@ -88,8 +88,8 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
   std::string id = wire::random_id();
   tx.db.run(
       "INSERT INTO jobs"
-      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms, queued_ms, "
-      "content)"
+      " (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, created_ms, queued_ms,"
+      " content)"
       " VALUES (?1, ?2, ?3, ?4, 'queued', 'prepare', ?5, ?6, ?7, ?8, ?8, ?9)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
       submission.skeleton_key, tx.wall_ms, content_of(submission));

@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t kGapsWithoutProgress = 10;
 constexpr std::int64_t kPointsPerPatientMs = 10;
 
-// A request that has failed is kept so long for whoever waits for it.
+// A request that has failed is kept so long for the calls that wait for it.
 constexpr std::int64_t kFailedRequestMs = 60'000;
 
 void clear_lease(Tx& tx, const TaskRow& task, const char* state) {

@@ -42,7 +42,7 @@ TaskRow task_of_token(Database& db, const std::string& token);
 /// Adds a pending task in its place in the queue.  `block` for ERODE, `params` and `params_key` for the
 /// derived kinds.
 std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind);
-/// Somebody asks for lattice or directions that are lost.
+/// A client asks for lattice or directions that are lost.
 std::int64_t add_prepare_request(Tx& tx, const std::string& job_id);
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block);
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,

@@ -7,11 +7,11 @@ namespace affskel::server {
 namespace {
 
 constexpr std::int64_t kSilenceMs = 30000;   // reports come every second or so
-constexpr std::int64_t kForgetMs = 3600000;  // a job that nobody works on
+constexpr std::int64_t kForgetMs = 3600000;  // a job that no worker works on
 constexpr double kGrain = 1.02;              // between marks, in directions done
 constexpr double kMaxSpread = 3;
-constexpr std::size_t kLeastMarks = 6;
-constexpr double kLeastDone = 64;  // fewer are no measure of a rate, let alone of how it grows
+constexpr std::size_t kMinMarks = 6;
+constexpr double kMinDone = 64;  // fewer are no measure of a rate, let alone of how it grows
 
 }  // namespace
 
@@ -43,9 +43,9 @@ double TimeLeft::ms_at(double done) const {
 }
 
 std::optional<double> TimeLeft::estimate() const {
-  if (marks_.size() < kLeastMarks) return std::nullopt;
+  if (marks_.size() < kMinMarks) return std::nullopt;
   const auto [ms, done] = marks_.back();
-  if (done < std::max(kLeastDone, 4 * marks_.front().done)) return std::nullopt;
+  if (done < std::max(kMinDone, 4 * marks_.front().done)) return std::nullopt;
   const double half = ms - ms_at(done / 2), quarter = ms_at(done / 2) - ms_at(done / 4);
   if (half <= 0 || quarter <= 0) return std::nullopt;
   const double rate = done / 2 / half;
@@ -79,7 +79,7 @@ void TimesLeft::add(const std::string& job, std::int64_t now_ms, std::uint64_t d
   jobs_[job].add(now_ms, done, total);
 }
 
-void TimesLeft::tell(v1::Job& job, std::int64_t now_ms) const {
+void TimesLeft::fill_in(v1::Job& job, std::int64_t now_ms) const {
   if (job.state() != v1::JOB_STATE_RUNNING || job.stage() != v1::JOB_STAGE_ERODE) return;
   const base::MutexLock lock(mutex_);
   const auto known = jobs_.find(job.id());

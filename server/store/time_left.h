@@ -24,7 +24,7 @@ namespace affskel::server {
 class TimeLeft {
  public:
   /// A report that came at `now_ms`, with `done` of `total` directions done in all.  A silence of more than
-  /// 30 s, in which nobody worked, does not count.
+  /// 30 s, in which no worker worked, does not count.
   void add(std::int64_t now_ms, std::uint64_t done, std::uint64_t total);
 
   /// Milliseconds from `now_ms` on; nothing as long as they cannot be told.
@@ -50,7 +50,7 @@ class TimesLeft {
  public:
   void add(const std::string& job, std::int64_t now_ms, std::uint64_t done, std::uint64_t total);
   /// Sets `remaining_ms` of a job that runs, if it can be told.
-  void tell(v1::Job& job, std::int64_t now_ms) const;
+  void fill_in(v1::Job& job, std::int64_t now_ms) const;
 
  private:
   mutable base::Mutex mutex_;

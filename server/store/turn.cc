@@ -88,8 +88,8 @@ std::optional<Candidate> first_of_owner(Database& db, const Seeker& seeker, bool
   for_each_need(db, seeker, on_request, [&](const Need& need) {
     Statement row = db.query(
         "SELECT id, turn, seq, job_id FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = ?"
-        " AND needs_core = ? AND needs_memory = ? AND priority = ? AND owner = ? ORDER BY turn, seq, id "
-        "LIMIT 1",
+        " AND needs_core = ? AND needs_memory = ? AND priority = ? AND owner = ? ORDER BY turn, seq, id"
+        " LIMIT 1",
         on_request, need.core_version, need.memory, priority, owner);
     if (!row.step()) return;
     Candidate found{row.integer(0), row.integer(1), row.integer(2), row.text(3), owner};
@@ -104,8 +104,8 @@ std::optional<Candidate> of_held_job(Database& db, const Seeker& seeker, const O
   if (seeker.preferred_job.empty()) return std::nullopt;
   Statement row = db.query(
       "SELECT id, turn, seq, job_id, owner, priority FROM tasks WHERE job_id = ? AND state = 'pending'"
-      " AND parked = 0 AND on_request = 0 AND needs_core IN ('', ?) AND needs_memory <= ? ORDER BY id LIMIT "
-      "1",
+      " AND parked = 0 AND on_request = 0 AND needs_core IN ('', ?) AND needs_memory <= ? ORDER BY id"
+      " LIMIT 1",
       seeker.preferred_job, seeker.core_version, seeker.memory);
   if (!row.step()) return std::nullopt;
   Candidate held{row.integer(0), row.integer(1), row.integer(2), row.text(3), row.text(4)};
@@ -135,7 +135,7 @@ std::int64_t others_on_job(Database& db, const Seeker& seeker, const std::string
       .value_or(0);
 }
 
-/// Whether going on with the job that it holds leaves nobody worse off.
+/// Whether going on with the job that it holds leaves no owner worse off.
 bool may_keep(Database& db, const Seeker& seeker, const Candidate& held, const Candidate& next,
               OwnerOrder order) {
   std::optional<Candidate> owners_next = next;

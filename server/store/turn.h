@@ -25,7 +25,7 @@ struct Seeker {
 /// quota allows.  Among their owners it is the turn of the one whose last grant lies back furthest, and among
 /// the owner's tasks of the highest priority, as `order` says, that of the oldest job, or of the job whose
 /// last grant lies back furthest.  But a worker goes on with the job that it holds (instead of reading
-/// another mesh for every block) where nobody is worse off: its owner then has no more workers than the one
+/// another mesh for every block) where no owner is worse off: its owner then has no more workers than the one
 /// whose turn it is and, where jobs take turns, the job no more than its owner's next one.
 ///
 /// A few steps in an index for each core version and each amount of memory that tasks need, however many

@@ -30,7 +30,7 @@ struct StoreOptions {
   /// The same for tasks that cannot tell of progress: to prepare and to derive.
   std::int64_t long_stall_ms = std::int64_t{24} * 3600 * 1000;
   std::int64_t max_leases_held = 4;  ///< by one worker
-  /// A request for an artefact from before a restart is taken back when nobody has asked again by then.
+  /// A request for an artefact from before a restart is taken back when no client has asked again by then.
   std::int64_t orphan_grace_ms = 10'000;
   std::uint64_t max_mesh_bytes = std::uint64_t{1} << 30;
   /// Kept back on the disk so that jobs can be cancelled and deleted when it is full.
@@ -38,7 +38,7 @@ struct StoreOptions {
   DiskReserve::FreeBytes free_bytes = affskel::server::free_bytes;
 };
 
-/// What a committed transaction changed, for those who wait.
+/// What a committed transaction changed, for those that wait.
 struct Changes {
   std::set<std::string> jobs;    ///< ids of changed jobs
   bool work = false;             ///< a task became available

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
 
 // A task has at most a sixteenth of all directions, as a block has.
-constexpr std::int64_t kParts = 16, kLeastPart = 16;
+constexpr std::int64_t kParts = 16, kMinPart = 16;
 
 /// For each position with stored values, their number.
 std::unordered_map<std::int64_t, std::int64_t> values_by_position(Database& db, const JobRow& job,
@@ -138,7 +138,7 @@ std::vector<Sample> choose_samples(Database& db, const JobRow& job, double share
       job.directions, db.integer("SELECT stride FROM erosions WHERE id = ?", job.erosion_id).value_or(1));
   const auto values = values_by_position(db, job, positions);
   std::mt19937_64 chance{std::random_device()()};
-  const std::int64_t most = std::max(kLeastPart, (job.directions + kParts - 1) / kParts);
+  const std::int64_t most = std::max(kMinPart, (job.directions + kParts - 1) / kParts);
   std::vector<Sample> samples;
   for (const GivenPart& part : given_parts(db, job.erosion_id, job.directions)) {
     const std::int64_t all = directions_in(part.ranges);
@@ -184,8 +184,8 @@ std::int64_t verification_under_way(Database& db, const std::string& job) {
   return db
       .integer(
           "SELECT v.id FROM verifications v JOIN samples s ON s.verification_id = v.id JOIN tasks t"
-          " ON t.id = s.task_id WHERE v.job_id = ? AND s.state = 'pending' AND t.state IN ('pending', "
-          "'leased')"
+          " ON t.id = s.task_id WHERE v.job_id = ? AND s.state = 'pending'"
+          " AND t.state IN ('pending', 'leased')"
           " LIMIT 1",
           job)
       .value_or(0);

@@ -4,10 +4,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <boost/asio/redirect_error.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
+
+#include "net/read_some.h"
 
 namespace affskel::server {
 namespace {
@@ -32,13 +33,7 @@ class StreamOf : public ByteStream {
   explicit StreamOf(Arguments&&... arguments) : stream_(std::forward<Arguments>(arguments)...) {}
 
   asio::awaitable<std::size_t> read(asio::mutable_buffer room) override {
-    error_code error;
-    const std::size_t got =
-        co_await stream_.async_read_some(room, asio::redirect_error(use_awaitable, error));
-    // A peer over TLS that hangs up without a word has ended, too: frames say how long they are.
-    if (error && error != asio::error::eof && error != asio::ssl::error::stream_truncated)
-      throw boost::system::system_error(error);
-    co_return got;
+    return net::read_some(stream_, room);
   }
 
   asio::awaitable<void> write(asio::const_buffer bytes) override {

@@ -10,7 +10,7 @@
 
 namespace affskel::server {
 
-/// Who makes a call.
+/// The maker of a call.
 struct Caller {
   std::uint64_t connection = 0;   ///< its number
   std::string peer;               ///< whose connection it is: shares are counted by this

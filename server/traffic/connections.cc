@@ -58,10 +58,10 @@ PeerIdentity peer_of(int fd) {
   return {"uid:" + std::to_string(credentials.uid), credentials.uid};
 }
 
-Connections::Use::Use(Use&& other) noexcept
+Connections::Call::Call(Call&& other) noexcept
     : table_(std::exchange(other.table_, nullptr)), caller_(std::move(other.caller_)) {}
 
-Connections::Use& Connections::Use::operator=(Use&& other) noexcept {
+Connections::Call& Connections::Call::operator=(Call&& other) noexcept {
   if (this != &other) {
     leave();
     table_ = std::exchange(other.table_, nullptr);
@@ -70,13 +70,13 @@ Connections::Use& Connections::Use::operator=(Use&& other) noexcept {
   return *this;
 }
 
-void Connections::Use::identify(const Identity& identity) {
+void Connections::Call::identify(const Identity& identity) {
   caller_.identity = identity;
   if (identity.token != 0) caller_.peer = "owner:" + identity.owner;
 }
 
-void Connections::Use::leave() {
-  if (table_ != nullptr) std::exchange(table_, nullptr)->end_use(caller_.connection);
+void Connections::Call::leave() {
+  if (table_ != nullptr) std::exchange(table_, nullptr)->end_call(caller_.connection);
 }
 
 std::optional<std::uint64_t> Connections::admit(const PeerIdentity& identity,
@@ -148,7 +148,7 @@ bool Connections::close_idle(const std::string* of_peer, Lines& going) {
   return true;
 }
 
-Connections::Use Connections::begin(const std::string& peer, Side side) {
+Connections::Call Connections::begin(const std::string& peer, Side side) {
   const base::MutexLock lock(mutex_);
   const auto found = find(peer);
   if (found == entries_.end()) return {nullptr, {number_of_stranger(peer), peer}};
@@ -170,7 +170,7 @@ Connections::Use Connections::begin(const std::string& peer, Side side) {
   return {this, {found->first, entry.identity.name, entry.identity.uid, entry.has_certificate, {}}};
 }
 
-void Connections::end_use(std::uint64_t connection) {
+void Connections::end_call(std::uint64_t connection) {
   const base::MutexLock lock(mutex_);
   const auto found = entries_.find(connection);
   if (found == entries_.end()) return;

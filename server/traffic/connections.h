@@ -20,7 +20,7 @@
 
 namespace affskel::server {
 
-/// Who is at the other end of a connection, as the system knows it.
+/// The peer at the other end of a connection, as the system knows it.
 struct PeerIdentity {
   /// "uid:1000" on a Unix socket, "ip:127.0.0.1" or "ip:2001:db8::/64" on TCP; shares are counted by it.
   std::string name;
@@ -52,15 +52,15 @@ class Connections {
   explicit Connections(ConnectionOptions options) : options_(std::move(options)) {}
 
   /// A call under way on a connection, until it is destroyed.
-  class Use {
+  class Call {
    public:
-    Use() = default;
-    Use(Connections* table, Caller caller) : table_(table), caller_(std::move(caller)) {}
-    Use(Use&& other) noexcept;
-    Use& operator=(Use&& other) noexcept;
-    ~Use() { leave(); }
+    Call() = default;
+    Call(Connections* table, Caller caller) : table_(table), caller_(std::move(caller)) {}
+    Call(Call&& other) noexcept;
+    Call& operator=(Call&& other) noexcept;
+    ~Call() { leave(); }
     const Caller& caller() const { return caller_; }
-    /// The gate has found who it is: from now on shares are counted by owner, if a token said so.
+    /// The gate has identified it: from now on shares are counted by owner, if a token said so.
     void identify(const Identity& identity);
 
    private:
@@ -85,7 +85,7 @@ class Connections {
   /// @param peer as gRPC names it: "fd:N".  One that is not known is its own connection and peer.
   /// @throws CallEnded UNAVAILABLE for a client's call when the clients have all connections but those for
   ///   workers.
-  Use begin(const std::string& peer, Side side);
+  Call begin(const std::string& peer, Side side);
 
   /// Bytes of messages that the peer of a connection has taken so far; nothing when it is closed.
   std::optional<std::uint64_t> answered(std::uint64_t connection) const;
@@ -115,7 +115,7 @@ class Connections {
   bool close_idle(const std::string* of_peer, Lines& going) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool has_room(const PeerIdentity& identity, Lines& going) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   Entries::iterator find(const std::string& peer) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void end_use(std::uint64_t connection);
+  void end_call(std::uint64_t connection);
 
   const ConnectionOptions options_;
   mutable base::Mutex mutex_;

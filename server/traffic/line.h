@@ -6,7 +6,7 @@
 
 namespace affskel::server {
 
-/// A connection, as those see it who look after all of them.  Thread-safe.
+/// A connection, as the keepers of all of them see it.  Thread-safe.
 class Line {
  public:
   virtual ~Line() = default;

@@ -11,7 +11,7 @@ namespace affskel::server {
 struct Protection {
   bool tls = false;
   bool tokens = false;    ///< there is one that a caller could show
-  bool insecure = false;  ///< whoever runs the server wants none of it
+  bool insecure = false;  ///< the administrator wants none of it
 };
 
 /// Checks the addresses before anything is bound: sockets whose directory exists and that no live server

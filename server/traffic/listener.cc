@@ -28,7 +28,7 @@ namespace {
 constexpr int kPauseMs = 100;
 
 // Clients that are refused come again and again.
-constexpr std::chrono::minutes kTellEvery{1};
+constexpr std::chrono::minutes kLogEvery{1};
 
 /// New sockets belong to this user alone, from the first moment on.
 class PrivateFiles {
@@ -115,7 +115,7 @@ int listen_on(const sockaddr* name, socklen_t size) {
 }  // namespace
 
 Listener::Listener(const std::vector<wire::Address>& addresses, mode_t socket_mode)
-    : socket_mode_(socket_mode), log_(kTellEvery) {
+    : socket_mode_(socket_mode), log_(kLogEvery) {
   try {
     wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake_ < 0) throw std::runtime_error(std::string("eventfd: ") + std::strerror(errno));
@@ -210,19 +210,19 @@ bool Listener::take(int listening) {
   const int fd = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (fd >= 0) {
     try {
-      if (!handler_(fd, peer_of(fd))) tell("too many connections and files are open");
+      if (!handler_(fd, peer_of(fd))) log_refused("too many connections and files are open");
       return true;
     } catch (const std::exception& error) {
-      tell(error.what());
+      log_refused(error.what());
       return false;
     }
   }
   if (errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM) return true;
-  tell(std::strerror(errno));
+  log_refused(std::strerror(errno));
   return false;
 }
 
-void Listener::tell(const std::string& why) {
+void Listener::log_refused(const std::string& why) {
   const auto number = log_.happened(std::chrono::steady_clock::now());
   if (number) spdlog::warn(base::logfmt("connections_refused", {{"number", *number}, {"message", why}}));
 }

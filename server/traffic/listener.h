@@ -42,7 +42,7 @@ class Listener {
   void bind_tcp(wire::Address& address);
   void run();
   bool take(int listening);
-  void tell(const std::string& why);
+  void log_refused(const std::string& why);
   void close_all();
 
   std::vector<wire::Address> addresses_;

@@ -41,8 +41,8 @@ constexpr std::size_t kPieceBytes = 16384;
 // Between two ticks: the process was stopped.
 constexpr std::chrono::seconds kStandstill{2};
 
-// Peers of whom is known what they owe, before those who owe nothing are forgotten.
-constexpr std::size_t kMostPeers = 4096;
+// Peers of which is known what they owe, before those that owe nothing are forgotten.
+constexpr std::size_t kMaxPeers = 4096;
 
 constexpr Clock::time_point kNever = Clock::time_point::max();
 
@@ -68,7 +68,7 @@ struct Relay::Shared {
     const Clock::time_point now = Clock::now();
     const auto tokens = static_cast<double>(frames);
     const base::MutexLock lock(mutex);
-    if (of_peers.size() >= kMostPeers) {
+    if (of_peers.size() >= kMaxPeers) {
       std::erase_if(of_peers, [now](const auto& one) { return one.second.taken(now) <= 0; });
     }
     TokenBucket& of_peer = of_peers.try_emplace(peer, options.of_peer, now).first->second;
@@ -217,7 +217,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     return std::max(own, shared);
   }
 
-  /// Those who have most of what all have too much of must go.
+  /// The connections that have most of what all have too much of must go.
   void note_header_frames(std::size_t frames) {
     const bool fewer = frames <= header_frames_;
     const std::size_t all = shared_.header_frames += frames - header_frames_;
@@ -299,7 +299,7 @@ Relay::Relay(const RelayOptions& options) : shared_(std::make_unique<Shared>(opt
         context.run();
         return;
       } catch (const std::exception&) {
-        // No memory for one connection: its end is noticed by whoever holds it.
+        // No memory for one connection: its end is noticed by its holder.
       }
     }
   };
@@ -331,7 +331,7 @@ void Relay::tick() {
   const Clock::time_point now = Clock::now();
   {
     const base::MutexLock lock(shared_->mutex);
-    // Nobody could take anything while this process itself was stopped.
+    // No peer could take anything while this process itself was stopped.
     if (now - shared_->ticked > kStandstill) shared_->awake = now;
     shared_->ticked = now;
     if (now - shared_->awake < kStandstill) return;

@@ -17,8 +17,9 @@ namespace affskel::server {
 
 struct RelayOptions {
   std::size_t threads = 2;
-  std::chrono::milliseconds first{8000};   ///< for TLS and a client's first words
-  std::chrono::milliseconds stall{20000};  ///< who takes none of the bytes that wait for it is hung up on
+  std::chrono::milliseconds first{8000};  ///< for TLS and a client's first words
+  std::chrono::milliseconds stall{
+      20000};  ///< a peer that takes none of the bytes that wait for it is hung up on
   FrameLimits frames;
   std::size_t header_frames = 16384;  ///< FrameLimits::header_frames, of all connections
   /// Frames that make work (see FrameGuard) of a connection, of a peer and of all; of a peer and of all also
@@ -48,7 +49,7 @@ class Relay {
   std::shared_ptr<RelayLine> take(int socket, const std::string& peer,
                                   std::shared_ptr<boost::asio::ssl::context> tls);
 
-  /// Hangs up on who takes nothing, or has not begun in time.  Call now and then.
+  /// Hangs up on peers that take nothing, or have not begun in time.  Call now and then.
   void tick();
 
   /// Hangs up on all, and ends the threads.

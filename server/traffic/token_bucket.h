@@ -10,7 +10,7 @@ struct TokenBucketOptions {
   double per_s;  ///< that come back each second
 };
 
-/// How much somebody may ask for at once, and for long.  Full at first.  Not thread-safe.
+/// How much a peer may ask for at once, and for long.  Full at first.  Not thread-safe.
 class TokenBucket {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -1,11 +1,10 @@
 #include "job.h"
 
 #include <algorithm>
-#include <fstream>
 #include <span>
-#include <sstream>
 #include <stdexcept>
 
+#include "base/read_file.h"
 #include "clocks.h"
 #include "core/base/execution_context.h"
 #include "core/text/off_file.h"
@@ -16,17 +15,8 @@ namespace {
 
 constexpr std::size_t kMaxBatches = 256;
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be opened for reading");
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  if (file.bad()) throw std::runtime_error(path + ": reading failed");
-  return std::move(bytes).str();
-}
-
 core::Solid read_solid(const std::string& path, unsigned threads) {
-  const core::OffMesh off = core::read_off(read_file(path));
+  const core::OffMesh off = core::read_off(base::read_file(path));
   return core::make_solid(off.mesh, {true, true, threads}, off.vertex_line, off.triangle_line);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kPinnedOneIn = 100;
 constexpr auto kPace = std::chrono::milliseconds(20);
-constexpr int kMostPaces = 30'000;  // ten minutes
+constexpr int kMaxPaces = 30'000;  // ten minutes
 
 std::vector<std::string> computed_jobs(const integration::Lab& lab, int number) {
   const auto stub = v1::ErosionService::NewStub(connect(lab.address()));
@@ -47,7 +47,7 @@ std::vector<std::string> computed_jobs(const integration::Lab& lab, int number) 
 /// Asks again and again until it holds, as people look at a list.  @returns whether it ever held.
 template <typename Condition>
 bool in_time(Condition&& holds) {
-  for (int i = 0; i < kMostPaces; ++i) {
+  for (int i = 0; i < kMaxPaces; ++i) {
     if (holds()) return true;
     tests::let_pass(kPace);
   }

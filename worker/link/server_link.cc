@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kCallTimeout = std::chrono::seconds(120);
 constexpr auto kLookAtStop = std::chrono::milliseconds(100);
-// A connection that no longer carries anything, though nobody has closed it, is replaced after the sum.
+// A connection that no longer carries anything, though it was not closed, is replaced after the sum.
 constexpr int kKeepaliveMs = 10000;
 constexpr int kKeepaliveTimeoutMs = 10000;
 
@@ -32,7 +32,7 @@ std::shared_ptr<grpc::Channel> connect(const ServerLinkOptions& options) {
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   // The answers to reports: bounds, and little else.
-  arguments.SetMaxReceiveMessageSize(int{wire::kMostBoundsBytes} + (1 << 20));
+  arguments.SetMaxReceiveMessageSize(int{wire::kMaxBoundsBytes} + (1 << 20));
   // Come back quickly after a server restart.  The second is how long one attempt may take.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 50);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);
@@ -68,7 +68,7 @@ void ServerLink::note_answer(const grpc::Status& status) {
   }
 }
 
-// gRPC's connections make progress while somebody waits for them: between two calls nobody would but its
+// gRPC's connections make progress while a thread waits for them: between two calls none would but its
 // backup poller, every five seconds.
 void ServerLink::rest(std::chrono::milliseconds pause, const std::stop_token& stop) {
   if (channel_->GetState(true) == GRPC_CHANNEL_READY) return wait(pause, stop);
@@ -115,8 +115,8 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
 
 namespace {
 
-/// Who asks for work has no lease that could be lost: an answer about stored bytes is then the trouble of a
-/// server whose disk cannot be read just now.
+/// A worker that asks for work has no lease that could be lost: an answer about stored bytes is then the
+/// trouble of a server whose disk cannot be read just now.
 grpc::Status without_lease(const grpc::Status& status) {
   switch (status.error_code()) {
     case grpc::StatusCode::DATA_LOSS:
@@ -193,7 +193,7 @@ v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
   }
   first.mutable_header()->set_records(count);
   first.mutable_header()->set_bounds_for(options_.worker);
-  first.mutable_header()->set_bounds_bytes(wire::kMostBoundsBytes);
+  first.mutable_header()->set_bounds_bytes(wire::kMaxBoundsBytes);
   v1::ReportResponse response;
   with_retries("reporting", [&](grpc::ClientContext& context) {
     response.Clear();

@@ -14,7 +14,7 @@ class TaskContext : public core::ExecutionContext {
   enum class Why {
     kGoesOn,
     kWorkerStops,  ///< SIGTERM: the lease is still ours, to be given back
-    kCancelled,    ///< the server took the task away; nobody wants its result
+    kCancelled,    ///< the server took the task away; its result is not wanted
     kLeaseLost,    ///< it ran out, or the job is gone
   };
 

@@ -19,11 +19,8 @@
 #include "base/service_manager.h"
 #include "core/base/error.h"
 #include "core/base/version.h"
-#include "core/lattice/lattice_memory.h"
 #include "derive/derive.h"
 #include "job/available_memory.h"
-#include "job/job_shelf.h"
-#include "job/prepare_limit.h"
 #include "job/prepared_job.h"
 #include "job/result_bytes.h"
 #include "link/backoff.h"
@@ -31,6 +28,7 @@
 #include "link/lease_keeper.h"
 #include "link/server_link.h"
 #include "link/task_context.h"
+#include "loop/job_in_hand.h"
 #include "tasks/erode_task.h"
 #include "tasks/failure.h"
 #include "tasks/sample_task.h"
@@ -42,11 +40,9 @@ namespace affskel::worker {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-// For work, in one call: what idle workers cost the server.  Work that comes is given to whoever waits at
-// once.
-constexpr auto kLongestWait = std::chrono::milliseconds(10000), kLeastWait = std::chrono::milliseconds(1);
-constexpr int kExitServerGone = 5;
-constexpr int kExitNotAllowed = 7;
+// For work, in one call: what idle workers cost the server.  Work that comes is given to the worker that
+// waits at once.
+constexpr auto kLongestWait = std::chrono::milliseconds(10000), kMinWait = std::chrono::milliseconds(1);
 // Pauses after a task that failed but may be tried again.  They must be shorter than the silence after which
 // the server counts a worker as silent.
 constexpr auto kFirstRest = std::chrono::milliseconds(250);
@@ -70,36 +66,6 @@ v1::WorkerIdentity own_identity(const std::string& id, unsigned threads, std::ui
   return identity;
 }
 
-// Jobs of versions without frames have none stored: their lattice is parallel to the axes of the mesh.
-bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& own) {
-  constexpr std::array<double, 9> kMesh = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const auto frame_is = [&](const auto& frame) {
-    return std::equal(frame.begin(), frame.end(), own.frame().begin(), own.frame().end());
-  };
-  return stored.frame_size() == 0 ? frame_is(kMesh) : frame_is(stored.frame());
-}
-
-// Points and directions are sent by number: server and worker must number the same ones.
-void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
-  const v1::PreparedSummary& stored = lease.job().prepared();
-  const v1::PreparedSummary own = job.summary();
-  if (own.points() != stored.points() || own.spacing() != stored.spacing() ||
-      own.directions() != lease.job().directions_total() || !same_frame(stored, own)) {
-    throw core::CoreError(core::CoreError::Code::kInternal,
-                          "this worker's core lays another lattice than the one that prepared the job");
-  }
-}
-
-// The job's parameters with the spacing that its prepare task found.  The search for it compares doubles:
-// done anew, on another machine, it may end one rounding away, at another lattice.
-v1::ErosionParams prepared_params(const v1::Job& job) {
-  v1::ErosionParams params = job.params();
-  if (job.has_prepared() && !params.sampling().has_spacing()) {
-    params.mutable_sampling()->set_spacing(job.prepared().spacing());
-  }
-  return params;
-}
-
 class LeaseLoop {
  public:
   LeaseLoop(const LeaseLoopOptions& options, std::stop_token stop)
@@ -108,18 +74,22 @@ class LeaseLoop {
         stop_(stop),
         id_(wire::random_id()),
         link_({options.server, options.patience, id_, options.access}, stop),
+        job_(link_, {.threads = options.threads,
+                     .memory = options.memory,
+                     .shelf_bytes = memory_ / kShelfShare,
+                     .prepare_limit = options.prepare_limit}),
         last_report_([this](const std::string& token, const std::exception_ptr& problem) {
-          tell_failure(job_id_, token, problem);  // forgetting the job is up to whoever waited
+          report_failure(job_.id(), token, problem);  // forgetting the job is up to the waiting thread
         }) {
     *request_.mutable_worker() = own_identity(id_, options.threads, memory_);
   }
 
-  int run() {
+  base::ExitCode run() {
     spdlog::info(base::logfmt("ready", {{"worker", request_.worker().id()},
                                         {"server", options_.server},
                                         {"threads", options_.threads},
                                         {"memory", request_.worker().memory()}}));
-    base::tell_service_manager(base::ServiceState::kReady);
+    base::notify_service_manager(base::ServiceState::kReady);
     while (!stop_.stop_requested()) {
       const std::optional<v1::Lease> lease = next_lease();
       if (lease) {
@@ -134,19 +104,19 @@ class LeaseLoop {
         break;
       }
     }
-    // Idle, or with jobs enough; who is asked to leave says so at once, see run_lease_loop().
-    if (!stop_.stop_requested()) base::tell_service_manager(base::ServiceState::kStopping);
+    // Idle, or with jobs enough; a worker that is asked to leave says so at once, see run_lease_loop().
+    if (!stop_.stop_requested()) base::notify_service_manager(base::ServiceState::kStopping);
     settle_last_report();
     give_back_next();
-    return 0;
+    return base::ExitCode::kDone;
   }
 
  private:
   std::optional<v1::Lease> next_lease() {
     if (next_) return std::exchange(next_, std::nullopt);
     describe_hands({});
-    const auto wait = options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kLeastWait, kLongestWait)
-                                                     : kLongestWait;
+    const auto wait =
+        options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kMinWait, kLongestWait) : kLongestWait;
     request_.set_wait_ms(static_cast<std::uint32_t>(wait.count()));
     return link_.lease(request_);
   }
@@ -154,7 +124,7 @@ class LeaseLoop {
   // Tells in the request what the worker has in hand: a job, and leases.  One of them may have ended without
   // this worker's knowledge, and it must not be given its task as a new one.
   void describe_hands(const std::string& present) {
-    request_.set_preferred_job(job_id_);
+    request_.set_preferred_job(job_.id());
     request_.clear_held();
     for (const std::string& token : {present, last_report_.token()}) {
       if (!token.empty()) request_.add_held(token);
@@ -178,7 +148,7 @@ class LeaseLoop {
     try {
       last_report_.wait();
     } catch (const LeaseLost& lost) {
-      spdlog::warn(base::logfmt("lease_lost", {{"job", job_id_}, {"message", lost.what()}}));
+      spdlog::warn(base::logfmt("lease_lost", {{"job", job_.id()}, {"message", lost.what()}}));
       forget();
     }
   }
@@ -219,9 +189,9 @@ class LeaseLoop {
         drop(lease, context.why());
       } else {
         forget();
-        shelf_.clear();  // it may be memory that is short
+        job_.clear_shelf();  // it may be memory that is short
         // At once, the task would most likely fail again, and a job has few attempts.
-        if (tell_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
+        if (report_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
       }
     }
   }
@@ -259,7 +229,7 @@ class LeaseLoop {
   }
 
   // Whether the task will be tried again.
-  bool tell_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
+  bool report_failure(const std::string& job, const std::string& token, const std::exception_ptr& problem) {
     const Failure failure = describe(problem, request_.worker());
     spdlog::error(base::logfmt("task_failed", {{"job", job},
                                                {"lease", short_token(token)},
@@ -273,13 +243,13 @@ class LeaseLoop {
     try {
       link_.fail(request);
     } catch (const LeaseLost&) {
-      // Somebody else works on it already.
+      // Another worker works on it already.
     }
     return failure.retryable;
   }
 
   void dispatch(const v1::Lease& lease, TaskContext& context) {
-    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_id_) {
+    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_.id()) {
       const LeaseKeeper keeper(link_, lease, context);
       last_report_.wait();
     }
@@ -316,18 +286,19 @@ class LeaseLoop {
   }
 
   void erode_block(const v1::Lease& lease, TaskContext& context) {
+    PreparedJob* job = nullptr;
     core::Erosion* erosion = nullptr;
     {
       const LeaseKeeper keeper(link_, lease, context);
-      PreparedJob& job = obtain(lease, context);
-      require_same_job(lease, job);
-      const std::string stored = job.has_erosion()
+      job = &obtain(lease, context);
+      require_same_job(lease, *job);
+      const std::string stored = job->has_erosion()
                                      ? std::string()
                                      : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
       core::throw_if_stopped(&context);
-      erosion = &job.erosion(options_.threads, stored);
+      erosion = &job->erosion(options_.threads, stored);
     }
-    switch (erode(lease, *job_, *erosion, link_, stop_, last_report_, [&] { look_ahead(lease); })) {
+    switch (erode(lease, *job, *erosion, link_, stop_, last_report_, [&] { look_ahead(lease); })) {
       case ErodeEnd::kBlockDone:
         break;
       case ErodeEnd::kStopped:
@@ -364,55 +335,14 @@ class LeaseLoop {
     link_.complete(header, sample_field(lease, job, context, options_.threads));
   }
 
-  // The prepared job of the lease: the one in hand, or made from the mesh.
   PreparedJob& obtain(const v1::Lease& lease, TaskContext& context) {
-    if (job_ && job_id_ == lease.job().id() && field_ == lease.field()) return *job_;
-    shelve();
-    job_ = shelf_.take(lease.job().id(), lease.field());
-    if (job_ == nullptr) make(lease, context);
-    job_id_ = lease.job().id();
-    field_ = lease.field();
-    return *job_;
-  }
-
-  void make(const v1::Lease& lease, TaskContext& context) {
-    const std::string mesh = link_.fetch(lease.token(), v1::ARTIFACT_KIND_MESH, context.token());
-    // A prepared job has fitted into the memory of some worker: one that is short of it must not fail the job
-    // for all.
-    const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
-    // For the same reason only the first is bound in its time.
-    PrepareLimit limit(context, first ? options_.prepare_limit : std::chrono::seconds(0));
-    try {
-      job_ = std::make_unique<PreparedJob>(
-          mesh, prepared_params(lease.job()), options_.threads, &limit,
-          first ? std::function<std::uint64_t()>([this] { return memory_left(); })
-                : std::function<std::uint64_t()>());
-    } catch (const core::LatticeMemoryError&) {
-      throw;
-    } catch (const core::CoreError& error) {
-      throw limit.reason(error);
-    }
-  }
-
-  // Leaves the job in hand for another, with all of its field acknowledged.
-  void shelve() {
-    last_report_.drop();
-    if (job_) shelf_.put({job_id_, field_, std::move(job_)});
-    job_id_.clear();
-  }
-
-  // Bytes that may be taken now; 0 when nothing is known.
-  std::uint64_t memory_left() const {
-    const std::uint64_t left = available_memory();
-    if (options_.memory == 0) return left;
-    const std::uint64_t own = options_.memory - std::min(options_.memory, shelf_.bytes());
-    return left == 0 ? own : std::min(left, own);
+    if (!job_.is_of(lease)) last_report_.drop();
+    return job_.obtain(lease, context);
   }
 
   void forget() {
     last_report_.drop();
-    job_.reset();
-    job_id_.clear();
+    job_.forget();
   }
 
   LeaseLoopOptions options_;
@@ -423,31 +353,26 @@ class LeaseLoop {
   v1::LeaseTaskRequest request_;
   std::set<std::string> jobs_;
   Clock::time_point last_work_ = Clock::now();
-  // Kept between tasks of the same job, on the shelf while it is others' turn.  Dropped whenever the
-  // erosion's field may hold work that the server did not acknowledge: such points would not be reported
-  // again.
-  std::unique_ptr<PreparedJob> job_;
-  std::string job_id_;
-  std::string field_;  // of Lease.field
+  JobInHand job_;
   Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
-  JobShelf shelf_{memory_ / kShelfShare};
   LastReport last_report_;         // uses job_
   std::optional<v1::Lease> next_;  // taken ahead
 };
 
 }  // namespace
 
-int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
-  const std::stop_callback stopping(stop, [] { base::tell_service_manager(base::ServiceState::kStopping); });
+base::ExitCode run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop) {
+  const std::stop_callback stopping(stop,
+                                    [] { base::notify_service_manager(base::ServiceState::kStopping); });
   try {
     return LeaseLoop(options, stop).run();
   } catch (const NotAllowed& refused) {
     spdlog::error(base::logfmt("not_allowed", {{"server", options.server}, {"message", refused.what()}}));
-    return kExitNotAllowed;
+    return base::ExitCode::kNotAllowed;
   } catch (const ServerGone& gone) {
-    if (stop.stop_requested()) return 0;
+    if (stop.stop_requested()) return base::ExitCode::kDone;
     spdlog::error(base::logfmt("server_gone", {{"server", options.server}, {"message", gone.what()}}));
-    return kExitServerGone;
+    return base::ExitCode::kUnreachable;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 
+#include "base/exit_code.h"
 #include "wire/channel.h"
 
 namespace affskel::worker {
@@ -24,8 +25,8 @@ struct LeaseLoopOptions {
 
 /// Leases tasks and works on them until told to stop, idle for too long, or left by the server.  On a
 /// stop the direction in hand is finished and reported and the lease given back.
-/// Returns the exit code: 0; 5 when the server stayed away; 7 when it does not let this worker in.
+/// Returns kDone; kUnreachable when the server stayed away; kNotAllowed when it does not let this worker in.
 /// @throws std::invalid_argument when a file of options.access is not good.
-int run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop);
+base::ExitCode run_lease_loop(const LeaseLoopOptions& options, std::stop_token stop);
 
 }  // namespace affskel::worker

@@ -163,7 +163,7 @@ TEST(HttpServer, HeadHasNoBody) {
 
 Limits impatient() {
   Limits limits;
-  limits.header = limits.idle = limits.stretch = std::chrono::milliseconds(100);
+  limits.header = limits.idle = limits.pace.window = std::chrono::milliseconds(100);
   return limits;
 }
 
@@ -182,8 +182,8 @@ TEST(HttpServer, EndsConnectionsThatSayNothingOrTooLittle) {
 // Each read succeeds within its time: what ends the transfer is that it hardly moves.
 TEST(HttpServer, EndsBodiesThatDrip) {
   Limits limits;
-  limits.stretch = std::chrono::milliseconds(100);
-  limits.stretch_bytes = std::uint64_t{1} << 40;
+  limits.pace.window = std::chrono::milliseconds(100);
+  limits.pace.least_per_s = std::uint64_t{1} << 44;
   RunningServer server(echo(std::uint64_t{1} << 30), limits);
   Peer peer(server.port());
   ASSERT_TRUE(peer.send("POST /p HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100000000\r\n\r\n"));

@@ -34,8 +34,8 @@ class AnswersTest : public testing::Test {
   bool is_free(std::uint64_t connection) {
     return guarded([&] { answers_->check(caller(connection)); }).ok();
   }
-  Answers::Share enter(std::uint64_t connection, std::uint64_t bytes,
-                       const std::shared_ptr<Call>& call = {}) {
+  Answers::Answer enter(std::uint64_t connection, std::uint64_t bytes,
+                        const std::shared_ptr<Call>& call = {}) {
     return answers_->enter(caller(connection), bytes, call);
   }
   void pass(seconds duration, std::uint64_t connection, std::uint64_t bytes_per_s) {
@@ -52,10 +52,10 @@ class AnswersTest : public testing::Test {
 };
 
 TEST_F(AnswersTest, AConnectionLeavesOnlySoMuchUnread) {
-  const Answers::Share first = enter(1, 60);
+  const Answers::Answer first = enter(1, 60);
   EXPECT_TRUE(is_free(1));
   {
-    const Answers::Share second = enter(1, 60);
+    const Answers::Answer second = enter(1, 60);
     EXPECT_FALSE(is_free(1));
     EXPECT_TRUE(is_free(2));
     EXPECT_EQ(answers_->bytes(), 120u);
@@ -64,7 +64,7 @@ TEST_F(AnswersTest, AConnectionLeavesOnlySoMuchUnread) {
 }
 
 TEST_F(AnswersTest, TogetherTheyLeaveRoomToThoseWhoRead) {
-  std::vector<Answers::Share> unread;
+  std::vector<Answers::Answer> unread;
   for (std::uint64_t connection = 1; connection <= 3; ++connection) unread.push_back(enter(connection, 90));
   EXPECT_FALSE(is_free(1)) << "270 of 250, and some of it its own";
   EXPECT_TRUE(is_free(4));
@@ -75,7 +75,7 @@ TEST_F(AnswersTest, TogetherTheyLeaveRoomToThoseWhoRead) {
 TEST_F(AnswersTest, WhoTakesNothingIsEnded) {
   taken_[1] = 1000;
   const auto call = std::make_shared<Call>();
-  const Answers::Share share = enter(1, 60, call);
+  const Answers::Answer answer = enter(1, 60, call);
   pass(seconds(19), 1, 0);
   EXPECT_TRUE(call->ended.ok());
   pass(seconds(1), 1, 0);
@@ -86,11 +86,11 @@ TEST_F(AnswersTest, WhoTakesItsTimeIsNot) {
   taken_[1] = 0;
   const auto steady = std::make_shared<Call>(), slow = std::make_shared<Call>();
   {
-    const Answers::Share share = enter(1, 5000, steady);
+    const Answers::Answer answer = enter(1, 5000, steady);
     pass(seconds(100), 1, 20);
     EXPECT_TRUE(steady->ended.ok());
   }
-  const Answers::Share share = enter(2, 5000, slow);
+  const Answers::Answer answer = enter(2, 5000, slow);
   pass(seconds(40), 2, 5);
   EXPECT_EQ(slow->ended.error_code(), grpc::StatusCode::UNAVAILABLE) << "half of the least pace";
 }

@@ -31,12 +31,12 @@ TEST(CallLimitsTest, AlwaysLeaveDescriptorsToWorkersAndTheDatabase) {
 
 /// A time that tests move.
 struct Now {
-  Pace::Time time = std::chrono::steady_clock::now();
+  base::Pace::Time time = std::chrono::steady_clock::now();
   void pass(milliseconds duration) { time += duration; }
 };
 
 /// A second passes, in which so many bytes come.
-void receive_in_a_second(std::uint64_t bytes, Pace& pace, Now& now) {
+void receive_in_a_second(std::uint64_t bytes, base::Pace& pace, Now& now) {
   now.pass(seconds(1));
   pace.moved(bytes, now.time);
   pace.turn(now.time);
@@ -44,7 +44,7 @@ void receive_in_a_second(std::uint64_t bytes, Pace& pace, Now& now) {
 
 TEST(PaceTest, TheFirstMessageHasItsTime) {
   Now now;
-  Pace pace;
+  base::Pace pace;
   EXPECT_FALSE(pace.late(now.time)) << "nobody waits for it";
   pace.turn(now.time);
   now.pass(milliseconds(9999));
@@ -55,7 +55,7 @@ TEST(PaceTest, TheFirstMessageHasItsTime) {
 
 TEST(PaceTest, AByteASecondIsTooSlow) {
   Now now;
-  Pace pace;
+  base::Pace pace;
   pace.turn(now.time);
   for (int second = 0; second < 19; ++second) {
     receive_in_a_second(1, pace, now);
@@ -67,7 +67,7 @@ TEST(PaceTest, AByteASecondIsTooSlow) {
 
 TEST(PaceTest, WhoKeepsTheRateIsNeverLate) {
   Now now;
-  Pace pace;
+  base::Pace pace;
   pace.turn(now.time);
   for (int second = 0; second < 1000; ++second) {
     receive_in_a_second(1100, pace, now);
@@ -78,7 +78,7 @@ TEST(PaceTest, WhoKeepsTheRateIsNeverLate) {
 
 TEST(PaceTest, WhatWasFastOnceMustStayFast) {
   Now now;
-  Pace pace;
+  base::Pace pace;
   pace.turn(now.time);
   pace.moved(std::uint64_t{1} << 30, now.time);
   pace.turn(now.time);
@@ -101,7 +101,7 @@ TEST(PaceTest, WhatWasFastOnceMustStayFast) {
 
 TEST(PaceTest, TheServersOwnTimeIsNotThePeers) {
   Now now;
-  Pace pace;
+  base::Pace pace;
   pace.turn(now.time);
   pace.moved(1, now.time);
   now.pass(seconds(3600));
@@ -126,7 +126,7 @@ class CallLimitTest : public testing::Test {
     CallLimitOptions options;
     options.what = "uploads";
     options.most = most;
-    if (paced) options.pace = PaceOptions{};
+    if (paced) options.pace = base::PaceOptions{};
     options.now = [this] { return now_.time; };
     return options;
   }

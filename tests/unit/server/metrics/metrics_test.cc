@@ -60,15 +60,15 @@ TEST(MetricsTest, WhatHasNotHappenedYetIsZero) {
 
 TEST(MetricsTest, ManyOwnersDoNotFillTheMemoryOfWhoeverCollects) {
   Metrics metrics;
-  for (std::size_t i = 0; i < 3 * kMostOwners; ++i) metrics.directions("owner " + std::to_string(i), 1, 0);
+  for (std::size_t i = 0; i < 3 * kMaxOwners; ++i) metrics.directions("owner " + std::to_string(i), 1, 0);
   metrics.directions("owner 0", 1, 0);
   const auto seen = read(metrics);
   const auto& owners = seen.at("affskel_owner_directions_total").samples;
-  EXPECT_EQ(owners.size(), kMostOwners + 1);
+  EXPECT_EQ(owners.size(), kMaxOwners + 1);
   double sum = 0;
   for (const tests::Sample& sample : owners) sum += sample.value;
-  EXPECT_EQ(sum, 3.0 * kMostOwners + 1) << "none is left out";
-  EXPECT_EQ(value_of(seen, "affskel_owner_directions_total", {{"owner", kOtherOwners}}), 2.0 * kMostOwners);
+  EXPECT_EQ(sum, 3.0 * kMaxOwners + 1) << "none is left out";
+  EXPECT_EQ(value_of(seen, "affskel_owner_directions_total", {{"owner", kOtherOwners}}), 2.0 * kMaxOwners);
   EXPECT_EQ(value_of(seen, "affskel_owner_directions_total", {{"owner", "owner 0"}}), 2);
 }
 

@@ -96,13 +96,13 @@ TEST_F(JobEventsTest, WhatIsNotCommittedDidNotHappen) {
 
 TEST_F(JobEventsTest, TheFirstAndTheLatestAreKept) {
   const v1::Job job = submit();
-  const std::int64_t told = 2 * kMostJobEvents;
+  const std::int64_t told = 2 * kMaxJobEvents;
   // Each round is two events.
   for (std::int64_t i = 0; i < told / 2; ++i) store_->give_back(lease().token());
   const std::vector<v1::JobEvent> events = this->events(job.id());
-  ASSERT_EQ(static_cast<std::int64_t>(events.size()), kMostJobEvents);
-  for (std::int64_t i = 0; i < kMostJobEvents; ++i) {
-    const std::int64_t left_out = i < kFirstJobEvents ? 0 : told + 1 - kMostJobEvents;
+  ASSERT_EQ(static_cast<std::int64_t>(events.size()), kMaxJobEvents);
+  for (std::int64_t i = 0; i < kMaxJobEvents; ++i) {
+    const std::int64_t left_out = i < kFirstJobEvents ? 0 : told + 1 - kMaxJobEvents;
     EXPECT_EQ(static_cast<std::int64_t>(events[static_cast<std::size_t>(i)].number()), i + 1 + left_out);
   }
 }

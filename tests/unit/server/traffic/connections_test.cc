@@ -71,8 +71,8 @@ TEST(PeerTest, IsTheUserOrTheAddress) {
 TEST_F(ConnectionsTest, KnowsWhoIsThere) {
   const auto connections = table(4);
   const auto line = admit(*connections, 17, "uid:1000");
-  const Connections::Use first = connections->begin("fd:17", Side::kClient);
-  const Connections::Use second = connections->begin("fd:17", Side::kClient);
+  const Connections::Call first = connections->begin("fd:17", Side::kClient);
+  const Connections::Call second = connections->begin("fd:17", Side::kClient);
   EXPECT_EQ(first.caller().connection, second.caller().connection);
   EXPECT_EQ(first.caller().peer, "uid:1000");
   EXPECT_EQ(connections->calls(), 2u);
@@ -85,7 +85,7 @@ TEST_F(ConnectionsTest, ForgetsWhatIsClosed) {
   const auto connections = table(4);
   const auto line = admit(*connections, 17);
   {
-    const Connections::Use use = connections->begin("fd:17", Side::kClient);
+    const Connections::Call use = connections->begin("fd:17", Side::kClient);
     // gRPC has closed its socket before, and the number is another connection's by now.
     const auto next = admit(*connections, 17, "b");
     connections->forget(use.caller().connection);
@@ -99,8 +99,8 @@ TEST_F(ConnectionsTest, ForgetsWhatIsClosed) {
 TEST_F(ConnectionsTest, TheIdleGoFirstWhenThereIsNoRoom) {
   const auto connections = table(3);
   const auto busy = admit(*connections, 1), used = admit(*connections, 2), silent = admit(*connections, 3);
-  const Connections::Use call = connections->begin("fd:1", Side::kClient);
-  { const Connections::Use ended = connections->begin("fd:2", Side::kClient); }
+  const Connections::Call call = connections->begin("fd:1", Side::kClient);
+  { const Connections::Call ended = connections->begin("fd:2", Side::kClient); }
   EXPECT_EQ(admit(*connections, 4), nullptr) << "nobody has been idle for long";
   now_ += milliseconds(1000);
   const auto next = admit(*connections, 4);
@@ -147,8 +147,8 @@ TEST_F(ConnectionsTest, OnePeerLeavesAQuarterToOthers) {
 TEST_F(ConnectionsTest, WorkersHaveRoomOfTheirOwn) {
   const auto connections = table(3, 1);
   for (int i = 0; i < 3; ++i) ASSERT_NE(admit(*connections, i), nullptr);
-  const Connections::Use one = connections->begin("fd:0", Side::kClient);
-  const Connections::Use two = connections->begin("fd:1", Side::kClient);
+  const Connections::Call one = connections->begin("fd:0", Side::kClient);
+  const Connections::Call two = connections->begin("fd:1", Side::kClient);
   const auto begin = [&](const char* name, Side side) {
     return guarded([&] { connections->begin(name, side); });
   };

@@ -72,7 +72,7 @@ TEST_F(LinkTest, TakesAsManyBoundsAsItSays) {
     return response;
   });
   const v1::ReportResponse response = link().report({}, {});
-  EXPECT_EQ(response.bounds(0).step_size(), static_cast<int>(wire::kMostBoundsBytes / 5));
+  EXPECT_EQ(response.bounds(0).step_size(), static_cast<int>(wire::kMaxBoundsBytes / 5));
 }
 
 TEST_F(LinkTest, GivesUpWhenTheLeaseIsLostOrTheServerStaysAway) {

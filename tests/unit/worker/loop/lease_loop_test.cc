@@ -25,7 +25,7 @@ class LoopTest : public LinkTest {
     options.patience = std::chrono::seconds(5);
     options.prepare_limit = prepare_limit_;
     int code = -1;
-    std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
+    std::thread loop([&] { code = static_cast<int>(run_lease_loop(options, stop_.get_token())); });
     server_.wait_for_idle();
     stop_.request_stop();
     loop.join();
@@ -230,7 +230,7 @@ TEST_F(LoopTest, GivesAPreparationBackWhenItIsToStop) {
   LeaseLoopOptions options;
   options.server = server_.address();
   int code = -1;
-  std::thread loop([&] { code = run_lease_loop(options, stop_.get_token()); });
+  std::thread loop([&] { code = static_cast<int>(run_lease_loop(options, stop_.get_token())); });
   server_.wait_for_call("FetchInput1");
   stop_.request_stop();
   loop.join();
@@ -273,7 +273,7 @@ TEST_F(LoopTest, GivesALeaseBackBeyondMaxJobs) {
   LeaseLoopOptions options;
   options.server = server_.address();
   options.max_jobs = 1;
-  EXPECT_EQ(run_lease_loop(options, stop_.get_token()), 0);
+  EXPECT_EQ(run_lease_loop(options, stop_.get_token()), base::ExitCode::kDone);
   EXPECT_EQ(server_.calls("ReturnLease"), 1);
   EXPECT_EQ(server_.completions().size(), 1U);
 }
@@ -283,7 +283,7 @@ TEST_F(LoopTest, WaitsNoLongerForWorkThanUntilItLeaves) {
   LeaseLoopOptions options;
   options.server = server_.address();
   options.idle_exit = std::chrono::seconds(1);
-  EXPECT_EQ(run_lease_loop(options, {}), 0);
+  EXPECT_EQ(run_lease_loop(options, {}), base::ExitCode::kDone);
   const std::vector<v1::LeaseTaskRequest> asked = server_.lease_requests();
   EXPECT_TRUE(std::is_sorted(asked.rbegin(), asked.rend(),
                              [](const auto& a, const auto& b) { return a.wait_ms() < b.wait_ms(); }));
@@ -300,7 +300,7 @@ TEST(LeaseLoop, LeavesWhenTheServerStaysAway) {
   LeaseLoopOptions options;
   options.server = "unix:/nonexistent/affskel.sock";
   options.patience = std::chrono::seconds(0);
-  EXPECT_EQ(run_lease_loop(options, {}), 5);
+  EXPECT_EQ(run_lease_loop(options, {}), base::ExitCode::kUnreachable);
 }
 
 }  // namespace

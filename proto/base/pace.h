@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace affskel::server {
+namespace affskel::base {
 
 struct PaceOptions {
   std::chrono::milliseconds first{10000};   ///< longest wait for the peer's first message
@@ -54,6 +54,9 @@ class Pace {
     return now - since_ >= options_.window || (waited(now) >= options_.window && !enough());
   }
 
+  /// Whether it has moved too little in the stretch that its last part has ended.
+  bool fell_short() const { return waited_ >= options_.window && !enough(); }
+
   /// Whether it is slower than it should be, as far as can be seen; for when others need its place.
   bool slow(Time now) const {
     if (!judged(now)) return false;
@@ -87,4 +90,4 @@ class Pace {
   std::uint64_t total_ = 0;
 };
 
-}  // namespace affskel::server
+}  // namespace affskel::base
