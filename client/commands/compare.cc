@@ -1,56 +1,49 @@
 #include <CLI/CLI.hpp>
-#include <functional>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
-#include "base/atomic_file.h"
+#include "client/cli/number_parsers.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/shape_options.h"
-#include "client/comparison/comparison.h"
-#include "client/files/format.h"
+#include "client/operations/compare.h"
 
 namespace affskel::client {
 namespace {
 
 struct Options {
-  ComparisonOptions comparison;
-  std::string plot, output;  // SVG and CSV; empty = none
+  CompareRequest request;
+  std::string radii;  // comma-separated
 };
 
-// Opened at once, so that a place which cannot be written is known before the work is done.
-std::optional<base::AtomicFile> opened(const std::string& path) {
-  return path.empty() ? std::nullopt : std::optional<base::AtomicFile>(std::in_place, path);
-}
-
-void fill(std::optional<base::AtomicFile>& file, const std::function<std::string()>& text) {
-  if (!file) return;
-  file->write(text());
-  file->sync();
-}
-
-void appear(std::optional<base::AtomicFile>& file, const std::string& path, Console& console) {
-  if (!file) return;
-  file->commit();
-  console.note("wrote " + path);
+CompareRequest request_of(const Options& options) {
+  CompareRequest request = options.request;
+  if (options.radii.empty()) return request;
+  const std::optional<std::vector<double>> radii = parse_numbers(options.radii);
+  if (!radii || std::any_of(radii->begin(), radii->end(), [](double r) { return r < 0; })) {
+    throw ClientError(ExitCode::kUsage,
+                      "--radii: expected numbers >= 0 separated by commas, not '" + options.radii + "'");
+  }
+  request.comparison.radii = *radii;
+  return request;
 }
 
 void run(Console& console, const Options& options) {
-  // Refuse wrong extensions before the work is done.
-  constexpr FileFormat kPlot[] = {FileFormat::kSvg}, kTable[] = {FileFormat::kCsv};
-  if (!options.plot.empty()) choose_format(options.plot, kPlot, "plot");
-  if (!options.output.empty()) choose_format(options.output, kTable, "table");
-  std::optional<base::AtomicFile> plot = opened(options.plot), table = opened(options.output);
-  const Comparison comparison = compare_files(options.comparison, console);
+  const CompareRequest request = request_of(options);
+  const Comparison comparison = compare(request);
+  say(console, comparison.notices);
   nlohmann::ordered_json document = comparison_json(comparison);
-  // Write both to the disk before either appears.
-  fill(plot, [&] { return svg_of(comparison_plot(comparison)); });
-  fill(table, [&] { return comparison_csv(comparison); });
-  appear(plot, options.plot, console);
-  appear(table, options.output, console);
-  if (plot) document["plot"] = options.plot;
-  if (table) document["csv"] = options.output;
+  const auto tell_file = [&](const char* key, const std::string& file) {
+    if (file.empty()) return;
+    console.note("wrote " + file);
+    document[key] = file;
+  };
+  tell_file("plot", request.plot);
+  tell_file("csv", request.table);
   console.result(comparison_text(comparison));
   console.document(document);
 }
@@ -59,7 +52,7 @@ void run(Console& console, const Options& options) {
 
 void add_compare(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  ComparisonOptions& o = options->comparison;
+  ComparisonOptions& o = options->request.comparison;
   CLI::App* command = line.add(
       "compare", "Similarity of two skeleton files; needs no server",
       "  affskel-client compare a.ply b.ply --plot curve.svg\n"
@@ -78,7 +71,8 @@ void add_compare(CommandLine& line) {
       ->check(positive_number())
       ->type_name("R");
   command
-      ->add_option("--radii", o.radii, "Radii of the table, comma-separated (default: 0 to 4 R in 16 steps)")
+      ->add_option("--radii", options->radii,
+                   "Radii of the table, comma-separated (default: 0 to 4 R in 16 steps)")
       ->check(non_empty())
       ->type_name("LIST");
   command->add_flag("--squared", o.squared, "Radii are given and shown squared, as in the published work");
@@ -91,10 +85,10 @@ void add_compare(CommandLine& line) {
       ->check(whole_number(1, 100000000))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--plot", options->plot, "Write the curves as a plot (.svg)")
+  command->add_option("--plot", options->request.plot, "Write the curves as a plot (.svg)")
       ->check(non_empty())
       ->type_name("FILE");
-  command->add_option("-o,--output,--csv", options->output, "Write the table (.csv)")
+  command->add_option("-o,--output,--csv", options->request.table, "Write the table (.csv)")
       ->check(non_empty())
       ->type_name("FILE");
 }

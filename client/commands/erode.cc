@@ -5,7 +5,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
-#include "client/commands/shared/transfer.h"
+#include "client/commands/shared/written.h"
 
 namespace affskel::client {
 namespace {
@@ -19,12 +19,12 @@ struct Options {
 
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
-  v1::ErodedParams params;
-  if (options.fraction > 0) params.set_fraction(options.fraction);
-  if (options.volume > 0) params.set_volume(options.volume);
-  const bool surface = options.form.empty() ? holds_eroded_surface(destination) : options.form == "surface";
-  tell_result(context, surface ? transfer_eroded_surface(context, options.job, params, destination)
-                               : transfer_eroded_points(context, options.job, params, destination));
+  FetchRequest request{options.job, "eroded", destination};
+  if (options.fraction > 0) request.eroded.set_fraction(options.fraction);
+  if (options.volume > 0) request.eroded.set_volume(options.volume);
+  if (options.form == "points") request.eroded_form = FetchRequest::Form::kPoints;
+  if (options.form == "surface") request.eroded_form = FetchRequest::Form::kSurface;
+  tell_result(context.console(), fetch(context.session(), request));
 }
 
 }  // namespace

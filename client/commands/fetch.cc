@@ -3,9 +3,9 @@
 
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "client/commands/shared/artifact_choice.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
+#include "client/commands/shared/written.h"
 #include "client/text/words.h"
 #include "wire/params.h"
 
@@ -13,13 +13,14 @@ namespace affskel::client {
 namespace {
 
 struct Options {
-  ArtifactChoice choice;  // with an operator for the divergence alone
-  std::string output, format;
+  std::string job, artifact, output, format;
+  SkeletonChoice skeleton;  // of the divergence alone
 };
 
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
-  tell_result(context, transfer_artifact(context, options.choice, destination));
+  const FetchRequest request{options.job, options.artifact, destination, options.skeleton};
+  tell_result(context.console(), fetch(context.session(), request));
 }
 
 // Options that only some artefacts have.
@@ -47,17 +48,15 @@ void add_fetch(CommandLine& line) {
       ".vti and .vts open in every ParaView, .vts also where the lattice is turned.\n"
       "Of an eroded solid this is the one at a tenth of the volume; see erode",
       [options](Context& context) { run(context, *options); }, check_options);
-  add_job(command, options->choice.job);
-  command->add_option("ARTEFACT", options->choice.name, "What to fetch")
+  add_job(command, options->job);
+  command->add_option("ARTEFACT", options->artifact, "What to fetch")
       ->required()
       ->check(one_of(artifact_names()))
       ->type_name("");
   std::vector<std::string> with_divergence = operator_words();
   std::erase_if(with_divergence,
                 [](const std::string& name) { return wire::gives_sheet(operator_named(name)); });
-  command
-      ->add_option("--operator", options->choice.skeleton.operator_name,
-                   "Of the divergence (default: the job's)")
+  command->add_option("--operator", options->skeleton.operator_name, "Of the divergence (default: the job's)")
       ->check(one_of(with_divergence))
       ->type_name("OP");
   add_output(command, options->output, "File to write; the format follows the extension; - is stdout");

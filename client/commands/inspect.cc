@@ -6,8 +6,8 @@
 #include "base/number_text.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
-#include "client/commands/shared/inspection.h"
 #include "client/files/read/input_file.h"
+#include "client/operations/inspection.h"
 #include "client/text/key_line.h"
 
 namespace affskel::client {

@@ -46,7 +46,7 @@ std::optional<ServerChoice> server_in_reach(const GlobalOptions& options, Contex
   if (!std::filesystem::exists(paths.home / "affskel.db", unseen)) return std::nullopt;
   EmbeddedOptions start;
   start.patience = kPatience;
-  choice.address = ensure_embedded_server(paths, start, environment, context.console());
+  choice.address = ensure_embedded_server(paths, start, environment, {});
   choice.embedded = false;
   return choice;
 }
@@ -61,7 +61,7 @@ std::string lines_of(const std::vector<v1::Job>& jobs) {
   return text;
 }
 
-// Whoever presses TAB is not told why nothing comes.
+// Why nothing comes is no completion: it is not told.
 void run(Context& context, const std::string& line) {
   RetryPolicy policy;
   policy.patience = std::chrono::milliseconds(0);
@@ -69,7 +69,7 @@ void run(Context& context, const std::string& line) {
   try {
     const auto choice = server_in_reach(options_in(line), context);
     if (!choice) return;
-    Session session(*choice, context.environment(), context.console(), policy);
+    Session session(*choice, context.environment(), {}, policy);
     context.console().result(lines_of(session.list_jobs({}, kMaxJobs)));
   } catch (const ClientError& error) {
     if (error.exit_code() == ExitCode::kClosedPipe) throw;

@@ -11,10 +11,11 @@
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
-#include "client/commands/shared/shape_notes.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
+#include "client/operations/shape_notices.h"
 #include "core/base/error.h"
 #include "core/mesh/coincident_points.h"
 #include "core/spatial/self_intersection.h"
@@ -73,7 +74,7 @@ void run(Console& console, const Options& options) {
   // What was true of the old places (E, normals) is not of the new ones.
   // Nor have curves vertices of a mesh.
   shape.segments.clear();
-  tell_what_is_lost(console, shape, FileFormat::kOff, destination.name());
+  say(console, lost_in_format(shape, FileFormat::kOff, destination.name()));
   shape.columns.clear();
 
   const std::string noise = "Gaussian noise of standard deviation " + base::to_text(sigma) +

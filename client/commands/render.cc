@@ -6,11 +6,12 @@
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
-#include "client/commands/shared/follow.h"
 #include "client/commands/shared/job_options.h"
-#include "client/commands/shared/picture.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/skeleton_options.h"
 #include "client/commands/shared/up_option.h"
+#include "client/operations/job_notices.h"
+#include "client/operations/picture.h"
 
 namespace affskel::client {
 namespace {
@@ -38,10 +39,11 @@ void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, picture_formats(), "picture");
   base::AtomicFile file(destination.file);
-  const v1::Job job = finished_job(context, options.job);
-  const Picture picture = job_picture(context, job, wanted);
+  const v1::Job job = finished_job(context.session(), options.job);
+  const Picture picture = make_picture(context.session(), job, wanted);
   file.write(picture.png);
   file.commit();
+  say(context.console(), picture.notices);
   context.console().note("wrote " + destination.name());
   context.console().document(
       {{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}, {"shown", picture.shown}});

@@ -4,20 +4,20 @@
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "client/commands/shared/transfer.h"
+#include "client/commands/shared/written.h"
 
 namespace affskel::client {
 namespace {
 
 struct Options {
   std::string job, output, format;
-  SkeletonOptions skeleton;  // no operator: the job's
+  SkeletonChoice skeleton;  // no operator: the job's
 };
 
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
-  const ChosenSkeleton chosen = choose_skeleton(context, options.job, options.skeleton);
-  tell_result(context, transfer_skeleton(context, chosen.job, chosen.get(), destination));
+  const FetchRequest request{options.job, "skeleton", destination, options.skeleton};
+  tell_result(context.console(), fetch(context.session(), request));
 }
 
 }  // namespace

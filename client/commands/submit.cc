@@ -6,12 +6,11 @@
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/follow.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "client/commands/shared/submission.h"
-#include "client/commands/shared/transfer.h"
-#include "client/files/read/input_file.h"
+#include "client/commands/shared/written.h"
+#include "client/operations/submission.h"
 #include "client/text/message_json.h"
-#include "client/text/summary_text.h"
 #include "client/text/words.h"
 
 namespace affskel::client {
@@ -35,65 +34,52 @@ void prepare_output_dir(const std::string& directory) {
   if (error) throw error_from_errno(error.value(), "cannot create the directory", directory);
 }
 
-std::vector<Written> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
+std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
                                    const fs::path& name) {
-  const fs::path stem = directory / name;
-  std::vector<Written> written;
-  const std::string field = stem.string() + ".field" + std::string(extension_of(open_field_format(job)));
-  written.push_back(transfer_field(context, job.id(), {field}));
-  tell_written(context.console(), written.back());
-  written.push_back(transfer_skeleton(context, job.id(), nullptr, {stem.string() + ".skeleton.ply"}));
-  tell_written(context.console(), written.back());
-  v1::SurfaceParams surface;
-  *surface.mutable_skeleton() = shown_skeleton({}, job);
-  written.push_back(transfer_surface(context, job.id(), surface, {stem.string() + ".surface.ply"}));
-  tell_written(context.console(), written.back());
-  return written;
-}
-
-// What a worker would refuse, before anything is sent.  Returns what was told of the mesh.
-std::vector<std::string> check_mesh(const InputFile& input, const Submission& submission, Console& console) {
-  const core::Solid solid = check_solid(input, submission.repair);
-  tell_notes(solid, input, console);
-  check_submission(solid, input, submission);
-  std::vector<std::string> told;
-  for (const core::MeshNote& note : solid.notes) told.push_back(note.message);
-  return told;
-}
-
-// That the work was done before, wholly or but for the skeleton.
-void tell_reuse(Console& console, const v1::Job& job, bool existed) {
-  if (existed) {
-    console.note("the same was submitted before: this is that job, name " + job.name());
-  } else if (took_field_over(job)) {
-    console.note("this mesh was eroded with these parameters before: the field is taken over");
+  const std::string stem = (directory / name).string();
+  std::vector<Fetched> files;
+  for (const auto& [artifact, ending] :
+       {std::pair<std::string, std::string>{"field",
+                                            ".field" + std::string(extension_of(open_field_format(job)))},
+        {"skeleton", ".skeleton.ply"},
+        {"surface", ".surface.ply"}}) {
+    files.push_back(fetch(context.session(), {job.id(), artifact, {stem + ending}}));
+    tell_written(context.console(), files.back());
   }
+  return files;
+}
+
+// What a worker would refuse, before anything is sent.  Returns what was said of the mesh.
+Notices check_mesh(const InputFile& input, const Submission& submission, Console& console) {
+  const core::Solid solid = check_solid(input, submission.repair);
+  Notices notices = solid_notices(solid, input);
+  say(console, notices);
+  check_submission(solid, input, submission);
+  return notices;
 }
 
 void run(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const InputFile input = read_named_input(options.file);
-  tell_conversion(input, console);
+  say(console, conversion_notices(input));
   Submission asked = options.asked;
   asked.repair = options.repair == "auto";
-  const std::vector<std::string> told = check_mesh(input, asked, console);
+  const Notices said = check_mesh(input, asked, console);
   prepare_output_dir(options.output_dir);
-  const v1::SubmitJobHeader header = submission_header(context, input, asked);
-  bool existed = false;
-  v1::Job job = context.session().submit(header, input.bytes, existed);
+  const Submitted submitted = submit(context.session(), context.environment(), input, asked);
+  v1::Job job = submitted.job;
   console.result(job.id() + "\n");
-  tell_reuse(console, job, existed);
+  say(console, reuse_notices(submitted));
   const bool wait = options.wait || !options.output_dir.empty();
   if (wait) job = follow(context, job.id(), false);
-  std::vector<Written> written;
-  if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
-    written = fetch_results(context, job, options.output_dir, fs::path(input.path).stem());
-  }
   nlohmann::ordered_json document = to_json(job);
-  document["existed"] = existed;
-  for (const Written& file : written) document["files"][file.kind] = file.destination.file.string();
+  document["existed"] = submitted.existed;
+  if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
+    for (const Fetched& file : fetch_results(context, job, options.output_dir, fs::path(input.path).stem()))
+      document["files"][file.artifact] = file.destination.file.string();
+  }
   console.document(document);
-  if (wait) tell_end(context, job, told);
+  if (wait) tell_end(context, job, said);
 }
 
 void add_following_options(CLI::App* command, SubmitOptions& o) {
@@ -110,7 +96,7 @@ void add_field_options(CLI::App* command, SubmitOptions& o) {
                              ->check(positive_number())
                              ->type_name("DT");
   command->add_option("--points", o.asked.points, "Aim at this many sample points")
-      ->check(whole_number(1, std::uint64_t{1} << 31))
+      ->check(whole_number(1, kMaxPoints))
       ->capture_default_str()
       ->type_name("R")
       ->excludes(spacing);
@@ -132,7 +118,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
       ->check(utf8_text())
       ->type_name("NAME");
   command->add_option("--priority", o.asked.priority, "0 .. 9, higher first")
-      ->check(whole_number(0, 9))
+      ->check(whole_number(0, kMaxPriority))
       ->capture_default_str()
       ->type_name("P");
   command

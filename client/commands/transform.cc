@@ -10,10 +10,11 @@
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
-#include "client/commands/shared/shape_notes.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
+#include "client/operations/shape_notices.h"
 #include "core/base/error.h"
 #include "core/mesh/map_mesh.h"
 
@@ -95,7 +96,7 @@ void run(Console& console, const Options& options, const std::vector<AffineStep>
     throw error_from_core(error, options.file);
   }
   map_columns(map, shape);
-  tell_what_is_lost(console, shape, format, destination.name());
+  say(console, lost_in_format(shape, format, destination.name()));
 
   const std::vector<double> numbers = numbers_of(map);
   base::AtomicFile file(destination.file);

@@ -8,11 +8,12 @@
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
-#include "client/commands/shared/fetch_view.h"
-#include "client/commands/shared/follow.h"
 #include "client/commands/shared/job_options.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/skeleton_options.h"
 #include "client/commands/shared/up_option.h"
+#include "client/operations/job_notices.h"
+#include "client/operations/page.h"
 #include "client/text/words.h"
 
 namespace affskel::client {
@@ -38,15 +39,18 @@ std::vector<ViewSubject> subjects_of(Context& context, const Options& options) {
       std::max({options.jobs.size(), options.operators.size(), options.thresholds.size()});
   std::vector<ViewSubject> subjects;
   for (std::size_t i = 0; i < count; ++i) {
-    ViewSubject subject{finished_job(context, given_for(options.jobs, i)), {}};
-    const SkeletonOptions skeleton{given_for(options.operators, i), given_for(options.thresholds, i)};
+    ViewSubject subject{finished_job(context.session(), given_for(options.jobs, i)), {}};
+    const SkeletonChoice skeleton{given_for(options.operators, i), given_for(options.thresholds, i)};
     subject.params = shown_skeleton(skeleton, subject.job);
     subjects.push_back(std::move(subject));
   }
   return subjects;
 }
 
-void tell(Context& context, const Destination& destination, const ViewInput& input, std::size_t bytes) {
+void tell(Context& context, const Destination& destination, const Page& page) {
+  say(context.console(), page.notices);
+  const ViewInput& input = page.input;
+  const std::size_t bytes = page.html.size();
   std::size_t points = 0;
   for (const ViewModel& model : input.models) points += model.points.size();
   context.console().note("wrote " + destination.name() + " (page, " + std::to_string(bytes) +
@@ -67,11 +71,10 @@ void run(Context& context, const Options& options) {
   choose_format(destination, page_formats(), "page");
   base::AtomicFile file(destination.file);
   const ViewOptions look{chosen_up(options.up), options.level};
-  const ViewInput input = fetch_view(context, subjects_of(context, options), look);
-  const std::string page = view_page(input);
-  file.write(page);
+  const Page page = make_page(context.session(), subjects_of(context, options), look);
+  file.write(page.html);
   file.commit();
-  tell(context, destination, input, page.size());
+  tell(context, destination, page);
 }
 
 void add_skeletons(CLI::App* command, Options& options) {

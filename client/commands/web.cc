@@ -89,7 +89,7 @@ void run(Context& context, const Options& options, const GlobalOptions& global) 
   policy.patience = kPatience;
   policy.artifact_patience = kArtifactPatience;
   policy.stop = stop.get_token();
-  const Backend backend(context.environment(), global, policy);
+  const Backend backend(context.environment(), global.server, global.access, policy);
   WebOptions web;
   web.personal = is_personal(backend, address);
   web.secure = identity.has_value();

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 
 #include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
-#include "client/cli/number_parsers.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/read_shape.h"
 #include "core/base/error.h"
@@ -21,7 +21,7 @@ namespace {
 // printed, areas of triangles summed.
 constexpr double kMinLength = 1e-150, kMaxLength = 1e150;
 constexpr double kMinSurface = 1e-60, kMaxSurface = 1e60;
-constexpr const char* kScaleFirst = "; scale the files first (affskel-client transform --scale)";
+constexpr const char* kScaleFirst = "; scale the files first";
 
 double longest_side(std::initializer_list<const std::vector<core::Vec3>*> sets) {
   const core::Vec3& first = sets.begin()[0]->front();
@@ -59,7 +59,7 @@ double spread_points(const ShapeFile& shape, std::uint64_t samples, std::vector<
   return distance;
 }
 
-ComparedPoints read_points(const std::string& path, std::uint64_t samples, Console& console) {
+ComparedPoints read_points(const std::string& path, std::uint64_t samples, Notices& notices) {
   ShapeFile shape = read_shape(path);
   ComparedPoints result{path, shape.is_surface(), {}};
   if (!shape.is_surface()) {
@@ -68,8 +68,10 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Conso
     check_surface_size(shape.mesh(), path);
     try {
       const double distance = spread_points(shape, samples, result.points);
-      console.note(path + ": a surface, compared by " + base::counted(result.points.size(), "point") +
-                   " spread over it, about " + base::rounded(distance, 3) + " apart");
+      notices.push_back(note("SURFACE_SAMPLED",
+                             "a surface, compared by " + base::counted(result.points.size(), "point") +
+                                 " spread over it, about " + base::rounded(distance, 3) + " apart",
+                             path));
     } catch (const core::CoreError& error) {
       throw error_from_core(error, path);
     }
@@ -82,7 +84,7 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Conso
   return result;
 }
 
-core::Solid read_solid(const std::string& path, Console& console) {
+core::Solid read_solid(const std::string& path, Notices& notices) {
   InputFile input;
   input.path = path;
   input.off = read_shape(path).off;
@@ -90,7 +92,7 @@ core::Solid read_solid(const std::string& path, Console& console) {
     throw ClientError(ExitCode::kBadInput, "has no triangles, so it bounds no solid", path);
   }
   core::Solid solid = check_solid(input, true);
-  tell_notes(solid, input, console);
+  std::ranges::move(solid_notices(solid, input), std::back_inserter(notices));
   return solid;
 }
 
@@ -100,10 +102,10 @@ double voxel_diagonal(double side) {
 }
 
 // 0 means none was given.
-double plain_radius(double shown, bool squared, const char* option) {
+double plain_radius(double shown, bool squared, const char* name) {
   const double radius = squared ? std::sqrt(shown) : shown;
   if (radius != 0 && !(radius >= kMinLength && radius <= kMaxLength)) {
-    throw ClientError(ExitCode::kUsage, std::string(option) + ": a radius must lie within " +
+    throw ClientError(ExitCode::kUsage, std::string(name) + ": a radius must lie within " +
                                             (squared ? "1e-300 to 1e300 (squared)" : "1e-150 to 1e150") +
                                             ", not " + base::to_text(shown));
   }
@@ -113,11 +115,11 @@ double plain_radius(double shown, bool squared, const char* option) {
 double default_radius(double side) {
   const double radius = voxel_diagonal(side);
   if (radius == 0) {
-    throw ClientError(ExitCode::kUsage, "all points lie at one place; give a radius (--radius)");
+    throw ClientError(ExitCode::kUsage, "all points lie at one place; give a radius");
   }
   if (radius < kMinLength) {
     throw ClientError(ExitCode::kUsage, "all points lie within " + base::rounded(side, 3) +
-                                            ", too near for a radius of their own; give one (--radius)" +
+                                            ", too near for a radius of their own; give one" +
                                             std::string(", or") + (kScaleFirst + 1));
   }
   return radius;
@@ -144,16 +146,14 @@ std::vector<core::Vec3> inner_points_of(const core::Solid& solid, const std::str
 }
 
 std::vector<double> listed_radii(const ComparisonOptions& options) {
-  std::optional<std::vector<double>> radii = parse_numbers(options.radii);
-  if (!radii || std::any_of(radii->begin(), radii->end(), [](double r) { return r < 0; })) {
-    throw ClientError(ExitCode::kUsage,
-                      "--radii: expected numbers >= 0 separated by commas, not '" + options.radii + "'");
-  }
-  for (double& r : *radii) r = plain_radius(r, options.squared, "--radii");
-  std::sort(radii->begin(), radii->end());
-  radii->erase(std::unique(radii->begin(), radii->end()), radii->end());
-  if (!(radii->back() > 0)) throw ClientError(ExitCode::kUsage, "--radii: the largest radius must be > 0");
-  return *radii;
+  std::vector<double> radii = options.radii;
+  if (std::any_of(radii.begin(), radii.end(), [](double r) { return !(r >= 0); }))
+    throw ClientError(ExitCode::kUsage, "radii: must not be below 0");
+  for (double& r : radii) r = plain_radius(r, options.squared, "radii");
+  std::sort(radii.begin(), radii.end());
+  radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
+  if (!(radii.back() > 0)) throw ClientError(ExitCode::kUsage, "radii: the largest radius must be > 0");
+  return radii;
 }
 
 // From 0 to four times the radius, in even steps of what is shown.
@@ -168,15 +168,16 @@ std::vector<double> default_radii(double radius, bool squared) {
 
 }  // namespace
 
-Comparison compare_files(const ComparisonOptions& options, Console& console) {
+Comparison compare_files(const ComparisonOptions& options) {
+  Notices notices;
   const std::vector<double> listed = options.radii.empty() ? std::vector<double>() : listed_radii(options);
-  double radius = plain_radius(options.radius, options.squared, "--radius");
-  ComparedPoints a = read_points(options.a, options.samples, console);
-  ComparedPoints b = read_points(options.b, options.samples, console);
+  double radius = plain_radius(options.radius, options.squared, "radius");
+  ComparedPoints a = read_points(options.a, options.samples, notices);
+  ComparedPoints b = read_points(options.b, options.samples, notices);
   const double side = common_side(a, b);
   std::optional<ChanceLevel> chance;
   if (!options.solid.empty()) {
-    const core::Solid solid = read_solid(options.solid, console);
+    const core::Solid solid = read_solid(options.solid, notices);
     const std::vector<core::Vec3> inner = inner_points_of(solid, options.solid);
     chance =
         ChanceLevel{inner.size(), core::DistanceCurve(inner, a.points), core::DistanceCurve(inner, b.points)};
@@ -190,7 +191,8 @@ Comparison compare_files(const ComparisonOptions& options, Console& console) {
           std::move(chance),
           radius,
           options.squared,
-          listed.empty() ? default_radii(radius, options.squared) : listed};
+          listed.empty() ? default_radii(radius, options.squared) : listed,
+          std::move(notices)};
 }
 
 }  // namespace affskel::client

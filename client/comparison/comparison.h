@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "client/cli/console.h"
+#include "client/base/notice.h"
 #include "client/render/curve_plot.h"
 #include "core/quality/similarity.h"
 
@@ -16,7 +16,7 @@ namespace affskel::client {
 struct ComparisonOptions {
   std::string a, b;               ///< files of points or of triangles
   double radius = 0;              ///< as given, squared or not; 0 = the voxel diagonal of the box
-  std::string radii;              ///< comma-separated; empty = 0 .. 4 radius
+  std::vector<double> radii;      ///< >= 0, as given; empty = 0 .. 4 radius
   bool squared = false;           ///< radii are given and shown squared
   std::string solid;              ///< mesh for the chance level; empty = none
   std::uint64_t samples = 50000;  ///< points on a surface
@@ -44,11 +44,12 @@ struct Comparison {
   double radius = 0;          ///< the one that matters: --radius or the voxel diagonal of the box
   bool squared = false;       ///< people read squared radii, as in the published work
   std::vector<double> radii;  ///< ascending, not squared; the last is > 0
+  Notices notices;            ///< what was made of the files
 };
 
-/// Reads and compares.  Notes and warnings go to the console.
+/// Reads and compares.
 /// @throws ClientError kUsage for radii that are none, kBadInput for files without points.
-Comparison compare_files(const ComparisonOptions& options, Console& console);
+Comparison compare_files(const ComparisonOptions& options);
 
 /// The table and the summary, for people.
 std::string comparison_text(const Comparison& comparison);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/find_program.h"
+#include "client/base/error.h"
 #include "wire/sha256.h"
 
 extern char** environ;
@@ -185,14 +186,16 @@ fs::path find_server_program(const fs::path& beside, const Environment& environm
 }
 
 wire::Address ensure_embedded_server(const EmbeddedPaths& paths, const EmbeddedOptions& options,
-                                     const Environment& environment, Console& console) {
+                                     const Environment& environment, const Listener& listener) {
   make_private_directory(paths.home, false);
   if (!paths.socket_dir.empty()) make_private_directory(paths.socket_dir, true);
   if (!wire::socket_answers(paths.socket)) {
     const fs::path program =
         options.program.empty() ? find_server_program(base::own_directory(), environment) : options.program;
-    console.note("starting a private server; its data is in " + paths.home.string() +
-                 ", it leaves by itself when idle");
+    if (listener) {
+      listener(note("SERVER_STARTED", "starting a private server; its data is in " + paths.home.string() +
+                                          ", it leaves by itself when idle"));
+    }
     rotate(paths.log);
     wait_for_socket(paths, options, start_server(paths, program));
   }

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "client/cli/console.h"
+#include "client/base/notice.h"
 #include "client/connection/environment.h"
 #include "wire/address.h"
 
@@ -46,6 +46,6 @@ struct EmbeddedOptions {
 /// address.  Two clients may do this at once: the server locks its data directory, the second one exits.
 /// @throws ClientError kUnreachable with the end of the server's log when none answers in time.
 wire::Address ensure_embedded_server(const EmbeddedPaths& paths, const EmbeddedOptions& options,
-                                     const Environment& environment, Console& console);
+                                     const Environment& environment, const Listener& listener);
 
 }  // namespace affskel::client

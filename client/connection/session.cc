@@ -1,5 +1,6 @@
 #include "client/connection/session.h"
 
+#include <grpcpp/channel.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
@@ -7,12 +8,13 @@
 #include <optional>
 #include <thread>
 
+#include "affskel/v1/client_service.grpc.pb.h"
 #include "client/connection/call_errors.h"
 #include "client/connection/embedded_server.h"
 #include "client/connection/health.h"
+#include "client/connection/transfers.h"
 #include "wire/address.h"
 #include "wire/limits.h"
-#include "wire/sha256.h"
 
 namespace affskel::client {
 namespace {
@@ -54,36 +56,6 @@ class CancelOnStop {
   std::stop_callback<std::function<void()>> on_stop_;
 };
 
-// Counts and hashes what passes through.
-class CheckedTransfer {
- public:
-  CheckedTransfer(const v1::ArtifactHeader& header, ArtifactSink& sink) : header_(header), sink_(sink) {
-    sink_.begin(header_);
-  }
-  void data(std::string_view bytes) {
-    received_ += bytes.size();
-    hash_.update(bytes);
-    sink_.data(bytes);
-  }
-  void end() {
-    if (received_ != header_.bytes()) {
-      throw ClientError(ExitCode::kInternal, "the artefact was cut short: " + std::to_string(received_) +
-                                                 " of " + std::to_string(header_.bytes()) + " bytes arrived");
-    }
-    if (const std::string digest = hash_.hex_digest(); digest != header_.sha256()) {
-      throw ClientError(ExitCode::kInternal, "the artefact was damaged on its way: SHA-256 " + digest +
-                                                 " instead of " + header_.sha256());
-    }
-    sink_.end();
-  }
-
- private:
-  v1::ArtifactHeader header_;
-  ArtifactSink& sink_;
-  wire::Sha256 hash_;
-  std::uint64_t received_ = 0;
-};
-
 // Whether the server is away or closing.  A closing server cancels the calls that it no longer answers; this
 // side never cancels one.
 bool is_away(const grpc::Status& status) {
@@ -102,57 +74,11 @@ class MemorySink : public ArtifactSink {
   std::string& bytes_;
 };
 
-grpc::Status fetch_once(v1::ErosionService::Stub& stub, const v1::FetchArtifactRequest& request,
-                        ArtifactSink& sink, v1::ArtifactHeader& header, const RetryPolicy& policy) {
-  grpc::ClientContext context;
-  const CancelOnStop cancel(context, policy.stop);
-  if (policy.artifact_patience.count() > 0)
-    context.set_deadline(std::chrono::system_clock::now() + policy.artifact_patience);
-  const auto reader = stub.FetchArtifact(&context, request);
-  std::optional<CheckedTransfer> transfer;
-  v1::FetchArtifactResponse message;
-  try {
-    while (reader->Read(&message)) {
-      if (message.has_header() && !transfer) {
-        header = message.header();
-        transfer.emplace(header, sink);
-      } else if (!message.has_header() && transfer) {
-        transfer->data(message.data());
-      } else {
-        throw ClientError(ExitCode::kInternal, "the server sent the parts of the artefact out of order");
-      }
-    }
-  } catch (...) {
-    context.TryCancel();  // the stream must be finished before it is destroyed
-    reader->Finish();
-    throw;
-  }
-  grpc::Status status = reader->Finish();
-  if (!status.ok()) return status;
-  if (!transfer) throw ClientError(ExitCode::kInternal, "the server sent no artefact");
-  transfer->end();
-  return status;
-}
-
-grpc::Status submit_once(v1::ErosionService::Stub& stub, const v1::SubmitJobHeader& header,
-                         std::string_view mesh, v1::SubmitJobResponse& response,
-                         const std::stop_token& stop) {
-  grpc::ClientContext context;
-  const CancelOnStop cancel(context, stop);
-  const auto bytes_per_second = std::size_t{1} << 20;
-  context.set_deadline(std::chrono::system_clock::now() +
-                       std::chrono::seconds(120 + mesh.size() / bytes_per_second));
-  const auto writer = stub.SubmitJob(&context, &response);
-  v1::SubmitJobRequest message;
-  *message.mutable_header() = header;
-  bool open = writer->Write(message);
-  for (std::size_t begin = 0; open && begin < mesh.size(); begin += wire::kChunkBytes) {
-    const std::string_view piece = mesh.substr(begin, wire::kChunkBytes);
-    message.set_data(piece.data(), piece.size());
-    open = writer->Write(message);
-  }
-  if (open) writer->WritesDone();
-  return writer->Finish();
+template <typename Request>
+Request about(const std::string& job) {
+  Request request;
+  request.set_job(job);
+  return request;
 }
 
 }  // namespace
@@ -161,22 +87,71 @@ bool is_final(v1::JobState state) {
   return state == v1::JOB_STATE_DONE || state == v1::JOB_STATE_FAILED || state == v1::JOB_STATE_CANCELLED;
 }
 
-Session::Session(ServerChoice choice, Environment environment, Console& console, RetryPolicy policy)
-    : choice_(std::move(choice)), environment_(std::move(environment)), console_(console), policy_(policy) {}
+/// The connection, and how calls are repeated over it.
+class Session::Link {
+ public:
+  using Stub = v1::ErosionService::Stub;
 
+  Link(ServerChoice choice, Environment environment, Listener listener, RetryPolicy policy)
+      : choice_(std::move(choice)),
+        environment_(std::move(environment)),
+        listener_(std::move(listener)),
+        policy_(std::move(policy)) {}
+
+  const RetryPolicy& policy() const { return policy_; }
+  void tell(const Notice& notice) const {
+    if (listener_) listener_(notice);
+  }
+
+  /// Runs `attempt` until it succeeds or fails for good.
+  void run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet = ExitCode::kNotAllowed);
+  template <typename Request, typename Response>
+  Response unary(const Request& request,
+                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
+  v1::Job watch(const std::string& job, const std::function<void(const v1::Job&)>& seen);
+  void require_health();
+
+ private:
+  void connect();
+  // One stream; OK when it ended with a final state, or broke after something had arrived.
+  grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
+                          const std::function<void(const v1::Job&)>& seen);
+  [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
+  void tell_away();
+  void tell_busy(const std::string& why);
+
+  const ServerChoice choice_;
+  const Environment environment_;
+  const Listener listener_;
+  const RetryPolicy policy_;
+  std::string target_;
+  std::shared_ptr<grpc::Channel> channel_;  // of stub_
+  std::unique_ptr<Stub> stub_;
+  bool proven_ = false;     // the server answered at least once
+  bool told_away_ = false;  // that it went away; until it is back
+};
+
+Session::Session(ServerChoice choice, Environment environment, Listener listener, RetryPolicy policy)
+    : link_(std::make_unique<Link>(std::move(choice), std::move(environment), std::move(listener),
+                                   std::move(policy))) {}
 Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
 
-void Session::connect() {
+void Session::tell(const Notice& notice) const {
+  link_->tell(notice);
+}
+
+void Session::Link::connect() {
   wire::Address address = choice_.address;
   if (choice_.embedded) {
-    address = ensure_embedded_server(embedded_paths(environment_), {}, environment_, console_);
+    address = ensure_embedded_server(embedded_paths(environment_), {}, environment_, listener_);
   }
   target_ = address.target();
   channel_ = channel_to(address, choice_.access);
   stub_ = v1::ErosionService::NewStub(channel_);
 }
 
-void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet) {
+void Session::Link::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet) {
   std::chrono::milliseconds pause = policy_.first_pause;
   std::optional<Clock::time_point> failing;  // since the first error: a call itself may take long
   while (true) {
@@ -206,25 +181,25 @@ void Session::run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode no
   told_away_ = false;
 }
 
-void Session::fail(const grpc::Status& status, ExitCode not_yet) const {
+void Session::Link::fail(const grpc::Status& status, ExitCode not_yet) const {
   const ClientError error = error_from_status(status, target_, not_yet);
   if (!is_away(status) || choice_.embedded) throw error;
   throw ClientError(error.exit_code(), std::string(error.what()) + " (address from " + choice_.origin + ")");
 }
 
-void Session::tell_away() {
-  if (proven_ && !told_away_) console_.note("the server went away; trying to reach it again");
+void Session::Link::tell_away() {
+  if (proven_ && !told_away_) tell(note("SERVER_AWAY", "the server went away; trying to reach it again"));
   told_away_ = true;
 }
 
-void Session::tell_busy(const std::string& why) {
-  if (!told_away_) console_.note("the server cannot answer now, trying again: " + why);
+void Session::Link::tell_busy(const std::string& why) {
+  if (!told_away_) tell(note("SERVER_BUSY", "the server cannot answer now, trying again: " + why));
   told_away_ = true;
 }
 
 template <typename Request, typename Response>
-Response Session::unary(const Request& request,
-                        grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*)) {
+Response Session::Link::unary(const Request& request,
+                              grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*)) {
   Response response;
   run([&](Stub& stub) {
     grpc::ClientContext context;
@@ -238,21 +213,21 @@ Response Session::unary(const Request& request,
 
 v1::Job Session::submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed) {
   v1::SubmitJobResponse response;
-  run([&](Stub& stub) { return submit_once(stub, header, mesh, response, policy_.stop); });
+  link_->run([&](Link::Stub& stub) {
+    grpc::ClientContext context;
+    const CancelOnStop cancel(context, link_->policy().stop);
+    return submit_once(stub, context, header, mesh, response);
+  });
   existed = response.existed();
   return response.job();
 }
 
 v1::Job Session::get_job(const std::string& job) {
-  v1::GetJobRequest request;
-  request.set_job(job);
-  return unary(request, &Stub::GetJob);
+  return link_->unary(about<v1::GetJobRequest>(job), &Link::Stub::GetJob);
 }
 
 v1::ListJobEventsResponse Session::job_events(const std::string& job) {
-  v1::ListJobEventsRequest request;
-  request.set_job(job);
-  return unary(request, &Stub::ListJobEvents);
+  return link_->unary(about<v1::ListJobEventsRequest>(job), &Link::Stub::ListJobEvents);
 }
 
 std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t limit) {
@@ -260,7 +235,7 @@ std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t
   while (jobs.size() < limit) {
     request.set_limit(
         static_cast<std::uint32_t>(std::min<std::size_t>(limit - jobs.size(), wire::kMaxListedJobs)));
-    const v1::ListJobsResponse response = unary(request, &Stub::ListJobs);
+    const v1::ListJobsResponse response = link_->unary(request, &Link::Stub::ListJobs);
     jobs.insert(jobs.end(), response.jobs().begin(), response.jobs().end());
     if (response.next_page_token().empty()) break;
     request.set_page_token(response.next_page_token());
@@ -268,8 +243,8 @@ std::vector<v1::Job> Session::list_jobs(v1::ListJobsRequest request, std::size_t
   return jobs;
 }
 
-grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
-                                 const std::function<void(const v1::Job&)>& seen) {
+grpc::Status Session::Link::watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
+                                       const std::function<void(const v1::Job&)>& seen) {
   grpc::ClientContext context;
   const CancelOnStop cancel(context, policy_.stop);
   const auto reader = stub.WatchJob(&context, request);
@@ -295,9 +270,8 @@ grpc::Status Session::watch_once(Stub& stub, const v1::WatchJobRequest& request,
   return {grpc::StatusCode::UNAVAILABLE, status.ok() ? "the server ended the watch" : status.error_message()};
 }
 
-v1::Job Session::watch(const std::string& job, const std::function<void(const v1::Job&)>& seen) {
-  v1::WatchJobRequest request;
-  request.set_job(job);
+v1::Job Session::Link::watch(const std::string& job, const std::function<void(const v1::Job&)>& seen) {
+  auto request = about<v1::WatchJobRequest>(job);
   v1::Job last;
   while (true) {
     run([&](Stub& stub) { return watch_once(stub, request, last, seen); });
@@ -310,49 +284,39 @@ v1::Job Session::watch(const std::string& job, const std::function<void(const v1
 }
 
 v1::Job Session::cancel(const std::string& job) {
-  v1::CancelJobRequest request;
-  request.set_job(job);
-  return unary(request, &Stub::CancelJob);
+  return link_->unary(about<v1::CancelJobRequest>(job), &Link::Stub::CancelJob);
 }
 
 v1::Job Session::resume(const std::string& job, const std::string& distrust) {
-  v1::ResumeJobRequest request;
-  request.set_job(job);
+  auto request = about<v1::ResumeJobRequest>(job);
   request.set_distrust(distrust);
-  return unary(request, &Stub::ResumeJob);
+  return link_->unary(request, &Link::Stub::ResumeJob);
 }
 
 v1::Verification Session::verify(const std::string& job, double share, std::uint64_t verification) {
-  v1::VerifyJobRequest request;
-  request.set_job(job);
+  auto request = about<v1::VerifyJobRequest>(job);
   request.set_share(share);
   request.set_verification(verification);
-  return unary(request, &Stub::VerifyJob);
+  return link_->unary(request, &Link::Stub::VerifyJob);
 }
 
 v1::Job Session::pin(const std::string& job) {
-  v1::PinJobRequest request;
-  request.set_job(job);
-  return unary(request, &Stub::PinJob);
+  return link_->unary(about<v1::PinJobRequest>(job), &Link::Stub::PinJob);
 }
 
 v1::Job Session::unpin(const std::string& job) {
-  v1::UnpinJobRequest request;
-  request.set_job(job);
-  return unary(request, &Stub::UnpinJob);
+  return link_->unary(about<v1::UnpinJobRequest>(job), &Link::Stub::UnpinJob);
 }
 
 std::string Session::delete_job(const std::string& job) {
-  v1::DeleteJobRequest request;
-  request.set_job(job);
-  return unary(request, &Stub::DeleteJob).id();
+  return link_->unary(about<v1::DeleteJobRequest>(job), &Link::Stub::DeleteJob).id();
 }
 
 v1::ServerInfo Session::server_info() {
-  return unary(v1::GetServerInfoRequest(), &Stub::GetServerInfo);
+  return link_->unary(v1::GetServerInfoRequest(), &Link::Stub::GetServerInfo);
 }
 
-void Session::require_health() {
+void Session::Link::require_health() {
   if (!stub_) connect();
   bool serving = false;
   if (const grpc::Status status = check_health(channel_, kHealthDeadline, serving); !status.ok()) {
@@ -361,13 +325,24 @@ void Session::require_health() {
   if (!serving) throw ClientError(ExitCode::kUnreachable, "the server at " + target_ + " is not serving");
 }
 
+void Session::require_health() {
+  link_->require_health();
+}
+
+v1::Job Session::watch(const std::string& job, const std::function<void(const v1::Job&)>& seen) {
+  return link_->watch(job, seen);
+}
+
 v1::ArtifactHeader Session::fetch(const v1::FetchArtifactRequest& request,
                                   const std::function<std::unique_ptr<ArtifactSink>()>& make_sink) {
   v1::ArtifactHeader header;
-  run(
-      [&](Stub& stub) {
-        const std::unique_ptr<ArtifactSink> sink = make_sink();
-        return fetch_once(stub, request, *sink, header, policy_);
+  link_->run(
+      [&](Link::Stub& stub) {
+        grpc::ClientContext context;
+        const CancelOnStop cancel(context, link_->policy().stop);
+        if (const auto patience = link_->policy().artifact_patience; patience.count() > 0)
+          context.set_deadline(std::chrono::system_clock::now() + patience);
+        return fetch_once(stub, context, request, *make_sink(), header);
       },
       ExitCode::kNotFound);
   return header;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <grpcpp/channel.h>
-
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -10,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "affskel/v1/client_service.grpc.pb.h"
-#include "client/cli/console.h"
+#include "affskel/v1/client_service.pb.h"
+#include "client/base/notice.h"
 #include "client/connection/environment.h"
 #include "client/connection/server_choice.h"
 
@@ -44,8 +42,14 @@ class ArtifactSink {
 /// ClientError. Not thread-safe.
 class Session {
  public:
-  Session(ServerChoice choice, Environment environment, Console& console, RetryPolicy policy = {});
+  /// @param listener hears that a private server was started, that the server is away or busy, and what
+  ///   tell() passes on.
+  Session(ServerChoice choice, Environment environment, Listener listener, RetryPolicy policy = {});
   ~Session();
+  Session(Session&&) noexcept;
+
+  /// Passes on what is to be known before the work is done.  From any thread.
+  void tell(const Notice& notice) const;
 
   /// @param existed set to whether an earlier job answers this submission.
   v1::Job submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed);
@@ -77,30 +81,8 @@ class Session {
   std::string fetch_bytes(const v1::FetchArtifactRequest& request, v1::ArtifactHeader* header = nullptr);
 
  private:
-  using Stub = v1::ErosionService::Stub;
-
-  void connect();
-  // Runs `attempt` until it succeeds or fails for good.
-  void run(const std::function<grpc::Status(Stub&)>& attempt, ExitCode not_yet = ExitCode::kNotAllowed);
-  // One stream; OK when it ended with a final state, or broke after something had arrived.
-  grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
-                          const std::function<void(const v1::Job&)>& seen);
-  [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
-  void tell_away();
-  void tell_busy(const std::string& why);
-  template <typename Request, typename Response>
-  Response unary(const Request& request,
-                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*));
-
-  ServerChoice choice_;
-  Environment environment_;
-  Console& console_;
-  RetryPolicy policy_;
-  std::string target_;
-  std::shared_ptr<grpc::Channel> channel_;  // of stub_
-  std::unique_ptr<Stub> stub_;
-  bool proven_ = false;     // the server answered at least once
-  bool told_away_ = false;  // that it went away; until it is back
+  class Link;  // keeps gRPC out of this header
+  std::unique_ptr<Link> link_;
 };
 
 /// Whether nothing more will happen to the job by itself.

@@ -24,29 +24,30 @@ std::string file_stem(const std::string& name) {
   return (stem.front() == '-' ? "./" : "") + stem;
 }
 
-std::vector<std::string> job_warnings(const v1::Job& job) {
-  std::vector<std::string> warnings;
+Notices job_warnings(const v1::Job& job) {
+  Notices warnings;
   for (const v1::MeshNote& note : job.prepared().notes()) {
-    if (note.severity() == "warning") warnings.push_back(note.message());
+    if (note.severity() == "warning") warnings.push_back(warning(note.code(), note.message()));
   }
   if (job.skeleton_points() == 0) return warnings;
-  for (std::string& warning : skeleton_warnings(job.prepared(), job.quality()))
+  for (Notice& warning : skeleton_warnings(job.prepared(), job.quality()))
     warnings.push_back(std::move(warning));
   return warnings;
 }
 
-std::vector<std::string> skeleton_warnings(const v1::PreparedSummary& prepared,
-                                           const v1::SkeletonQuality& quality) {
-  std::vector<std::string> warnings;
+Notices skeleton_warnings(const v1::PreparedSummary& prepared, const v1::SkeletonQuality& quality) {
+  Notices warnings;
   if (prepared.points() < kCoarseLattice) {
-    warnings.push_back("the lattice is coarse, " + base::counted(prepared.points(), "point") +
-                       " in the solid; submit again with a smaller --spacing than " +
-                       base::rounded(prepared.spacing(), 3));
+    warnings.push_back(
+        warning("COARSE_LATTICE", "the lattice is coarse, " + base::counted(prepared.points(), "point") +
+                                      " in the solid; submit again with a smaller spacing than " +
+                                      base::rounded(prepared.spacing(), 3)));
   }
   if (is_torn(quality)) {
-    warnings.push_back("the skeleton is in " + base::counted(quality.components(), "piece") +
-                       ", the solid in " + std::to_string(quality.solid_components()) +
-                       "; a smaller --spacing or --threshold may join them");
+    warnings.push_back(
+        warning("TORN_SKELETON", "the skeleton is in " + base::counted(quality.components(), "piece") +
+                                     ", the solid in " + std::to_string(quality.solid_components()) +
+                                     "; a smaller spacing or threshold may join them"));
   }
   return warnings;
 }

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "affskel/v1/types.pb.h"
+#include "client/base/notice.h"
 
 namespace affskel::client {
 
@@ -17,11 +17,10 @@ std::string file_stem(const std::string& name);
 
 /// What to know of a done job whose skeleton has points: warnings of the mesh and of its directions, a coarse
 /// lattice, a skeleton in more pieces than the solid.
-std::vector<std::string> job_warnings(const v1::Job& job);
+Notices job_warnings(const v1::Job& job);
 
 /// Of these the last two, for a skeleton of that quality.
-std::vector<std::string> skeleton_warnings(const v1::PreparedSummary& prepared,
-                                           const v1::SkeletonQuality& quality);
+Notices skeleton_warnings(const v1::PreparedSummary& prepared, const v1::SkeletonQuality& quality);
 
 /// "done in 3.214 s: 99812 points, 500 directions, skeleton of 2013 points in 1 piece".
 std::string summary_text(const v1::Job& job);

@@ -194,8 +194,8 @@ ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
 ordered_json warnings_of(const ViewModel& model) {
   ordered_json warnings = ordered_json::array();
   for (const v1::MeshNote& note : model.job.prepared().notes()) warnings.push_back(note.message());
-  for (const std::string& warning : skeleton_warnings(model.job.prepared(), model.quality))
-    warnings.push_back(warning);
+  for (const Notice& warning : skeleton_warnings(model.job.prepared(), model.quality))
+    warnings.push_back(warning.message);
   if (!model.quality.advice().empty()) warnings.push_back(model.quality.advice());
   return warnings;
 }

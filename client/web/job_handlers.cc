@@ -34,7 +34,7 @@ http::Response list_jobs(WebCall& call) {
   v1::ListJobsRequest asked;
   if (call.request.parameter("everybody") != "1") asked.set_owner(call.session.user.owner);
   // One more than is shown tells whether there are more.
-  const std::vector<v1::Job> jobs = call.server()->session().list_jobs(asked, limit + 1);
+  const std::vector<v1::Job> jobs = call.server().list_jobs(asked, limit + 1);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < std::min<std::size_t>(limit, jobs.size()); ++i)
     list.push_back(job_json(jobs[i]));
@@ -42,31 +42,31 @@ http::Response list_jobs(WebCall& call) {
 }
 
 http::Response show_job(WebCall& call) {
-  return api_answer(job_json(call.server()->session().get_job(call.argument)));
+  return api_answer(job_json(call.server().get_job(call.argument)));
 }
 
 http::Response cancel_job(WebCall& call) {
-  return api_answer(job_json(call.server()->session().cancel(call.argument)));
+  return api_answer(job_json(call.server().cancel(call.argument)));
 }
 
 http::Response resume_job(WebCall& call) {
-  return api_answer(job_json(call.server()->session().resume(call.argument)));
+  return api_answer(job_json(call.server().resume(call.argument)));
 }
 
 http::Response delete_job(WebCall& call) {
-  return api_answer({{"id", call.server()->session().delete_job(call.argument)}});
+  return api_answer({{"id", call.server().delete_job(call.argument)}});
 }
 
 http::Response pin_job(WebCall& call) {
-  return api_answer(job_json(call.server()->session().pin(call.argument)));
+  return api_answer(job_json(call.server().pin(call.argument)));
 }
 
 http::Response unpin_job(WebCall& call) {
-  return api_answer(job_json(call.server()->session().unpin(call.argument)));
+  return api_answer(job_json(call.server().unpin(call.argument)));
 }
 
 http::Response list_events(WebCall& call) {
-  const v1::ListJobEventsResponse response = call.server()->session().job_events(call.argument);
+  const v1::ListJobEventsResponse response = call.server().job_events(call.argument);
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (const v1::JobEvent& event : response.events()) events.push_back(to_json(event));
   return api_answer({{"events", events}});

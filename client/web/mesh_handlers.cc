@@ -3,9 +3,9 @@
 
 #include "base/atomic_file.h"
 #include "base/utf8.h"
-#include "client/commands/shared/inspection.h"
-#include "client/commands/shared/submission.h"
 #include "client/files/read/input_file.h"
+#include "client/operations/inspection.h"
+#include "client/operations/submission.h"
 #include "client/render/scene.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
@@ -25,7 +25,7 @@ constexpr double kMaxCounted = 4e6;
 void read_sampling(double spacing, double points, Submission& submission) {
   if (spacing > 0) {
     submission.spacing = spacing;
-  } else if (points >= 1 && points <= double(std::uint64_t{1} << 31)) {
+  } else if (points >= 1 && points <= double(kMaxPoints)) {
     submission.points = static_cast<std::uint64_t>(std::llround(points));
   } else {
     throw ClientError(ExitCode::kUsage, "a spacing above 0 is needed, or a number of points from 1 to 2^31");
@@ -79,7 +79,7 @@ Submission submission_of(const nlohmann::json& body) {
   submission.name = text_member(body, "name");
   submission.request_id = text_member(body, "request_id");
   const double priority = number_member(body, "priority", submission.priority);
-  if (!(priority >= 0 && priority <= 9) || priority != std::floor(priority) ||
+  if (!(priority >= 0 && priority <= kMaxPriority) || priority != std::floor(priority) ||
       submission.skeleton.threshold < 0)
     throw ClientError(ExitCode::kUsage, "'priority' must be 0 to 9, 'threshold' not below 0");
   submission.priority = static_cast<unsigned>(priority);
@@ -153,10 +153,8 @@ http::Response submit_mesh(WebCall& call) {
   if (submission.name.empty()) submission.name = std::filesystem::path(mesh->name).stem().string();
   const InputFile input = read_input(mesh->file->path().string());
   check_submission(mesh->solid, input, submission);
-  const auto server = call.server();
-  const v1::SubmitJobHeader header = submission_header(server->context(), input, submission);
-  bool existed = false;
-  const v1::Job job = server->session().submit(header, input.bytes, existed);
+  Session server = call.server();
+  const auto [job, existed] = submit(server, call.web.backend.environment(), input, submission);
   return api_answer({{"id", job.id()}, {"name", job.name()}, {"existed", existed}}, existed ? 200 : 201);
 }
 

@@ -3,10 +3,11 @@
 
 #include "base/atomic_file.h"
 #include "base/utf8.h"
-#include "client/commands/shared/artifact_choice.h"
-#include "client/commands/shared/fetch_view.h"
-#include "client/commands/shared/follow.h"
-#include "client/commands/shared/picture.h"
+#include "client/operations/fetch.h"
+#include "client/operations/job_notices.h"
+#include "client/operations/page.h"
+#include "client/operations/picture.h"
+#include "client/text/message_json.h"
 #include "client/view/page.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
@@ -64,20 +65,20 @@ std::string disposition(const ResultFile& result) {
          "\"; filename*=UTF-8''" + encoded;
 }
 
-SkeletonOptions skeleton_of(const nlohmann::json& body) {
-  SkeletonOptions skeleton{text_member(body, "operator"), number_member(body, "threshold")};
+SkeletonChoice skeleton_of(const nlohmann::json& body) {
+  SkeletonChoice skeleton{text_member(body, "operator"), number_member(body, "threshold")};
   if (skeleton.threshold < 0) throw ClientError(ExitCode::kUsage, "'threshold' must not be below 0");
   return skeleton;
 }
 
-ArtifactChoice choice_of(const nlohmann::json& body, const std::string& job, const std::string& name) {
-  ArtifactChoice choice{job, name, skeleton_of(body), {}};
-  if (const double fraction = number_member(body, "fraction"); fraction != 0) {
-    if (!(fraction > 0 && fraction < 1))
-      throw ClientError(ExitCode::kUsage, "'fraction' must be above 0 and below 1");
-    choice.eroded.set_fraction(fraction);
-  }
-  return choice;
+v1::ErodedParams eroded_of(const nlohmann::json& body) {
+  v1::ErodedParams eroded;
+  const double fraction = number_member(body, "fraction");
+  if (fraction == 0) return eroded;
+  if (!(fraction > 0 && fraction < 1))
+    throw ClientError(ExitCode::kUsage, "'fraction' must be above 0 and below 1");
+  eroded.set_fraction(fraction);
+  return eroded;
 }
 
 void write_whole(const std::filesystem::path& path, const std::string& bytes) {
@@ -89,37 +90,53 @@ void write_whole(const std::filesystem::path& path, const std::string& bytes) {
 // What was made, and how its file is named.
 struct Made {
   v1::Job job;
+  Notices notices;
   nlohmann::ordered_json facts = nlohmann::ordered_json::object();
 };
 
-Made make_picture(Backend::Call& server, const nlohmann::json& body, const std::string& job,
+Made make_picture(Session& server, const nlohmann::json& body, const std::string& job,
                   const std::filesystem::path& path) {
-  Made made{finished_job(server.context(), job)};
   PictureOptions options;
   options.skeleton = skeleton_of(body);
   options.render.width = kPictureWidth;
-  const Picture picture = job_picture(server.context(), made.job, options);
+  Made made{finished_job(server, job), {}};
+  Picture picture = make_picture(server, made.job, options);
   write_whole(path, picture.png);
+  made.notices = std::move(picture.notices);
   made.facts["shown"] = picture.shown;
   return made;
 }
 
-Made make_view(Backend::Call& server, const nlohmann::json& body, const std::string& job,
+Made make_view(Session& server, const nlohmann::json& body, const std::string& job,
                const std::filesystem::path& path) {
-  Made made{finished_job(server.context(), job)};
-  const v1::SkeletonParams params = shown_skeleton(skeleton_of(body), made.job);
-  write_whole(path, view_page(fetch_view(server.context(), {{made.job, params}})));
+  const SkeletonChoice skeleton = skeleton_of(body);
+  Made made{finished_job(server, job), {}};
+  Page page = make_page(server, {{made.job, shown_skeleton(skeleton, made.job)}});
+  write_whole(path, page.html);
+  made.notices = std::move(page.notices);
   return made;
 }
 
-Made make_artifact(Backend::Call& server, const nlohmann::json& body, const std::string& job,
+Made make_artifact(Session& server, const nlohmann::json& body, const std::string& job,
                    const std::string& name, const std::filesystem::path& path) {
-  const Written written = transfer_artifact(server.context(), choice_of(body, job, name), {path});
-  Made made{written.job};
-  made.facts[written.unit + "s"] = written.items;
-  if (written.volume) made.facts["volume"] = *written.volume;
-  if (!written.advice.empty()) made.facts["advice"] = written.advice;
+  FetchRequest request{job, name, {path}, skeleton_of(body)};
+  request.eroded = eroded_of(body);
+  Fetched fetched = fetch(server, request);
+  Made made{std::move(fetched.job), std::move(fetched.notices)};
+  made.facts[fetched.unit + "s"] = fetched.items;
+  if (fetched.volume) made.facts["volume"] = *fetched.volume;
   return made;
+}
+
+nlohmann::ordered_json warnings_json(const Notices& notices) {
+  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  for (const Notice& notice : notices) {
+    if (notice.kind != Notice::Kind::kWarning) continue;
+    nlohmann::ordered_json to_try = nlohmann::ordered_json::array();
+    for (const v1::Setting& setting : notice.to_try) to_try.push_back(to_json(setting));
+    warnings.push_back({{"code", notice.code}, {"message", notice.message}, {"to_try", to_try}});
+  }
+  return warnings;
 }
 
 // The extension of what is asked for.
@@ -146,15 +163,15 @@ http::Response make_result(WebCall& call) {
   const std::string artifact = text_member(body, "artefact");
   const std::string extension = extension_for(artifact, text_member(body, "format"));
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(extension));
-  const auto server = call.server();
-  Made made = artifact == "picture" ? make_picture(*server, body, call.argument, file->path())
-              : artifact == "view"  ? make_view(*server, body, call.argument, file->path())
-                                    : make_artifact(*server, body, call.argument, artifact, file->path());
+  Session server = call.server();
+  Made made = artifact == "picture" ? make_picture(server, body, call.argument, file->path())
+              : artifact == "view"  ? make_view(server, body, call.argument, file->path())
+                                    : make_artifact(server, body, call.argument, artifact, file->path());
   nlohmann::ordered_json answer = std::move(made.facts);
   const bool shown = artifact == "picture" || artifact == "view";
   answer["name"] = file_name(made.job.name(), artifact, extension);
   answer["size"] = file->bytes();
-  answer["warnings"] = server->warnings();
+  answer["warnings"] = warnings_json(made.notices);
   answer["href"] = call.keep({std::move(file), answer["name"].get<std::string>(), type_of(extension), shown,
                               artifact == "view" ? view_page_policy() : std::string()});
   return api_answer(answer, 201);

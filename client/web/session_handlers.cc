@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "client/commands/shared/artifact_choice.h"
+#include "client/operations/fetch.h"
 #include "client/text/message_json.h"
 #include "client/text/words.h"
 #include "client/web/api_answers.h"
@@ -18,8 +18,8 @@ bool may_be_token(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
 
-WebUser user_of(Backend::Call& server, std::shared_ptr<const base::MemoryFile> token) {
-  const v1::ServerInfo info = server.session().server_info();
+WebUser user_of(Session server, std::shared_ptr<const base::MemoryFile> token) {
+  const v1::ServerInfo info = server.server_info();
   return {std::move(token), info.caller().owner(), info.caller().role() == v1::ROLE_ADMIN,
           info.max_mesh_bytes()};
 }
@@ -34,8 +34,8 @@ WebUser signed_in_user(const WebState& web, const std::string& text) {
         "token --help");
   }
   auto token = std::make_shared<const base::MemoryFile>("the token", text);
-  const auto server = web.backend.call(*token);
-  return user_of(*server, std::move(token));
+  Session server = web.backend.session(*token);
+  return user_of(std::move(server), std::move(token));
 }
 
 // The same, and tells the brake.  @throws ClientError.
@@ -98,7 +98,7 @@ http::Response begin_session(WebCall& call) {
     if (const auto time = web.brake.put_off(call.request.peer, token)) return come_again(*time);
     user = braked_user(web, call.request.peer, token);
   } else if (web.sessions.use_key(text_member(body, "key"))) {
-    user = user_of(*web.backend.call(), nullptr);
+    user = user_of(web.backend.session(), nullptr);
   } else {
     return api_error(401, "NOT_ALLOWED", "this address has been used before, or is not of this service");
   }
@@ -117,7 +117,7 @@ http::Response end_session(WebCall& call) {
 }
 
 http::Response answer_server(WebCall& call) {
-  const v1::ServerInfo info = call.server()->session().server_info();
+  const v1::ServerInfo info = call.server().server_info();
   return api_answer(to_json(info));
 }
 

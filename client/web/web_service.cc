@@ -107,7 +107,7 @@ http::Response sign_in_first() {
 // Whether the server still takes the token of a session.
 bool is_still_known(const WebCall& call) {
   try {
-    call.server()->session().server_info();
+    call.server().server_info();
   } catch (const ClientError& error) {
     return error.exit_code() != ExitCode::kNotAllowed;
   }

@@ -68,9 +68,9 @@ struct WebCall {
   std::string argument;               ///< the part of the path that the route leaves open
   std::unique_ptr<OwnedFile> upload;  ///< the body of an upload
 
-  std::unique_ptr<Backend::Call> server() const {
-    return session.user.token ? web.backend.call(*session.user.token, request.gone)
-                              : web.backend.call(request.gone);
+  Session server() const {
+    return session.user.token ? web.backend.session(*session.user.token, request.gone)
+                              : web.backend.session(request.gone);
   }
   /// Gives the session a file to fetch; the answer names its address.
   std::string keep(ResultFile result) const;

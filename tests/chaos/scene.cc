@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace affskel::chaos {
@@ -54,13 +55,31 @@ std::string Scene::submit_patiently(const Api& api, const Submission& submission
   return response.job().id();
 }
 
+// Whether each way to the server still knows the job, by its id and in the list.
+std::string Scene::whereabouts(const std::string& id) const {
+  const auto known_to = [&](const Api& api) {
+    v1::Job job;
+    const grpc::Status status = api.job(id, job, Milliseconds(5000));
+    std::vector<v1::Job> jobs;
+    const bool listed =
+        api.list(jobs, Milliseconds(5000)).ok() &&
+        std::any_of(jobs.begin(), jobs.end(), [&](const v1::Job& one) { return one.id() == id; });
+    return (status.ok() ? "known as " + v1::JobState_Name(job.state()) + " of " + job.owner()
+                        : "asked for: " + status.error_message()) +
+           (listed ? ", listed" : ", not listed");
+  };
+  return "directly " + known_to(stage.api()) + "; by the proxy " + known_to(stage.proxied());
+}
+
 void Scene::compare_field(const Api& api, const std::string& id, std::size_t recipe) {
   std::string bytes;
   const grpc::Status status = until_answered("fetching a field", [&] {
     return api.fetch(artefact(id, v1::ARTIFACT_KIND_FIELD), bytes, Milliseconds(5000));
   });
-  if (!status.ok())
-    return complain("job " + id + " is done, its field not to be had: " + status.error_message());
+  if (!status.ok()) {
+    return complain("job " + id + " is done, its field not to be had: " + status.error_message() + "; " +
+                    whereabouts(id));
+  }
   const auto where = difference(bytes, catalogue.reference(recipe).field);
   if (where) differ("field of job " + id + ", " + recipes()[recipe].name + ": " + *where);
 }

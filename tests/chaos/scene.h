@@ -58,6 +58,8 @@ class Scene {
   std::vector<std::string> take_differences();
 
  private:
+  std::string whereabouts(const std::string& id) const;
+
   std::atomic<std::uint64_t> names_{0};
   std::mutex mutex_;
   std::vector<std::string> complaints_, differences_, hangs_;

@@ -84,7 +84,7 @@ TEST_F(TerminalTest, WarningsAndASummaryStandWhereTheCommandEnds) {
   const Shown waited = run("c submit box.off --points 800 --wait --name \"it's a box\"");
   EXPECT_EQ(waited.exit_code, 0) << waited.text;
   for (const char* part : {"the directions are only 6 different ones", "the lattice is coarse, ",
-                           "submit again with a smaller --spacing than "}) {
+                           "submit again with a smaller spacing than "}) {
     EXPECT_EQ(count_of(waited.text, part), 1u) << part << "\n" << waited.text;
   }
   EXPECT_GE(count_of(waited.text, "\033[33mwarning:\033[0m "), 2u) << waited.text;
@@ -404,8 +404,8 @@ TEST_F(TerminalTest, WhatLeavesTheRidgeIsNamed) {
     EXPECT_EQ(shown.exit_code, 2) << options << shown.text;
     EXPECT_NE(shown.text.find(text), std::string::npos) << options << "\n" << shown.text;
   };
-  says("--alpha 500 --barrier", "--alpha without --operator is for the job's own skeleton");
-  says("--threshold 1 --min-barrier 0.1", "--threshold without --operator is for the job's own skeleton");
+  says("--alpha 500 --barrier", "alpha without an operator is for the job's own skeleton");
+  says("--threshold 1 --min-barrier 0.1", "a threshold without an operator is for the job's own skeleton");
   says("--operator ridge --threshold 900", "between 1e-06 and 800, not 900");
   says("--operator ridge --threshold 1e-7", "between 1e-06 and 800, not 1e-07");
 }

@@ -37,7 +37,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
   const double next = core::next_threshold(pruning.significance);
   core::SheetQualityOptions options;
   options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, pruning);
-  if (!barriers.advice.empty()) options.advice_if_empty = barriers.advice;
+  if (!barriers.advice.text.empty()) options.advice_if_empty = barriers.advice;
   options.points = points;
   core::Mesh other;
   if (next < 1 && !barriers.cut) {

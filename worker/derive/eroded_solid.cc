@@ -18,13 +18,15 @@ double level_of(const FinishedField& field, const v1::ErodedParams& params) {
 }
 
 // Why an eroded solid is empty.
-std::string advice_for(const FinishedField& field, double level) {
+core::Advice advice_for(const FinishedField& field, double level) {
   double largest = 0;
   for (const core::FieldValue& value : field.values()) {
     if (value.direction != core::FieldValue::kNoDirection) largest = std::max(largest, value.erosion);
   }
-  return "no sample point reaches the level " + base::to_text(level) + "; the largest E is " +
-         base::to_text(largest) + ", " + base::to_text(largest / field.job().solid().volume) + " of v0";
+  const std::string share = base::to_text(largest / field.job().solid().volume);
+  return {"no sample point reaches the level " + base::to_text(level) + "; the largest E is " +
+              base::to_text(largest) + ", " + share + " of v0",
+          {}};
 }
 
 }  // namespace
@@ -34,7 +36,7 @@ v1::SkeletonPoints eroded_points(const FinishedField& field, const v1::ErodedPar
   const std::vector<core::LatticePlace> places = core::lattice_places(field.lattice(), points);
   v1::SkeletonPoints message;
   for (std::size_t i = 0; i < points.size(); ++i) append_point(field, points[i], places[i], message);
-  if (points.empty()) message.mutable_quality()->set_advice(advice_for(field, level_of(field, params)));
+  if (points.empty()) set_advice(advice_for(field, level_of(field, params)), *message.mutable_quality());
   return message;
 }
 
@@ -49,7 +51,8 @@ v1::TriangleMesh eroded_surface(const FinishedField& field, const v1::ErodedPara
   append_corners(surface.mesh, message);
   append_values(surface.values, message);
   message.set_volume(surface.volume);
-  if (surface.mesh.triangles.empty()) message.mutable_quality()->set_advice(advice_for(field, options.level));
+  if (surface.mesh.triangles.empty())
+    set_advice(advice_for(field, options.level), *message.mutable_quality());
   return message;
 }
 

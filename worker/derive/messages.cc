@@ -47,8 +47,17 @@ v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality) {
   if (quality.hausdorff_back) message.set_hausdorff_back(*quality.hausdorff_back);
   message.set_other_threshold(quality.other_threshold);
   message.set_chance_level(quality.chance_level);
-  message.set_advice(quality.advice);
+  set_advice(quality.advice, message);
   return message;
+}
+
+void set_advice(const core::Advice& advice, v1::SkeletonQuality& message) {
+  message.set_advice(advice.text);
+  for (const core::Setting& setting : advice.settings) {
+    v1::Setting& to_try = *message.add_to_try();
+    to_try.set_name(setting.name);
+    to_try.set_value(setting.value);
+  }
 }
 
 }  // namespace affskel::worker

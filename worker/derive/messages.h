@@ -24,4 +24,6 @@ void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message);
 
 v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality);
 
+void set_advice(const core::Advice& advice, v1::SkeletonQuality& message);
+
 }  // namespace affskel::worker

@@ -62,7 +62,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, c
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
   options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
-  if (!barriers.advice.empty()) options.advice_if_empty = barriers.advice;
+  if (!barriers.advice.text.empty()) options.advice_if_empty = barriers.advice;
   const double next = core::next_threshold(rims.low);
   core::Mesh other;
   core::RidgeSheet other_sheet;

@@ -18,7 +18,7 @@ namespace affskel::worker {
 struct SheetBarriers {
   std::vector<double> barrier;  ///< per vertex that is left; empty unless asked for
   bool cut = false;             ///< whether triangles and segments with a low vertex were dropped
-  std::string advice;           ///< why nothing is left, when the cut left nothing
+  core::Advice advice;          ///< why nothing is left, when the cut left nothing
 };
 
 /// A sheet's vertex in frame coordinates, as core::barriers() takes it.

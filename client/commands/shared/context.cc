@@ -1,11 +1,14 @@
 #include "client/commands/shared/context.h"
 
+#include "client/commands/shared/notices.h"
+
 namespace affskel::client {
 
 Session& Context::session() {
   if (!session_) {
-    session_.emplace(choose_server(global_.server, environment_, global_.access), environment_, console_,
-                     policy_);
+    session_.emplace(
+        choose_server(global_.server, environment_, global_.access), environment_,
+        [&console = console_](const Notice& notice) { say(console, notice); }, policy_);
   }
   return *session_;
 }

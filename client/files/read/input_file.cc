@@ -86,13 +86,19 @@ std::string passed_over_text(const core::OffMesh& off) {
   return text;
 }
 
-void tell_conversion(const InputFile& input, Console& console) {
+Notices conversion_notices(const InputFile& input) {
+  Notices notices;
   if (const std::string text = passed_over_text(input.off); !text.empty())
-    console.note(input.path + ": passed over " + text);
-  if (!input.converted()) return;
-  console.note(input.path + ": read as " + input.format + " and submitted as OFF text, " +
-               std::to_string(input.off.mesh.points.size()) + " vertices and " +
-               std::to_string(input.off.mesh.triangles.size()) + " triangles; fetch mesh gives that text");
+    notices.push_back(note("PASSED_OVER", "passed over " + text, input.path));
+  if (input.converted()) {
+    notices.push_back(note("CONVERTED",
+                           "read as " + input.format + " and submitted as OFF text, " +
+                               std::to_string(input.off.mesh.points.size()) + " vertices and " +
+                               std::to_string(input.off.mesh.triangles.size()) +
+                               " triangles; fetch mesh gives that text",
+                           input.path));
+  }
+  return notices;
 }
 
 core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionContext* context) {
@@ -106,16 +112,14 @@ core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionCont
   }
 }
 
-void tell_notes(const core::Solid& solid, const InputFile& input, Console& console) {
-  for (const core::MeshNote& note : solid.notes) {
-    const bool repaired = note.severity == core::MeshNote::Severity::kRepaired;
-    const std::string text = input.path + ": " + (repaired ? "repaired: " : "") + note.message;
-    if (repaired) {
-      console.note(text);
-    } else {
-      console.warning(text);
-    }
+Notices solid_notices(const core::Solid& solid, const InputFile& input) {
+  Notices notices;
+  for (const core::MeshNote& found : solid.notes) {
+    const bool repaired = found.severity == core::MeshNote::Severity::kRepaired;
+    notices.push_back(repaired ? note(found.code, "repaired: " + found.message, input.path)
+                               : warning(found.code, found.message, input.path));
   }
+  return notices;
 }
 
 }  // namespace affskel::client

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "client/base/error.h"
-#include "client/cli/console.h"
+#include "client/base/notice.h"
 #include "core/solid/solid.h"
 #include "core/text/off_file.h"
 
@@ -41,10 +41,10 @@ core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionCont
 /// What of a file was passed over: "1204 rows of vn (normals), 2 rows of g (groups)"; empty when nothing was.
 std::string passed_over_text(const core::OffMesh& off);
 
-/// Tells when the file is not what is submitted, and what of it was passed over.
-void tell_conversion(const InputFile& input, Console& console);
+/// That the file is not what is submitted, and what of it was passed over.
+Notices conversion_notices(const InputFile& input);
 
-/// Tells the notes of the solid: repairs as notes, oddities as warnings.
-void tell_notes(const core::Solid& solid, const InputFile& input, Console& console);
+/// The notes of the solid: repairs as notes, oddities as warnings.
+Notices solid_notices(const core::Solid& solid, const InputFile& input);
 
 }  // namespace affskel::client

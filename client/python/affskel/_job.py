@@ -34,6 +34,15 @@ def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> type
     return params
 
 
+def _argument(value: str) -> str:
+    """A setting's value as Python writes it."""
+    try:
+        float(value)
+    except ValueError:
+        return repr(value)
+    return value
+
+
 class Job:
     """A job on a server.  It holds nothing of the results: each call fetches what it returns.
 
@@ -164,8 +173,9 @@ class Job:
         request.surface.alpha = alpha or 0.0
         request.surface.barrier = barrier or min_barrier is not None
         request.surface.min_barrier = min_barrier or 0.0
-        surface = surface_of(types.TriangleMesh.FromString(self._fetched(request, timeout)))
-        self._warn_if_empty("surface of the skeleton", len(surface) + len(surface.segments), surface.quality.get("advice"))
+        message = types.TriangleMesh.FromString(self._fetched(request, timeout))
+        surface = surface_of(message)
+        self._warn_if_empty("surface of the skeleton", len(surface) + len(surface.segments), message.quality)
         return surface
 
     def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
@@ -175,8 +185,9 @@ class Job:
         chosen = self._chosen(operator, threshold)
         if chosen is not None:
             request.skeleton.CopyFrom(chosen)
-        points = points_of(types.SkeletonPoints.FromString(self._fetched(request, timeout)))
-        self._warn_if_empty("skeleton", len(points), points.quality.get("advice"))
+        message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
+        points = points_of(message)
+        self._warn_if_empty("skeleton", len(points), message.quality)
         return points
 
     def divergence(self, operator: Optional[str] = None, *, timeout: Optional[float] = None) -> Floats:
@@ -197,7 +208,7 @@ class Job:
         """
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, fraction, volume)
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
-        self._warn_if_empty("eroded solid", len(message.corners), message.quality.advice)
+        self._warn_if_empty("eroded solid", len(message.corners), message.quality)
         return surface_of(message)
 
     def eroded_points(self, fraction: Optional[float] = None, volume: Optional[float] = None, *,
@@ -205,7 +216,7 @@ class Job:
         """The sample points in the eroded solid; arguments as for `eroded`."""
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_POINTS, fraction, volume)
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
-        self._warn_if_empty("eroded solid", len(message.point), message.quality.advice)
+        self._warn_if_empty("eroded solid", len(message.point), message.quality)
         return points_of(message)
 
     def mesh(self, *, timeout: Optional[float] = None) -> bytes:
@@ -247,7 +258,11 @@ class Job:
     def _fetched(self, request: service.FetchArtifactRequest, timeout: Optional[float]) -> bytes:
         return self._session.fetch(request, timeout)[1]
 
-    def _warn_if_empty(self, what: str, count: int, advice: Optional[str]) -> None:
-        if count == 0:
-            warnings.warn(f"the {what} of job {self.id} is empty" + (f": {advice}" if advice else ""), AffskelWarning,
-                          stacklevel=3)
+    def _warn_if_empty(self, what: str, count: int, quality: types.SkeletonQuality) -> None:
+        if count > 0:
+            return
+        advice = f": {quality.advice}" if quality.advice else ""
+        to_try = " or ".join(f"{setting.name}={_argument(setting.value)}" for setting in quality.to_try)
+        if to_try:
+            advice += f" Try {to_try}"
+        warnings.warn(f"the {what} of job {self.id} is empty{advice}", AffskelWarning, stacklevel=3)

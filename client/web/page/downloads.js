@@ -83,7 +83,7 @@ export class Downloads {
     try {
       const result = await call('POST', jobPath(this.job, '/results'), { artefact, format, ...this.parameters() });
       save(result);
-      const notes = [...result.warnings, result.advice].filter(Boolean);
+      const notes = result.warnings.map((warning) => warning.message);
       this.status.textContent = `${result.name}, ${bytes(result.size)}${notes.length ? `. Note: ${notes.join('; ')}` : ''}`;
     } catch (error) {
       this.status.textContent = '';

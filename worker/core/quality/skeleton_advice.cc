@@ -20,6 +20,8 @@ namespace {
 // Fewer distinct optimal normals than this cannot follow a curved level surface.
 constexpr std::size_t kFewNormals = 60;
 
+const Setting kMoreDirections{"directions", "triangles+sphere:2000"};
+
 // Fewer sample points than this are less than 10 across a cube.
 constexpr std::uint32_t kFewPoints = 1000;
 
@@ -45,10 +47,10 @@ std::size_t distinct_normals(const OptimalDirections& optimal) {
   return used.size() - (!used.empty() && used.back() == FieldValue::kNoDirection);
 }
 
-std::string on_threshold(std::vector<double> size, double threshold) {
+Advice on_threshold(std::vector<double> size, double threshold) {
   const double largest = *std::max_element(size.begin(), size.end());
   const std::string found = "no sample point has |H| above the threshold " + base::rounded(threshold, 3);
-  if (largest == 0) return found + ": the optimal normals do not change anywhere.";
+  if (largest == 0) return {found + ": the optimal normals do not change anywhere.", {}};
   const auto wanted = size.begin() + static_cast<std::ptrdiff_t>(points_of_a_sheet(size.size()) - 1);
   std::nth_element(size.begin(), wanted, size.end(), std::greater<>());
   // Lowered by 1 %, more than rounding to three digits can raise it.
@@ -56,15 +58,17 @@ std::string on_threshold(std::vector<double> size, double threshold) {
   const std::string lower = base::rounded(0.99 * least, 3);
   const double bound = std::strtod(lower.c_str(), nullptr);
   const auto kept = std::count_if(size.begin(), size.end(), [&](double h) { return h > bound; });
-  return found + "; the largest is " + base::rounded(largest, 3) + ". --threshold " + lower + " would keep " +
-         std::to_string(kept) + " of the " + std::to_string(size.size()) + " points.";
+  return {found + "; the largest is " + base::rounded(largest, 3) + ". A threshold of " + lower +
+              " would keep " + std::to_string(kept) + " of the " + std::to_string(size.size()) + " points.",
+          {{"threshold", lower}}};
 }
 
-std::string on_few_points(const Lattice& lattice) {
-  if (lattice.points >= kFewPoints) return "";
-  return " The lattice has only " + base::counted(lattice.points, "sample point") +
-         ": submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) +
-         ", or --points 100000.";
+void add_on_few_points(const Lattice& lattice, Advice& advice) {
+  if (lattice.points >= kFewPoints) return;
+  advice.text += " The lattice has only " + base::counted(lattice.points, "sample point") +
+                 ": submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) +
+                 ", or with 100000 points.";
+  advice.settings.push_back({"points", "100000"});
 }
 
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
@@ -88,82 +92,96 @@ bool is_stretched(const Lattice& lattice) {
   return false;
 }
 
-std::string on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
-  std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
-                       " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".";
+Advice on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
+  Advice advice{"the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
+                    " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".",
+                {}};
   if (is_stretched(lattice)) {
-    advice +=
+    advice.text +=
         " The lattice's frame is stretched, which makes a flat solid as thick as it is wide: submit with "
-        "--frame axis or --frame pca.";
+        "the frame axis or pca.";
+    advice.settings.push_back({"frame", "axis"});
   }
-  return advice +
-         " The solid may have no other skeleton than its centre, as a ball has; else submit with more "
-         "directions (--directions triangles+sphere:2000) or a smaller spacing.";
+  advice.text +=
+      " The solid may have no other skeleton than its centre, as a ball has; else submit with more "
+      "directions or a smaller spacing.";
+  advice.settings.push_back(kMoreDirections);
+  return advice;
 }
 
-std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
+Advice on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
   const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
-  return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
-         base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
-         base::rounded(census.max_piece_share, 3) + " of its sheet. --threshold " + lower +
-         " would keep it, --threshold 1e-9 all.";
+  return {"all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
+              base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
+              base::rounded(census.max_piece_share, 3) + " of its sheet. A threshold of " + lower +
+              " would keep it, one of 1e-9 all.",
+          {{"threshold", lower}}};
 }
 
 }  // namespace
 
-std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
-                                  const std::vector<double>& divergence, ShockOperator shock_operator,
-                                  double threshold) {
-  if (divergence.empty()) return "there are no sample points.";
-  std::string advice =
-      std::string(name_of(shock_operator)) + ": " + on_threshold(magnitudes(divergence), threshold);
+Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
+                             const std::vector<double>& divergence, ShockOperator shock_operator,
+                             double threshold) {
+  if (divergence.empty()) return {"there are no sample points.", {}};
+  Advice advice = on_threshold(magnitudes(divergence), threshold);
+  advice.text.insert(0, std::string(name_of(shock_operator)) + ": ");
   const std::size_t normals = distinct_normals(optimal);
   if (normals < kFewNormals) {
-    advice += " Only " + base::counted(normals, "direction is", "directions are") +
-              " the optimum of some point, too few to show shocks well: submit with "
-              "--directions triangles+sphere:1000.";
+    advice.text += " Only " + base::counted(normals, "direction is", "directions are") +
+                   " the optimum of some point, too few to show shocks well: submit with more.";
+    advice.settings.push_back({"directions", "triangles+sphere:1000"});
   }
-  return advice + on_few_points(lattice);
+  add_on_few_points(lattice, advice);
+  return advice;
 }
 
-std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
-                               const ChordPruningOptions& pruning) {
+Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
+                          const ChordPruningOptions& pruning) {
   if (census.strong > 0) return on_significance(census, pruning);
-  std::string advice;
+  Advice advice;
   if (census.wide > 0) {
-    advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-             " where equal chords clearly differ is E " + base::rounded(pruning.min_erosion, 3) +
-             " of the volume. Submit with a smaller spacing.";
+    advice.text = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
+                  " where equal chords clearly differ is E " + base::rounded(pruning.min_erosion, 3) +
+                  " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
     advice = on_turn(lattice, census, pruning);
   } else {
-    advice =
+    advice = {
         "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "
-        "directions (--directions triangles+sphere:2000).";
+        "directions.",
+        {kMoreDirections}};
   }
-  return advice + on_few_points(lattice);
+  add_on_few_points(lattice, advice);
+  return advice;
 }
 
-std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
-                               const RidgeRimOptions& rims) {
-  if (pieces.max_strength <= 0 && rims.low > RidgeRimOptions().low) {
-    return "nowhere is the sheet nearly as strong as the threshold " + base::rounded(rims.low, 3) +
-           "; the default is " + base::rounded(RidgeRimOptions().low, 3) + "." + on_few_points(lattice);
+Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeRimOptions& rims) {
+  Advice advice;
+  const RidgeRimOptions usual;
+  if (pieces.max_strength <= 0 && rims.low > usual.low) {
+    advice = {"nowhere is the sheet nearly as strong as the threshold " + base::rounded(rims.low, 3) +
+                  "; the default is " + base::rounded(usual.low, 3) + ".",
+              {{"threshold", base::rounded(usual.low, 3)}}};
+  } else if (pieces.max_strength <= 0) {
+    advice = {
+        "nowhere do the normals turn fast across a sheet deep enough in the solid. Submit with a smaller "
+        "spacing or more directions.",
+        {kMoreDirections}};
+  } else {
+    // Both bounds fall together; just below their higher one a piece is kept.
+    const std::string lower = base::rounded(0.99 * pieces.max_strength * rims.low / rims.high, 3);
+    advice = {"the sheet's greatest strength is " + base::rounded(pieces.max_strength, 3) +
+                  ", less than the " + base::rounded(rims.high, 3) +
+                  " that a piece of it must reach. A threshold of " + lower + " would keep one.",
+              {{"threshold", lower}}};
   }
-  if (pieces.max_strength <= 0) {
-    return "nowhere do the normals turn fast across a sheet deep enough in the solid. Submit with a smaller "
-           "spacing or more directions (--directions triangles+sphere:2000)." +
-           on_few_points(lattice);
-  }
-  // Both bounds fall together; just below their higher one a piece is kept.
-  const std::string lower = base::rounded(0.99 * pieces.max_strength * rims.low / rims.high, 3);
-  return "the sheet's greatest strength is " + base::rounded(pieces.max_strength, 3) + ", less than the " +
-         base::rounded(rims.high, 3) + " that a piece of it must reach. --threshold " + lower +
-         " would keep one." + on_few_points(lattice);
+  add_on_few_points(lattice, advice);
+  return advice;
 }
 
-std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
-                                std::span<const double> barrier, double least) {
+Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
+                           std::span<const double> barrier, double least) {
   double greatest = 0;
   for (const auto& [a, b, c] : triangles)
     greatest = std::max(greatest, std::min({barrier[a], barrier[b], barrier[c]}));
@@ -171,9 +189,11 @@ std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<c
   const std::string none = std::string("no ") +
                            (triangles.empty() ? "segment of the curves" : "triangle of the sheet") +
                            " has a barrier of " + base::rounded(least, 3) + ": ";
-  if (greatest <= 0) return none + "the normals jump nowhere, they only turn fast.";
-  return none + "the greatest is " + base::rounded(greatest, 3) + ". --min-barrier " +
-         base::rounded(0.99 * greatest, 3) + " would keep one.";
+  if (greatest <= 0) return {none + "the normals jump nowhere, they only turn fast.", {}};
+  const std::string lower = base::rounded(0.99 * greatest, 3);
+  return {none + "the greatest is " + base::rounded(greatest, 3) + ". A least barrier of " + lower +
+              " would keep one.",
+          {{"min_barrier", lower}}};
 }
 
 }  // namespace affskel::core

@@ -1,25 +1,25 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/chords/chord_pruning.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
+#include "core/quality/advice.h"
 #include "core/ridge/ridge_rims.h"
 #include "core/shocks/shock_operator.h"
 
 namespace affskel::core {
 
-/// Why a thresholded skeleton is empty and what to try, one or more sentences for people: the largest |H|
+/// Why a thresholded skeleton is empty and what to try: the largest |H|
 /// there is and a threshold that would keep about as many points as a sheet through the lattice has; that
 /// there are few distinct optimal normals (a box has six); that there are few sample points.
 /// @param divergence H per sample point, none with |H| > threshold.
-std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
-                                  const std::vector<double>& divergence, ShockOperator shock_operator,
-                                  double threshold);
+Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
+                             const std::vector<double>& divergence, ShockOperator shock_operator,
+                             double threshold);
 
 /// The same for the operator `chords`.  One of these:
 /// - there are no two equal chords at all;
@@ -30,21 +30,20 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
 /// - only pieces below the significance; then it names one that keeps the heaviest.
 /// @param census of a sheet without shocks.
 /// @param pruning the options that it was made with.
-std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
-                               const ChordPruningOptions& pruning);
+Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
+                          const ChordPruningOptions& pruning);
 
 /// The same for the operator `ridge`: names the greatest strength that there is, and a threshold that keeps
 /// it, or what else is missing.
 /// @param pieces of a sheet without triangles.
 /// @param rims the options that it was cut with.
-std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
-                               const RidgeRimOptions& rims);
+Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeRimOptions& rims);
 
 /// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
 /// triangle or a segment.
 /// @param triangles, segments of the sheet before. @param barrier per vertex of these. @param least that was
 ///   asked for.
-std::string low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
-                                std::span<const double> barrier, double least);
+Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
+                           std::span<const double> barrier, double least);
 
 }  // namespace affskel::core

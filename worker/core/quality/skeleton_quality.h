@@ -11,6 +11,7 @@
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
+#include "core/quality/advice.h"
 #include "core/shocks/shock_operator.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/solid.h"
@@ -31,7 +32,7 @@ struct SkeletonQuality {
   /// when one of them is empty.
   std::optional<double> hausdorff_there, hausdorff_back;
   double chance_level = 0;  ///< at half a voxel's diagonal, see chance_level.h
-  std::string advice;       ///< why it is empty and what to try; empty when there is nothing to say
+  Advice advice;            ///< why it is empty and what to try
 };
 
 struct SkeletonQualityOptions {
@@ -55,7 +56,7 @@ struct SheetQualityOptions {
   double other_threshold = 0;   ///< that `other` was made with
   const Mesh* other = nullptr;  ///< the sheet at the next higher threshold; none: no Hausdorff distances
   Segments other_segments;      ///< of its curves
-  std::string advice_if_empty;  ///< see empty_sheet_advice
+  Advice advice_if_empty;       ///< see empty_sheet_advice
   const std::vector<Vec3>* points = nullptr;  ///< the shocks that the sheet was laid through, likewise in u
 };
 

@@ -143,8 +143,8 @@ TEST(CommandLine, KeepsTheOrderOfAffineSteps) {
   EXPECT_EQ(parsed.value("--output"), "b.off");
 }
 
-SkeletonOptions parsed_skeleton(const std::vector<std::string>& reversed_arguments,
-                                SkeletonOptions skeleton = {}) {
+SkeletonChoice parsed_skeleton(const std::vector<std::string>& reversed_arguments,
+                                SkeletonChoice skeleton = {}) {
   CLI::App app;
   add_skeleton_options(&app, skeleton);
   app.parse(std::vector<std::string>(reversed_arguments));

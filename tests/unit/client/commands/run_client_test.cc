@@ -173,7 +173,7 @@ TEST_F(ClientTest, AnEmptySkeletonIsAWarning) {
   const Outcome done = run({"watch", "@last"});
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_NE(done.err.find("warning: the skeleton is empty"), std::string::npos);
-  EXPECT_NE(done.err.find("--spacing"), std::string::npos);
+  EXPECT_NE(done.err.find("smaller spacing"), std::string::npos) << done.err;
 }
 
 TEST_F(ClientTest, AnEmptySurfaceIsAWarning) {

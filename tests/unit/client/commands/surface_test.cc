@@ -120,21 +120,26 @@ TEST_F(ClientTest, QualityIsToldEverywhere) {
 
 TEST_F(ClientTest, EmptyResultsAreToldWithTheirAdvice) {
   v1::SkeletonPoints skeleton;
-  skeleton.mutable_quality()->set_advice("take more directions");
+  skeleton.mutable_quality()->set_advice("take more directions.");
+  v1::Setting& setting = *skeleton.mutable_quality()->add_to_try();
+  setting.set_name("min_barrier");
+  setting.set_value("0.2");
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
   const Outcome points = run({"--json", "skeleton", "@last", "--threshold", "99", "-o", dir_ / "s.ply"});
   EXPECT_EQ(points.exit_code, 0) << points.err;
   EXPECT_EQ(json::parse(points.out).at("points"), 0);
-  EXPECT_EQ(json::parse(points.out).at("quality").at("advice"), "take more directions");
+  EXPECT_EQ(json::parse(points.out).at("quality").at("advice"), "take more directions.");
+  EXPECT_EQ(json::parse(points.out).at("quality").at("to_try").at(0).at("value"), "0.2");
+  EXPECT_NE(points.err.find("take more directions. Try --min-barrier 0.2\n"), std::string::npos) << points.err;
 
   v1::TriangleMesh sheet;
   sheet.mutable_quality()->set_advice("take a smaller significance");
   service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sheet.SerializeAsString();
   const Outcome chords = run({"surface", "@last", "--operator", "chords", "-o", dir_ / "c.ply"});
   EXPECT_NE(chords.err.find("the surface is empty: take a smaller significance"), std::string::npos);
-  EXPECT_EQ(chords.err.find("--alpha"), std::string::npos) << "chords have none";
+  EXPECT_EQ(chords.err.find("alpha"), std::string::npos) << "chords have none";
   const Outcome alpha = run({"surface", "@last", "--operator", "zucker-hummel", "-o", dir_ / "a.ply"});
-  EXPECT_NE(alpha.err.find("--alpha"), std::string::npos) << alpha.err;
+  EXPECT_NE(alpha.err.find("a larger alpha"), std::string::npos) << alpha.err;
 }
 
 TEST_F(ClientTest, SheetsOfChordsKeepTheirProperties) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "client/commands/shared/fetch_view.h"
+#include "client/operations/page.h"
 #include "client_fixture.h"
 #include "sample_data.h"
 #include "tools/files.h"

@@ -89,29 +89,28 @@ class EnsureEmbeddedServer : public ::testing::Test {
   Environment environment_ = test_environment({{"AFFSKEL_HOME", dir_ / "home"}});
   EmbeddedPaths paths_;
   EmbeddedOptions options_;
-  std::ostringstream out_, err_;
-  Console console_{out_, err_, {}};
+  Notices told_;
+  const Listener listener_ = [this](const Notice& notice) { told_.push_back(notice); };
 };
 
 TEST_F(EnsureEmbeddedServer, StartsOneAndSaysSo) {
-  const wire::Address address = ensure_embedded_server(paths_, options_, environment_, console_);
+  const wire::Address address = ensure_embedded_server(paths_, options_, environment_, listener_);
   EXPECT_EQ(address.target(), "unix:" + paths_.socket.string());
   EXPECT_TRUE(wire::socket_answers(paths_.socket));
-  EXPECT_NE(err_.str().find(paths_.home.string()), std::string::npos);
-  const std::string said = err_.str();
-  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
-  EXPECT_EQ(out_.str(), "");
+  ASSERT_EQ(told_.size(), 1U);
+  EXPECT_EQ(told_[0].code, "SERVER_STARTED");
+  EXPECT_NE(told_[0].message.find(paths_.home.string()), std::string::npos);
   EXPECT_EQ(tests::read_file(dir_ / "home/arguments"),
             "--data-dir\n" + paths_.home.string() + "\n--listen\nunix:" + paths_.socket.string() +
                 "\n--workers\nauto\n--idle-exit\n60\nsession leader: 1\n");
 }
 
 TEST_F(EnsureEmbeddedServer, AttachesSilentlyToARunningOne) {
-  ensure_embedded_server(paths_, options_, environment_, console_);
+  ensure_embedded_server(paths_, options_, environment_, listener_);
   const std::string pid = tests::read_file(dir_ / "home/pid");
-  err_.str("");
-  ensure_embedded_server(paths_, options_, environment_, console_);
-  EXPECT_EQ(err_.str(), "");
+  told_.clear();
+  ensure_embedded_server(paths_, options_, environment_, listener_);
+  EXPECT_TRUE(told_.empty());
   EXPECT_EQ(tests::read_file(dir_ / "home/pid"), pid);
 }
 
@@ -120,9 +119,7 @@ TEST_F(EnsureEmbeddedServer, TwoClientsAtOnceShareOne) {
   std::atomic<int> good{0};
   for (int i = 0; i < 4; ++i) {
     clients.emplace_back([&] {
-      std::ostringstream out, err;
-      Console console(out, err, {});
-      ensure_embedded_server(paths_, options_, environment_, console);
+      ensure_embedded_server(paths_, options_, environment_, {});
       good += wire::socket_answers(paths_.socket) ? 1 : 0;
     });
   }
@@ -134,7 +131,7 @@ TEST_F(EnsureEmbeddedServer, TellsAFullDiskByItsExitCode) {
   tests::write_file(dir_ / "home/full", "");
   options_.grace = std::chrono::milliseconds(50);
   try {
-    ensure_embedded_server(paths_, options_, environment_, console_);
+    ensure_embedded_server(paths_, options_, environment_, listener_);
     FAIL();
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kLimit);
@@ -145,7 +142,7 @@ TEST_F(EnsureEmbeddedServer, ReportsTheLogOfAServerThatCannotStart) {
   tests::write_file(dir_ / "home/refuse", "");
   options_.grace = std::chrono::milliseconds(50);
   try {
-    ensure_embedded_server(paths_, options_, environment_, console_);
+    ensure_embedded_server(paths_, options_, environment_, listener_);
     FAIL();
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kUnreachable);
@@ -156,14 +153,14 @@ TEST_F(EnsureEmbeddedServer, ReportsTheLogOfAServerThatCannotStart) {
 
 TEST_F(EnsureEmbeddedServer, KeepsTheLogFromGrowingForEver) {
   tests::write_file(paths_.log, std::string(9 << 20, 'x'));
-  ensure_embedded_server(paths_, options_, environment_, console_);
+  ensure_embedded_server(paths_, options_, environment_, listener_);
   EXPECT_LT(std::filesystem::file_size(paths_.log), 1u << 20);
   EXPECT_EQ(std::filesystem::file_size(paths_.log.string() + ".1"), 9u << 20);
 }
 
 TEST_F(EnsureEmbeddedServer, ReportsAProgramThatCannotRun) {
   options_.program = dir_ / "nothing";
-  EXPECT_THROW(ensure_embedded_server(paths_, options_, environment_, console_), ClientError);
+  EXPECT_THROW(ensure_embedded_server(paths_, options_, environment_, listener_), ClientError);
 }
 
 TEST(FindServerProgram, LooksInThePath) {

@@ -57,10 +57,8 @@ class WebServiceTest : public ClientTest {
     WebOptions options;
     options.port = 8080;
     options.personal = personal;
-    GlobalOptions global;
-    global.server = server_.address();
-    web_ = std::make_unique<WebService>(Backend(test_environment({{"HOME", dir_.path()}}), global, retry),
-                                        options);
+    web_ = std::make_unique<WebService>(
+        Backend(test_environment({{"HOME", dir_.path()}}), server_.address(), {}, retry), options);
   }
 
   // As a browser sends it from the page.

@@ -2,18 +2,31 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/normal_block.h"
 
 namespace affskel::core {
 namespace {
 
-std::string advice_for(const std::vector<double>& divergence, const OptimalDirections& optimal,
-                       const Lattice& lattice, double threshold = 7) {
+Advice advice_for(const std::vector<double>& divergence, const OptimalDirections& optimal,
+                  const Lattice& lattice, double threshold = 7) {
   return empty_skeleton_advice(lattice, optimal, divergence, ShockOperator::kZuckerHummel, threshold);
 }
 
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+bool says(const Advice& advice, const std::string& part) {
+  return advice.text.find(part) != std::string::npos;
+}
+
+bool suggests(const Advice& advice, const std::string& name, const std::string& value) {
+  return std::any_of(advice.settings.begin(), advice.settings.end(),
+                     [&](const Setting& setting) { return setting.name == name && setting.value == value; });
+}
+
+// What any program may show names no option of one of them.
+testing::AssertionResult is_plain(const Advice& advice) {
+  if (advice.text.find("--") == std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << advice.text;
 }
 
 // 1000 points, hence a sheet of 100: |H| = 0.001 (p + 1) keeps 100 points above 0.9, and 0.99 * 0.901 = 0.892
@@ -26,31 +39,35 @@ TEST(EmptySkeletonAdvice, NamesTheLargestHAndAThresholdThatKeepsASheet) {
     divergence.push_back((p % 2 == 0 ? 0.001 : -0.001) * (p + 1));
     optimal.push_back(p);
   }
-  const std::string advice = advice_for(divergence, optimal, block.lattice);
-  EXPECT_TRUE(says(advice, "above the threshold 7; the largest is 1.")) << advice;
-  EXPECT_TRUE(says(advice, "--threshold 0.892 would keep 108 of the 1000 points")) << advice;
-  EXPECT_FALSE(says(advice, "directions")) << advice;
-  EXPECT_FALSE(says(advice, "spacing")) << advice;
+  const Advice advice = advice_for(divergence, optimal, block.lattice);
+  EXPECT_TRUE(says(advice, "above the threshold 7; the largest is 1.")) << advice.text;
+  EXPECT_TRUE(says(advice, "A threshold of 0.892 would keep 108 of the 1000 points")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "threshold", "0.892"));
+  EXPECT_TRUE(is_plain(advice));
+  EXPECT_FALSE(says(advice, "directions")) << advice.text;
+  EXPECT_FALSE(says(advice, "spacing")) << advice.text;
 }
 
 TEST(EmptySkeletonAdvice, SuggestsDirectionsWhenFewAreOptimal) {
   NormalBlock block({10, 10, 10});
   OptimalDirections optimal(1000, 3);
   for (std::size_t p = 0; p < 500; ++p) optimal[p] = 8;
-  const std::string advice = advice_for(std::vector<double>(1000, 1), optimal, block.lattice);
-  EXPECT_TRUE(says(advice, "Only 2 directions")) << advice;
-  EXPECT_TRUE(says(advice, "--directions triangles+sphere:1000")) << advice;
-  EXPECT_TRUE(says(advice, "--threshold 0.99 would keep 1000 of the 1000")) << advice;
+  const Advice advice = advice_for(std::vector<double>(1000, 1), optimal, block.lattice);
+  EXPECT_TRUE(says(advice, "Only 2 directions")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "directions", "triangles+sphere:1000"));
+  EXPECT_TRUE(says(advice, "A threshold of 0.99 would keep 1000 of the 1000")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "threshold", "0.99"));
+  EXPECT_TRUE(is_plain(advice));
 }
 
 TEST(EmptySkeletonAdvice, SuggestsASmallerSpacingWhenPointsAreFew) {
   NormalBlock block({3, 3, 3}, 0.25);
   OptimalDirections optimal(27);
-  const std::string advice = advice_for(std::vector<double>(27, 0), optimal, block.lattice);
-  EXPECT_TRUE(says(advice, "the optimal normals do not change anywhere")) << advice;
-  EXPECT_TRUE(says(advice, "only 27 sample points")) << advice;
-  EXPECT_TRUE(says(advice, "smaller spacing than 0.25")) << advice;
-  EXPECT_FALSE(says(advice, "--threshold")) << advice;
+  const Advice advice = advice_for(std::vector<double>(27, 0), optimal, block.lattice);
+  EXPECT_TRUE(says(advice, "the optimal normals do not change anywhere")) << advice.text;
+  EXPECT_TRUE(says(advice, "only 27 sample points")) << advice.text;
+  EXPECT_TRUE(says(advice, "smaller spacing than 0.25")) << advice.text;
+  EXPECT_FALSE(says(advice, "would keep")) << advice.text;
 }
 
 // Only one point has any H: the suggestion must keep at least that one.
@@ -58,67 +75,79 @@ TEST(EmptySkeletonAdvice, SuggestsAThresholdThatKeepsSomethingWheneverThereIsSom
   NormalBlock block({10, 10, 10});
   std::vector<double> divergence(1000, 0);
   divergence[77] = -3;
-  const std::string advice = advice_for(divergence, OptimalDirections(1000, 0), block.lattice);
-  EXPECT_TRUE(says(advice, "--threshold 2.97 would keep 1 of the 1000 points")) << advice;
+  const Advice advice = advice_for(divergence, OptimalDirections(1000, 0), block.lattice);
+  EXPECT_TRUE(says(advice, "A threshold of 2.97 would keep 1 of the 1000 points")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "threshold", "2.97"));
+  EXPECT_TRUE(is_plain(advice));
 }
 
 TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
   NormalBlock block({10, 10, 10});
   ChordPruningOptions pruning;
   pruning.significance = 0.9;
-  const std::string advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, pruning);
-  EXPECT_TRUE(says(advice, "all 125 strong shocks")) << advice;
-  EXPECT_TRUE(says(advice, "below the significance 0.9; the heaviest weighs 0.8")) << advice;
-  EXPECT_TRUE(says(advice, "--threshold 0.792 would keep it")) << advice;
-  EXPECT_FALSE(says(advice, "spacing")) << advice;
+  const Advice advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, pruning);
+  EXPECT_TRUE(says(advice, "all 125 strong shocks")) << advice.text;
+  EXPECT_TRUE(says(advice, "below the significance 0.9; the heaviest weighs 0.8")) << advice.text;
+  EXPECT_TRUE(says(advice, "A threshold of 0.792 would keep it")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "threshold", "0.792"));
+  EXPECT_TRUE(is_plain(advice));
+  EXPECT_FALSE(says(advice, "spacing")) << advice.text;
 }
 
 // Turns of 1/16 and 1/2 are angles of 29 and 90 degrees.
 TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
   NormalBlock block({10, 10, 10});
-  const std::string advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
-  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 89")) << advice;
-  EXPECT_FALSE(says(advice, "--frame")) << advice;
-  EXPECT_FALSE(says(advice, "--threshold")) << advice;
+  const Advice advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
+  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 89")) << advice.text;
+  EXPECT_FALSE(suggests(advice, "frame", "axis"));
+  EXPECT_TRUE(suggests(advice, "directions", "triangles+sphere:2000"));
+  EXPECT_TRUE(is_plain(advice));
+  EXPECT_FALSE(says(advice, "would keep")) << advice.text;
 }
 
 TEST(EmptySheetAdvice, SuggestsOtherAxesWhenTheseAreStretched) {
   NormalBlock block({10, 10, 10});
   Lattice lattice = block.lattice;
   lattice.grid.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.1}};
-  EXPECT_FALSE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame"));
+  EXPECT_FALSE(suggests(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "frame", "axis"));
   lattice.grid.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, 0.05}};
-  EXPECT_TRUE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame axis or --frame pca"));
+  const Advice stretched = empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {});
+  EXPECT_TRUE(says(stretched, "the frame axis or pca"));
+  EXPECT_TRUE(suggests(stretched, "frame", "axis"));
+  EXPECT_TRUE(is_plain(stretched));
 }
 
 TEST(EmptySheetAdvice, TellsShocksNearTheSurfaceFromNone) {
   NormalBlock block({3, 3, 3}, 0.25);
-  const std::string near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, {});
-  EXPECT_TRUE(says(near, "at none of the 5")) << near;
-  EXPECT_TRUE(says(near, "only 27 sample points: submit with a smaller spacing than 0.25")) << near;
-  const std::string none = empty_sheet_advice(block.lattice, {}, {});
-  EXPECT_TRUE(says(none, "nowhere do two different chords")) << none;
+  const Advice near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, {});
+  EXPECT_TRUE(says(near, "at none of the 5")) << near.text;
+  EXPECT_TRUE(says(near, "only 27 sample points: submit with a smaller spacing than 0.25")) << near.text;
+  const Advice none = empty_sheet_advice(block.lattice, {}, {});
+  EXPECT_TRUE(says(none, "nowhere do two different chords")) << none.text;
 }
 
 TEST(EmptyRidgeAdvice, NamesAThresholdThatKeepsAPiece) {
   NormalBlock block({10, 10, 10});
   RidgePieces pieces;
   pieces.max_strength = 12;
-  const std::string advice = empty_ridge_advice(block.lattice, pieces, {20, 24, 0.8, 0});
-  EXPECT_TRUE(says(advice, "greatest strength is 12, less than the 24")) << advice;
-  EXPECT_TRUE(says(advice, "--threshold 9.9 would keep one")) << advice;
+  const Advice advice = empty_ridge_advice(block.lattice, pieces, {20, 24, 0.8, 0});
+  EXPECT_TRUE(says(advice, "greatest strength is 12, less than the 24")) << advice.text;
+  EXPECT_TRUE(says(advice, "A threshold of 9.9 would keep one")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "threshold", "9.9"));
+  EXPECT_TRUE(is_plain(advice));
   EXPECT_TRUE(says(empty_ridge_advice(block.lattice, {}, {}), "nowhere do the normals turn fast"));
 }
 
 TEST(LowBarriersAdvice, NamesOneThatKeepsATriangle) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 2, 3}};
   const std::vector<double> barrier = {0.01, 0.5, 0.04, 0.02};
-  const std::string advice = low_barriers_advice(triangles, {}, barrier, 0.1);
-  EXPECT_NE(advice.find("the greatest is 0.02. --min-barrier 0.0198"), std::string::npos) << advice;
-  EXPECT_NE(low_barriers_advice(triangles, {}, std::vector<double>(4, 0.0), 0.1).find("only turn fast"),
-            std::string::npos);
-  const std::string curves = low_barriers_advice({}, std::vector<Segment>{{0, 1}, {1, 2}}, barrier, 0.1);
-  EXPECT_TRUE(says(curves, "no segment of the curves")) << curves;
+  const Advice advice = low_barriers_advice(triangles, {}, barrier, 0.1);
+  EXPECT_TRUE(says(advice, "the greatest is 0.02. A least barrier of 0.0198 would keep one")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "min_barrier", "0.0198"));
+  EXPECT_TRUE(is_plain(advice));
+  EXPECT_TRUE(says(low_barriers_advice(triangles, {}, std::vector<double>(4, 0.0), 0.1), "only turn fast"));
+  const Advice curves = low_barriers_advice({}, std::vector<Segment>{{0, 1}, {1, 2}}, barrier, 0.1);
+  EXPECT_TRUE(says(curves, "no segment of the curves")) << curves.text;
 }
 
 }  // namespace

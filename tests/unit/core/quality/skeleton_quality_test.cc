@@ -53,7 +53,7 @@ TEST(SkeletonQuality, OfASheetWithAHole) {
   // Within half a diagonal: the sheet's own voxels, and less than half of the layers beside them.
   EXPECT_GT(quality.chance_level, 2 * 384. / 8000);
   EXPECT_LT(quality.chance_level, 3 * 400. / 8000);
-  EXPECT_EQ(quality.advice, "");
+  EXPECT_EQ(quality.advice.text, "");
 }
 
 TEST(SkeletonQuality, HasNoDistanceToAnEmptySkeleton) {
@@ -62,7 +62,7 @@ TEST(SkeletonQuality, HasNoDistanceToAnEmptySkeleton) {
   EXPECT_EQ(quality.points, 10U);
   EXPECT_FALSE(quality.hausdorff_there.has_value());
   EXPECT_FALSE(quality.hausdorff_back.has_value());
-  EXPECT_EQ(quality.advice, "");
+  EXPECT_EQ(quality.advice.text, "");
 }
 
 TEST(SkeletonQuality, ExplainsWhyItIsEmpty) {
@@ -71,7 +71,8 @@ TEST(SkeletonQuality, ExplainsWhyItIsEmpty) {
   EXPECT_EQ(quality.skeleton, BettiNumbers{});
   EXPECT_EQ(quality.mean_thickness, 0);
   EXPECT_EQ(quality.chance_level, 0);
-  EXPECT_NE(quality.advice.find("--threshold 4.95 would keep 8000"), std::string::npos) << quality.advice;
+  EXPECT_NE(quality.advice.text.find("A threshold of 4.95 would keep 8000"), std::string::npos)
+      << quality.advice.text;
 }
 
 // The test of the points is a real one: the lattice of a ball against a solid that is only its right half.

@@ -107,10 +107,10 @@ TEST(ReadInput, MakesOffTextOfOtherFormats) {
     EXPECT_EQ(read.points.size(), 8u) << path;
     EXPECT_EQ(read.triangles.size(), 12u) << path;
     EXPECT_EQ(core::make_solid(read, {false}).volume, 6) << path;
-    std::ostringstream out, err;
-    Console console(out, err, {});
-    tell_conversion(input, console);
-    EXPECT_NE(err.str().find("8 vertices and 12 triangles"), std::string::npos) << err.str();
+    const Notices notices = conversion_notices(input);
+    ASSERT_EQ(notices.size(), 1U);
+    EXPECT_EQ(notices[0].file, path);
+    EXPECT_NE(notices[0].message.find("8 vertices and 12 triangles"), std::string::npos);
   }
 }
 
@@ -122,10 +122,7 @@ TEST(ReadInput, KeepsTheBytesOfOffText) {
     const InputFile input = read_input(dir / name);
     EXPECT_EQ(input.bytes, text);
     EXPECT_FALSE(input.converted());
-    std::ostringstream out, err;
-    Console console(out, err, {});
-    tell_conversion(input, console);
-    EXPECT_EQ(err.str(), "");
+    EXPECT_TRUE(conversion_notices(input).empty());
   }
 }
 
@@ -149,10 +146,11 @@ TEST(CheckSolid, RepairsOnlyWhenAllowedAndTellsIt) {
   tests::write_file(dir / "t.off", core::write_off(mesh));
   const InputFile input = read_input(dir / "t.off");
   EXPECT_EQ(exit_of([&] { check_solid(input, false); }), ExitCode::kBadInput);
-  std::ostringstream out, err;
-  Console console(out, err, {});
-  tell_notes(check_solid(input, true), input, console);
-  EXPECT_NE(err.str().find("t.off: repaired: "), std::string::npos) << err.str();
+  const Notices notices = solid_notices(check_solid(input, true), input);
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_EQ(notices[0].kind, Notice::Kind::kNote);
+  EXPECT_EQ(notices[0].file, input.path);
+  EXPECT_TRUE(notices[0].message.starts_with("repaired: ")) << notices[0].message;
 }
 
 TEST(CheckSolid, StopsWhenAsked) {

@@ -1,4 +1,4 @@
-#include "client/commands/shared/fetch_artifact.h"
+#include "client/operations/artifact_calls.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -15,14 +15,14 @@ constexpr std::chrono::seconds kWaitBeforeNote{2};
 // Says that a computation is being waited for, unless it is over soon.
 class WaitingNote {
  public:
-  WaitingNote(Console& console, const std::string& what)
-      : thread_([this, &console, what] {
+  WaitingNote(const Session& session, const std::string& what)
+      : thread_([this, &session, what] {
           base::MutexLock lock(mutex_);
           if (!over_.wait_for(lock, kWaitBeforeNote, [this] {
                 mutex_.assert_held();
                 return done_;
               })) {
-            console.note("waiting for a worker to compute the " + what);
+            session.tell(note("WAITING", "waiting for a worker to compute the " + what));
           }
         }) {}
   ~WaitingNote() {
@@ -70,47 +70,44 @@ v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind ki
   return request;
 }
 
-std::string fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+std::string fetch_patiently(Session& session, const v1::FetchArtifactRequest& request,
                             v1::ArtifactHeader& header, const std::string& what) {
-  context.session();  // an embedded server is announced before anything is waited for
-  const WaitingNote note(context.console(), what);
-  return context.session().fetch_bytes(request, &header);
+  const WaitingNote waiting(session, what);
+  return session.fetch_bytes(request, &header);
 }
 
-v1::ArtifactHeader fetch_patiently(Context& context, const v1::FetchArtifactRequest& request,
+v1::ArtifactHeader fetch_patiently(Session& session, const v1::FetchArtifactRequest& request,
                                    const std::function<std::unique_ptr<ArtifactSink>()>& make_sink,
                                    const std::string& what) {
-  const WaitingNote note(context.console(), what);
-  return context.session().fetch(request, make_sink);
+  const WaitingNote waiting(session, what);
+  return session.fetch(request, make_sink);
 }
 
-v1::TriangleMesh fetch_sheet(Context& context, const std::string& job, const v1::SkeletonParams& params) {
+v1::TriangleMesh fetch_sheet(Session& session, const std::string& job, const v1::SkeletonParams& params) {
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_SURFACE);
   *request.mutable_surface()->mutable_skeleton() = params;
   v1::ArtifactHeader header;
   v1::TriangleMesh sheet;
-  if (!sheet.ParseFromString(fetch_patiently(context, request, header, "sheet")) || !is_sheet(sheet)) {
+  if (!sheet.ParseFromString(fetch_patiently(session, request, header, "sheet")) || !is_sheet(sheet)) {
     throw ClientError(ExitCode::kInternal, "the server sent a damaged sheet");
   }
   return sheet;
 }
 
-v1::TriangleMesh fetch_eroded_surface(Context& context, const std::string& job, double level) {
+v1::TriangleMesh fetch_eroded_surface(Session& session, const std::string& job, double level) {
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_ERODED_SURFACE);
   request.mutable_eroded()->set_fraction(level);
   v1::ArtifactHeader header;
   v1::TriangleMesh surface;
-  if (!surface.ParseFromString(fetch_patiently(context, request, header, "eroded solid")) ||
+  if (!surface.ParseFromString(fetch_patiently(session, request, header, "eroded solid")) ||
       !is_surface(surface) || surface.area_size() != surface.erosion_size()) {
     throw ClientError(ExitCode::kInternal, "the server sent a damaged eroded solid");
   }
   return surface;
 }
 
-core::Mesh fetch_mesh(Context& context, const std::string& job) {
-  return parse_mesh(context.session().fetch_bytes(request_for(job, v1::ARTIFACT_KIND_MESH)),
-                    "mesh of job " + job)
-      .mesh;
+core::Mesh fetch_mesh(Session& session, const std::string& job) {
+  return parse_mesh(session.fetch_bytes(request_for(job, v1::ARTIFACT_KIND_MESH)), "mesh of job " + job).mesh;
 }
 
 }  // namespace affskel::client

@@ -1,8 +1,9 @@
-#include "client/commands/shared/submission.h"
+#include "client/operations/submission.h"
 
 #include <filesystem>
 
 #include "base/utf8.h"
+#include "client/text/summary_text.h"
 #include "client/text/words.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
@@ -20,16 +21,16 @@ std::string protocol_text(const std::string& text, std::size_t max_bytes) {
   return std::string(base::truncate_utf8(base::to_utf8(text), max_bytes));
 }
 
-void require_short(const std::string& text, std::size_t bytes, const std::string& option) {
+void require_short(const std::string& text, std::size_t bytes, const std::string& what) {
   if (text.size() > bytes) {
-    throw ClientError(ExitCode::kUsage, option + " has " + std::to_string(text.size()) + " bytes; at most " +
-                                            std::to_string(bytes) + " are possible");
+    throw ClientError(ExitCode::kUsage, "the " + what + " has " + std::to_string(text.size()) +
+                                            " bytes; at most " + std::to_string(bytes) + " are possible");
   }
 }
 
 v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& input) {
-  require_short(submission.name, kMaxName, "--name");
-  require_short(submission.request_id, kMaxRequestId, "--request-id");
+  require_short(submission.name, kMaxName, "name");
+  require_short(submission.request_id, kMaxRequestId, "request id");
   v1::SubmitJobHeader header;
   header.set_name(submission.name.empty() ? protocol_text(fs::path(input.path).stem().string(), kMaxName)
                                           : submission.name);
@@ -74,15 +75,24 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
   }
 }
 
-v1::SubmitJobHeader submission_header(Context& context, const InputFile& input,
-                                      const Submission& submission) {
+Submitted submit(Session& session, const Environment& environment, const InputFile& input,
+                 const Submission& submission) {
   v1::SubmitJobHeader header = header_for(submission, input);
-  const v1::ServerInfo server = context.session().server_info();
+  const v1::ServerInfo server = session.server_info();
   check_size(server, input);
-  // A server that does not know who calls is told.
-  if (server.caller().owner().empty())
-    header.set_owner(protocol_text(user_name(context.environment()), kMaxOwner));
-  return header;
+  if (server.caller().owner().empty()) header.set_owner(protocol_text(user_name(environment), kMaxOwner));
+  Submitted submitted;
+  submitted.job = session.submit(header, input.bytes, submitted.existed);
+  return submitted;
+}
+
+Notices reuse_notices(const Submitted& submitted) {
+  if (submitted.existed) {
+    return {note("EXISTED", "the same was submitted before: this is that job, name " + submitted.job.name())};
+  }
+  if (!took_field_over(submitted.job)) return {};
+  return {
+      note("FIELD_TAKEN_OVER", "this mesh was eroded with these parameters before: the field is taken over")};
 }
 
 }  // namespace affskel::client

@@ -1,9 +1,13 @@
-#include "client/commands/shared/picture.h"
+#include "client/operations/picture.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
-#include "client/commands/shared/fetch_artifact.h"
-#include "client/commands/shared/follow.h"
+#include "client/operations/artifact_calls.h"
+#include "client/operations/job_notices.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
 #include "wire/params.h"
@@ -44,52 +48,54 @@ std::string title_of(const RenderInput& input, const v1::Job& job, const std::st
 }
 
 // @param own whether the parameters are the job's, whose skeleton is stored.
-v1::SkeletonPoints fetch_points(Context& context, const v1::Job& job, const v1::SkeletonParams& params,
+v1::SkeletonPoints fetch_points(Session& session, const v1::Job& job, const v1::SkeletonParams& params,
                                 bool own) {
   v1::FetchArtifactRequest request = request_for(job.id(), v1::ARTIFACT_KIND_SKELETON);
   if (!own) *request.mutable_skeleton() = params;
   v1::ArtifactHeader header;
-  return parse_skeleton(fetch_patiently(context, request, header, "skeleton"));
+  return parse_skeleton(fetch_patiently(session, request, header, "skeleton"));
 }
 
-// The skeleton as its operator gives it: points, or the sheet of chords.  Tells when there is none.
+// The skeleton as its operator gives it: points, or the sheet of chords.
 // Returns the threshold that was applied, 0 when the server does not say.
-double fetch_skeleton(Context& context, const v1::Job& job, const v1::SkeletonParams& params, bool own,
-                      RenderInput& input) {
+double fetch_skeleton(Session& session, const v1::Job& job, const v1::SkeletonParams& params, bool own,
+                      RenderInput& input, Notices& notices) {
   const bool sheet = wire::gives_sheet(params.operator_());
   if (sheet) {
-    input.sheet = fetch_sheet(context, job.id(), params);
+    input.sheet = fetch_sheet(session, job.id(), params);
   } else {
-    input.skeleton = fetch_points(context, job, params, own);
+    input.skeleton = fetch_points(session, job, params, own);
   }
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
   const int items =
       sheet ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2 : input.skeleton.point_size();
-  warn_about_skeleton(context, static_cast<std::uint64_t>(items), quality, job);
+  notices = skeleton_notices(static_cast<std::uint64_t>(items), quality, job);
   return quality.threshold();
 }
 
-void fetch_eroded(Context& context, const v1::Job& job, double level, RenderInput& input) {
-  input.eroded = fetch_eroded_surface(context, job.id(), level);
+Notices fetch_eroded(Session& session, const v1::Job& job, double level, RenderInput& input) {
+  input.eroded = fetch_eroded_surface(session, job.id(), level);
   input.level = "eroded solid, E >= " + base::rounded(100 * level, 4) + " % of v0";
-  warn_about_eroded(context, input.eroded);
+  return eroded_notices(input.eroded);
 }
 
 }  // namespace
 
-Picture job_picture(Context& context, const v1::Job& job, const PictureOptions& options) {
+Picture make_picture(Session& session, const v1::Job& job, const PictureOptions& options) {
   v1::SkeletonParams params = shown_skeleton(options.skeleton, job);
   RenderInput input;
-  const double applied = fetch_skeleton(context, job, params, !options.skeleton.given(), input);
+  Notices notices;
+  const double applied = fetch_skeleton(session, job, params, !options.skeleton.given(), input, notices);
   if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
-  if (options.level > 0) fetch_eroded(context, job, options.level, input);
-  input.mesh = fetch_mesh(context, job.id());
+  if (options.level > 0)
+    std::ranges::move(fetch_eroded(session, job, options.level, input), std::back_inserter(notices));
+  input.mesh = fetch_mesh(session, job.id());
   input.up = options.up.value_or(up_axis(input.mesh));
   input.cell = lattice_cell(job.prepared());
   input.volume = job.prepared().volume();
   const std::string shown = shown_text(input, params);
   input.title = title_of(input, job, shown);
-  return {encode_png(render_scene(input, options.render)), shown};
+  return {encode_png(render_scene(input, options.render)), shown, std::move(notices)};
 }
 
 }  // namespace affskel::client

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "client/base/notice.h"
 #include "client/base/up_axis.h"
-#include "client/commands/shared/context.h"
+#include "client/connection/session.h"
 #include "client/view/page.h"
 
 namespace affskel::client {
@@ -20,11 +22,16 @@ struct ViewOptions {
   double level = 0;          ///< of the eroded solid that is shown at first, a share of v0; 0 = none is
 };
 
-/// All that the interactive page of finished jobs holds; see view_page.  Warns when there is no skeleton.
+struct Page {
+  std::string html;
+  ViewInput input;  ///< what it shows
+  Notices notices;  ///< that there is no skeleton, or no eroded solid at the level
+};
+
+/// The interactive page of finished jobs; see view_page.
 /// @param subjects one or two.
 /// @throws ClientError kUsage when this version does not know the operator.
-ViewInput fetch_view(Context& context, const std::vector<ViewSubject>& subjects,
-                     const ViewOptions& options = {});
+Page make_page(Session& session, const std::vector<ViewSubject>& subjects, const ViewOptions& options = {});
 
 /// The levels of eroded solids that a page carries, shares of v0, ascending: of equal distances in the cube
 /// root of E, rounded to two digits, and `wanted` unless it is 0.  Fewer on fine lattices, whose surfaces are

@@ -1,16 +1,17 @@
-#include "client/commands/shared/fetch_view.h"
+#include "client/operations/page.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "base/coding.h"
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
-#include "client/commands/shared/fetch_artifact.h"
-#include "client/commands/shared/follow.h"
+#include "client/operations/artifact_calls.h"
+#include "client/operations/job_notices.h"
 #include "client/text/words.h"
 #include "core/chords/chord_pruning.h"
 #include "core/ridge/ridge_rims.h"
@@ -57,8 +58,7 @@ core::ShockOperator shock_operator(v1::Operator which) {
     if (known == which) return shock_operator;
   }
   throw ClientError(ExitCode::kUsage, "the job's skeleton is by operator " + std::to_string(which) +
-                                          " of the protocol, which this version does not know; name another "
-                                          "with --operator");
+                                          " of the protocol, which this version does not know; name another");
 }
 
 // Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
@@ -72,12 +72,12 @@ double first_threshold(const v1::SkeletonParams& params, double spacing) {
   return params.threshold() > 0 ? params.threshold() : preset;
 }
 
-std::vector<float> fetch_divergences(Context& context, const std::string& job,
+std::vector<float> fetch_divergences(Session& session, const std::string& job,
                                      const v1::SkeletonParams& params, std::uint64_t points) {
   v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_DIVERGENCE);
   *request.mutable_skeleton() = params;
   v1::ArtifactHeader header;
-  const std::string bytes = fetch_patiently(context, request, header, "divergence");
+  const std::string bytes = fetch_patiently(session, request, header, "divergence");
   if (bytes.size() != points * sizeof(double)) {
     throw ClientError(ExitCode::kInternal, "the server sent a divergence of another lattice");
   }
@@ -88,18 +88,17 @@ std::vector<float> fetch_divergences(Context& context, const std::string& job,
   return divergences;
 }
 
-void fetch_points(Context& context, const v1::Job& job, const LatticePoints& lattice,
+void fetch_points(Session& session, const v1::Job& job, const LatticePoints& lattice,
                   const std::vector<float>& divergences, ViewModel& model) {
   const auto directions =
-      fetch_message<v1::Directions>(context, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
-  context.session().fetch(
-      request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), model);
-      });
+      fetch_message<v1::Directions>(session, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
+  session.fetch(request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
+    return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), model);
+  });
 }
 
 // Of a skeleton of points.
-v1::SkeletonQuality fetch_quality(Context& context, const v1::Job& job, const v1::SkeletonParams& params) {
+v1::SkeletonQuality fetch_quality(Session& session, const v1::Job& job, const v1::SkeletonParams& params) {
   if (job.has_quality() && params.operator_() == job.skeleton().operator_() &&
       params.threshold() == job.skeleton().threshold()) {
     return job.quality();
@@ -107,40 +106,40 @@ v1::SkeletonQuality fetch_quality(Context& context, const v1::Job& job, const v1
   v1::FetchArtifactRequest request = request_for(job.id(), v1::ARTIFACT_KIND_SKELETON);
   *request.mutable_skeleton() = params;
   v1::ArtifactHeader header;
-  return parse_skeleton(fetch_patiently(context, request, header, "skeleton")).quality();
+  return parse_skeleton(fetch_patiently(session, request, header, "skeleton")).quality();
 }
 
 // The skeleton: a sheet, or the points with large |H|.
-void fetch_skeleton(Context& context, const ViewSubject& subject, const LatticePoints& lattice,
-                    ViewModel& model) {
+Notices fetch_skeleton(Session& session, const ViewSubject& subject, const LatticePoints& lattice,
+                       ViewModel& model) {
   const std::string& job = subject.job.id();
   std::uint64_t items = 0;
   if (model.sheet_is_skeleton) {
-    model.sheet = fetch_sheet(context, job, subject.params);
+    model.sheet = fetch_sheet(session, job, subject.params);
     model.quality = model.sheet.quality();
     items = static_cast<std::uint64_t>(model.sheet.corners_size() / 3 + model.sheet.segments_size() / 2);
   } else {
-    const auto divergences = fetch_divergences(context, job, subject.params, lattice.count());
+    const auto divergences = fetch_divergences(session, job, subject.params, lattice.count());
     model.selection = select_view_points(divergences, model.threshold, kMaxPoints);
-    fetch_points(context, subject.job, lattice, divergences, model);
-    model.quality = fetch_quality(context, subject.job, subject.params);
+    fetch_points(session, subject.job, lattice, divergences, model);
+    model.quality = fetch_quality(session, subject.job, subject.params);
     items = static_cast<std::uint64_t>(std::count_if(divergences.begin(), divergences.end(),
                                                      [&](float h) { return double{h} > model.threshold; }));
   }
-  warn_about_skeleton(context, items, model.quality, subject.job);
+  return skeleton_notices(items, model.quality, subject.job);
 }
 
-ViewModel fetch_model(Context& context, const ViewSubject& subject) {
+ViewModel fetch_model(Session& session, const ViewSubject& subject, Notices& notices) {
   ViewModel model;
   model.job = subject.job;
   model.operator_name = operator_word(subject.params.operator_());
   model.sheet_is_skeleton = wire::gives_sheet(subject.params.operator_());
   model.threshold = first_threshold(subject.params, subject.job.prepared().spacing());
   const LatticePoints lattice(
-      fetch_message<v1::Lattice>(context, subject.job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
+      fetch_message<v1::Lattice>(session, subject.job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
   model.grid = view_grid(lattice);
-  fetch_skeleton(context, subject, lattice, model);
-  model.mesh = fetch_mesh(context, subject.job.id());
+  std::ranges::move(fetch_skeleton(session, subject, lattice, model), std::back_inserter(notices));
+  model.mesh = fetch_mesh(session, subject.job.id());
   return model;
 }
 
@@ -164,11 +163,12 @@ std::vector<double> view_levels(double highest, double wanted, std::uint64_t poi
   return levels;
 }
 
-ViewInput fetch_view(Context& context, const std::vector<ViewSubject>& subjects, const ViewOptions& options) {
-  ViewInput input;
+Page make_page(Session& session, const std::vector<ViewSubject>& subjects, const ViewOptions& options) {
+  Page page;
+  ViewInput& input = page.input;
   std::uint64_t points = 0;
   for (const ViewSubject& subject : subjects) {
-    input.models.push_back(fetch_model(context, subject));
+    input.models.push_back(fetch_model(session, subject, page.notices));
     points = std::max(points, subject.job.prepared().points());
   }
   input.up = options.up.value_or(up_axis(input.models.front().mesh));
@@ -182,11 +182,13 @@ ViewInput fetch_view(Context& context, const std::vector<ViewSubject>& subjects,
   input.show_level = options.level > 0;
   for (ViewModel& model : input.models) {
     for (const double level : input.levels) {
-      model.eroded.push_back(fetch_eroded_surface(context, model.job.id(), level));
-      if (level == options.level) warn_about_eroded(context, model.eroded.back());
+      model.eroded.push_back(fetch_eroded_surface(session, model.job.id(), level));
+      if (level == options.level)
+        std::ranges::move(eroded_notices(model.eroded.back()), std::back_inserter(page.notices));
     }
   }
-  return input;
+  page.html = view_page(input);
+  return page;
 }
 
 }  // namespace affskel::client

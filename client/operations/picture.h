@@ -3,16 +3,17 @@
 #include <optional>
 #include <string>
 
+#include "client/base/notice.h"
 #include "client/base/up_axis.h"
-#include "client/commands/shared/context.h"
-#include "client/commands/shared/skeleton_options.h"
+#include "client/connection/session.h"
+#include "client/operations/skeleton_choice.h"
 #include "client/render/scene.h"
 
 namespace affskel::client {
 
 /// What a picture is to show.
 struct PictureOptions {
-  SkeletonOptions skeleton;
+  SkeletonChoice skeleton;
   double level = 0;          ///< of the eroded solid that is drawn, as a share of v0; 0 = none
   std::optional<UpAxis> up;  ///< absent: see up_axis
   RenderOptions render;
@@ -21,10 +22,11 @@ struct PictureOptions {
 struct Picture {
   std::string png;    ///< bytes of the file
   std::string shown;  ///< the skeleton in words: "sheet of 2123 triangles (ridge, threshold 5)"
+  Notices notices;    ///< that there is no skeleton, or no eroded solid
 };
 
 /// The picture of a finished job: the body with its skeleton as points, of `chords` and `ridge` with its
-/// sheet.  Fetches what it needs, and warns when there is no skeleton or no eroded solid.
-Picture job_picture(Context& context, const v1::Job& job, const PictureOptions& options);
+/// sheet.
+Picture make_picture(Session& session, const v1::Job& job, const PictureOptions& options);
 
 }  // namespace affskel::client

@@ -1,4 +1,4 @@
-#include "client/commands/shared/inspection.h"
+#include "client/operations/inspection.h"
 
 #include "wire/sha256.h"
 

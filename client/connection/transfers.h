@@ -1,0 +1,26 @@
+#pragma once
+
+#include <grpcpp/client_context.h>
+
+#include <string_view>
+
+#include "affskel/v1/client_service.grpc.pb.h"
+#include "client/connection/session.h"
+
+namespace affskel::client {
+
+// One attempt each of the calls that stream.
+
+/// Fetches an artefact into a sink.
+/// @throws ClientError kInternal when its parts come out of order, or its size or SHA-256 is another; what
+/// the sink throws.
+grpc::Status fetch_once(v1::ErosionService::Stub& stub, grpc::ClientContext& context,
+                        const v1::FetchArtifactRequest& request, ArtifactSink& sink,
+                        v1::ArtifactHeader& header);
+
+/// Submits a mesh; sets the context's deadline by its size.
+grpc::Status submit_once(v1::ErosionService::Stub& stub, grpc::ClientContext& context,
+                         const v1::SubmitJobHeader& header, std::string_view mesh,
+                         v1::SubmitJobResponse& response);
+
+}  // namespace affskel::client

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "client/connection/environment.h"
+#include "client/connection/session.h"
+#include "client/files/read/input_file.h"
+#include "client/operations/skeleton_choice.h"
+
+namespace affskel::client {
+
+/// What a submission may ask for; every face refuses the rest with these bounds.
+inline constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 31;
+inline constexpr unsigned kMaxPriority = 9;
+
+/// What is asked of a mesh that is submitted.
+struct Submission {
+  double spacing = 0;  ///< mesh units; 0 = by points
+  std::uint64_t points = 100000;
+  std::string directions = "triangles";
+  std::string frame = "axis";
+  SkeletonChoice skeleton{"zucker-hummel"};
+  std::string name;  ///< empty = the file's stem
+  unsigned priority = 5;
+  std::string request_id;
+  bool repair = true;
+};
+
+/// Checks what a worker would refuse of lattice and directions, before anything is sent.
+/// @throws ClientError kBadInput or kLimit.
+void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission);
+
+struct Submitted {
+  v1::Job job;
+  bool existed = false;  ///< an earlier job answers this submission
+};
+
+/// Submits the mesh.
+/// @param environment names the user to a server that does not know who calls.
+/// @throws ClientError kUsage when the protocol has no room for a text; kLimit when the server takes no file
+/// as large; as Session::submit.
+Submitted submit(Session& session, const Environment& environment, const InputFile& input,
+                 const Submission& submission);
+
+/// How the work on a submission was done before, wholly or but for the skeleton, if it was.
+Notices reuse_notices(const Submitted& submitted);
+
+}  // namespace affskel::client
