@@ -23,6 +23,8 @@ std::unique_ptr<Database> ReaderPool::take() {
 }
 
 void ReaderPool::give_back(std::unique_ptr<Database> db) {
+  // Where memory ran out, a read may not have ended: the next would see what was there at that time.
+  if (!db->is_at_rest()) return;
   const base::MutexLock lock(mutex_);
   if (idle_.size() < kMaxIdle) idle_.push_back(std::move(db));
 }

@@ -216,6 +216,7 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
     if (register_checksum(handle_) != SQLITE_OK) raise(handle_, file_);
     sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
     execute("PRAGMA foreign_keys = ON");
+    prepare_rollback();
     if (mode == Mode::kReadWrite) {
       set_up_writing();
     } else {
@@ -258,6 +259,7 @@ Database::~Database() {
 
 void Database::close() noexcept {
   cache_.clear();
+  sqlite3_finalize(std::exchange(rollback_, nullptr));
   sqlite3_close_v2(handle_);
   handle_ = nullptr;
 }
@@ -276,6 +278,25 @@ Statement Database::prepare(const char* sql) {
   if (slot->busy) return {compile(sql), nullptr};
   slot->busy = true;
   return {slot->statement, &slot->busy};
+}
+
+void Database::prepare_rollback() {
+  rollback_ = compile("ROLLBACK");
+}
+
+void Database::roll_back() noexcept {
+  // SQLite may have done so by itself (disk full, no memory); a second ROLLBACK would only report that.
+  if (sqlite3_get_autocommit(handle_) != 0) return;
+  sqlite3_step(rollback_);
+  sqlite3_reset(rollback_);
+}
+
+bool Database::is_at_rest() const {
+  if (sqlite3_get_autocommit(handle_) == 0) return false;
+  for (sqlite3_stmt* one = nullptr; (one = sqlite3_next_stmt(handle_, one)) != nullptr;) {
+    if (sqlite3_stmt_busy(one) != 0) return false;
+  }
+  return true;
 }
 
 void Database::claim_pages() {
@@ -368,10 +389,7 @@ Transaction::Transaction(Database& db, Kind kind) : db_(db) {
 }
 
 Transaction::~Transaction() {
-  // SQLite may have rolled back by itself (disk full); a second ROLLBACK would only report that.
-  if (open_ && sqlite3_get_autocommit(db_.handle()) == 0) {
-    sqlite3_exec(db_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
-  }
+  if (open_) db_.roll_back();
 }
 
 void Transaction::commit() {

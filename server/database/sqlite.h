@@ -189,6 +189,12 @@ class Database {
   /// Runs a script of statements without parameters.
   void execute(const std::string& script);
 
+  /// Ends a transaction that is still open, changing nothing; needs no memory that is not there already.
+  void roll_back() noexcept;
+
+  /// Whether neither a transaction nor a statement is open, so that the next one sees what is newest.
+  bool is_at_rest() const;
+
   std::int64_t last_insert_rowid() const { return sqlite3_last_insert_rowid(handle_); }
   sqlite3* handle() const { return handle_; }
   const std::string& file() const { return file_; }
@@ -198,11 +204,13 @@ class Database {
   Statement prepare(const char* sql);
   sqlite3_stmt* compile(const char* sql);
   void set_up_reading();
+  void prepare_rollback();
   void set_up_writing();
   void close() noexcept;
 
   std::string file_;
   sqlite3* handle_ = nullptr;
+  sqlite3_stmt* rollback_ = nullptr;
   std::unordered_map<std::string, std::unique_ptr<Cached>> cache_;
 };
 
