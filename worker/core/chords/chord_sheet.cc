@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/matrix3.h"
 #include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/chords/chord_pinholes.h"
 #include "core/contour/dual_contour.h"
@@ -18,12 +18,6 @@
 
 namespace affskel::core {
 namespace {
-
-Vec3 unit(const Vec3& v) {
-  const Vec3 near = scaled_to_unit(v);
-  const double length = norm(near);
-  return length > 0 ? (1 / length) * near : Vec3{};
-}
 
 // What a vertex tells of the shocks in its cell.
 class VertexValues {
@@ -45,7 +39,7 @@ class VertexValues {
       const Vec3 slope = 0.5 * (shock.gradient_low + shock.gradient_high);
       v.erosion += share * (shock.erosion + dot(slope, v.position - shock.position));
       v.strength += share * shock.strength;
-      v.area += share * 0.5 * (area(shock.gradient_low) + area(shock.gradient_high));
+      v.area += share * 0.5 * (section_area(to_mesh_, shock.gradient_low) + section_area(to_mesh_, shock.gradient_high));
       v.normal_a = v.normal_a + unit(turned ? shock.gradient_high : shock.gradient_low);
       v.normal_b = v.normal_b + unit(turned ? shock.gradient_low : shock.gradient_high);
     }
@@ -57,11 +51,6 @@ class VertexValues {
   }
 
  private:
-  // |grad_x E| = |F^-T g| for a gradient g in the frame: the area of the section.
-  double area(const Vec3& g) const {
-    return std::ldexp(norm(to_mesh_ * scaled_to_unit(g)), largest_exponent(g));
-  }
-
   const std::vector<ChordShock>& shocks_;
   Matrix3 to_mesh_;  // F^-T
 };

@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/erosion/field.h"
 

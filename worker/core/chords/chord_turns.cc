@@ -32,7 +32,7 @@
 
 #include "core/base/error.h"
 #include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/contour/edge_cells.h"
 
@@ -89,11 +89,9 @@ class TurnGauge {
   }
 
  private:
-  static double length(const Vec3& v) { return std::ldexp(norm(scaled_to_unit(v)), largest_exponent(v)); }
-
   // q, in edges.
   double reach_of(const ChordShock& shock) const {
-    const double area = 0.5 * length(shock.gradient_low) + 0.5 * length(shock.gradient_high);
+    const double area = 0.5 * length_of(shock.gradient_low) + 0.5 * length_of(shock.gradient_high);
     const double depth = shock.erosion / area / field_.spacing;
     return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMaxReach);
   }
@@ -130,7 +128,7 @@ class TurnGauge {
     return std::max({by_cell[a], by_cell[b], by_cell[c], by_cell[d]});
   }
 
-  double jump(std::uint32_t s) const { return length(shocks_[s].gradient_low - shocks_[s].gradient_high); }
+  double jump(std::uint32_t s) const { return length_of(shocks_[s].gradient_low - shocks_[s].gradient_high); }
 
   bool is_among_largest(std::uint32_t s) const { return jump(s) >= options_.min_share * largest_[s]; }
 

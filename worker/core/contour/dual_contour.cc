@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/layer_index.h"
 #include "core/solid/solid_membership.h"
@@ -24,12 +24,6 @@ using Matrix = std::array<Vec3, 3>;
 Vec3 solve(const Matrix& m, const Vec3& b) {
   const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
   return (1 / dot(m[0], c0)) * (b.x * c0 + (b.y * c1 + b.z * c2));
-}
-
-Vec3 unit(const Vec3& v) {
-  const Vec3 near = scaled_to_unit(v);
-  const double length = norm(near);
-  return length > 0 ? (1 / length) * near : Vec3{};
 }
 
 // Which places of the frame lie inside the parts of a solid.

@@ -5,13 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/unit.h"
+
 namespace affskel::core {
 namespace {
-
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
-}
 
 // The nearest of points, by their order along the axis on which they reach farthest.
 class NearestVertex {

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/unit.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/lattice/layer_index.h"
 #include "core/ridge/row_band.h"
@@ -172,9 +173,7 @@ class CurveFinder {
       across = across + (dot(e, across) < 0 ? -weights[n] : weights[n]) * e;
       area += weights[n] * values_.frame_area(points[n]);
     }
-    const double length = norm(across);
-    result.at =
-        values_.at(lattice_.spacing * place, points, weights, length > 0 ? (1 / length) * across : Vec3{});
+    result.at = values_.at(lattice_.spacing * place, points, weights, unit(across));
     result.at.strength = std::min(kMaxRidgeStrength, result.at.strength) * result.at.ratio;
     result.radius = std::sqrt(area / std::numbers::pi);
     return result;

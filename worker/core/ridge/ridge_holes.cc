@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
@@ -14,31 +16,16 @@ namespace {
 // A closed walk along a rim, each vertex once.
 using Loop = std::vector<std::uint32_t>;
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
-// The edges of one triangle, ascending.
-std::vector<Edge> rim_edges(const RidgeMesh& mesh) {
-  std::vector<Edge> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sides.emplace_back(std::minmax(t[k], t[(k + 1) % 3]));
-  std::sort(sides.begin(), sides.end());
-  std::vector<Edge> rim;
-  for (std::size_t first = 0, last; first < sides.size(); first = last) {
-    for (last = first + 1; last < sides.size() && sides[last] == sides[first];) ++last;
-    if (last - first == 1) rim.push_back(sides[first]);
-  }
-  return rim;
-}
-
 // Walks along the rim; whenever a walk comes back to one of its own vertices, what lies between is a loop.
 class RimWalk {
  public:
   explicit RimWalk(const RidgeMesh& mesh) {
-    for (const Edge& edge : rim_edges(mesh)) {
-      open_[edge.first].push_back(edge.second);
-      open_[edge.second].push_back(edge.first);
-    }
+    Edges(mesh.vertices.size(), mesh.triangles)
+        .for_each([&](std::uint32_t low, std::uint32_t high, std::span<const EdgeSide> sides) {
+          if (sides.size() != 1) return;
+          open_[low].push_back(high);
+          open_[high].push_back(low);
+        });
   }
 
   std::vector<Loop> loops() {

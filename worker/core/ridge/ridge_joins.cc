@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
-#include <queue>
 #include <utility>
 #include <vector>
 
+#include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/groups.h"
 #include "core/base/matrix3.h"
 #include "core/base/require.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -22,7 +22,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr int kSmoothingPasses = 8;
 
 struct Pieces {
@@ -61,40 +60,37 @@ class Joining {
         lattice_(lattice),
         field_(field),
         points_(lattice.points),
-        nodes_(lattice.points + mesh.vertices.size()) {
-    for (auto& side : neighbours_) side.assign(points_, kNone);
+        cheapest_(sources()),
+        beside_(lattice.points, [&](const auto& put) {
+          for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) put(mesh.vertices[v].point, v);
+        }) {
+    for (auto& side : neighbours_) side.assign(points_, kNoNode);
     for_each_edge(lattice, [&](std::uint32_t low, std::uint32_t high, std::uint8_t axis, const auto&) {
       neighbours_[axis][low] = high;
       neighbours_[3U + axis][high] = low;
     });
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) beside_.emplace_back(mesh.vertices[v].point, v);
-    std::sort(beside_.begin(), beside_.end());
   }
 
   std::uint32_t run(const std::function<bool(const Vec3&)>& inside, double max_length) {
     search();
-    std::sort(ways_.begin(), ways_.end());
     std::uint32_t count = 0;
-    for (const Way& way : ways_) {
-      std::vector<std::uint32_t> nodes = nodes_along(way);
-      const std::uint32_t first = nodes.front() - points_, last = nodes.back() - points_;
-      if (pieces_.sets.find(first) == pieces_.sets.find(last)) continue;
+    const auto ends = [&](const Way& way) {
+      return std::pair{cheapest_.source[way.a], cheapest_.source[way.b]};
+    };
+    take_cheapest(std::move(ways_), pieces_.sets, ends, [&](const Way& way) {
+      const std::vector<std::uint32_t> nodes = nodes_along(way);
       std::vector<RidgeVertex> line = line_of(nodes);
       smooth(line, inside);
       const double radius = std::sqrt(std::max(line.front().area, line.back().area) / std::numbers::pi);
-      if (length_of(line) > max_length * radius) continue;
-      put_in(line, first, last);
-      pieces_.sets.unite(first, last);
+      if (length_of(line) > max_length * radius) return false;
+      put_in(line, nodes.front() - points_, nodes.back() - points_);
       ++count;
-    }
+      return true;
+    });
     return count;
   }
 
  private:
-  struct Node {
-    double cost = std::numeric_limits<double>::infinity();  // of the way from its piece
-    std::uint32_t piece = kNone, from = kNone;
-  };
   struct Way {
     double cost;
     std::uint32_t a, b;  // neighbouring nodes of different pieces
@@ -118,43 +114,37 @@ class Joining {
       return;
     }
     for (const auto& side : neighbours_)
-      if (side[node] != kNone) visit(side[node]);
-    for (auto at = std::lower_bound(beside_.begin(), beside_.end(), std::pair{node, 0U});
-         at != beside_.end() && at->first == node; ++at)
-      visit(points_ + at->second);
+      if (side[node] != kNoNode) visit(side[node]);
+    for (const std::uint32_t v : beside_[node]) visit(points_ + v);
   }
 
-  // Dijkstra's algorithm from all pieces that search; the others wait.
+  // Per node its piece, where it is a vertex.
+  std::vector<std::uint32_t> sources() {
+    std::vector<std::uint32_t> result(points_ + mesh_.vertices.size(), kNoNode);
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) result[points_ + v] = pieces_.sets.find(v);
+    return result;
+  }
+
+  // From all pieces that search; the others wait.
   void search() {
-    using Step = std::pair<double, std::uint32_t>;
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-      const std::uint32_t piece = pieces_.sets.find(v);
-      nodes_[points_ + v] = {0, piece, kNone};
-      if (pieces_.searching[piece]) next.push({0, points_ + v});
-    }
-    while (!next.empty()) {
-      const auto [reached, node] = next.top();
-      next.pop();
-      if (reached > nodes_[node].cost) continue;
+    const auto steps = [&](std::uint32_t node, const auto& go) {
       neighbours_of(node, [&](std::uint32_t to) {
-        const double further = reached + cost(node, to);
-        if (further < nodes_[to].cost) {
-          nodes_[to] = {further, nodes_[node].piece, node};
-          next.push({further, to});
-        } else if (nodes_[to].piece != kNone && nodes_[to].piece != nodes_[node].piece) {
-          ways_.push_back({further + nodes_[to].cost, std::min(node, to), std::max(node, to)});
-        }
+        const double step = cost(node, to);
+        if (go(to, step, node)) return;
+        const std::uint32_t piece = cheapest_.source[to];
+        if (piece != kNoNode && piece != cheapest_.source[node])
+          ways_.push_back({cheapest_.cost[node] + step + cheapest_.cost[to], std::min(node, to), std::max(node, to)});
       });
-    }
+    };
+    cheapest_.find(steps, [&](std::uint32_t node) { return pieces_.searching[cheapest_.source[node]] != 0; });
   }
 
   // From the vertex at one end to that at the other.
   std::vector<std::uint32_t> nodes_along(const Way& way) const {
     std::vector<std::uint32_t> nodes;
-    for (std::uint32_t n = way.a; n != kNone; n = nodes_[n].from) nodes.push_back(n);
+    for (std::uint32_t n = way.a; n != kNoNode; n = cheapest_.step[n]) nodes.push_back(n);
     std::reverse(nodes.begin(), nodes.end());
-    for (std::uint32_t n = way.b; n != kNone; n = nodes_[n].from) nodes.push_back(n);
+    for (std::uint32_t n = way.b; n != kNoNode; n = cheapest_.step[n]) nodes.push_back(n);
     return nodes;
   }
 
@@ -212,9 +202,9 @@ class Joining {
   const Lattice& lattice_;
   const FrameField& field_;
   std::uint32_t points_;
-  std::vector<Node> nodes_;
-  std::array<std::vector<std::uint32_t>, 6> neighbours_;         // of the sample points
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> beside_;  // sample point, vertex; ascending
+  CheapestWays cheapest_;
+  Groups<std::uint32_t> beside_;                          // per sample point: the vertices at it
+  std::array<std::vector<std::uint32_t>, 6> neighbours_;  // of the sample points
   std::vector<Way> ways_;
 };
 

@@ -70,11 +70,6 @@ class RidgeValues {
   std::vector<PointRidge> ridges_;     // per sample point
 };
 
-/// The area |grad_x E| of the optimal section, mesh units squared.
-/// @param to_mesh F^-T of the frame.
-/// @param gradient grad_u E, of any size.
-double section_area(const Matrix3& to_mesh, const Vec3& gradient);
-
 /// The entries of PointRidge and PointDerivatives as vectors.
 inline Vec3 vector_of(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};

@@ -8,38 +8,31 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
+#include "core/mesh/edges.h"
 #include "core/ridge/curve_feet.h"
 #include "core/ridge/round_stretches.h"
 
 namespace affskel::core {
 namespace {
 
-template <class Value>
-void make_distinct(std::vector<Value>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-bool is_torn(const std::vector<Triangle>& triangles) {
+bool is_torn(std::vector<Triangle> triangles) {
   if (triangles.empty()) return true;
   std::vector<std::uint32_t> corners;
   for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
-  make_distinct(corners);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  DisjointSets sets(corners.size());
-  std::size_t pieces = corners.size();
-  for (const Triangle& t : triangles) {
-    std::array<std::uint32_t, 3> place{};  // of its corners among all
-    for (std::size_t k = 0; k < 3; ++k)
-      place[k] = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), t[k]) -
-                                            corners.begin());
-    for (std::size_t k = 0; k < 3; ++k) {
-      edges.emplace_back(std::minmax(place[k], place[(k + 1) % 3]));
-      if (sets.unite(place[k], place[(k + 1) % 3])) --pieces;
-    }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (Triangle& t : triangles) {
+    for (std::uint32_t& corner : t)  // its place among all
+      corner = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), corner) -
+                                          corners.begin());
   }
-  make_distinct(edges);
-  return pieces + edges.size() != corners.size() + triangles.size();
+  DisjointSets sets(corners.size());
+  std::size_t pieces = corners.size(), edges = 0;
+  Edges(corners.size(), triangles).for_each([&](std::uint32_t low, std::uint32_t high, const auto&) {
+    ++edges;
+    pieces -= sets.unite(low, high) ? 1 : 0;
+  });
+  return pieces + edges != corners.size() + triangles.size();
 }
 
 // The triangles whose corners all lie beside one stretch.
