@@ -49,13 +49,6 @@ class Ridge {
   std::vector<core::PointDerivatives> derivatives_;
 };
 
-core::Mesh mesh_of(const core::RidgeSheet& sheet) {
-  core::Mesh mesh;
-  for (const core::RidgeVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
-  mesh.triangles = sheet.triangles;
-  return mesh;
-}
-
 v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
                                double threshold, const SheetBarriers& barriers = {}) {
   const core::RidgeRimOptions rims = options_for(field, threshold).rims;
@@ -87,7 +80,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
   const Ridge ridge(field);
   const core::RidgeSheet sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
-  for (const core::RidgeVertex& vertex : sheet.vertices) {
+  for (const core::SheetVertex& vertex : sheet.vertices) {
     message.add_point(vertex.point);
     append(field.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
@@ -105,7 +98,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   core::RidgeSheet sheet = ridge.sheet(threshold);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
-  for (const core::RidgeVertex& vertex : sheet.vertices) {
+  for (const core::SheetVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
     message.add_strength(vertex.strength);

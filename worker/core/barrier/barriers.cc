@@ -52,7 +52,8 @@ class Sphere {
   }
 
  private:
-  Sphere(const Mesh& sphere, const Matrix3& frame) : frame_(frame), even_(sphere.points), graph_(neighbours(sphere.points.size(), sphere.triangles)) {
+  Sphere(const Mesh& sphere, const Matrix3& frame)
+      : frame_(frame), even_(sphere.points), graph_(neighbours(sphere.points.size(), sphere.triangles)) {
     mesh_normals_ = even_;
     if (frame == kIdentity3) return;
     const Matrix3 map = inverse_transposed(frame);

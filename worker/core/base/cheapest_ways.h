@@ -21,7 +21,8 @@ inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFU;
 struct CheapestWays {
   std::vector<std::uint32_t> source;  ///< per node: name of the source, kNoNode where no way leads to one
   std::vector<double> cost;           ///< per node: of its way; infinity where there is none
-  std::vector<std::uint32_t> step;    ///< per node: the last step to it, as `steps` names it; kNoNode in a source
+  std::vector<std::uint32_t>
+      step;  ///< per node: the last step to it, as `steps` names it; kNoNode in a source
 
   /// @param sources per node: the name of the source that it belongs to, or kNoNode.
   explicit CheapestWays(std::vector<std::uint32_t> sources)
@@ -63,8 +64,8 @@ struct CheapestWays {
   }
 };
 
-/// The cheapest of some joins, in order, as far as they join what is not joined yet: with all of them taken, a
-/// minimum spanning forest (Kruskal 1956).  With the joins over single steps between the realms of
+/// The cheapest of some joins, in order, as far as they join what is not joined yet: with all of them taken,
+/// a minimum spanning forest (Kruskal 1956).  With the joins over single steps between the realms of
 /// CheapestWays, it spans the sources at the least cost of whole ways (Mehlhorn 1988).
 /// @param joins in the order of <; equal ones as they come.
 /// @param ends ends(join): the two that it joins, members of `sets`.

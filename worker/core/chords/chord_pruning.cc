@@ -1,5 +1,5 @@
-// Step 3 of chord_pruning.h joins pieces as cheapest_ways.h tells.  A shock costs 1 / (r w): 1 for opposite normals, 4 at 60 degrees, 100
-// and more between two facets.
+// Step 3 of chord_pruning.h joins pieces as cheapest_ways.h tells.  A shock costs 1 / (r w): 1 for opposite
+// normals, 4 at 60 degrees, 100 and more between two facets.
 //
 // Step 4 fills a hole only where the rim shrinks: without that rule, a sheet that goes from one layer of
 // cells to the next fills up with the facets in between.
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "core/base/cheapest_ways.h"
@@ -94,16 +93,17 @@ class Paths {
 class Pruning {
  public:
   Pruning(const Lattice& lattice, const SolidParts& parts, const std::vector<ChordShock>& shocks,
-          const ChordPruningOptions& options)
+          double significance, const ChordConstants& constants)
       : parts_(parts),
         shocks_(shocks),
-        options_(options),
+        significance_(significance),
+        constants_(constants),
         cells_(edge_cells(lattice, parts, lattice_edges(shocks))),
         pieces_(shocks.size()),
         owner_(shocks.size(), kNoNode) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
     for (std::uint32_t p = 0; p < parts.count(); ++p) {
-      min_erosion_.push_back(options.min_erosion * (parts.points(p) * cell));
+      min_erosion_.push_back(constants.min_erosion * (parts.points(p) * cell));
     }
   }
 
@@ -123,7 +123,7 @@ class Pruning {
  private:
   std::uint32_t part(std::uint32_t s) const { return cells_.part[cells_.ring[s][0]]; }
 
-  bool wide(std::uint32_t s) const { return shocks_[s].turn >= options_.strong_turn; }
+  bool wide(std::uint32_t s) const { return shocks_[s].turn >= constants_.strong_turn; }
 
   bool strong(std::uint32_t s) const { return wide(s) && shocks_[s].erosion >= min_erosion_[part(s)]; }
 
@@ -167,7 +167,7 @@ class Pruning {
                       pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNoNode; }));
     std::vector<Paths::Path> used;
     paths.join(pieces_, [&](const Paths::Path& path) {
-      if (path.cost > options_.near_cost) return false;
+      if (path.cost > constants_.near_cost) return false;
       used.push_back(path);
       return true;
     });
@@ -178,7 +178,7 @@ class Pruning {
       whole[part(s)] += weight(shocks_[s]);
     }
     const auto significant = [&](std::uint32_t s) {
-      return mass[pieces_.find(s)] >= options_.significance * whole[part(s)];
+      return mass[pieces_.find(s)] >= significance_ * whole[part(s)];
     };
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!strong(s)) continue;
@@ -243,7 +243,8 @@ class Pruning {
 
   const SolidParts& parts_;
   const std::vector<ChordShock>& shocks_;
-  const ChordPruningOptions& options_;
+  double significance_;
+  const ChordConstants& constants_;
   const EdgeCells cells_;
   DisjointSets pieces_;               // of shocks; the least member stands for its piece
   std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNoNode if dropped
@@ -254,14 +255,10 @@ class Pruning {
 }  // namespace
 
 SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,
-                                     const std::vector<ChordShock>& candidates,
-                                     const ChordPruningOptions& options) {
-  require_within(options.significance, 0, 1, "the significance must lie between 0 and 1");
-  require_within(options.strong_turn, 0, 1, "the turn of strong shocks must lie between 0 and 1");
-  require_within(options.min_erosion, 0, 1,
-                 "the least erosion must be a share of the volume between 0 and 1");
-  require_within(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
-  return Pruning(lattice, parts, candidates, options).run();
+                                     const std::vector<ChordShock>& candidates, double significance,
+                                     const ChordConstants& constants) {
+  require_within(significance, 0, 1, "the significance must lie between 0 and 1");
+  return Pruning(lattice, parts, candidates, significance, constants).run();
 }
 
 }  // namespace affskel::core

@@ -17,9 +17,7 @@ struct TreeInput::Data {
   Data(const Solid& solid, unsigned threads);
 
   /// Triangles round a vertex.
-  std::span<const std::uint32_t> fan(std::uint32_t vertex) const {
-    return fans[vertex];
-  }
+  std::span<const std::uint32_t> fan(std::uint32_t vertex) const { return fans[vertex]; }
 
   std::vector<std::uint32_t> original_vertex;    ///< per vertex: its index in the solid's mesh
   std::vector<std::uint32_t> original_triangle;  ///< per triangle: its index in the solid's mesh
@@ -31,13 +29,11 @@ struct TreeInput::Data {
   bool at_crossing(std::uint32_t vertex) const { return !crosses.empty() && crosses[vertex] != 0; }
 
   /// Triangles that cross a triangle; only where the surface crosses itself.
-  std::span<const std::uint32_t> crossing(std::uint32_t triangle) const {
-    return crossings[triangle];
-  }
+  std::span<const std::uint32_t> crossing(std::uint32_t triangle) const { return crossings[triangle]; }
 
-  std::vector<std::uint32_t> vertex_solid;    ///< per vertex: the solid its surface bounds
-  std::vector<std::uint8_t> crosses;          ///< per vertex; empty unless the surface crosses itself
-  Groups<std::uint32_t> crossings;  ///< per triangle; likewise
+  std::vector<std::uint32_t> vertex_solid;  ///< per vertex: the solid its surface bounds
+  std::vector<std::uint8_t> crosses;        ///< per vertex; empty unless the surface crosses itself
+  Groups<std::uint32_t> crossings;          ///< per triangle; likewise
   /// Per vertex: whether its outer side lies inside the solid because another surface winds round it; empty
   /// unless the surface crosses itself.
   std::vector<std::uint8_t> nested;

@@ -20,8 +20,9 @@ Edges::Edges(std::size_t points, std::span<const Triangle> triangles, unsigned t
 std::span<const EdgeSide> Edges::between(std::uint32_t a, std::uint32_t b) const {
   const auto [low, high] = std::minmax(a, b);
   const std::span<const EdgeSide> all = sides_[low];
-  const auto [first, last] = std::equal_range(all.begin(), all.end(), EdgeSide{high, 0},
-                                              [](const EdgeSide& s, const EdgeSide& t) { return s.high < t.high; });
+  const auto [first, last] =
+      std::equal_range(all.begin(), all.end(), EdgeSide{high, 0},
+                       [](const EdgeSide& s, const EdgeSide& t) { return s.high < t.high; });
   return {first, last};
 }
 

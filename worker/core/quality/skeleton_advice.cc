@@ -88,9 +88,9 @@ bool is_stretched(const Lattice& lattice) {
   return false;
 }
 
-std::string on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
+std::string on_turn(const Lattice& lattice, const ShockCensus& census, double strong_turn) {
   std::string advice = "the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
-                       " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".";
+                       " degrees at most, and a skeleton needs " + degrees(strong_turn) + ".";
   if (is_stretched(lattice)) {
     advice +=
         " The lattice's frame is stretched, which makes a flat solid as thick as it is wide: submit with "
@@ -101,10 +101,10 @@ std::string on_turn(const Lattice& lattice, const ShockCensus& census, const Cho
          "directions (--directions triangles+sphere:2000) or a smaller spacing.";
 }
 
-std::string on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
+std::string on_significance(const ShockCensus& census, double significance) {
   const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
   return "all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
-         base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
+         base::rounded(significance, 3) + "; the heaviest weighs " +
          base::rounded(census.max_piece_share, 3) + " of its sheet. --threshold " + lower +
          " would keep it, --threshold 1e-9 all.";
 }
@@ -126,16 +126,16 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
   return advice + on_few_points(lattice);
 }
 
-std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
-                               const ChordPruningOptions& pruning) {
-  if (census.strong > 0) return on_significance(census, pruning);
+std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
+                               double strong_turn) {
+  if (census.strong > 0) return on_significance(census, significance);
   std::string advice;
   if (census.wide > 0) {
     advice = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-             " where equal chords clearly differ is E " + base::rounded(pruning.min_erosion, 3) +
+             " where equal chords clearly differ is E " + base::rounded(ChordConstants().min_erosion, 3) +
              " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
-    advice = on_turn(lattice, census, pruning);
+    advice = on_turn(lattice, census, strong_turn);
   } else {
     advice =
         "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "

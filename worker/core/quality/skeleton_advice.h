@@ -29,9 +29,9 @@ std::string empty_skeleton_advice(const Lattice& lattice, const OptimalDirection
 /// - strong shocks only where E is small;
 /// - only pieces below the significance; then it names one that keeps the heaviest.
 /// @param census of a sheet without shocks.
-/// @param pruning the options that it was made with.
-std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
-                               const ChordPruningOptions& pruning);
+/// @param significance that it was made with. @param strong_turn that was applied.
+std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
+                               double strong_turn);
 
 /// The same for the operator `ridge`: names the greatest strength that there is, and a threshold that keeps
 /// it, or what else is missing.

@@ -70,7 +70,7 @@ std::vector<CurveVertex> curve_vertices(std::span<const RidgeCurve> curves) {
   return result;
 }
 
-std::vector<CurveFoot> curve_feet(const RidgeMesh& mesh, const std::vector<CurveVertex>& curves,
+std::vector<CurveFoot> curve_feet(const SheetMesh& mesh, const std::vector<CurveVertex>& curves,
                                   double reach) {
   std::vector<CurveFoot> feet(mesh.vertices.size());
   if (curves.empty()) return feet;

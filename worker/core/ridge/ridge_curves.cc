@@ -40,7 +40,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kTetrahedra{
 constexpr std::array<std::size_t, 8> kCorners{0, 7, 1, 2, 3, 4, 5, 6};
 
 struct CurvePoint {
-  RidgeVertex at;
+  SheetVertex at;
   double radius = 0;
   struct Link {
     std::uint32_t to = kNone;    // the next point of the curve
@@ -249,7 +249,7 @@ class CurveTracer {
     for (std::size_t first = 0, last; first < cells.size(); first = last) {
       for (last = first + 1; last < cells.size() && cells[last] == cells[first];) ++last;
       const std::span<const std::uint32_t> within(way.data() + first, last - first + 1);
-      RidgeVertex vertex = points_[within[0]].at;
+      SheetVertex vertex = points_[within[0]].at;
       double radius = 0;
       for (std::size_t n = 0; n < within.size(); ++n) {
         if (n > 0) vertex = between(vertex, points_[within[n]].at, 1 / static_cast<double>(n + 1));

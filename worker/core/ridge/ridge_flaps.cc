@@ -16,7 +16,7 @@ using Sides = std::span<const EdgeSide>;
 
 class FlapCutter {
  public:
-  FlapCutter(RidgeMesh& mesh, double max_share)
+  FlapCutter(SheetMesh& mesh, double max_share)
       : mesh_(mesh),
         max_share_(max_share),
         edges_(mesh.vertices.size(), mesh.triangles),
@@ -69,7 +69,7 @@ class FlapCutter {
     return count;
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   double max_share_;
   Edges edges_;
   DisjointSets patches_;       // of triangles
@@ -80,7 +80,7 @@ class FlapCutter {
 
 }  // namespace
 
-std::uint32_t cut_flaps(RidgeMesh& mesh, const RidgeFlapOptions& options) {
+std::uint32_t cut_flaps(SheetMesh& mesh, const RidgeFlapOptions& options) {
   require_within(options.max_share, 0, 1, "the share of a flap must lie between 0 and 1");
   return FlapCutter(mesh, options.max_share).run();
 }

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/ridge/ridge_mesh.h"
+#include "core/contour/sheet_mesh.h"
 
 namespace affskel::core {
 
@@ -18,6 +18,6 @@ struct RidgeFlapOptions {
 /// Branches larger than that stay.
 /// @return how many patches were cut off.
 /// @throws CoreError kBadInput when the option is out of range.
-std::uint32_t cut_flaps(RidgeMesh& mesh, const RidgeFlapOptions& options = {});
+std::uint32_t cut_flaps(SheetMesh& mesh, const RidgeFlapOptions& options = {});
 
 }  // namespace affskel::core

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "core/base/vec3.h"
-#include "core/ridge/ridge_mesh.h"
+#include "core/contour/sheet_mesh.h"
 
 namespace affskel::core {
 
@@ -19,7 +19,7 @@ struct RidgeHoleOptions {
 /// @param inside whether a place (frame coordinates) lies in the solid.
 /// @return how many were closed.
 /// @throws CoreError kBadInput when the option is out of range.
-std::uint32_t close_holes(RidgeMesh& mesh, const std::function<bool(const Vec3&)>& inside,
+std::uint32_t close_holes(SheetMesh& mesh, const std::function<bool(const Vec3&)>& inside,
                           const RidgeHoleOptions& options = {});
 
 }  // namespace affskel::core

@@ -30,7 +30,7 @@ struct Pieces {
   bool apart = false;           // a part has several
 };
 
-Pieces pieces_of(const RidgeMesh& mesh) {
+Pieces pieces_of(const SheetMesh& mesh) {
   Pieces pieces{DisjointSets(mesh.vertices.size()), std::vector<char>(mesh.vertices.size(), 0)};
   for (const Triangle& t : mesh.triangles) {
     pieces.sets.unite(t[0], t[1]);
@@ -54,7 +54,7 @@ Pieces pieces_of(const RidgeMesh& mesh) {
 
 class Joining {
  public:
-  Joining(RidgeMesh& mesh, Pieces pieces, const Lattice& lattice, const FrameField& field)
+  Joining(SheetMesh& mesh, Pieces pieces, const Lattice& lattice, const FrameField& field)
       : mesh_(mesh),
         pieces_(std::move(pieces)),
         lattice_(lattice),
@@ -79,7 +79,7 @@ class Joining {
     };
     take_cheapest(std::move(ways_), pieces_.sets, ends, [&](const Way& way) {
       const std::vector<std::uint32_t> nodes = nodes_along(way);
-      std::vector<RidgeVertex> line = line_of(nodes);
+      std::vector<SheetVertex> line = line_of(nodes);
       smooth(line, inside);
       const double radius = std::sqrt(std::max(line.front().area, line.back().area) / std::numbers::pi);
       if (length_of(line) > max_length * radius) return false;
@@ -133,7 +133,8 @@ class Joining {
         if (go(to, step, node)) return;
         const std::uint32_t piece = cheapest_.source[to];
         if (piece != kNoNode && piece != cheapest_.source[node])
-          ways_.push_back({cheapest_.cost[node] + step + cheapest_.cost[to], std::min(node, to), std::max(node, to)});
+          ways_.push_back(
+              {cheapest_.cost[node] + step + cheapest_.cost[to], std::min(node, to), std::max(node, to)});
       });
     };
     cheapest_.find(steps, [&](std::uint32_t node) { return pieces_.searching[cheapest_.source[node]] != 0; });
@@ -148,16 +149,16 @@ class Joining {
     return nodes;
   }
 
-  std::vector<RidgeVertex> line_of(const std::vector<std::uint32_t>& nodes) const {
+  std::vector<SheetVertex> line_of(const std::vector<std::uint32_t>& nodes) const {
     std::vector<std::uint32_t> ranks(nodes.begin() + 1, nodes.end() - 1);
     std::sort(ranks.begin(), ranks.end());
     const std::vector<LatticePlace> places = lattice_places(lattice_, ranks);
     const Matrix3 to_mesh = inverse_transposed(frame_matrix(lattice_));
-    std::vector<RidgeVertex> line{mesh_.vertices[nodes.front() - points_]};
+    std::vector<SheetVertex> line{mesh_.vertices[nodes.front() - points_]};
     for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
       const auto at = std::lower_bound(ranks.begin(), ranks.end(), nodes[n]) - ranks.begin();
       const auto& [i, j, k] = places[static_cast<std::size_t>(at)];
-      RidgeVertex vertex;
+      SheetVertex vertex;
       vertex.position = lattice_.spacing * Vec3{double(i), double(j), double(k)};
       vertex.point = nodes[n];
       vertex.erosion = field_.erosion[nodes[n]];
@@ -168,7 +169,7 @@ class Joining {
     return line;
   }
 
-  static void smooth(std::vector<RidgeVertex>& line, const std::function<bool(const Vec3&)>& inside) {
+  static void smooth(std::vector<SheetVertex>& line, const std::function<bool(const Vec3&)>& inside) {
     for (int pass = 0; pass < kSmoothingPasses; ++pass) {
       for (std::size_t n = 1; n + 1 < line.size(); ++n) {
         const Vec3 middle = 0.5 * (line[n - 1].position + line[n + 1].position);
@@ -178,13 +179,13 @@ class Joining {
     }
   }
 
-  static double length_of(const std::vector<RidgeVertex>& line) {
+  static double length_of(const std::vector<SheetVertex>& line) {
     double length = 0;
     for (std::size_t n = 1; n < line.size(); ++n) length += norm(line[n].position - line[n - 1].position);
     return length;
   }
 
-  void put_in(const std::vector<RidgeVertex>& line, std::uint32_t first, std::uint32_t last) {
+  void put_in(const std::vector<SheetVertex>& line, std::uint32_t first, std::uint32_t last) {
     std::uint32_t before = first;
     const std::uint32_t part = mesh_.part[first];
     for (std::size_t n = 1; n + 1 < line.size(); ++n) {
@@ -197,7 +198,7 @@ class Joining {
     mesh_.segments.push_back({before, last});
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   Pieces pieces_;
   const Lattice& lattice_;
   const FrameField& field_;
@@ -210,7 +211,7 @@ class Joining {
 
 }  // namespace
 
-std::uint32_t join_pieces(RidgeMesh& mesh, const Lattice& lattice, const FrameField& field,
+std::uint32_t join_pieces(SheetMesh& mesh, const Lattice& lattice, const FrameField& field,
                           const std::function<bool(const Vec3&)>& inside, const RidgeJoinOptions& options) {
   require_within(options.max_length, 0, 1e6,
                  "the longest way between pieces must lie between 0 and 1e6 radii");

@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "core/base/vec3.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
-#include "core/ridge/ridge_mesh.h"
 
 namespace affskel::core {
 
@@ -29,7 +29,7 @@ struct RidgeJoinOptions {
 /// @param inside whether a place, frame coordinates, lies in the solid.
 /// @return how many ways were put in.
 /// @throws CoreError kBadInput when the option is out of range.
-std::uint32_t join_pieces(RidgeMesh& mesh, const Lattice& lattice, const FrameField& field,
+std::uint32_t join_pieces(SheetMesh& mesh, const Lattice& lattice, const FrameField& field,
                           const std::function<bool(const Vec3&)>& inside,
                           const RidgeJoinOptions& options = {});
 

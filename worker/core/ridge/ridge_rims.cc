@@ -17,10 +17,13 @@ constexpr double kJustWeak = 1 - 1e-9;  // below the lower bound, but drawn back
 
 class Cutting {
  public:
-  Cutting(RidgeMesh& mesh, const RidgeRimOptions& options)
-      : mesh_(mesh), options_(options), neighbours_(neighbours(mesh.vertices.size(), mesh.triangles)), piece_(mesh.vertices.size(), kNoNode) {
+  Cutting(SheetMesh& mesh, const RidgeRimOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        neighbours_(neighbours(mesh.vertices.size(), mesh.triangles)),
+        piece_(mesh.vertices.size(), kNoNode) {
     strength_.reserve(mesh.vertices.size());
-    for (const RidgeVertex& v : mesh.vertices) strength_.push_back(v.strength);
+    for (const SheetVertex& v : mesh.vertices) strength_.push_back(v.strength);
   }
 
   RidgePieces run() {
@@ -35,7 +38,7 @@ class Cutting {
  private:
   bool above(std::uint32_t vertex) const { return strength_[vertex] >= options_.low; }
 
-  bool may_found_piece(const RidgeVertex& v) const {
+  bool may_found_piece(const SheetVertex& v) const {
     return v.strength >= options_.high && v.roundness <= options_.max_roundness;
   }
 
@@ -82,11 +85,12 @@ class Cutting {
   void leave_points() {
     std::map<std::uint32_t, std::uint32_t> deepest;  // by part; kNoNode: it has a piece
     for (std::uint32_t v = 0; v < piece_.size(); ++v) {
-      const RidgeVertex& vertex = mesh_.vertices[v];
+      const SheetVertex& vertex = mesh_.vertices[v];
       if (vertex.strength < options_.high) continue;
       const auto [found, fresh] = deepest.try_emplace(mesh_.part[v], v);
       if (piece_[v] != kNoNode) found->second = kNoNode;
-      if (found->second != kNoNode && vertex.erosion > mesh_.vertices[found->second].erosion) found->second = v;
+      if (found->second != kNoNode && vertex.erosion > mesh_.vertices[found->second].erosion)
+        found->second = v;
     }
     for (std::uint32_t v = 0; v < piece_.size(); ++v) {
       const auto found = deepest.find(mesh_.part[v]);
@@ -116,7 +120,8 @@ class Cutting {
     std::vector<Way> joins;
     for (std::uint32_t v = 0; v < piece_.size(); ++v) {
       for (const std::uint32_t to : neighbours_[v]) {
-        if (to > v && ways.source[v] != kNoNode && ways.source[to] != kNoNode && ways.source[to] != ways.source[v])
+        if (to > v && ways.source[v] != kNoNode && ways.source[to] != kNoNode &&
+            ways.source[to] != ways.source[v])
           joins.push_back({ways.cost[v] + ways.cost[to] + cost(v, to), v, to});
       }
     }
@@ -131,7 +136,7 @@ class Cutting {
   }
 
   double cost(std::uint32_t a, std::uint32_t b) const {
-    const RidgeVertex &from = mesh_.vertices[a], &to = mesh_.vertices[b];
+    const SheetVertex &from = mesh_.vertices[a], &to = mesh_.vertices[b];
     return norm(to.position - from.position) * 2 * options_.low / (from.strength + to.strength);
   }
 
@@ -162,7 +167,7 @@ class Cutting {
     for (std::uint32_t v = 0; v < count; ++v)
       if (piece_[v] != kNoNode) wanted[sets.find(v)] = 1;
     for (std::uint32_t v = 0; v < count; ++v) strong[v] = strong[v] && wanted[sets.find(v)];
-    std::vector<RidgeVertex> rim = mesh_.vertices;
+    std::vector<SheetVertex> rim = mesh_.vertices;
     for (std::uint32_t v = 0; v < count; ++v)
       if (!strong[v]) rim[v] = drawn_back(v, strong);
     mesh_.vertices = std::move(rim);
@@ -174,9 +179,9 @@ class Cutting {
 
   // The mean of the places on the edges from a weak vertex to strong ones where the strength is the lower
   // bound.
-  RidgeVertex drawn_back(std::uint32_t vertex, const std::vector<char>& strong) const {
-    const RidgeVertex& weak = mesh_.vertices[vertex];
-    RidgeVertex mean = weak;
+  SheetVertex drawn_back(std::uint32_t vertex, const std::vector<char>& strong) const {
+    const SheetVertex& weak = mesh_.vertices[vertex];
+    SheetVertex mean = weak;
     std::uint32_t met = 0;
     for (const std::uint32_t to : neighbours_[vertex]) {
       if (!strong[to]) continue;
@@ -190,7 +195,7 @@ class Cutting {
     return mean;
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   const RidgeRimOptions& options_;
   Adjacency neighbours_;
   std::vector<double> strength_;      // per vertex: its own, or what it is taken for
@@ -200,7 +205,7 @@ class Cutting {
 
 }  // namespace
 
-RidgePieces cut_rims(RidgeMesh& mesh, const RidgeRimOptions& options) {
+RidgePieces cut_rims(SheetMesh& mesh, const RidgeRimOptions& options) {
   require_within(options.low, 1e-6, 1000,
                  "the lower bound of a ridge's strength must lie between 1e-6 and 1000");
   require_within(options.high, options.low, 1e6,

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/ridge/ridge_mesh.h"
+#include "core/contour/sheet_mesh.h"
 
 namespace affskel::core {
 
@@ -42,6 +42,6 @@ struct RidgePieces {
 /// A function of the mesh alone.  O(n log n).
 /// @param mesh distinct triangles, each with three distinct corners.
 /// @throws CoreError kBadInput when an option is out of range.
-RidgePieces cut_rims(RidgeMesh& mesh, const RidgeRimOptions& options = {});
+RidgePieces cut_rims(SheetMesh& mesh, const RidgeRimOptions& options = {});
 
 }  // namespace affskel::core

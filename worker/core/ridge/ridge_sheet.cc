@@ -17,34 +17,20 @@
 namespace affskel::core {
 namespace {
 
-// What a vertex tells of its cell's crossings: their mean, normals turned to agree with the first.
-RidgeVertex vertex_at(const Vec3& position, std::span<const RidgeCrossing> crossings,
-                      std::span<const std::uint32_t> members) {
-  RidgeVertex vertex;
-  for (std::size_t n = 0; n < members.size(); ++n) {
-    const RidgeVertex& here = crossings[members[n]].at;
-    vertex = n == 0 ? here : between(vertex, here, 1 / static_cast<double>(n + 1));
-  }
-  vertex.position = position;
-  return vertex;
-}
-
-RidgeMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<const RidgeCrossing> crossings,
+// A vertex has the mean of its cell's crossings, normals turned to agree with the first.
+SheetMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<const RidgeCrossing> crossings,
                   ExecutionContext* context) {
   std::vector<SheetCrossing> places;
   places.reserve(crossings.size());
   for (const RidgeCrossing& crossing : crossings)
     places.push_back({crossing.edge, crossing.at.position, crossing.normal});
-  DualContourOptions options;
-  options.context = context;
-  DualContour found = dual_contour(lattice, parts, places, options);
-  RidgeMesh mesh;
-  mesh.vertices.reserve(found.vertices.size());
-  for (std::uint32_t cell = 0; cell < found.cells.size(); ++cell)
-    mesh.vertices.push_back(vertex_at(found.vertices[cell], crossings, found.cells.edges_of(cell)));
-  mesh.part = std::move(found.cells.part);
-  mesh.triangles = std::move(found.triangles);
-  return mesh;
+  const auto mean = [&](const Vec3&, std::span<const std::uint32_t> members) {
+    SheetVertex vertex = crossings[members[0]].at;
+    for (std::size_t n = 1; n < members.size(); ++n)
+      vertex = between(vertex, crossings[members[n]].at, 1 / static_cast<double>(n + 1));
+    return vertex;
+  };
+  return dual_contour(lattice, parts, places, mean, context);
 }
 
 std::vector<PointDerivatives> derivatives_of(const Lattice& lattice, const FrameField& field,
@@ -76,7 +62,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
     curves = ridge_curves(lattice, parts, values, options.context);
   }
   throw_if_stopped(options.context);
-  RidgeMesh mesh = contour(lattice, parts, crossings, options.context);
+  SheetMesh mesh = contour(lattice, parts, crossings, options.context);
   throw_if_stopped(options.context);
   RidgeSheet sheet;
   sheet.pieces = cut_rims(mesh, options.rims);
@@ -96,9 +82,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const std::vector<RidgeCurve> stretches = torn_stretches(mesh, round_stretches(curves, round), torn);
   sheet.curves = put_curves(mesh, stretches, inside, options.round_sheet);
   sheet.pieces.bridges += join_pieces(mesh, lattice, field, inside, options.joins);
-  sheet.vertices = std::move(mesh.vertices);
-  sheet.triangles = std::move(mesh.triangles);
-  sheet.segments = std::move(mesh.segments);
+  static_cast<SheetMesh&>(sheet) = std::move(mesh);
   return sheet;
 }
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
 #include "core/ridge/ridge_flaps.h"
 #include "core/ridge/ridge_holes.h"
 #include "core/ridge/ridge_joins.h"
-#include "core/ridge/ridge_mesh.h"
 #include "core/ridge/ridge_rims.h"
 #include "core/ridge/round_sheet.h"
 #include "core/ridge/round_stretches.h"
@@ -41,10 +41,7 @@ struct RidgeSheetOptions {
 };
 
 /// The ridge surface of the E field.
-struct RidgeSheet {
-  std::vector<RidgeVertex> vertices;
-  std::vector<Triangle> triangles;
-  std::vector<Segment> segments;  ///< of curves: two vertices each
+struct RidgeSheet : SheetMesh {
   RidgePieces pieces;
   std::uint32_t flaps_cut = 0;     ///< see cut_flaps()
   std::uint32_t holes_closed = 0;  ///< see close_holes()

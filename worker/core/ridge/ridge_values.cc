@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/base/require.h"
-#include "core/base/unit.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/base/unit.h"
 
 namespace affskel::core {
 namespace {
@@ -74,9 +74,9 @@ double RidgeValues::frame_area(std::uint32_t point) const {
   return length_of(field_.gradient[point]);
 }
 
-RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
+SheetVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
                             std::span<const double> weights, const Vec3& across) const {
-  RidgeVertex vertex;
+  SheetVertex vertex;
   vertex.position = position;
   vertex.point = points[0];
   Vec3 gradient;

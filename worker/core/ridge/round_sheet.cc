@@ -19,7 +19,7 @@ constexpr int kPlacesOfJoint = 16;  // parts of a joint, between which it is ask
 
 bool long_enough(const RidgeCurve& curve, const RoundSheetOptions& options) {
   if (std::all_of(curve.vertices.begin(), curve.vertices.end(),
-                  [&](const RidgeVertex& v) { return v.ratio >= options.round_ratio; }))
+                  [&](const SheetVertex& v) { return v.ratio >= options.round_ratio; }))
     return true;
   const double sum = std::accumulate(curve.radius.begin(), curve.radius.end(), 0.0);
   return curve_length(curve) * static_cast<double>(curve.radius.size()) >= options.min_length * sum;
@@ -38,7 +38,7 @@ std::vector<RidgeCurve> parts_of(std::span<const RidgeCurve> stretches, const st
 }
 
 // The stretches without the places where the sheet is wide.
-std::vector<RidgeCurve> narrow_only(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+std::vector<RidgeCurve> narrow_only(const SheetMesh& mesh, std::span<const RidgeCurve> stretches,
                                     const RoundSheetOptions& options) {
   const std::vector<CurveVertex> curve = curve_vertices(stretches);
   const std::vector<CurveFoot> feet = curve_feet(mesh, curve, options.reach);
@@ -57,7 +57,7 @@ std::vector<RidgeCurve> narrow_only(const RidgeMesh& mesh, std::span<const Ridge
 
 class Replacement {
  public:
-  Replacement(RidgeMesh& mesh, std::vector<RidgeCurve> stretches, double reach)
+  Replacement(SheetMesh& mesh, std::vector<RidgeCurve> stretches, double reach)
       : mesh_(mesh),
         stretches_(std::move(stretches)),
         reach_(reach),
@@ -206,7 +206,7 @@ class Replacement {
         mesh_.segments.push_back({joint.sheet, base + std::clamp(joint.curve, begin, last) - begin});
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   std::vector<RidgeCurve> stretches_;
   double reach_;
   std::vector<CurveVertex> curve_;
@@ -220,7 +220,7 @@ class Replacement {
 
 }  // namespace
 
-std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+std::uint32_t put_curves(SheetMesh& mesh, std::span<const RidgeCurve> stretches,
                          const std::function<bool(const Vec3&)>& inside, const RoundSheetOptions& options) {
   require_within(options.reach, 1e-3, 1e3, "the reach of a curve must lie between 0.001 and 1000 radii");
   require_within(options.min_length, 0, 1e6,

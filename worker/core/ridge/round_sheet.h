@@ -4,8 +4,8 @@
 #include <functional>
 #include <span>
 
+#include "core/contour/sheet_mesh.h"
 #include "core/ridge/ridge_curves.h"
-#include "core/ridge/ridge_mesh.h"
 
 namespace affskel::core {
 
@@ -36,7 +36,7 @@ struct RoundSheetOptions {
 /// @param inside whether a place, frame coordinates, lies in the solid.
 /// @return how many stretches were put in.
 /// @throws CoreError kBadInput when an option is out of range.
-std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+std::uint32_t put_curves(SheetMesh& mesh, std::span<const RidgeCurve> stretches,
                          const std::function<bool(const Vec3&)>& inside,
                          const RoundSheetOptions& options = {});
 

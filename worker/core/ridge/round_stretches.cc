@@ -80,8 +80,8 @@ std::vector<RidgeCurve> round_stretches(std::span<const RidgeCurve> curves,
       const auto any = [&](auto test) {
         return std::any_of(part.vertices.begin(), part.vertices.end(), test);
       };
-      if (any([&](const RidgeVertex& v) { return v.ratio >= options.high_ratio; }) &&
-          any([&](const RidgeVertex& v) {
+      if (any([&](const SheetVertex& v) { return v.ratio >= options.high_ratio; }) &&
+          any([&](const SheetVertex& v) {
             return v.strength >= options.high_strength && v.roundness <= options.max_roundness;
           }))
         result.push_back(std::move(part));

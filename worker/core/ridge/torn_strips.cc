@@ -38,7 +38,7 @@ bool is_torn(std::vector<Triangle> triangles) {
 // The triangles whose corners all lie beside one stretch.
 class TrianglesBeside {
  public:
-  TrianglesBeside(const RidgeMesh& mesh, const std::vector<CurveVertex>& curve, double reach)
+  TrianglesBeside(const SheetMesh& mesh, const std::vector<CurveVertex>& curve, double reach)
       : mesh_(mesh), feet_(curve_feet(mesh, curve, reach)), at_(curve.size()) {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       if (is_beside(feet_, curve, mesh.triangles[t])) at_[feet_[mesh.triangles[t][0]].vertex].push_back(t);
@@ -61,14 +61,14 @@ class TrianglesBeside {
   }
 
  private:
-  const RidgeMesh& mesh_;
+  const SheetMesh& mesh_;
   std::vector<CurveFoot> feet_;
   std::vector<std::vector<std::uint32_t>> at_;  // by the foot of the first corner
 };
 
 }  // namespace
 
-std::vector<RidgeCurve> torn_stretches(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+std::vector<RidgeCurve> torn_stretches(const SheetMesh& mesh, std::span<const RidgeCurve> stretches,
                                        const TornStripOptions& options) {
   require_within(options.window, 1e-3, 1e6, "the window of a strip must lie between 0.001 and 1e6 radii");
   require_within(options.step, 1e-3, 1e6, "the step of the windows must lie between 0.001 and 1e6 radii");

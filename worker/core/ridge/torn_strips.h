@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "core/contour/sheet_mesh.h"
 #include "core/ridge/ridge_curves.h"
-#include "core/ridge/ridge_mesh.h"
 
 namespace affskel::core {
 
@@ -25,7 +25,7 @@ struct TornStripOptions {
 /// @param stretches of its curves, see round_stretches().
 /// @return in the order of the stretches, along each of them.
 /// @throws CoreError kBadInput when an option is out of range.
-std::vector<RidgeCurve> torn_stretches(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+std::vector<RidgeCurve> torn_stretches(const SheetMesh& mesh, std::span<const RidgeCurve> stretches,
                                        const TornStripOptions& options = {});
 
 }  // namespace affskel::core

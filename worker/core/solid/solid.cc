@@ -351,8 +351,9 @@ class SolidBuilder {
     const SolidSize size = solid_sizes(solid_)[solid];
     if (size.box.longest_side() < kMinScaledSide) {
       refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
-             place(size.first_triangle) + ", is " + base::rounded(size.box.longest_side() * solid_.scale(), 3) +
-             " long, the whole mesh " + base::rounded(extent(), 3) + "; take them one by one");
+             place(size.first_triangle) + ", is " +
+             base::rounded(size.box.longest_side() * solid_.scale(), 3) + " long, the whole mesh " +
+             base::rounded(extent(), 3) + "; take them one by one");
     }
     refuse("the mesh bounds no volume: " + which + " has volume " + base::to_text(volume) +
            (volume > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));

@@ -7,6 +7,8 @@
 namespace affskel::core {
 namespace {
 
+constexpr double kStrongTurn = ChordConstants().strong_turn;
+
 std::string advice_for(const std::vector<double>& divergence, const OptimalDirections& optimal,
                        const Lattice& lattice, double threshold = 7) {
   return empty_skeleton_advice(lattice, optimal, divergence, ShockOperator::kZuckerHummel, threshold);
@@ -64,9 +66,7 @@ TEST(EmptySkeletonAdvice, SuggestsAThresholdThatKeepsSomethingWheneverThereIsSom
 
 TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
   NormalBlock block({10, 10, 10});
-  ChordPruningOptions pruning;
-  pruning.significance = 0.9;
-  const std::string advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, pruning);
+  const std::string advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, 0.9, kStrongTurn);
   EXPECT_TRUE(says(advice, "all 125 strong shocks")) << advice;
   EXPECT_TRUE(says(advice, "below the significance 0.9; the heaviest weighs 0.8")) << advice;
   EXPECT_TRUE(says(advice, "--threshold 0.792 would keep it")) << advice;
@@ -76,7 +76,7 @@ TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
 // Turns of 1/16 and 1/2 are angles of 29 and 90 degrees.
 TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
   NormalBlock block({10, 10, 10});
-  const std::string advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
+  const std::string advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 89")) << advice;
   EXPECT_FALSE(says(advice, "--frame")) << advice;
   EXPECT_FALSE(says(advice, "--threshold")) << advice;
@@ -86,17 +86,18 @@ TEST(EmptySheetAdvice, SuggestsOtherAxesWhenTheseAreStretched) {
   NormalBlock block({10, 10, 10});
   Lattice lattice = block.lattice;
   lattice.grid.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.1}};
-  EXPECT_FALSE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame"));
+  EXPECT_FALSE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn), "--frame"));
   lattice.grid.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, 0.05}};
-  EXPECT_TRUE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "--frame axis or --frame pca"));
+  EXPECT_TRUE(says(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn),
+                   "--frame axis or --frame pca"));
 }
 
 TEST(EmptySheetAdvice, TellsShocksNearTheSurfaceFromNone) {
   NormalBlock block({3, 3, 3}, 0.25);
-  const std::string near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, {});
+  const std::string near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(near, "at none of the 5")) << near;
   EXPECT_TRUE(says(near, "only 27 sample points: submit with a smaller spacing than 0.25")) << near;
-  const std::string none = empty_sheet_advice(block.lattice, {}, {});
+  const std::string none = empty_sheet_advice(block.lattice, {}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(none, "nowhere do two different chords")) << none;
 }
 

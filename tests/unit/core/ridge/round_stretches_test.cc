@@ -14,7 +14,7 @@ namespace {
 RidgeCurve line(std::size_t count, const std::function<double(double)>& ratio, double strength = 10) {
   RidgeCurve curve;
   for (std::size_t n = 0; n < count; ++n) {
-    RidgeVertex v;
+    SheetVertex v;
     v.position = {static_cast<double>(n), 0, 0};
     v.strength = strength;
     v.ratio = ratio(v.position.x);
@@ -59,7 +59,7 @@ TEST(RoundStretches, AreStrongAndNoBalls) {
   EXPECT_EQ(round_stretches(std::vector{line(20, one, 6.5)}).size(), 1U);
   EXPECT_TRUE(round_stretches(std::vector{line(20, one, 6.4)}).empty());
   RidgeCurve ball = line(20, one);
-  for (RidgeVertex& v : ball.vertices) v.roundness = 0.9;
+  for (SheetVertex& v : ball.vertices) v.roundness = 0.9;
   EXPECT_TRUE(round_stretches(std::vector{ball}).empty());
   RidgeCurve weak_end = line(20, one);
   weak_end.vertices[15].strength = 4;
