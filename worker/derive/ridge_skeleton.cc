@@ -20,8 +20,8 @@ core::RidgeSheetOptions options_for(const FinishedField& field, double threshold
   options.context = field.context();
   if (threshold != 0) {
     // The two bounds keep their ratio.
-    options.rims.high *= threshold / options.rims.low;
-    options.rims.low = threshold;
+    options.bounds.high *= threshold / options.bounds.low;
+    options.bounds.low = threshold;
   }
   return options;
 }
@@ -30,9 +30,7 @@ core::RidgeSheetOptions options_for(const FinishedField& field, double threshold
 class Ridge {
  public:
   explicit Ridge(const FinishedField& field) : field_(field), in_frame_(field.in_frame()) {
-    core::SmoothedDerivativesOptions smoothing = core::RidgeSheetOptions().derivatives;
-    smoothing.context = field.context();
-    derivatives_ = core::smoothed_derivatives(field.lattice(), in_frame_, smoothing);
+    derivatives_ = core::smoothed_derivatives(field.lattice(), in_frame_, field.context());
   }
 
   const core::FrameField& in_frame() const { return in_frame_; }
@@ -51,7 +49,7 @@ class Ridge {
 
 v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
                                double threshold, const SheetBarriers& barriers = {}) {
-  const core::RidgeRimOptions rims = options_for(field, threshold).rims;
+  const core::RidgeBounds rims = options_for(field, threshold).bounds;
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
   options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);

@@ -144,11 +144,10 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
   return advice + on_few_points(lattice);
 }
 
-std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
-                               const RidgeRimOptions& rims) {
-  if (pieces.max_strength <= 0 && rims.low > RidgeRimOptions().low) {
+std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeBounds& rims) {
+  if (pieces.max_strength <= 0 && rims.low > RidgeBounds().low) {
     return "nowhere is the sheet nearly as strong as the threshold " + base::rounded(rims.low, 3) +
-           "; the default is " + base::rounded(RidgeRimOptions().low, 3) + "." + on_few_points(lattice);
+           "; the default is " + base::rounded(RidgeBounds().low, 3) + "." + on_few_points(lattice);
   }
   if (pieces.max_strength <= 0) {
     return "nowhere do the normals turn fast across a sheet deep enough in the solid. Submit with a smaller "

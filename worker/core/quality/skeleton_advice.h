@@ -37,8 +37,7 @@ std::string empty_sheet_advice(const Lattice& lattice, const ShockCensus& census
 /// it, or what else is missing.
 /// @param pieces of a sheet without triangles.
 /// @param rims the options that it was cut with.
-std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces,
-                               const RidgeRimOptions& rims);
+std::string empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeBounds& rims);
 
 /// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
 /// triangle or a segment.

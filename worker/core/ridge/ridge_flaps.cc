@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
 #include "core/mesh/edges.h"
 
 namespace affskel::core {
@@ -80,9 +79,8 @@ class FlapCutter {
 
 }  // namespace
 
-std::uint32_t cut_flaps(SheetMesh& mesh, const RidgeFlapOptions& options) {
-  require_within(options.max_share, 0, 1, "the share of a flap must lie between 0 and 1");
-  return FlapCutter(mesh, options.max_share).run();
+std::uint32_t cut_flaps(SheetMesh& mesh, double max_share) {
+  return FlapCutter(mesh, max_share).run();
 }
 
 }  // namespace affskel::core

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
 #include "core/mesh/edges.h"
 
 namespace affskel::core {
@@ -132,10 +131,8 @@ class Closing {
 
 }  // namespace
 
-std::uint32_t close_holes(SheetMesh& mesh, const std::function<bool(const Vec3&)>& inside,
-                          const RidgeHoleOptions& options) {
-  require_within(options.max_share, 0, 1, "the share of a hole must lie between 0 and 1");
-  return Closing(mesh, inside, options.max_share).run();
+std::uint32_t close_holes(SheetMesh& mesh, const std::function<bool(const Vec3&)>& inside, double max_share) {
+  return Closing(mesh, inside, max_share).run();
 }
 
 }  // namespace affskel::core

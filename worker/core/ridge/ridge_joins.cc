@@ -14,7 +14,6 @@
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
 #include "core/base/matrix3.h"
-#include "core/base/require.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/ridge/ridge_values.h"
@@ -212,12 +211,10 @@ class Joining {
 }  // namespace
 
 std::uint32_t join_pieces(SheetMesh& mesh, const Lattice& lattice, const FrameField& field,
-                          const std::function<bool(const Vec3&)>& inside, const RidgeJoinOptions& options) {
-  require_within(options.max_length, 0, 1e6,
-                 "the longest way between pieces must lie between 0 and 1e6 radii");
+                          const std::function<bool(const Vec3&)>& inside, double max_length) {
   Pieces pieces = pieces_of(mesh);
-  if (!pieces.apart || options.max_length == 0) return 0;
-  return Joining(mesh, std::move(pieces), lattice, field).run(inside, options.max_length);
+  if (!pieces.apart || max_length == 0) return 0;
+  return Joining(mesh, std::move(pieces), lattice, field).run(inside, max_length);
 }
 
 }  // namespace affskel::core

@@ -17,9 +17,10 @@ constexpr double kJustWeak = 1 - 1e-9;  // below the lower bound, but drawn back
 
 class Cutting {
  public:
-  Cutting(SheetMesh& mesh, const RidgeRimOptions& options)
+  Cutting(SheetMesh& mesh, const RidgeBounds& bounds, const RidgeConstants& constants)
       : mesh_(mesh),
-        options_(options),
+        bounds_(bounds),
+        constants_(constants),
         neighbours_(neighbours(mesh.vertices.size(), mesh.triangles)),
         piece_(mesh.vertices.size(), kNoNode) {
     strength_.reserve(mesh.vertices.size());
@@ -36,10 +37,10 @@ class Cutting {
   }
 
  private:
-  bool above(std::uint32_t vertex) const { return strength_[vertex] >= options_.low; }
+  bool above(std::uint32_t vertex) const { return strength_[vertex] >= bounds_.low; }
 
   bool may_found_piece(const SheetVertex& v) const {
-    return v.strength >= options_.high && v.roundness <= options_.max_roundness;
+    return v.strength >= bounds_.high && v.roundness <= constants_.max_roundness;
   }
 
   // Sets which vertices hang together: all of them, or those above the lower bound alone.
@@ -71,7 +72,7 @@ class Cutting {
     for (std::uint32_t v = 0; v < count; ++v) {
       const double whole = part_area[mesh_.part[v]];
       const double share = whole > 0 ? area[sheets.find(v)] / whole : 0;
-      const bool significant = share > 0 && share >= options_.significance;
+      const bool significant = share > 0 && share >= constants_.significance;
       if (sheets.find(v) == v) {
         result_.max_piece_share = std::max(result_.max_piece_share, share);
         if (significant) result_.shares.push_back(share);
@@ -86,7 +87,7 @@ class Cutting {
     std::map<std::uint32_t, std::uint32_t> deepest;  // by part; kNoNode: it has a piece
     for (std::uint32_t v = 0; v < piece_.size(); ++v) {
       const SheetVertex& vertex = mesh_.vertices[v];
-      if (vertex.strength < options_.high) continue;
+      if (vertex.strength < bounds_.high) continue;
       const auto [found, fresh] = deepest.try_emplace(mesh_.part[v], v);
       if (piece_[v] != kNoNode) found->second = kNoNode;
       if (found->second != kNoNode && vertex.erosion > mesh_.vertices[found->second].erosion)
@@ -99,7 +100,7 @@ class Cutting {
         piece_[v] = v;
         result_.shares.push_back(1);
       } else {
-        strength_[v] = std::min(strength_[v], kJustWeak * options_.low);
+        strength_[v] = std::min(strength_[v], kJustWeak * bounds_.low);
       }
     }
   }
@@ -137,7 +138,7 @@ class Cutting {
 
   double cost(std::uint32_t a, std::uint32_t b) const {
     const SheetVertex &from = mesh_.vertices[a], &to = mesh_.vertices[b];
-    return norm(to.position - from.position) * 2 * options_.low / (from.strength + to.strength);
+    return norm(to.position - from.position) * 2 * bounds_.low / (from.strength + to.strength);
   }
 
   // A way's vertices and their neighbours count as strong: it is a strip, not a line.
@@ -147,7 +148,7 @@ class Cutting {
       for (const std::uint32_t to : neighbours_[v]) raise(to);
     }
   }
-  void raise(std::uint32_t vertex) { strength_[vertex] = std::max(strength_[vertex], options_.low); }
+  void raise(std::uint32_t vertex) { strength_[vertex] = std::max(strength_[vertex], bounds_.low); }
 
   // Draws the weak ends of edges back to the rim, and keeps the triangles with a strong corner that hang
   // together with a kept piece.
@@ -186,17 +187,18 @@ class Cutting {
     for (const std::uint32_t to : neighbours_[vertex]) {
       if (!strong[to]) continue;
       // Strengths reach far up where the gradient vanishes; the line is near the weak end all the same.
-      const double low = strength_[vertex], high = std::min(strength_[to], 4 * options_.low);
-      const double t = high > low ? std::clamp((options_.low - low) / (high - low), 0.0, 1.0) : 0;
+      const double low = strength_[vertex], high = std::min(strength_[to], 4 * bounds_.low);
+      const double t = high > low ? std::clamp((bounds_.low - low) / (high - low), 0.0, 1.0) : 0;
       ++met;
       mean = between(mean, between(weak, mesh_.vertices[to], t), 1 / static_cast<double>(met));
     }
-    if (met > 0) mean.strength = options_.low;
+    if (met > 0) mean.strength = bounds_.low;
     return mean;
   }
 
   SheetMesh& mesh_;
-  const RidgeRimOptions& options_;
+  const RidgeBounds& bounds_;
+  const RidgeConstants& constants_;
   Adjacency neighbours_;
   std::vector<double> strength_;      // per vertex: its own, or what it is taken for
   std::vector<std::uint32_t> piece_;  // per vertex: of a kept piece, or kNoNode
@@ -205,13 +207,12 @@ class Cutting {
 
 }  // namespace
 
-RidgePieces cut_rims(SheetMesh& mesh, const RidgeRimOptions& options) {
-  require_within(options.low, 1e-6, 1000,
+RidgePieces cut_rims(SheetMesh& mesh, const RidgeBounds& bounds, const RidgeConstants& constants) {
+  require_within(bounds.low, 1e-6, 1000,
                  "the lower bound of a ridge's strength must lie between 1e-6 and 1000");
-  require_within(options.high, options.low, 1e6,
+  require_within(bounds.high, bounds.low, 1e6,
                  "the higher bound of a ridge's strength must be at least the lower one");
-  require_within(options.significance, 0, 1, "the significance must lie between 0 and 1");
-  return Cutting(mesh, options).run();
+  return Cutting(mesh, bounds, constants).run();
 }
 
 }  // namespace affskel::core

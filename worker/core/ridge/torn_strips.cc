@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
 #include "core/mesh/edges.h"
 #include "core/ridge/curve_feet.h"
 #include "core/ridge/round_stretches.h"
@@ -69,12 +68,9 @@ class TrianglesBeside {
 }  // namespace
 
 std::vector<RidgeCurve> torn_stretches(const SheetMesh& mesh, std::span<const RidgeCurve> stretches,
-                                       const TornStripOptions& options) {
-  require_within(options.window, 1e-3, 1e6, "the window of a strip must lie between 0.001 and 1e6 radii");
-  require_within(options.step, 1e-3, 1e6, "the step of the windows must lie between 0.001 and 1e6 radii");
-  require_within(options.round_ratio, 0, 1, "the ratio of what is round must lie between 0 and 1");
+                                       const RidgeConstants& constants) {
   const std::vector<CurveVertex> curve = curve_vertices(stretches);
-  const TrianglesBeside beside(mesh, curve, options.reach);
+  const TrianglesBeside beside(mesh, curve, constants.reach);
   std::vector<RidgeCurve> result;
   std::uint32_t first = 0;  // vertex of the stretch
   for (const RidgeCurve& stretch : stretches) {
@@ -86,13 +82,13 @@ std::vector<RidgeCurve> torn_stretches(const SheetMesh& mesh, std::span<const Ri
       while (at < count && curve[first + at].arc - curve[first + v].arc < radii * stretch.radius[v]) ++at;
       return at;
     };
-    for (std::uint32_t begin = 0, end = 0; end < count; begin = beyond(begin, options.step)) {
-      end = beyond(begin, options.window);
+    for (std::uint32_t begin = 0, end = 0; end < count; begin = beyond(begin, constants.step)) {
+      end = beyond(begin, constants.window);
       if (is_torn(beside.in(first + begin, first + end)))
         std::fill(wanted.begin() + begin, wanted.begin() + end, char{1});
     }
     for (std::uint32_t v = 0; v < count; ++v)
-      if (stretch.vertices[v].ratio >= options.round_ratio) wanted[v] = 1;
+      if (stretch.vertices[v].ratio >= constants.round_ratio) wanted[v] = 1;
     for (RidgeCurve& part : parts_of_curve(stretch, wanted)) result.push_back(std::move(part));
     first += count;
   }

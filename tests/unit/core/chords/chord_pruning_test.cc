@@ -190,7 +190,8 @@ class Boxes {
   SignificantShocks prune() {
     std::sort(shocks_.begin(), shocks_.end(),
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
-    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_, quarter());
+    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_, quarter().significance,
+                              quarter());
   }
 
  private:

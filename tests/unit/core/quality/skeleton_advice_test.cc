@@ -105,7 +105,7 @@ TEST(EmptyRidgeAdvice, NamesAThresholdThatKeepsAPiece) {
   NormalBlock block({10, 10, 10});
   RidgePieces pieces;
   pieces.max_strength = 12;
-  const std::string advice = empty_ridge_advice(block.lattice, pieces, {20, 24, 0.8, 0});
+  const std::string advice = empty_ridge_advice(block.lattice, pieces, {20, 24});
   EXPECT_TRUE(says(advice, "greatest strength is 12, less than the 24")) << advice;
   EXPECT_TRUE(says(advice, "--threshold 9.9 would keep one")) << advice;
   EXPECT_TRUE(says(empty_ridge_advice(block.lattice, {}, {}), "nowhere do the normals turn fast"));

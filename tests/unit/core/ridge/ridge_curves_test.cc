@@ -42,9 +42,9 @@ struct Limb {
 std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field, double min_strength = 0.5,
                                   double min_erosion = 0, ExecutionContext* context = nullptr) {
   const SolidParts parts(box.solid, box.lattice);
-  SmoothedDerivativesOptions narrow;
+  RidgeConstants narrow;
   narrow.min_width = narrow.max_width = 1;
-  const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, narrow);
+  const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, nullptr, narrow);
   const RidgeValues values(box.lattice, parts, field, derivatives, min_strength, min_erosion);
   return ridge_curves(box.lattice, parts, values, context);
 }

@@ -21,7 +21,7 @@ double area(const SheetMesh& mesh) {
 TEST(RidgeRims, AreLinesWhereTheStrengthMeetsTheLowerBound) {
   // s = 5 on the slanting line x = 10.3 + y / 3.
   SheetMesh mesh = square(20, [](double x, double y) { return 5 + 0.5 * (10.3 + y / 3 - x); });
-  cut_rims(mesh, {5, 6, 0.8, 0.001});
+  cut_rims(mesh, {5, 6});
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   std::size_t rim = 0;
   for (const SheetVertex& v : mesh.vertices) {
@@ -43,7 +43,7 @@ TEST(RidgeRims, KeepWhatIsConnectedWithSomethingStrong) {
   SheetMesh mesh = square(20, [&](double x, double y) {
     return std::max({1.0, hill(x, y, 5, 7), hill(x, y, 15, 5.9)});
   });
-  const RidgePieces pieces = cut_rims(mesh, {5, 6, 0.8, 0.001});
+  const RidgePieces pieces = cut_rims(mesh, {5, 6});
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(pieces.shares.size(), 1U);
   EXPECT_EQ(pieces.bridges, 0U);
@@ -59,7 +59,7 @@ TEST(RidgeRims, JoinsStrongPiecesThroughTheWeakSheet) {
     return std::max({hills, 4 - std::abs(y - 10), 1.0});
   };
   SheetMesh mesh = square(20, strength);
-  const RidgePieces pieces = cut_rims(mesh, {5, 6, 0.8, 0.001});
+  const RidgePieces pieces = cut_rims(mesh, {5, 6});
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(pieces.bridges, 1U);
   EXPECT_EQ(pieces.shares.size(), 1U);
@@ -69,7 +69,7 @@ TEST(RidgeRims, JoinsStrongPiecesThroughTheWeakSheet) {
     return apart.vertices[t[0]].position.x == 10 || apart.vertices[t[1]].position.x == 10 ||
            apart.vertices[t[2]].position.x == 10;
   });
-  EXPECT_EQ(cut_rims(apart, {5, 6, 0.8, 0.001}).shares.size(), 2U);
+  EXPECT_EQ(cut_rims(apart, {5, 6}).shares.size(), 2U);
   EXPECT_EQ(topology(apart).betti, (BettiNumbers{2, 0, 0}));
 }
 
@@ -83,7 +83,9 @@ TEST(RidgeRims, DropsWhatIsInsignificant) {
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
       return mesh.vertices[t[0]].position.x == 15 || mesh.vertices[t[1]].position.x == 15;
     });
-    return cut_rims(mesh, {5, 6, 0.8, significance}).shares;
+    RidgeConstants constants;
+    constants.significance = significance;
+    return cut_rims(mesh, {5, 6}, constants).shares;
   };
   const std::vector<double> all = pieces(0);
   ASSERT_EQ(all.size(), 2U);
@@ -108,10 +110,8 @@ TEST(RidgeRims, LeaveThePointOfARoundSolid) {
 
 TEST(RidgeRims, RefusesBoundsThatAreNone) {
   SheetMesh mesh = square(2, [](double, double) { return 9; });
-  for (const RidgeRimOptions& options :
-       {RidgeRimOptions{0, 6, 0.8, 0}, RidgeRimOptions{5, 4, 0.8, 0}, RidgeRimOptions{5, 6, 0.8, 2}}) {
-    EXPECT_THROW(cut_rims(mesh, options), CoreError);
-  }
+  for (const RidgeBounds& bounds : {RidgeBounds{0, 6}, RidgeBounds{5, 4}})
+    EXPECT_THROW(cut_rims(mesh, bounds), CoreError);
 }
 
 bool anywhere(const Vec3&) {

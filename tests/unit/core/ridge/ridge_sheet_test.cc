@@ -199,10 +199,10 @@ TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
                        const double r = norm(u - centre);
                        return (-2 * (r - radius) / r) * (u - centre);
                      }};
-  RidgeSheetOptions options;
-  options.derivatives.min_width = options.derivatives.max_width = 1;
+  RidgeConstants constants;
+  constants.min_width = constants.max_width = 1;
   const RidgeSheet sheet =
-      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), options);
+      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), {}, constants);
   const SheetTopology found = topology(sheet);
   EXPECT_EQ(found.betti, (BettiNumbers{1, 0, 1}));
   EXPECT_EQ(found.boundary_loops, 0U);
@@ -241,8 +241,8 @@ TEST(RidgeSheet, OfKnownDerivativesIsTheSameAtEveryThreshold) {
   const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, box.field);
   for (const double share : {1.0, 1.5}) {
     RidgeSheetOptions options;
-    options.rims.low *= share;
-    options.rims.high *= share;
+    options.bounds.low *= share;
+    options.bounds.high *= share;
     const RidgeSheet expected = ridge_sheet(box.solid, box.lattice, box.field, options);
     options.known_derivatives = derivatives;
     const RidgeSheet found = ridge_sheet(box.solid, box.lattice, box.field, options);
