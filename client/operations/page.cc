@@ -13,8 +13,8 @@
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
 #include "client/text/words.h"
-#include "core/chords/chord_pruning.h"
-#include "core/ridge/ridge_rims.h"
+#include "core/chords/chord_sheet.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/shocks/shock_operator.h"
 #include "wire/params.h"
 
@@ -65,9 +65,9 @@ core::ShockOperator shock_operator(v1::Operator which) {
 // @throws ClientError kUsage for an unknown operator.
 double first_threshold(const v1::SkeletonParams& params, double spacing) {
   // The threshold of `ridge` is a strength, which the slider does not set.
-  if (params.operator_() == v1::OPERATOR_RIDGE) return core::RidgeRimOptions().significance;
+  if (params.operator_() == v1::OPERATOR_RIDGE) return core::RidgeConstants().significance;
   const bool chords = params.operator_() == v1::OPERATOR_CHORDS;
-  const double preset = chords ? core::ChordPruningOptions().significance
+  const double preset = chords ? core::ChordSheetOptions().significance
                                : core::default_threshold(shock_operator(params.operator_()), spacing);
   return params.threshold() > 0 ? params.threshold() : preset;
 }

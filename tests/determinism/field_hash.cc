@@ -51,7 +51,7 @@ std::uint64_t sheet_hash(const affskel::core::Solid& solid, const affskel::core:
     hash.add(std::uint64_t{shock.point});
     hash.add(shock.turn);
   }
-  for (const ChordSheetVertex& vertex : sheet.vertices) {
+  for (const SheetVertex& vertex : sheet.vertices) {
     for (const Vec3& v : {vertex.position, vertex.normal_a, vertex.normal_b}) {
       for (int k = 0; k < 3; ++k) hash.add(v[k]);
     }

@@ -41,7 +41,7 @@ Sheet chord_sheet_of(const Job& job) {
   const core::ChordSheet found = core::chord_sheet(job.solid, job.lattice, in_frame.field);
   Sheet sheet;
   sheet.points = cloud_of(found.shocks, in_frame);
-  for (const core::ChordSheetVertex& vertex : found.vertices)
+  for (const core::SheetVertex& vertex : found.vertices)
     sheet.mesh.points.push_back(in_frame.to_mesh(vertex.position));
   sheet.mesh.triangles = found.triangles;
   sheet.betti = core::sheet_topology(sheet.mesh).betti;

@@ -13,7 +13,7 @@ namespace {
 core::ChordSheetOptions options_for(const FinishedField& field, double threshold) {
   core::ChordSheetOptions options;
   options.context = field.context();
-  if (threshold != 0) options.pruning.significance = threshold;
+  if (threshold != 0) options.significance = threshold;
   return options;
 }
 
@@ -21,22 +21,15 @@ core::ChordSheet sheet_of(const FinishedField& field, const core::FrameField& in
   return core::chord_sheet(field.job().solid(), field.lattice(), in_frame, options_for(field, threshold));
 }
 
-core::Mesh mesh_of(const core::ChordSheet& sheet) {
-  core::Mesh mesh;
-  for (const core::ChordSheetVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
-  mesh.triangles = sheet.triangles;
-  return mesh;
-}
-
 // @param points the shocks, when they are the skeleton's points; null: the sheet's vertices are.
 v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
                                const core::ChordSheet& sheet, double threshold,
                                const std::vector<core::Vec3>* points, const SheetBarriers& barriers = {}) {
-  core::ChordPruningOptions pruning = options_for(field, threshold).pruning;
-  pruning.strong_turn = sheet.strong_turn;
-  const double next = core::next_threshold(pruning.significance);
+  const double significance = options_for(field, threshold).significance;
+  const double next = core::next_threshold(significance);
   core::SheetQualityOptions options;
-  options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, pruning);
+  options.advice_if_empty =
+      core::empty_sheet_advice(field.lattice(), sheet.census, significance, sheet.strong_turn);
   if (!barriers.advice.text.empty()) options.advice_if_empty = barriers.advice;
   options.points = points;
   core::Mesh other;
@@ -48,7 +41,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameFiel
   field.throw_if_stopped();
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
-  message.set_threshold(pruning.significance);
+  message.set_threshold(significance);
   if (!sheet.shocks.empty()) message.set_bridges(sheet.bridges);
   return message;
 }
@@ -80,7 +73,7 @@ v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams
   std::vector<core::Segment> none;
   const SheetBarriers barriers = take_barriers(field, params, sheet, none);
   v1::TriangleMesh message;
-  for (const core::ChordSheetVertex& vertex : sheet.vertices) {
+  for (const core::SheetVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
     message.add_strength(vertex.strength);

@@ -20,8 +20,8 @@ core::RidgeSheetOptions options_for(const FinishedField& field, double threshold
   options.context = field.context();
   if (threshold != 0) {
     // The two bounds keep their ratio.
-    options.rims.high *= threshold / options.rims.low;
-    options.rims.low = threshold;
+    options.bounds.high *= threshold / options.bounds.low;
+    options.bounds.low = threshold;
   }
   return options;
 }
@@ -30,9 +30,7 @@ core::RidgeSheetOptions options_for(const FinishedField& field, double threshold
 class Ridge {
  public:
   explicit Ridge(const FinishedField& field) : field_(field), in_frame_(field.in_frame()) {
-    core::SmoothedDerivativesOptions smoothing = core::RidgeSheetOptions().derivatives;
-    smoothing.context = field.context();
-    derivatives_ = core::smoothed_derivatives(field.lattice(), in_frame_, smoothing);
+    derivatives_ = core::smoothed_derivatives(field.lattice(), in_frame_, field.context());
   }
 
   const core::FrameField& in_frame() const { return in_frame_; }
@@ -49,16 +47,9 @@ class Ridge {
   std::vector<core::PointDerivatives> derivatives_;
 };
 
-core::Mesh mesh_of(const core::RidgeSheet& sheet) {
-  core::Mesh mesh;
-  for (const core::RidgeVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
-  mesh.triangles = sheet.triangles;
-  return mesh;
-}
-
 v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
                                double threshold, const SheetBarriers& barriers = {}) {
-  const core::RidgeRimOptions rims = options_for(field, threshold).rims;
+  const core::RidgeBounds rims = options_for(field, threshold).bounds;
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
   options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
@@ -87,7 +78,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
   const Ridge ridge(field);
   const core::RidgeSheet sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
-  for (const core::RidgeVertex& vertex : sheet.vertices) {
+  for (const core::SheetVertex& vertex : sheet.vertices) {
     message.add_point(vertex.point);
     append(field.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
@@ -105,7 +96,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   core::RidgeSheet sheet = ridge.sheet(threshold);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
-  for (const core::RidgeVertex& vertex : sheet.vertices) {
+  for (const core::SheetVertex& vertex : sheet.vertices) {
     append(field.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
     message.add_strength(vertex.strength);

@@ -17,6 +17,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/require.h"
+#include "core/base/unit.h"
 #include "core/erosion/join_tree.h"
 #include "core/erosion/place_chords.h"
 #include "core/mesh/geodesic_sphere.h"
@@ -30,10 +31,6 @@ std::uint32_t sphere_frequency(std::uint32_t directions) {
   return f;
 }
 
-Vec3 unit(const Vec3& v) {
-  return (1 / norm(v)) * v;
-}
-
 // The directions: neighbours, and where they point.
 class Sphere {
  public:
@@ -42,7 +39,7 @@ class Sphere {
 
   std::size_t size() const { return even_.size(); }
   const Vec3& operator[](std::size_t i) const { return mesh_normals_[i]; }
-  const NeighbourGraph& graph() const { return graph_; }
+  const Adjacency& graph() const { return graph_; }
 
   // The direction nearest to a normal of the mesh, in the frame, where the sphere is even.
   std::uint32_t nearest(const Vec3& normal) const {
@@ -55,7 +52,8 @@ class Sphere {
   }
 
  private:
-  Sphere(const Mesh& sphere, const Matrix3& frame) : frame_(frame), even_(sphere.points), graph_(sphere) {
+  Sphere(const Mesh& sphere, const Matrix3& frame)
+      : frame_(frame), even_(sphere.points), graph_(neighbours(sphere.points.size(), sphere.triangles)) {
     mesh_normals_ = even_;
     if (frame == kIdentity3) return;
     const Matrix3 map = inverse_transposed(frame);
@@ -64,7 +62,7 @@ class Sphere {
 
   Matrix3 frame_;
   std::vector<Vec3> even_, mesh_normals_;
-  NeighbourGraph graph_;
+  Adjacency graph_;
 };
 
 class Barriers {
@@ -128,7 +126,7 @@ class Barriers {
       const SheetPlace& at = owner_.places_[place];
       if (!owner_.chords_.inside(place) || at.normal_a == Vec3{} || at.normal_b == Vec3{}) return 0;
       for (std::size_t d = 0; d < f_.size(); ++d) f_[d] = owner_.rows_[d * count + column];
-      const NeighbourGraph& graph = owner_.sphere_.graph();
+      const Adjacency& graph = owner_.sphere_.graph();
       const std::uint32_t a = minimum_below(graph, f_, owner_.sphere_.nearest(at.normal_a)),
                           b = minimum_below(graph, f_, owner_.sphere_.nearest(at.normal_b));
       const double low = static_cast<double>(std::max(f_[a], f_[b]));

@@ -4,36 +4,20 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/mesh.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
-
-/// A triangulated surface as a graph: vertices are neighbours when a triangle has both.
-class NeighbourGraph {
- public:
-  explicit NeighbourGraph(const Mesh& mesh);
-
-  std::size_t size() const { return first_.size() - 1; }
-
-  /// The neighbours of a vertex, ascending.
-  std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-    return {neighbours_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
-  }
-
- private:
-  std::vector<std::uint32_t> first_, neighbours_;
-};
 
 /// The minimum that steepest descent reaches: from a vertex to its least neighbour and on, while that is less
 /// (by value, then by index).
 /// @param values one per vertex of the graph, not NaN.
-std::uint32_t minimum_below(const NeighbourGraph& graph, std::span<const float> values, std::uint32_t from);
+std::uint32_t minimum_below(const Adjacency& graph, std::span<const float> values, std::uint32_t from);
 
 /// Minimax paths on a graph, one after the other, reusing their memory.  One per thread.
 class LowestPass {
  public:
   /// @param graph connected; must outlive this.
-  explicit LowestPass(const NeighbourGraph& graph) : graph_(graph), seen_(graph.size(), 0) {}
+  explicit LowestPass(const Adjacency& graph) : graph_(graph), seen_(graph.size(), 0) {}
 
   /// The level of the lowest pass: the least, over all paths from one vertex to another, of the greatest
   /// value on the path, both ends included.  By flooding from `from`, always over the lowest vertex of the
@@ -50,7 +34,7 @@ class LowestPass {
   void reach(std::span<const float> values, std::uint32_t vertex);
   Place lowest_of_shore();
 
-  const NeighbourGraph& graph_;
+  const Adjacency& graph_;
   std::vector<std::uint32_t> seen_;  // per vertex: the flood that reached it last
   std::vector<Place> shore_;         // a heap, the lowest first
   std::uint32_t flood_ = 0;

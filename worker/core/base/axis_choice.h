@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/matrix3.h"
+#include "core/base/unit.h"
 
 namespace affskel::core {
 
@@ -12,11 +13,6 @@ namespace affskel::core {
 
 /// Values that differ by less than this share of the largest count as equal, smaller ones as 0.
 inline constexpr double kAxisTie = 1e-6;
-
-/// v / |v|; v is not 0.
-inline Vec3 unit(const Vec3& v) {
-  return (1 / norm(v)) * v;
-}
 
 /// Gram and Schmidt's: the first column keeps its direction, the second its plane with the first, and the
 /// third makes them right-handed.  The first two are not parallel.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/erosion/edge_value.h"
 
 namespace affskel::core {

@@ -1,6 +1,5 @@
-// Step 3 of chord_pruning.h joins pieces by shortest paths from all pieces at once, then a least spanning
-// tree of the pieces (Mehlhorn 1988).  A shock costs 1 / (r w): 1 for opposite normals, 4 at 60 degrees, 100
-// and more between two facets.
+// Step 3 of chord_pruning.h joins pieces as cheapest_ways.h tells.  A shock costs 1 / (r w): 1 for opposite
+// normals, 4 at 60 degrees, 100 and more between two facets.
 //
 // Step 4 fills a hole only where the rim shrinks: without that rule, a sheet that goes from one layer of
 // cells to the next fills up with the facets in between.
@@ -12,10 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <queue>
 #include <utility>
 
+#include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
 #include "core/chords/chord_edge.h"
@@ -24,8 +22,6 @@
 
 namespace affskel::core {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 double weight(const ChordShock& shock) {
   return squares_of(shock) * shock.strength * shock.turn;
@@ -36,98 +32,78 @@ double cost(const ChordShock& shock) {
 }
 
 // The cheapest path from every cell to a piece, and the paths between pieces that follow from them.  A piece
-// is named by one of its shocks.
+// is named by one of its shocks.  A step of a path is named by 4 s + n: through shock s, from the n-th cell
+// round its edge.
 class Paths {
  public:
   struct Path {
     double cost;
     std::uint32_t shock, a, b;  // crosses from cell a through the shock to cell b
+    friend bool operator<(const Path& p, const Path& q) { return p.cost < q.cost; }
   };
 
-  // piece: per cell, kNone where there is none.
+  // piece: per cell, kNoNode where there is none.
   Paths(const std::vector<ChordShock>& shocks, const EdgeCells& cells, std::vector<std::uint32_t> piece)
-      : shocks_(shocks),
-        cells_(cells),
-        piece_(std::move(piece)),
-        through_(cells.size(), kNone),
-        from_(cells.size(), kNone),
-        distance_(cells.size(), std::numeric_limits<double>::infinity()) {
-    spread();
+      : shocks_(shocks), cells_(cells), ways_(std::move(piece)) {
+    ways_.find([&](std::uint32_t cell, const auto& go) {
+      for (const std::uint32_t s : cells.edges_of(cell)) {
+        const auto& ring = cells.ring[s];
+        const auto n = static_cast<std::uint32_t>(std::find(ring.begin(), ring.end(), cell) - ring.begin());
+        for (const std::uint32_t next : ring) go(next, cost(shocks[s]), 4 * s + n);
+      }
+    });
   }
 
-  std::uint32_t piece(std::uint32_t cell) const { return piece_[cell]; }
+  std::uint32_t piece(std::uint32_t cell) const { return ways_.source[cell]; }
 
-  // Between different pieces, cheapest first.
-  std::vector<Path> list() const {
+  // Joins pieces by the cheapest paths that take(path) takes.
+  template <class Take>
+  void join(DisjointSets& pieces, const Take& take) const {
     std::vector<Path> paths;
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       for (std::uint32_t a : cells_.ring[s]) {
         for (std::uint32_t b : cells_.ring[s]) {
-          if (a >= b || piece_[a] == kNone || piece_[b] == kNone || piece_[a] == piece_[b]) continue;
-          paths.push_back({distance_[a] + cost(shocks_[s]) + distance_[b], s, a, b});
+          if (a < b && piece(a) != kNoNode && piece(b) != kNoNode && piece(a) != piece(b))
+            paths.push_back({ways_.cost[a] + cost(shocks_[s]) + ways_.cost[b], s, a, b});
         }
       }
     }
-    std::stable_sort(paths.begin(), paths.end(),
-                     [](const Path& p, const Path& q) { return p.cost < q.cost; });
-    return paths;
+    const auto ends = [&](const Path& path) { return std::pair{piece(path.a), piece(path.b)}; };
+    take_cheapest(std::move(paths), pieces, ends, take);
   }
 
   // All shocks on a path, from piece to piece.
   template <class Visit>
   void for_each_shock(const Path& path, Visit visit) const {
     visit(path.shock);
-    for (std::uint32_t end : {path.a, path.b}) {
-      for (std::uint32_t cell = end; through_[cell] != kNone; cell = from_[cell]) visit(through_[cell]);
-    }
-  }
-
- private:
-  void spread() {
-    using Item = std::pair<double, std::uint32_t>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
-    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
-      if (piece_[cell] == kNone) continue;
-      distance_[cell] = 0;
-      front.push({0, cell});
-    }
-    while (!front.empty()) {
-      const auto [distance, cell] = front.top();
-      front.pop();
-      if (distance > distance_[cell]) continue;
-      for (std::uint32_t s : cells_.edges_of(cell)) {
-        const double there = distance + cost(shocks_[s]);
-        for (std::uint32_t next : cells_.ring[s]) {
-          if (!(there < distance_[next])) continue;
-          distance_[next] = there;
-          through_[next] = s;
-          from_[next] = cell;
-          piece_[next] = piece_[cell];
-          front.push({there, next});
-        }
+    for (const std::uint32_t end : {path.a, path.b}) {
+      for (std::uint32_t step = ways_.step[end]; step != kNoNode;) {
+        visit(step / 4);
+        step = ways_.step[cells_.ring[step / 4][step % 4]];
       }
     }
   }
 
+ private:
   const std::vector<ChordShock>& shocks_;
   const EdgeCells& cells_;
-  std::vector<std::uint32_t> piece_, through_, from_;
-  std::vector<double> distance_;
+  CheapestWays ways_;
 };
 
 class Pruning {
  public:
   Pruning(const Lattice& lattice, const SolidParts& parts, const std::vector<ChordShock>& shocks,
-          const ChordPruningOptions& options)
+          double significance, const ChordConstants& constants)
       : parts_(parts),
         shocks_(shocks),
-        options_(options),
+        significance_(significance),
+        constants_(constants),
         cells_(edge_cells(lattice, parts, lattice_edges(shocks))),
         pieces_(shocks.size()),
-        owner_(shocks.size(), kNone) {
+        owner_(shocks.size(), kNoNode) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
     for (std::uint32_t p = 0; p < parts.count(); ++p) {
-      min_erosion_.push_back(options.min_erosion * (parts.points(p) * cell));
+      min_erosion_.push_back(constants.min_erosion * (parts.points(p) * cell));
     }
   }
 
@@ -147,7 +123,7 @@ class Pruning {
  private:
   std::uint32_t part(std::uint32_t s) const { return cells_.part[cells_.ring[s][0]]; }
 
-  bool wide(std::uint32_t s) const { return shocks_[s].turn >= options_.strong_turn; }
+  bool wide(std::uint32_t s) const { return shocks_[s].turn >= constants_.strong_turn; }
 
   bool strong(std::uint32_t s) const { return wide(s) && shocks_[s].erosion >= min_erosion_[part(s)]; }
 
@@ -163,24 +139,24 @@ class Pruning {
 
   void join_touching() {
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
-      std::uint32_t first = kNone;
+      std::uint32_t first = kNoNode;
       for (std::uint32_t s : cells_.edges_of(cell)) {
         if (!strong(s)) continue;
-        if (first == kNone) first = s;
+        if (first == kNoNode) first = s;
         pieces_.unite(first, s);
       }
     }
   }
 
-  bool kept(std::uint32_t s) const { return owner_[s] != kNone; }
+  bool kept(std::uint32_t s) const { return owner_[s] != kNoNode; }
 
-  // Per cell the piece of its shocks; piece_of gives a shock's piece or kNone.
+  // Per cell the piece of its shocks; piece_of gives a shock's piece or kNoNode.
   template <class PieceOf>
   std::vector<std::uint32_t> pieces_by_cell(PieceOf piece_of) {
-    std::vector<std::uint32_t> piece(cells_.size(), kNone);
+    std::vector<std::uint32_t> piece(cells_.size(), kNoNode);
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       const std::uint32_t p = piece_of(s);
-      if (p == kNone) continue;
+      if (p == kNoNode) continue;
       for (std::uint32_t cell : cells_.ring[s]) piece[cell] = p;
     }
     return piece;
@@ -188,12 +164,13 @@ class Pruning {
 
   void keep_significant() {
     const Paths paths(shocks_, cells_,
-                      pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNone; }));
+                      pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNoNode; }));
     std::vector<Paths::Path> used;
-    for (const Paths::Path& path : paths.list()) {
-      if (path.cost > options_.near_cost) break;
-      if (pieces_.unite(paths.piece(path.a), paths.piece(path.b))) used.push_back(path);
-    }
+    paths.join(pieces_, [&](const Paths::Path& path) {
+      if (path.cost > constants_.near_cost) return false;
+      used.push_back(path);
+      return true;
+    });
     std::vector<double> mass(shocks_.size(), 0), whole(min_erosion_.size(), 0);
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!strong(s)) continue;
@@ -201,7 +178,7 @@ class Pruning {
       whole[part(s)] += weight(shocks_[s]);
     }
     const auto significant = [&](std::uint32_t s) {
-      return mass[pieces_.find(s)] >= options_.significance * whole[part(s)];
+      return mass[pieces_.find(s)] >= significance_ * whole[part(s)];
     };
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (!strong(s)) continue;
@@ -225,11 +202,11 @@ class Pruning {
 
   void join_kept() {
     const Paths paths(shocks_, cells_, pieces_by_cell([&](std::uint32_t s) { return owner_[s]; }));
-    for (const Paths::Path& path : paths.list()) {
-      if (!pieces_.unite(paths.piece(path.a), paths.piece(path.b))) continue;
+    paths.join(pieces_, [&](const Paths::Path& path) {
       ++result_.bridges;
       keep_path(paths, path);
-    }
+      return true;
+    });
   }
 
   // Adds all shocks at once, so that their order does not matter; returns whether there were any.
@@ -266,10 +243,11 @@ class Pruning {
 
   const SolidParts& parts_;
   const std::vector<ChordShock>& shocks_;
-  const ChordPruningOptions& options_;
+  double significance_;
+  const ChordConstants& constants_;
   const EdgeCells cells_;
   DisjointSets pieces_;               // of shocks; the least member stands for its piece
-  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNone if dropped
+  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNoNode if dropped
   std::vector<double> min_erosion_;   // per part
   SignificantShocks result_;
 };
@@ -277,14 +255,10 @@ class Pruning {
 }  // namespace
 
 SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,
-                                     const std::vector<ChordShock>& candidates,
-                                     const ChordPruningOptions& options) {
-  require_within(options.significance, 0, 1, "the significance must lie between 0 and 1");
-  require_within(options.strong_turn, 0, 1, "the turn of strong shocks must lie between 0 and 1");
-  require_within(options.min_erosion, 0, 1,
-                 "the least erosion must be a share of the volume between 0 and 1");
-  require_within(options.near_cost, 0, std::numeric_limits<double>::max(), "the cost must be a number >= 0");
-  return Pruning(lattice, parts, candidates, options).run();
+                                     const std::vector<ChordShock>& candidates, double significance,
+                                     const ChordConstants& constants) {
+  require_within(significance, 0, 1, "the significance must lie between 0 and 1");
+  return Pruning(lattice, parts, candidates, significance, constants).run();
 }
 
 }  // namespace affskel::core

@@ -12,19 +12,7 @@ namespace affskel::core {
 // Notation.  N = (g_x - g_y) / |g_x - g_y| is the sheet's normal at a shock, whose lattice edge, along axis
 // a, stands for |N_a| squares of the lattice.  The weight of a shock is |N_a| r w, with r its relative
 // strength and w its turn (see measure_turns).  Two shocks touch when their edges bound a common cell.  A
-// path through a shock costs 1 / (r w).  Reasons of the constants: README.md in worker/core.
-
-struct ChordPruningOptions {
-  /// Pieces of the sheet with less than this share of the weight in their part of the solid are dropped, 0 ..
-  /// 1.  0 keeps all strong shocks (where 0 stands for the default, take 1e-9), 1 only a piece that is alone.
-  double significance = 0.005;
-  /// Least turn of a strong shock, 0 .. 1; 1/2 is a right angle between the normals on its two sides.
-  double strong_turn = 0.49;
-  /// Least E of a strong shock, as a share of the volume of the sample points' cells in its part, 0 .. 1.
-  double min_erosion = 0.001;
-  /// Pieces that a path through weaker shocks joins at no greater cost are weighed as one, >= 0.
-  double near_cost = 40;
-};
+// path through a shock costs 1 / (r w).
 
 /// Counts of the candidates, to tell why nothing may be left.
 struct ShockCensus {
@@ -53,10 +41,12 @@ struct SignificantShocks {
 /// it would keep alone.  O(n log n) for n candidates.
 /// @param parts of the solid in this lattice.
 /// @param candidates of this lattice, strong and weak, by (point, axis), their turns measured.
-/// @throws CoreError kBadInput when an option is not finite or out of range; kLimit for 2^30 candidates and
-///   more.
+/// @param significance pieces of the sheet with less than this share of the weight in their part of the solid
+///   are dropped, 0 .. 1.  0 keeps all strong shocks (where 0 stands for the default, take 1e-9), 1 only a
+///   piece that is alone.
+/// @throws CoreError kBadInput when the significance is out of range; kLimit for 2^30 candidates and more.
 SignificantShocks significant_shocks(const Lattice& lattice, const SolidParts& parts,
-                                     const std::vector<ChordShock>& candidates,
-                                     const ChordPruningOptions& options = {});
+                                     const std::vector<ChordShock>& candidates, double significance,
+                                     const ChordConstants& constants = {});
 
 }  // namespace affskel::core

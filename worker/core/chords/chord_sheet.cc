@@ -7,23 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/base/matrix3.h"
-#include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/chords/chord_pinholes.h"
+#include "core/chords/chord_turns.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/solid_parts.h"
 
 namespace affskel::core {
 namespace {
-
-Vec3 unit(const Vec3& v) {
-  const Vec3 near = scaled_to_unit(v);
-  const double length = norm(near);
-  return length > 0 ? (1 / length) * near : Vec3{};
-}
 
 // What a vertex tells of the shocks in its cell.
 class VertexValues {
@@ -31,21 +24,21 @@ class VertexValues {
   VertexValues(const Lattice& lattice, const std::vector<ChordShock>& shocks)
       : shocks_(shocks), to_mesh_(inverse_transposed(frame_matrix(lattice))) {}
 
-  ChordSheetVertex at(const Vec3& position, std::span<const std::uint32_t> members) const {
+  SheetVertex at(const Vec3& position, std::span<const std::uint32_t> members) const {
     const ChordShock& first = shocks_[members[0]];
     const Vec3 reference = first.gradient_low - first.gradient_high;
     const double share = 1 / static_cast<double>(members.size());
-    ChordSheetVertex v;
-    v.position = position;
+    SheetVertex v;
     for (std::uint32_t s : members) {
       const ChordShock& shock = shocks_[s];
       const bool turned = dot(shock.gradient_low - shock.gradient_high, reference) < 0;
       // Along the sheet both branches change equally, so their mean gradient leads from the shock to the
       // vertex.
       const Vec3 slope = 0.5 * (shock.gradient_low + shock.gradient_high);
-      v.erosion += share * (shock.erosion + dot(slope, v.position - shock.position));
+      v.erosion += share * (shock.erosion + dot(slope, position - shock.position));
       v.strength += share * shock.strength;
-      v.area += share * 0.5 * (area(shock.gradient_low) + area(shock.gradient_high));
+      v.area += share * 0.5 *
+                (section_area(to_mesh_, shock.gradient_low) + section_area(to_mesh_, shock.gradient_high));
       v.normal_a = v.normal_a + unit(turned ? shock.gradient_high : shock.gradient_low);
       v.normal_b = v.normal_b + unit(turned ? shock.gradient_low : shock.gradient_high);
     }
@@ -57,11 +50,6 @@ class VertexValues {
   }
 
  private:
-  // |grad_x E| = |F^-T g| for a gradient g in the frame: the area of the section.
-  double area(const Vec3& g) const {
-    return std::ldexp(norm(to_mesh_ * scaled_to_unit(g)), largest_exponent(g));
-  }
-
   const std::vector<ChordShock>& shocks_;
   Matrix3 to_mesh_;  // F^-T
 };
@@ -73,13 +61,13 @@ void contour(const Lattice& lattice, const SolidParts& parts, const ChordSheetOp
   for (const ChordShock& shock : sheet.shocks) {
     crossings.push_back({edge_of(shock), shock.position, unit(shock.gradient_low - shock.gradient_high)});
   }
-  DualContour found = dual_contour(lattice, parts, crossings, {options.regularisation, options.context});
   const VertexValues values(lattice, sheet.shocks);
-  sheet.vertices.reserve(found.vertices.size());
-  for (std::uint32_t cell = 0; cell < found.cells.size(); ++cell) {
-    sheet.vertices.push_back(values.at(found.vertices[cell], found.cells.edges_of(cell)));
-  }
-  sheet.triangles = std::move(found.triangles);
+  static_cast<SheetMesh&>(sheet) = dual_contour(
+      lattice, parts, crossings,
+      [&](const Vec3& position, std::span<const std::uint32_t> members) {
+        return values.at(position, members);
+      },
+      options.context);
 }
 
 void close_pinholes(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
@@ -95,39 +83,32 @@ void close_pinholes(const Lattice& lattice, const SolidParts& parts, const Frame
 }
 
 // In a frame that stretches a flat solid, no turn may be as wide as that of a strong shock.
-double strong_turn(const std::vector<ChordShock>& shocks, const ChordSheetOptions& options) {
+double strong_turn(const std::vector<ChordShock>& shocks, const ChordConstants& constants) {
   double max_turn = 0;
   for (const ChordShock& shock : shocks) max_turn = std::max(max_turn, shock.turn);
-  return std::min(options.pruning.strong_turn,
-                  std::max(options.min_strong_turn, options.strong_share * max_turn));
+  return std::min(constants.strong_turn,
+                  std::max(constants.min_strong_turn, constants.strong_share * max_turn));
 }
 
 }  // namespace
 
 ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const ChordSheetOptions& options) {
-  for (const double share : {options.strong_share, options.min_strong_turn})
-    require_within(share, 0, 1, "the shares of strong turns must lie between 0 and 1");
-  if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
-    throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
-  }
   const SolidParts parts(solid, lattice);
-  std::vector<ChordShock> candidates = chord_shocks(lattice, field, options.shocks);
+  std::vector<ChordShock> candidates = chord_shocks(lattice, field);
   throw_if_stopped(options.context);
-  ChordTurnOptions turns = options.turns;
-  turns.context = options.context;
-  measure_turns(lattice, parts, field, candidates, turns);
+  measure_turns(lattice, parts, field, candidates, options.context);
   throw_if_stopped(options.context);
-  ChordPruningOptions pruning = options.pruning;
-  pruning.strong_turn = strong_turn(candidates, options);
-  SignificantShocks kept = significant_shocks(lattice, parts, candidates, pruning);
+  ChordConstants constants;
+  constants.strong_turn = strong_turn(candidates, constants);
+  SignificantShocks kept = significant_shocks(lattice, parts, candidates, options.significance, constants);
   ChordSheet sheet;
   sheet.shocks = std::move(kept.shocks);
   throw_if_stopped(options.context);
   close_pinholes(lattice, parts, field, sheet.shocks);
   sheet.pieces = std::move(kept.pieces);
   sheet.bridges = kept.bridges;
-  sheet.strong_turn = pruning.strong_turn;
+  sheet.strong_turn = constants.strong_turn;
   sheet.census = kept.census;
   contour(lattice, parts, options, sheet);
   return sheet;

@@ -10,11 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/erosion/field.h"
 
@@ -23,8 +21,8 @@ namespace {
 
 class ShockFinder {
  public:
-  ShockFinder(const Lattice& lattice, const FrameField& field, const ChordShockOptions& options)
-      : lattice_(lattice), field_(field), options_(options) {}
+  ShockFinder(const Lattice& lattice, const FrameField& field, const ChordConstants& constants)
+      : lattice_(lattice), field_(field), constants_(constants) {}
 
   std::vector<ChordShock> run() {
     for_each_edge(lattice_, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
@@ -44,8 +42,8 @@ class ShockFinder {
     }
     ChordShock shock = tangents_on_edge(field_, x, y, axis, place);
     if (!(shock.strength > 0)) return {};
-    if (!(shock.strength >= options_.min_strength && shock.opening >= options_.min_opening)) return {};
-    if (!(shock.t >= -options_.slack && shock.t <= 1 + options_.slack)) return {};
+    if (!(shock.strength >= constants_.min_strength && shock.opening >= constants_.min_opening)) return {};
+    if (!(shock.t >= -constants_.slack && shock.t <= 1 + constants_.slack)) return {};
     clamp_to_edge(field_, shock);
     shock.turn = shock.opening;
     return shock;
@@ -53,19 +51,15 @@ class ShockFinder {
 
   const Lattice& lattice_;
   const FrameField& field_;
-  const ChordShockOptions& options_;
+  const ChordConstants& constants_;
   std::vector<ChordShock> shocks_;
 };
 
 }  // namespace
 
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
-                                     const ChordShockOptions& options) {
-  require_within(options.min_strength, 0, 1, "the least strength of a shock must lie between 0 and 1");
-  require_within(options.min_opening, 0, 1, "the least opening of a shock must lie between 0 and 1");
-  require_within(options.slack, 0, std::numeric_limits<double>::max(),
-                 "the slack of a crossing must be a finite number >= 0");
-  return ShockFinder(lattice, field, options).run();
+                                     const ChordConstants& constants) {
+  return ShockFinder(lattice, field, constants).run();
 }
 
 double squares_of(const ChordShock& shock) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/vec3.h"
+#include "core/chords/chord_constants.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 
@@ -13,16 +14,6 @@ namespace affskel::core {
 // Notation.  x and y are the ends of a lattice edge, delta = y - x, g_x and g_y the gradients of E there, in
 // the coordinates of the lattice's frame (see frame_field.h).  The tangents of E at x and y cross at
 // x + t delta,  t = (E_y - E_x - g_y.delta) / s,  with the kink  s = (g_x - g_y).delta.
-// Reasons of the constants: README.md in worker/core.
-
-struct ChordShockOptions {
-  /// Least relative strength r = s / (|g_x.delta| + |g_y.delta|), 0 .. 1.
-  double min_strength = 0.05;
-  /// Least opening o = (1 - n_x.n_y) / 2 of the two normals, 0 (equal) .. 1 (opposite).
-  double min_opening = 0.005;
-  /// How far outside [0, 1] t may lie, in edges, >= 0; t is then moved to the nearer end.
-  double slack = 0.25;
-};
 
 /// A point where two equal chords meet, on a lattice edge.
 struct ChordShock {
@@ -46,9 +37,8 @@ struct ChordShock {
 /// E, t, s and r are affinely invariant.  The opening is so only where the frame's metric goes along with the
 /// map, as in the frame `affine`.
 /// @param field of this lattice.
-/// @throws CoreError kBadInput when an option is not finite or out of range.
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
-                                     const ChordShockOptions& options = {});
+                                     const ChordConstants& constants = {});
 
 /// The area of the sheet that the shock's edge stands for, in lattice squares: |N_a|.
 double squares_of(const ChordShock& shock);

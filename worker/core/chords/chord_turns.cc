@@ -1,7 +1,7 @@
 // How turns are measured.
 // 1. The shocks on a lattice line within q = (width d / h - 1) / 2 edges (rounded) of each other have one
-//    peak: the one with the largest kink s (the first of equal ones), provided that it has the options'
-//    least values.
+//    peak: the one with the largest kink s (the first of equal ones), provided that it has the least
+//    values.
 // 2. The turn of a peak is the opening between the places q edges beyond both of its ends, but no further
 //    than the line stays in the solid, and at least its own opening.  Between sample points normals are
 //    interpolated.  All other shocks keep their own opening.
@@ -27,12 +27,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "core/base/error.h"
-#include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/contour/edge_cells.h"
 
@@ -40,7 +37,6 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-constexpr std::uint32_t kMaxRounds = 16;
 // Edges to either side of a peak's own.  A wider band belongs to a depth of 184 spacings, as in a body of a
 // billion sample points, or to chords through a neck, whose volume is mostly far away.
 constexpr double kMaxReach = 64;
@@ -51,12 +47,13 @@ constexpr double kMaxGain = 2;
 class TurnGauge {
  public:
   TurnGauge(const Lattice& lattice, const FrameField& field, const EdgeCells& cells,
-            std::vector<ChordShock>& shocks, const ChordTurnOptions& options)
+            std::vector<ChordShock>& shocks, ExecutionContext* context, const ChordConstants& constants)
       : lattice_(lattice),
         field_(field),
         cells_(cells),
         shocks_(shocks),
-        options_(options),
+        context_(context),
+        constants_(constants),
         is_peak_(shocks.size(), false) {}
 
   void measure() {
@@ -89,13 +86,11 @@ class TurnGauge {
   }
 
  private:
-  static double length(const Vec3& v) { return std::ldexp(norm(scaled_to_unit(v)), largest_exponent(v)); }
-
   // q, in edges.
   double reach_of(const ChordShock& shock) const {
-    const double area = 0.5 * length(shock.gradient_low) + 0.5 * length(shock.gradient_high);
+    const double area = 0.5 * length_of(shock.gradient_low) + 0.5 * length_of(shock.gradient_high);
     const double depth = shock.erosion / area / field_.spacing;
-    return std::clamp(0.5 * (options_.width * depth - 1), 0.0, kMaxReach);
+    return std::clamp(0.5 * (constants_.width * depth - 1), 0.0, kMaxReach);
   }
 
   std::uint32_t rounded_reach(std::uint32_t s) const { return static_cast<std::uint32_t>(reach_[s] + 0.5); }
@@ -110,7 +105,7 @@ class TurnGauge {
     }
     largest_.resize(shocks_.size());
     for (std::uint32_t step = 0;; ++step) {
-      throw_if_stopped(options_.context);
+      throw_if_stopped(context_);
       for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
         if (rounded_reach(s) >= step) largest_[s] = largest_round(by_cell, s);
       }
@@ -130,9 +125,9 @@ class TurnGauge {
     return std::max({by_cell[a], by_cell[b], by_cell[c], by_cell[d]});
   }
 
-  double jump(std::uint32_t s) const { return length(shocks_[s].gradient_low - shocks_[s].gradient_high); }
+  double jump(std::uint32_t s) const { return length_of(shocks_[s].gradient_low - shocks_[s].gradient_high); }
 
-  bool is_among_largest(std::uint32_t s) const { return jump(s) >= options_.min_share * largest_[s]; }
+  bool is_among_largest(std::uint32_t s) const { return jump(s) >= constants_.min_share * largest_[s]; }
 
   // Measures along all stretches of an axis: a line of sample points, and the shock on each edge of it.
   void walk(std::uint8_t axis) {
@@ -154,7 +149,7 @@ class TurnGauge {
 
   void gauge(std::uint32_t n) {
     const std::uint32_t s = on_line_[n];
-    if (s == kNone || shocks_[s].strength < options_.min_strength || !has_largest_kink(n) ||
+    if (s == kNone || shocks_[s].strength < constants_.min_peak_strength || !has_largest_kink(n) ||
         !is_concentrated(n) || !is_among_largest(s))
       return;
     is_peak_[s] = true;
@@ -181,7 +176,7 @@ class TurnGauge {
     const std::uint32_t s = on_line_[n];
     const int axis = shocks_[s].axis;
     const auto& [low, high] = ends_of_band(n, rounded_reach(s));
-    return kink(s) >= options_.min_concentration * (low[axis] - high[axis]);
+    return kink(s) >= constants_.min_concentration * (low[axis] - high[axis]);
   }
 
   bool has_largest_kink(std::uint32_t n) const {
@@ -206,7 +201,8 @@ class TurnGauge {
   const FrameField& field_;
   const EdgeCells& cells_;
   std::vector<ChordShock>& shocks_;
-  const ChordTurnOptions& options_;
+  ExecutionContext* context_;
+  const ChordConstants& constants_;
   std::vector<bool> is_peak_;                  // per shock
   std::vector<double> reach_;                  // per shock: q
   std::vector<double> largest_;                // per shock, see find_largest_jumps
@@ -216,19 +212,12 @@ class TurnGauge {
 }  // namespace
 
 void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
-                   std::vector<ChordShock>& shocks, const ChordTurnOptions& options) {
-  if (options.rounds > kMaxRounds) {
-    throw CoreError(CoreError::Code::kBadInput, "the rounds of averaging turns must lie between 0 and 16");
-  }
-  require_within(options.width, 0, std::numeric_limits<double>::max(),
-                 "the width of the band must be a finite number >= 0");
-  require_within(options.min_share, 0, 1, "the least share of the jump must lie between 0 and 1");
-  require_within(options.min_concentration, 0, 1, "the least concentration must lie between 0 and 1");
-  require_within(options.min_strength, 0, 1, "the least strength must lie between 0 and 1");
+                   std::vector<ChordShock>& shocks, ExecutionContext* context,
+                   const ChordConstants& constants) {
   const EdgeCells cells = edge_cells(lattice, parts, lattice_edges(shocks));
-  TurnGauge gauge(lattice, field, cells, shocks, options);
+  TurnGauge gauge(lattice, field, cells, shocks, context, constants);
   gauge.measure();
-  for (std::uint32_t round = 0; round < options.rounds; ++round) gauge.average();
+  for (std::uint32_t round = 0; round < constants.rounds; ++round) gauge.average();
 }
 
 }  // namespace affskel::core

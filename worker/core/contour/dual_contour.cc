@@ -9,8 +9,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/error.h"
-#include "core/base/scaled_to_unit.h"
+#include "core/base/matrix3.h"
+#include "core/base/unit.h"
+#include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/layer_index.h"
 #include "core/solid/solid_membership.h"
@@ -18,18 +19,16 @@
 namespace affskel::core {
 namespace {
 
+// Pull of the crossings' mean on a vertex, against 1 for all tangent planes together: enough to place a
+// vertex along a sheet whose planes agree, little beside the planes themselves.
+constexpr double kRegularisation = 0.05;
+
 // Rows of a symmetric positive definite matrix.
-using Matrix = std::array<Vec3, 3>;
+using Matrix = Matrix3;
 
 Vec3 solve(const Matrix& m, const Vec3& b) {
   const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
   return (1 / dot(m[0], c0)) * (b.x * c0 + (b.y * c1 + b.z * c2));
-}
-
-Vec3 unit(const Vec3& v) {
-  const Vec3 near = scaled_to_unit(v);
-  const double length = norm(near);
-  return length > 0 ? (1 / length) * near : Vec3{};
 }
 
 // Which places of the frame lie inside the parts of a solid.
@@ -53,12 +52,11 @@ class PartInterior {
 class Contouring {
  public:
   Contouring(const Lattice& lattice, const SolidParts& parts, std::span<const SheetCrossing> crossings,
-             const EdgeCells& cells, double regularisation)
+             const EdgeCells& cells)
       : spacing_(lattice.spacing),
         parts_(parts),
         crossings_(crossings),
         cells_(cells),
-        regularisation_(regularisation),
         ranks_(lattice),
         interior_(parts, lattice) {}
 
@@ -80,7 +78,7 @@ class Contouring {
     const Vec3& reference = crossings_[members[0]].normal;
     const double share = 1 / static_cast<double>(members.size());
     Vec3 mean, normal;
-    Matrix m{Vec3{regularisation_, 0, 0}, Vec3{0, regularisation_, 0}, Vec3{0, 0, regularisation_}};
+    Matrix m = kRegularisation * kIdentity3;
     for (std::uint32_t s : members) {
       mean = mean + share * crossings_[s].position;
       const Vec3 n = dot(crossings_[s].normal, reference) < 0 ? -crossings_[s].normal : crossings_[s].normal;
@@ -133,14 +131,13 @@ class Contouring {
   const SolidParts& parts_;
   std::span<const SheetCrossing> crossings_;
   const EdgeCells& cells_;
-  double regularisation_;
   LayerIndex ranks_;
   PartInterior interior_;
 };
 
-void add_quad(const std::array<std::uint32_t, 4>& ring, DualContour& sheet) {
+void add_quad(const std::array<std::uint32_t, 4>& ring, const std::vector<Vec3>& places, SheetMesh& sheet) {
   const auto [a, b, c, d] = ring;
-  const Vec3 ac = sheet.vertices[a] - sheet.vertices[c], bd = sheet.vertices[b] - sheet.vertices[d];
+  const Vec3 ac = places[a] - places[c], bd = places[b] - places[d];
   if (dot(ac, ac) <= dot(bd, bd)) {
     sheet.triangles.push_back({a, b, c});
     sheet.triangles.push_back({a, c, d});
@@ -152,20 +149,23 @@ void add_quad(const std::array<std::uint32_t, 4>& ring, DualContour& sheet) {
 
 }  // namespace
 
-DualContour dual_contour(const Lattice& lattice, const SolidParts& parts,
-                         std::span<const SheetCrossing> crossings, const DualContourOptions& options) {
-  if (!(options.regularisation > 0) || !std::isfinite(options.regularisation)) {
-    throw CoreError(CoreError::Code::kBadInput, "the regularisation must be a finite number > 0");
-  }
+SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts,
+                       std::span<const SheetCrossing> crossings, const VertexOfCell& vertex_of,
+                       ExecutionContext* context) {
   std::vector<LatticeEdge> edges;
   edges.reserve(crossings.size());
   for (const SheetCrossing& crossing : crossings) edges.push_back(crossing.edge);
-  DualContour sheet;
-  sheet.cells = edge_cells(lattice, parts, edges);
-  sheet.vertices =
-      Contouring(lattice, parts, crossings, sheet.cells, options.regularisation).vertices(options.context);
+  EdgeCells cells = edge_cells(lattice, parts, edges);
+  const std::vector<Vec3> places = Contouring(lattice, parts, crossings, cells).vertices(context);
+  SheetMesh sheet;
+  sheet.vertices.reserve(places.size());
+  for (std::uint32_t cell = 0; cell < cells.size(); ++cell) {
+    sheet.vertices.push_back(vertex_of(places[cell], cells.edges_of(cell)));
+    sheet.vertices.back().position = places[cell];
+  }
   sheet.triangles.reserve(2 * crossings.size());
-  for (const auto& ring : sheet.cells.ring) add_quad(ring, sheet);
+  for (const auto& ring : cells.ring) add_quad(ring, places, sheet);
+  sheet.part = std::move(cells.part);
   return sheet;
 }
 

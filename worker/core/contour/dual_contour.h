@@ -1,15 +1,14 @@
 #pragma once
 
+#include <functional>
 #include <span>
-#include <vector>
 
 #include "core/base/execution_context.h"
 #include "core/base/vec3.h"
-#include "core/contour/edge_cells.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/lattice/solid_parts.h"
-#include "core/mesh/mesh.h"
 
 namespace affskel::core {
 
@@ -20,18 +19,11 @@ struct SheetCrossing {
   Vec3 normal;    ///< of the sheet, unit, of either sign
 };
 
-struct DualContourOptions {
-  /// Pull of the crossings' mean on a vertex, against 1 for all tangent planes together, > 0.
-  double regularisation = 0.05;
-  ExecutionContext* context = nullptr;  ///< asked at every layer whether to stop
-};
-
-/// A sheet without orientation.
-struct DualContour {
-  EdgeCells cells;                  ///< round the crossed edges
-  std::vector<Vec3> vertices;       ///< per cell, frame coordinates
-  std::vector<Triangle> triangles;  ///< two per crossing, in the order of the crossings
-};
+/// What a vertex of the sheet tells of its cell's crossings.
+/// @param position of the vertex; the function's value need not have it.
+/// @param crossings of the cell, indices, ascending.
+using VertexOfCell =
+    std::function<SheetVertex(const Vec3& position, std::span<const std::uint32_t> crossings)>;
 
 /// The sheet through the crossings by dual contouring (Ju, Losasso, Schaefer and Warren 2002): one vertex for
 /// every lattice cell with crossings on its edges, one quadrilateral for every crossing, through the vertices
@@ -42,9 +34,13 @@ struct DualContour {
 /// beyond its outermost crossings.
 /// @param parts of the solid in this lattice.
 /// @param crossings each edge once.
-/// @throws CoreError kBadInput when the regularisation is not a finite number > 0; kLimit for 2^30 crossings
-///   and more; kCancelled when the context asks to stop.
-DualContour dual_contour(const Lattice& lattice, const SolidParts& parts,
-                         std::span<const SheetCrossing> crossings, const DualContourOptions& options = {});
+/// @param vertex_of values of the vertices.
+/// @param context asked at every layer whether to stop.
+/// @return vertices in lattice order of their cells (see EdgeCells); two triangles per crossing, in the order
+///   of the crossings.
+/// @throws CoreError kLimit for 2^30 crossings and more; kCancelled when the context asks to stop.
+SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts,
+                       std::span<const SheetCrossing> crossings, const VertexOfCell& vertex_of,
+                       ExecutionContext* context);
 
 }  // namespace affskel::core

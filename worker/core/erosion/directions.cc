@@ -23,8 +23,9 @@ std::vector<Part> parse(std::string_view spec) {
   }
 }
 
-Vec3 unit(const Vec3& v) {
-  // Scaled first: squares of tiny normals would underflow.
+// As unit(), but for the last bits, which all fields depend on.  Scaled first: squares of tiny normals would
+// underflow.
+Vec3 direction_of(const Vec3& v) {
   const double big = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (big == 0) return {};
   const Vec3 w{v.x / big, v.y / big, v.z / big};
@@ -35,7 +36,7 @@ Vec3 unit(const Vec3& v) {
 void add_triangles(const Solid& solid, DirectionSet& set) {
   for (const Triangle& t : solid.mesh.triangles) {
     const Vec3 &a = solid.mesh.points[t[0]], &b = solid.mesh.points[t[1]], &c = solid.mesh.points[t[2]];
-    set.push_back(-unit(cross(b - a, c - a)));
+    set.push_back(-direction_of(cross(b - a, c - a)));
   }
 }
 
@@ -43,15 +44,15 @@ void add_face(const Vec3& a, const Vec3& b, const Vec3& c, std::uint64_t f, Dire
   const auto n = static_cast<double>(f);
   const auto at = [&](std::uint64_t i, std::uint64_t j) {
     const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
-    return unit(((1 - u - v) * a) + ((u * b) + (v * c)));
+    return direction_of(((1 - u - v) * a) + ((u * b) + (v * c)));
   };
   for (std::uint64_t i = 0; i < f; ++i) {
     for (std::uint64_t j = 0; i + j < f; ++j) {
       const Vec3 p = at(i, j), q = at(i + 1, j), r = at(i, j + 1);
-      set.push_back(-unit(cross(q - p, r - p)));
+      set.push_back(-direction_of(cross(q - p, r - p)));
       if (i + j + 1 == f) continue;
       const Vec3 s = at(i + 1, j + 1);
-      set.push_back(-unit(cross(s - q, r - q)));
+      set.push_back(-direction_of(cross(s - q, r - q)));
     }
   }
 }
@@ -76,7 +77,7 @@ void add_random(std::uint64_t count, std::uint64_t seed, DirectionSet& set) {
     const Vec3 v{random.symmetric(), random.symmetric(), random.symmetric()};
     const double square = dot(v, v);
     if (square > 1 || square < 1e-4) continue;
-    set.push_back(unit(v));
+    set.push_back(direction_of(v));
     ++i;
   }
 }
@@ -85,7 +86,7 @@ void add_random(std::uint64_t count, std::uint64_t seed, DirectionSet& set) {
 void map_from_frame(const Matrix3& frame, std::size_t first, DirectionSet& set) {
   if (frame == kIdentity3) return;  // not a bit may change
   const Matrix3 map = inverse_transposed(frame);
-  for (std::size_t i = first; i < set.size(); ++i) set[i] = unit(map * set[i]);
+  for (std::size_t i = first; i < set.size(); ++i) set[i] = direction_of(map * set[i]);
 }
 
 void require_affordable(const Solid& solid, const std::vector<Part>& parts, std::string_view spec,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/cube_root.h"
+#include "core/base/unit.h"
 
 namespace affskel::core {
 Matrix3 frame_matrix(const Lattice& lattice) {
@@ -21,11 +22,13 @@ DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& direct
   DirectionSet result;
   result.reserve(directions.size());
   for (const Vec3& d : directions) {
-    const Vec3 n = transposed_times(f, d);
-    const double length = norm(n);
-    result.push_back(length > 0 ? (1 / length) * n : Vec3{});
+    result.push_back(unit(transposed_times(f, d)));
   }
   return result;
+}
+
+double section_area(const Matrix3& to_mesh, const Vec3& gradient) {
+  return std::ldexp(norm(to_mesh * scaled_to_unit(gradient)), largest_exponent(gradient));
 }
 
 FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,

@@ -29,6 +29,11 @@ struct FrameField {
   std::vector<std::uint32_t> direction;  ///< per sample point: index of the optimal direction
 };
 
+/// The area |grad_x E| = |F^-T g| of an optimal section, mesh units squared.
+/// @param to_mesh F^-T of the frame.
+/// @param gradient g = grad_u E, of any size.
+double section_area(const Matrix3& to_mesh, const Vec3& gradient);
+
 /// @param values E (mesh units cubed), area (mesh units squared) and direction per sample point; a point
 ///   without a direction gets E = +infinity and gradient 0.
 FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,

@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/plain_math.h"
+#include "core/mesh/edges.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/locality_order.h"
 
@@ -67,8 +68,7 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
       original_triangle(locality_order(centroids(s.mesh))),
       mesh(in_order(s.mesh, original_vertex, original_triangle)),
       pseudonormal(mesh.points.size()),
-      fan_begin(mesh.points.size() + 2, 0),
-      fan_triangles(3 * mesh.triangles.size()),
+      fans(triangles_of_vertices(mesh.points.size(), mesh.triangles)),
       vertex_solid(mesh.points.size(), 0),
       rays(mesh, threads) {
   area_vector.reserve(mesh.triangles.size());
@@ -78,14 +78,7 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
     const Vec3 twice = cross(p[1] - p[0], p[2] - p[0]);
     area_vector.push_back(0.5 * twice);
     surface_area += 0.5 * norm(twice);
-    for (std::uint32_t v : c) {
-      ++fan_begin[v + 2];
-      vertex_solid[v] = s.shells[s.triangle_shell[original_triangle[t]]].solid;
-    }
-  }
-  for (std::size_t v = 2; v < fan_begin.size(); ++v) fan_begin[v] += fan_begin[v - 1];
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::uint32_t v : mesh.triangles[t]) fan_triangles[fan_begin[v + 1]++] = t;
+    for (std::uint32_t v : c) vertex_solid[v] = s.shells[s.triangle_shell[original_triangle[t]]].solid;
   }
   parallel_ranges(threads, mesh.points.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -112,13 +105,12 @@ void TreeInput::Data::find_crossings(const Solid& solid) {
   }
   std::sort(entries.begin(), entries.end());
   crosses.assign(mesh.points.size(), 0);
-  crossing_begin.assign(mesh.triangles.size() + 1, 0);
   for (const auto& [triangle, other] : entries) {
-    ++crossing_begin[triangle + 1];
-    crossing_triangles.push_back(other);
     for (std::uint32_t v : mesh.triangles[triangle]) crosses[v] = 1;
   }
-  for (std::size_t t = 1; t < crossing_begin.size(); ++t) crossing_begin[t] += crossing_begin[t - 1];
+  crossings = {mesh.triangles.size(), [&](const auto& put) {
+                 for (const auto& [triangle, other] : entries) put(triangle, other);
+               }};
 }
 
 void TreeInput::Data::find_nested(unsigned threads) {

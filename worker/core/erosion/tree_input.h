@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/groups.h"
 #include "core/erosion/join_tree.h"
 #include "core/solid/solid.h"
 #include "core/spatial/ray_shooter.h"
@@ -16,30 +17,23 @@ struct TreeInput::Data {
   Data(const Solid& solid, unsigned threads);
 
   /// Triangles round a vertex.
-  std::span<const std::uint32_t> fan(std::uint32_t vertex) const {
-    return {fan_triangles.data() + fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]};
-  }
+  std::span<const std::uint32_t> fan(std::uint32_t vertex) const { return fans[vertex]; }
 
   std::vector<std::uint32_t> original_vertex;    ///< per vertex: its index in the solid's mesh
   std::vector<std::uint32_t> original_triangle;  ///< per triangle: its index in the solid's mesh
   Mesh mesh;                                     ///< the solid's, neighbours kept together in memory
   std::vector<Vec3> area_vector;                 ///< per triangle: outward normal times area, scaled units
-  std::vector<Vec3> pseudonormal;        ///< per vertex: unit normals weighted by the angles they span
-  std::vector<std::uint32_t> fan_begin;  ///< per vertex and one more
-  std::vector<std::uint32_t> fan_triangles;
+  std::vector<Vec3> pseudonormal;  ///< per vertex: unit normals weighted by the angles they span
+  Groups<std::uint32_t> fans;      ///< per vertex
   /// Whether a triangle round the vertex crosses another one.
   bool at_crossing(std::uint32_t vertex) const { return !crosses.empty() && crosses[vertex] != 0; }
 
   /// Triangles that cross a triangle; only where the surface crosses itself.
-  std::span<const std::uint32_t> crossing(std::uint32_t triangle) const {
-    return {crossing_triangles.data() + crossing_begin[triangle],
-            crossing_begin[triangle + 1] - crossing_begin[triangle]};
-  }
+  std::span<const std::uint32_t> crossing(std::uint32_t triangle) const { return crossings[triangle]; }
 
-  std::vector<std::uint32_t> vertex_solid;    ///< per vertex: the solid its surface bounds
-  std::vector<std::uint8_t> crosses;          ///< per vertex; empty unless the surface crosses itself
-  std::vector<std::uint32_t> crossing_begin;  ///< per triangle and one more; likewise
-  std::vector<std::uint32_t> crossing_triangles;
+  std::vector<std::uint32_t> vertex_solid;  ///< per vertex: the solid its surface bounds
+  std::vector<std::uint8_t> crosses;        ///< per vertex; empty unless the surface crosses itself
+  Groups<std::uint32_t> crossings;          ///< per triangle; likewise
   /// Per vertex: whether its outer side lies inside the solid because another surface winds round it; empty
   /// unless the surface crosses itself.
   std::vector<std::uint8_t> nested;

@@ -12,6 +12,7 @@
 #include "core/lattice/lattice_memory.h"
 #include "core/lattice/point_spacing.h"
 #include "core/lattice/scan_conversion.h"
+#include "core/mesh/box.h"
 
 namespace affskel::core {
 namespace {
@@ -214,13 +215,9 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
   if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}};
   const Matrix3 inverse = inverse_transposed(f);
   const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
-  Vec3 low = in_frame(solid.mesh.points.front()), high = low;
-  for (const Vec3& p : solid.mesh.points) {
-    const Vec3 u = in_frame(p);
-    low = {std::min(low.x, u.x), std::min(low.y, u.y), std::min(low.z, u.z)};
-    high = {std::max(high.x, u.x), std::max(high.y, u.y), std::max(high.z, u.z)};
-  }
-  return {solid.scale() * (high - low), f * (0.5 * (low + high))};
+  Box box;
+  for (const Vec3& p : solid.mesh.points) box.include(in_frame(p));
+  return {solid.scale() * box.sides(), f * (0.5 * (box.lowest() + box.highest()))};
 }
 
 // The lattice of a spacing before its points are found.

@@ -1,24 +1,30 @@
 #include "core/mesh/box.h"
 
-#include <algorithm>
-
 namespace affskel::core {
 
-void Box::include(const Box& other) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    low[k] = std::min(low[k], other.low[k]);
-    high[k] = std::max(high[k], other.high[k]);
+std::size_t Box::longest_axis() const {
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (high[k] - low[k] > high[longest] - low[longest]) longest = k;
   }
+  return longest;
+}
+
+Box box_of(std::span<const Vec3> points) {
+  Box box;
+  for (const Vec3& p : points) box.include(p);
+  return box;
 }
 
 Box box_of(const Mesh& mesh, const Triangle& triangle) {
-  const auto at = [&](std::size_t corner) {
-    const Vec3& p = mesh.points[triangle[corner]];
-    return Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}};
-  };
-  Box box = at(0);
-  box.include(at(1));
-  box.include(at(2));
+  Box box;
+  for (const std::uint32_t corner : triangle) box.include(mesh.points[corner]);
+  return box;
+}
+
+Box box_of(const Mesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles) box.include(box_of(mesh, t));
   return box;
 }
 

@@ -1,16 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
 
-/// Axis-parallel box, closed.
+/// Axis-parallel box, closed; by itself the empty one, which holds nothing.
 struct Box {
-  std::array<double, 3> low, high;
+  std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
   bool meets(const Box& other) const {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -18,11 +21,30 @@ struct Box {
     }
     return true;
   }
-  void include(const Box& other);
+  void include(const Box& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], other.low[k]);
+      high[k] = std::max(high[k], other.high[k]);
+    }
+  }
+  void include(const Vec3& p) { include(Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}}); }
+
+  Vec3 lowest() const { return {low[0], low[1], low[2]}; }
+  Vec3 highest() const { return {high[0], high[1], high[2]}; }
+  Vec3 sides() const { return highest() - lowest(); }
+  /// The axis of the longest side, the first of equal ones.
+  std::size_t longest_axis() const;
+  double longest_side() const { return high[longest_axis()] - low[longest_axis()]; }
 };
+
+/// Tightest box round points.
+Box box_of(std::span<const Vec3> points);
 
 /// Tightest box round a triangle.
 Box box_of(const Mesh& mesh, const Triangle& triangle);
+
+/// Tightest box round all triangles.
+Box box_of(const Mesh& mesh);
 
 /// The boxes of all triangles of a mesh.
 std::vector<Box> boxes_of(const Mesh& mesh);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/unit.h"
 #include "core/mesh/icosahedron.h"
 
 namespace affskel::core {
@@ -41,7 +42,7 @@ class GeodesicVertices {
   std::uint32_t add(const std::array<std::pair<std::uint32_t, std::uint32_t>, 3>& corner, std::size_t used) {
     Vec3 sum;
     for (std::size_t k = 0; k < used; ++k) sum = sum + corner[k].second * coarse_.points[corner[k].first];
-    out_.points.push_back((1 / norm(sum)) * sum);
+    out_.points.push_back(unit(sum));
     return static_cast<std::uint32_t>(out_.points.size() - 1);
   }
 

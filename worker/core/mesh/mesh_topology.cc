@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <span>
 #include <utility>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/base/parallel.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
@@ -27,56 +28,22 @@ std::uint32_t to(const Mesh& mesh, std::uint32_t h) {
   return from(mesh, next_corner(h));
 }
 
-struct EdgeEnd {
-  std::uint32_t high;  // the larger vertex of the edge
-  std::uint32_t half_edge;
-  friend bool operator<(const EdgeEnd& a, const EdgeEnd& b) {
-    return a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
-  }
-};
-
-// Calls visit(first, last) once per undirected edge with its half-edges, by smaller vertex; from several
-// threads at once when there are more than one.
-template <class Visit>
-void for_each_edge(const Mesh& mesh, unsigned threads, const Visit& visit) {
-  const auto half_edges = static_cast<std::uint32_t>(3 * mesh.triangles.size());
-  std::vector<std::uint32_t> begin(mesh.points.size() + 2, 0);
-  for (std::uint32_t h = 0; h < half_edges; ++h) ++begin[std::min(from(mesh, h), to(mesh, h)) + 2];
-  for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
-  std::vector<EdgeEnd> ends(half_edges);
-  for (std::uint32_t h = 0; h < half_edges; ++h) {
-    const std::uint32_t a = from(mesh, h), b = to(mesh, h);
-    ends[begin[std::min(a, b) + 1]++] = {std::max(a, b), h};
-  }
-  parallel_ranges(threads, mesh.points.size(), [&](std::size_t from_vertex, std::size_t to_vertex) {
-    for (std::size_t v = from_vertex; v < to_vertex; ++v) {
-      EdgeEnd* const bucket_end = ends.data() + begin[v + 1];
-      std::sort(ends.data() + begin[v], bucket_end);
-      for (EdgeEnd* first = ends.data() + begin[v]; first != bucket_end;) {
-        EdgeEnd* const last =
-            std::find_if(first, bucket_end, [&](const EdgeEnd& e) { return e.high != first->high; });
-        visit(first, last);
-        first = last;
-      }
-    }
-  });
-}
+using Sides = std::span<const EdgeSide>;
 
 // The corner opposite to the half-edge.  Over a common edge triangles are the same when these are.
 std::uint32_t tip(const Mesh& mesh, std::uint32_t h) {
   return from(mesh, previous_corner(h));
 }
 
-// The first triangle over the edge that comes again, and where it does; both are `last` when none does.  Of a
-// book of a hundred thousand leaves not every two are compared.
-std::pair<const EdgeEnd*, const EdgeEnd*> first_repeated(const Mesh& mesh, const EdgeEnd* first,
-                                                         const EdgeEnd* last) {
-  std::vector<std::pair<std::uint32_t, const EdgeEnd*>> leaves;
-  for (const EdgeEnd* e = first; e != last; ++e) leaves.emplace_back(tip(mesh, e->half_edge), e);
+// The first side whose triangle comes again, and where it does; null when none does.  Of a book of a hundred
+// thousand leaves not every two are compared.
+std::pair<const EdgeSide*, const EdgeSide*> first_repeated(const Mesh& mesh, Sides sides) {
+  std::vector<std::pair<std::uint32_t, const EdgeSide*>> leaves;
+  for (const EdgeSide& side : sides) leaves.emplace_back(tip(mesh, side.half_edge), &side);
   std::sort(leaves.begin(), leaves.end());
-  std::pair<const EdgeEnd*, const EdgeEnd*> found{last, last};
+  std::pair<const EdgeSide*, const EdgeSide*> found{nullptr, nullptr};
   for (std::size_t i = 1; i < leaves.size(); ++i) {
-    if (leaves[i - 1].first == leaves[i].first && leaves[i - 1].second < found.first)
+    if (leaves[i - 1].first == leaves[i].first && (!found.first || leaves[i - 1].second < found.first))
       found = {leaves[i - 1].second, leaves[i].second};
   }
   return found;
@@ -88,15 +55,13 @@ class EdgeDefects {
   EdgeDefects(const Mesh& mesh, const TrianglePlace& place, const EdgePlace& edge)
       : mesh_(mesh), place_(place), edge_(edge) {}
 
-  void see(const EdgeEnd* first, const EdgeEnd* last) {
-    const auto count = last - first;
-    const bool twin = count == 2 && tip(mesh_, first[0].half_edge) == tip(mesh_, first[1].half_edge);
-    if (count == 2 && !twin) return;
-    note(count == 1 ? open_ : crowded_, first, last);
+  void see(Sides sides) {
+    if (sides.size() == 2 && tip(mesh_, sides[0].half_edge) != tip(mesh_, sides[1].half_edge)) return;
+    note(sides.size() == 1 ? open_ : crowded_, sides);
     if (!repeated_.empty()) return;
-    const auto [once, again] = first_repeated(mesh_, first, last);
-    if (once == last) return;
-    repeated_ = place_(once->half_edge / 3) + " and " + place_(again->half_edge / 3) + " are the same";
+    const auto [once, again] = first_repeated(mesh_, sides);
+    if (once != nullptr)
+      repeated_ = place_(once->triangle()) + " and " + place_(again->triangle()) + " are the same";
   }
 
   void throw_if_any() const {
@@ -115,11 +80,10 @@ class EdgeDefects {
     std::string first;
   };
 
-  void note(Kind& kind, const EdgeEnd* first, const EdgeEnd* last) {
+  void note(Kind& kind, Sides sides) {
     if (kind.count++ != 0) return;
-    const std::uint32_t h = first->half_edge;
-    kind.first = edge_(h) + ", " + place_(h / 3);
-    if (last - first > 2) kind.first += " and " + place_((last - 1)->half_edge / 3);
+    kind.first = edge_(sides[0].half_edge) + ", " + place_(sides[0].triangle());
+    if (sides.size() > 2) kind.first += " and " + place_(sides.back().triangle());
   }
 
   static std::string tell(const Kind& kind, const char* what, const char* more) {
@@ -157,11 +121,11 @@ void turn_over(Mesh& mesh, HalfEdges& mates, std::uint32_t t) {
 HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place, const EdgePlace& edge) {
   HalfEdges mates(3 * mesh.triangles.size(), kNone);
   EdgeDefects defects(mesh, place, edge);
-  for_each_edge(mesh, 1, [&](const EdgeEnd* first, const EdgeEnd* last) {
-    defects.see(first, last);
-    if (last - first != 2) return;
-    mates[first[0].half_edge] = first[1].half_edge;
-    mates[first[1].half_edge] = first[0].half_edge;
+  Edges(mesh.points.size(), mesh.triangles).for_each([&](std::uint32_t, std::uint32_t, Sides sides) {
+    defects.see(sides);
+    if (sides.size() != 2) return;
+    mates[sides[0].half_edge] = sides[1].half_edge;
+    mates[sides[1].half_edge] = sides[0].half_edge;
   });
   defects.throw_if_any();
   return mates;
@@ -170,23 +134,24 @@ HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place, const EdgePla
 bool find_mates_if_closed(const Mesh& mesh, unsigned threads, HalfEdges& mates) {
   mates.assign(3 * mesh.triangles.size(), kNone);
   std::atomic<bool> closed{true};
-  for_each_edge(mesh, threads, [&](const EdgeEnd* first, const EdgeEnd* last) {
-    const std::uint32_t a = first[0].half_edge;
-    const std::uint32_t b = last - first == 2 ? first[1].half_edge : a;
+  const auto visit = [&](std::uint32_t, std::uint32_t, Sides sides) {
+    const std::uint32_t a = sides[0].half_edge, b = sides.size() == 2 ? sides[1].half_edge : a;
     if (b == a || tip(mesh, a) == tip(mesh, b)) {
       closed = false;
     } else {
       mates[a] = b;
       mates[b] = a;
     }
-  });
+  };
+  Edges(mesh.points.size(), mesh.triangles, threads).for_each(visit, threads);
   return closed;
 }
 
 bool every_edge_is_shared(const Mesh& mesh) {
   bool shared = true;
-  for_each_edge(mesh, 1,
-                [&](const EdgeEnd* first, const EdgeEnd* last) { shared = shared && last - first != 1; });
+  Edges(mesh.points.size(), mesh.triangles).for_each([&](std::uint32_t, std::uint32_t, Sides sides) {
+    shared = shared && sides.size() != 1;
+  });
   return shared;
 }
 

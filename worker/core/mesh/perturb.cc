@@ -46,13 +46,7 @@ class Gaussian {
 
 double box_diagonal(const Mesh& mesh) {
   if (mesh.points.empty()) return 0;
-  const auto at = [](const Vec3& p) { return Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}}; };
-  Box box = mesh.triangles.empty() ? at(mesh.points[0]) : box_of(mesh, mesh.triangles[0]);
-  if (mesh.triangles.empty()) {
-    for (const Vec3& p : mesh.points) box.include(at(p));
-  }
-  for (const Triangle& t : mesh.triangles) box.include(box_of(mesh, t));
-  return norm({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+  return norm((mesh.triangles.empty() ? box_of(mesh.points) : box_of(mesh)).sides());
 }
 
 Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {

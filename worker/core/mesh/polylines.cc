@@ -2,23 +2,21 @@
 
 #include <algorithm>
 
+#include "core/base/groups.h"
+
 namespace affskel::core {
 namespace {
 
 class Chainer {
  public:
   Chainer(std::size_t points, std::span<const Segment> segments)
-      : segments_(segments), first_(points + 1, 0), used_(segments.size(), false) {
-    for (const Segment& segment : segments) {
-      for (const std::uint32_t point : segment) ++first_[point + 1];
-    }
-    for (std::size_t p = 0; p < points; ++p) first_[p + 1] += first_[p];
-    at_.resize(2 * segments.size());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t s = 0; s < segments.size(); ++s) {
-      for (const std::uint32_t point : segments[s]) at_[next[point]++] = s;
-    }
-  }
+      : segments_(segments),
+        at_(points,
+            [&](const auto& put) {
+              for (std::uint32_t s = 0; s < segments.size(); ++s)
+                for (const std::uint32_t point : segments[s]) put(point, s);
+            }),
+        used_(segments.size(), false) {}
 
   std::vector<std::vector<std::uint32_t>> run() {
     for (std::uint32_t s = 0; s < segments_.size(); ++s) {
@@ -28,13 +26,13 @@ class Chainer {
   }
 
  private:
-  bool is_within(std::uint32_t point) const { return first_[point + 1] - first_[point] == 2; }
+  bool is_within(std::uint32_t point) const { return at_[point].size() == 2; }
 
   // Goes on from the last point of the line as far as there is one way.
   void extend(std::vector<std::uint32_t>& line) {
     while (is_within(line.back())) {
-      const std::uint32_t point = line.back(), begin = first_[point];
-      const std::uint32_t segment = used_[at_[begin]] ? at_[begin + 1] : at_[begin];
+      const std::uint32_t point = line.back();
+      const std::uint32_t segment = used_[at_[point][0]] ? at_[point][1] : at_[point][0];
       if (used_[segment]) return;  // closed
       used_[segment] = true;
       line.push_back(segments_[segment][0] == point ? segments_[segment][1] : segments_[segment][0]);
@@ -57,7 +55,7 @@ class Chainer {
   }
 
   std::span<const Segment> segments_;
-  std::vector<std::uint32_t> first_, at_;  // segments of point p: at_[first_[p]] .. at_[first_[p + 1] - 1]
+  Groups<std::uint32_t> at_;  // per point its segments
   std::vector<bool> used_;
   std::vector<std::vector<std::uint32_t>> lines_;
 };

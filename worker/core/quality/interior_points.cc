@@ -29,7 +29,7 @@ struct Interval {
 class TurnedSolid {
  public:
   TurnedSolid(const Solid& solid, const Matrix3& frame)
-      : mesh_(turned(solid.mesh, frame)), box_(box_round(mesh_)), tree_(boxes_of(mesh_)) {}
+      : mesh_(turned(solid.mesh, frame)), box_(box_of(mesh_)), tree_(boxes_of(mesh_)) {}
 
   // Appends the intervals inside of line number i.
   void cut(double i, std::vector<Interval>& intervals) {
@@ -57,12 +57,6 @@ class TurnedSolid {
   static Mesh turned(Mesh mesh, const Matrix3& frame) {
     for (Vec3& p : mesh.points) p = transposed_times(frame, p);
     return mesh;
-  }
-
-  static Box box_round(const Mesh& mesh) {
-    Box box = box_of(mesh, mesh.triangles.front());
-    for (const Triangle& t : mesh.triangles) box.include(box_of(mesh, t));
-    return box;
   }
 
   double within(std::size_t axis, double part) const {

@@ -5,38 +5,19 @@
 #include "core/quality/sheet_topology.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
 
-struct EdgeSide {
-  std::uint32_t low, high;  // vertices
-  std::uint32_t triangle;
-  friend auto operator<=>(const EdgeSide&, const EdgeSide&) = default;
-};
-
 using Segments = std::span<const Segment>;
-
-std::vector<EdgeSide> sorted_edge_sides(const Mesh& sheet) {
-  std::vector<EdgeSide> sides;
-  sides.reserve(3 * sheet.triangles.size());
-  for (std::uint32_t t = 0; t < sheet.triangles.size(); ++t) {
-    const Triangle& corner = sheet.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = corner[i], b = corner[(i + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
+using Sides = std::span<const EdgeSide>;
 
 // A set of patches, ascending; sums are modulo 2.
 using PatchSet = std::vector<std::uint32_t>;
@@ -66,19 +47,19 @@ class Sheet {
   Sheet(const Mesh& sheet, Segments segments)
       : sheet_(sheet),
         segments_(segments),
-        sides_(sorted_edge_sides(sheet)),
+        edges_(sheet.points.size(), sheet.triangles),
         joined_(sheet.points.size()),
         rim_(sheet.points.size()),
         patches_(sheet.triangles.size()) {}
 
   SheetTopology run() {
     std::int64_t edges = 0;
-    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
+    edges_.for_each([&](std::uint32_t low, std::uint32_t high, Sides sides) {
       ++edges;
-      joined_.unite(first->low, first->high);
-      if (last - first == 1) rim_.unite(first->low, first->high);
-      if (last - first == 2) patches_.unite(first[0].triangle, first[1].triangle);
-      result_.branch_edges += last - first > 2;
+      joined_.unite(low, high);
+      if (sides.size() == 1) rim_.unite(low, high);
+      if (sides.size() == 2) patches_.unite(sides[0].triangle(), sides[1].triangle());
+      result_.branch_edges += sides.size() > 2;
     });
     edges += join_segments();
     count_vertices();
@@ -92,26 +73,12 @@ class Sheet {
   }
 
  private:
-  template <class Visit>
-  void for_each_edge(Visit visit) const {
-    const EdgeSide* const end = sides_.data() + sides_.size();
-    for (const EdgeSide* first = sides_.data(); first != end;) {
-      const EdgeSide* last = first;
-      while (last != end && last->low == first->low && last->high == first->high) ++last;
-      visit(first, last);
-      first = last;
-    }
-  }
-
   // Joins the ends of segments; the number of those that are no edges of triangles, each taken once.
   std::int64_t join_segments() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> own;
     for (const auto& [a, b] : segments_) {
       joined_.unite(a, b);
-      const EdgeSide from{std::min(a, b), std::max(a, b), 0};
-      const auto side = std::lower_bound(sides_.begin(), sides_.end(), from);
-      if (side == sides_.end() || side->low != from.low || side->high != from.high)
-        own.emplace_back(from.low, from.high);
+      if (edges_.between(a, b).empty()) own.emplace_back(std::minmax(a, b));
     }
     std::sort(own.begin(), own.end());
     return std::unique(own.begin(), own.end()) - own.begin();
@@ -133,8 +100,8 @@ class Sheet {
 
   std::uint64_t count_rim_loops() {
     std::vector<bool> on_rim(sheet_.points.size(), false);
-    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
-      if (last - first == 1) on_rim[first->low] = on_rim[first->high] = true;
+    edges_.for_each([&](std::uint32_t low, std::uint32_t high, Sides sides) {
+      if (sides.size() == 1) on_rim[low] = on_rim[high] = true;
     });
     std::uint64_t loops = 0;
     for (std::uint32_t v = 0; v < on_rim.size(); ++v) loops += on_rim[v] && rim_.find(v) == v;
@@ -145,17 +112,17 @@ class Sheet {
   // one condition per branch edge.
   std::uint64_t count_closed_surfaces() {
     std::vector<bool> open(sheet_.triangles.size(), false);
-    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
-      if (last - first == 1) open[patches_.find(first->triangle)] = true;
+    edges_.for_each([&](std::uint32_t, std::uint32_t, Sides sides) {
+      if (sides.size() == 1) open[patches_.find(sides[0].triangle())] = true;
     });
     std::uint64_t closed = 0;
     for (std::uint32_t t = 0; t < open.size(); ++t) closed += patches_.find(t) == t && !open[t];
     std::vector<PatchSet> conditions;
-    for_each_edge([&](const EdgeSide* first, const EdgeSide* last) {
-      if (last - first <= 2) return;
+    edges_.for_each([&](std::uint32_t, std::uint32_t, Sides sides) {
+      if (sides.size() <= 2) return;
       PatchSet condition;
-      for (const EdgeSide* side = first; side != last; ++side) {
-        const std::uint32_t patch = patches_.find(side->triangle);
+      for (const EdgeSide& side : sides) {
+        const std::uint32_t patch = patches_.find(side.triangle());
         if (!open[patch]) condition = sum(condition, {patch});
       }
       if (!condition.empty()) conditions.push_back(std::move(condition));
@@ -165,7 +132,7 @@ class Sheet {
 
   const Mesh& sheet_;
   Segments segments_;
-  std::vector<EdgeSide> sides_;
+  Edges edges_;
   DisjointSets joined_, rim_, patches_;
   std::int64_t vertices_ = 0;
   SheetTopology result_;

@@ -92,9 +92,9 @@ bool is_stretched(const Lattice& lattice) {
   return false;
 }
 
-Advice on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPruningOptions& pruning) {
+Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_turn) {
   Advice advice{"the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
-                    " degrees at most, and a skeleton needs " + degrees(pruning.strong_turn) + ".",
+                    " degrees at most, and a skeleton needs " + degrees(strong_turn) + ".",
                 {}};
   if (is_stretched(lattice)) {
     advice.text +=
@@ -109,10 +109,10 @@ Advice on_turn(const Lattice& lattice, const ShockCensus& census, const ChordPru
   return advice;
 }
 
-Advice on_significance(const ShockCensus& census, const ChordPruningOptions& pruning) {
+Advice on_significance(const ShockCensus& census, double significance) {
   const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
   return {"all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
-              base::rounded(pruning.significance, 3) + "; the heaviest weighs " +
+              base::rounded(significance, 3) + "; the heaviest weighs " +
               base::rounded(census.max_piece_share, 3) + " of its sheet. A threshold of " + lower +
               " would keep it, one of 1e-9 all.",
           {{"threshold", lower}}};
@@ -136,16 +136,17 @@ Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& op
   return advice;
 }
 
-Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
-                          const ChordPruningOptions& pruning) {
-  if (census.strong > 0) return on_significance(census, pruning);
+Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
+                          double strong_turn) {
+  if (census.strong > 0) return on_significance(census, significance);
   Advice advice;
   if (census.wide > 0) {
     advice.text = "shocks are too near the surface: at none of the " + std::to_string(census.wide) +
-                  " where equal chords clearly differ is E " + base::rounded(pruning.min_erosion, 3) +
+                  " where equal chords clearly differ is E " +
+                  base::rounded(ChordConstants().min_erosion, 3) +
                   " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
-    advice = on_turn(lattice, census, pruning);
+    advice = on_turn(lattice, census, strong_turn);
   } else {
     advice = {
         "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "
@@ -156,9 +157,9 @@ Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
   return advice;
 }
 
-Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeRimOptions& rims) {
+Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeBounds& rims) {
   Advice advice;
-  const RidgeRimOptions usual;
+  const RidgeBounds usual;
   if (pieces.max_strength <= 0 && rims.low > usual.low) {
     advice = {"nowhere is the sheet nearly as strong as the threshold " + base::rounded(rims.low, 3) +
                   "; the default is " + base::rounded(usual.low, 3) + ".",

@@ -29,15 +29,15 @@ Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& op
 /// - strong shocks only where E is small;
 /// - only pieces below the significance; then it names one that keeps the heaviest.
 /// @param census of a sheet without shocks.
-/// @param pruning the options that it was made with.
-Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census,
-                          const ChordPruningOptions& pruning);
+/// @param significance that it was made with. @param strong_turn that was applied.
+Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
+                          double strong_turn);
 
 /// The same for the operator `ridge`: names the greatest strength that there is, and a threshold that keeps
 /// it, or what else is missing.
 /// @param pieces of a sheet without triangles.
 /// @param rims the options that it was cut with.
-Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeRimOptions& rims);
+Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeBounds& rims);
 
 /// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
 /// triangle or a segment.

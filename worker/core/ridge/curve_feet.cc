@@ -5,13 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/unit.h"
+
 namespace affskel::core {
 namespace {
-
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
-}
 
 // The nearest of points, by their order along the axis on which they reach farthest.
 class NearestVertex {
@@ -73,7 +70,7 @@ std::vector<CurveVertex> curve_vertices(std::span<const RidgeCurve> curves) {
   return result;
 }
 
-std::vector<CurveFoot> curve_feet(const RidgeMesh& mesh, const std::vector<CurveVertex>& curves,
+std::vector<CurveFoot> curve_feet(const SheetMesh& mesh, const std::vector<CurveVertex>& curves,
                                   double reach) {
   std::vector<CurveFoot> feet(mesh.vertices.size());
   if (curves.empty()) return feet;

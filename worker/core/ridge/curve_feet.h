@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/contour/sheet_mesh.h"
 #include "core/ridge/ridge_curves.h"
-#include "core/ridge/ridge_mesh.h"
 
 namespace affskel::core {
 
@@ -33,7 +33,7 @@ struct CurveFoot {
 /// The feet of the vertices of a sheet on curves.  Exact; ties go to the curve vertex of the lower number.
 /// @param reach in the radius of the section at the foot.
 /// @return per vertex of the mesh.
-std::vector<CurveFoot> curve_feet(const RidgeMesh& mesh, const std::vector<CurveVertex>& curves,
+std::vector<CurveFoot> curve_feet(const SheetMesh& mesh, const std::vector<CurveVertex>& curves,
                                   double reach);
 
 /// Whether the corners of a triangle all lie beside one and the same curve, within the reach.

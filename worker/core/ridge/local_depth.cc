@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <iterator>
 
-#include "core/base/scaled_to_unit.h"
+#include "core/base/unit.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {

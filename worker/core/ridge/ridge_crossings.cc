@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/base/unit.h"
+
 namespace affskel::core {
 namespace {
 
@@ -13,7 +15,7 @@ RidgeCrossing crossing_at(const Lattice& lattice, const RidgeValues& values, con
   u[edge.axis] += t;
   RidgeCrossing crossing;
   crossing.edge = edge;
-  crossing.normal = (1 / norm(across)) * across;
+  crossing.normal = unit(across);
   crossing.at =
       values.at(lattice.spacing * Vec3{u[0], u[1], u[2]}, std::array<std::uint32_t, 2>{edge.point, y},
                 std::array<double, 2>{1 - t, t}, crossing.normal);

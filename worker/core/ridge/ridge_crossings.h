@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "core/base/vec3.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
 #include "core/lattice/lattice_edges.h"
-#include "core/ridge/ridge_mesh.h"
 #include "core/ridge/ridge_values.h"
 
 namespace affskel::core {
@@ -14,7 +14,7 @@ namespace affskel::core {
 struct RidgeCrossing {
   LatticeEdge edge;
   Vec3 normal;     ///< of the sheet: e_1, unit, of either sign
-  RidgeVertex at;  ///< in the solid
+  SheetVertex at;  ///< in the solid
 };
 
 /// Where the ridge surfaces of E cross lattice edges (height ridges of codimension 1: Haralick 1983; Eberly

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/unit.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/lattice/layer_index.h"
 #include "core/ridge/row_band.h"
@@ -39,7 +40,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kTetrahedra{
 constexpr std::array<std::size_t, 8> kCorners{0, 7, 1, 2, 3, 4, 5, 6};
 
 struct CurvePoint {
-  RidgeVertex at;
+  SheetVertex at;
   double radius = 0;
   struct Link {
     std::uint32_t to = kNone;    // the next point of the curve
@@ -172,9 +173,7 @@ class CurveFinder {
       across = across + (dot(e, across) < 0 ? -weights[n] : weights[n]) * e;
       area += weights[n] * values_.frame_area(points[n]);
     }
-    const double length = norm(across);
-    result.at =
-        values_.at(lattice_.spacing * place, points, weights, length > 0 ? (1 / length) * across : Vec3{});
+    result.at = values_.at(lattice_.spacing * place, points, weights, unit(across));
     result.at.strength = std::min(kMaxRidgeStrength, result.at.strength) * result.at.ratio;
     result.radius = std::sqrt(area / std::numbers::pi);
     return result;
@@ -250,7 +249,7 @@ class CurveTracer {
     for (std::size_t first = 0, last; first < cells.size(); first = last) {
       for (last = first + 1; last < cells.size() && cells[last] == cells[first];) ++last;
       const std::span<const std::uint32_t> within(way.data() + first, last - first + 1);
-      RidgeVertex vertex = points_[within[0]].at;
+      SheetVertex vertex = points_[within[0]].at;
       double radius = 0;
       for (std::size_t n = 0; n < within.size(); ++n) {
         if (n > 0) vertex = between(vertex, points_[within[n]].at, 1 / static_cast<double>(n + 1));

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
 #include "core/lattice/solid_parts.h"
-#include "core/ridge/ridge_mesh.h"
 #include "core/ridge/ridge_values.h"
 
 namespace affskel::core {
 
 /// A ridge curve as a polyline.
 struct RidgeCurve {
-  std::vector<RidgeVertex>
+  std::vector<SheetVertex>
       vertices;                ///< at least two, three when closed; strength is s_2, see ridge_curves()
   std::vector<double> radius;  ///< per vertex: of a disc as large as the section, frame coordinates
   std::uint32_t part = 0;      ///< of the solid

@@ -1,43 +1,32 @@
 #include "core/ridge/ridge_flaps.h"
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
 
-struct Side {
-  std::uint32_t low, high;  // the edge's vertices
-  std::uint32_t triangle;
-  friend auto operator<=>(const Side&, const Side&) = default;
-};
+using Sides = std::span<const EdgeSide>;
 
 class FlapCutter {
  public:
-  FlapCutter(RidgeMesh& mesh, double max_share)
+  FlapCutter(SheetMesh& mesh, double max_share)
       : mesh_(mesh),
         max_share_(max_share),
+        edges_(mesh.vertices.size(), mesh.triangles),
         patches_(mesh.triangles.size()),
         pieces_(mesh.vertices.size()),
         dropped_(mesh.triangles.size(), 0),
         patch_area_(mesh.triangles.size(), 0),
         piece_area_(mesh.vertices.size(), 0) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& corner = mesh.triangles[t];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(corner[k], corner[(k + 1) % 3]);
-        sides_.push_back({low, high, t});
-        pieces_.unite(low, high);
-      }
-    }
-    std::sort(sides_.begin(), sides_.end());
-    for_each_edge([&](std::size_t first, std::size_t last) {
-      if (last - first == 2) patches_.unite(sides_[first].triangle, sides_[first + 1].triangle);
+    edges_.for_each([&](std::uint32_t low, std::uint32_t high, Sides sides) {
+      pieces_.unite(low, high);
+      if (sides.size() == 2) patches_.unite(sides[0].triangle(), sides[1].triangle());
     });
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const double area = triangle_area(mesh, mesh.triangles[t]);
@@ -48,8 +37,8 @@ class FlapCutter {
 
   std::uint32_t run() {
     std::uint32_t count = 0;
-    for_each_edge([&](std::size_t first, std::size_t last) {
-      if (last - first > 2) count += cut_at(first, last);
+    edges_.for_each([&](std::uint32_t low, std::uint32_t, Sides sides) {
+      if (sides.size() > 2) count += cut_at(low, sides);
     });
     if (count == 0) return 0;
     std::size_t kept = 0;
@@ -61,25 +50,15 @@ class FlapCutter {
   }
 
  private:
-  template <class Visit>
-  void for_each_edge(Visit visit) const {
-    for (std::size_t first = 0, last; first < sides_.size(); first = last) {
-      for (last = first + 1; last < sides_.size() && sides_[last].low == sides_[first].low &&
-                             sides_[last].high == sides_[first].high;)
-        ++last;
-      visit(first, last);
-    }
-  }
-
-  // The triangles of one edge: drops the least patches while more than two triangles are left.
-  std::uint32_t cut_at(std::size_t first, std::size_t last) {
+  // The sides of one edge: drops the least patches while more than two triangles are left.
+  std::uint32_t cut_at(std::uint32_t vertex, Sides sides) {
     std::vector<std::pair<double, std::uint32_t>> here;  // area and patch of each triangle left
-    for (std::size_t s = first; s < last; ++s) {
-      const std::uint32_t patch = patches_.find(sides_[s].triangle);
+    for (const EdgeSide& side : sides) {
+      const std::uint32_t patch = patches_.find(side.triangle());
       if (!dropped_[patch]) here.emplace_back(patch_area_[patch], patch);
     }
     std::sort(here.begin(), here.end());
-    const double bound = max_share_ * piece_area_[pieces_.find(sides_[first].low)];
+    const double bound = max_share_ * piece_area_[pieces_.find(vertex)];
     std::uint32_t count = 0;
     for (std::size_t n = 0; here.size() - n > 2 && here[n].first <= bound; ++n) {
       if (dropped_[here[n].second]) continue;
@@ -89,9 +68,9 @@ class FlapCutter {
     return count;
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   double max_share_;
-  std::vector<Side> sides_;    // ascending
+  Edges edges_;
   DisjointSets patches_;       // of triangles
   DisjointSets pieces_;        // of vertices
   std::vector<char> dropped_;  // per patch
@@ -100,9 +79,8 @@ class FlapCutter {
 
 }  // namespace
 
-std::uint32_t cut_flaps(RidgeMesh& mesh, const RidgeFlapOptions& options) {
-  require_within(options.max_share, 0, 1, "the share of a flap must lie between 0 and 1");
-  return FlapCutter(mesh, options.max_share).run();
+std::uint32_t cut_flaps(SheetMesh& mesh, double max_share) {
+  return FlapCutter(mesh, max_share).run();
 }
 
 }  // namespace affskel::core

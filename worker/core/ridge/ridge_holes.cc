@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
@@ -14,31 +15,16 @@ namespace {
 // A closed walk along a rim, each vertex once.
 using Loop = std::vector<std::uint32_t>;
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
-// The edges of one triangle, ascending.
-std::vector<Edge> rim_edges(const RidgeMesh& mesh) {
-  std::vector<Edge> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sides.emplace_back(std::minmax(t[k], t[(k + 1) % 3]));
-  std::sort(sides.begin(), sides.end());
-  std::vector<Edge> rim;
-  for (std::size_t first = 0, last; first < sides.size(); first = last) {
-    for (last = first + 1; last < sides.size() && sides[last] == sides[first];) ++last;
-    if (last - first == 1) rim.push_back(sides[first]);
-  }
-  return rim;
-}
-
 // Walks along the rim; whenever a walk comes back to one of its own vertices, what lies between is a loop.
 class RimWalk {
  public:
-  explicit RimWalk(const RidgeMesh& mesh) {
-    for (const Edge& edge : rim_edges(mesh)) {
-      open_[edge.first].push_back(edge.second);
-      open_[edge.second].push_back(edge.first);
-    }
+  explicit RimWalk(const SheetMesh& mesh) {
+    Edges(mesh.vertices.size(), mesh.triangles)
+        .for_each([&](std::uint32_t low, std::uint32_t high, std::span<const EdgeSide> sides) {
+          if (sides.size() != 1) return;
+          open_[low].push_back(high);
+          open_[high].push_back(low);
+        });
   }
 
   std::vector<Loop> loops() {
@@ -77,15 +63,15 @@ class RimWalk {
   std::vector<Loop> found_;
 };
 
-double length_of(const RidgeMesh& mesh, const Loop& loop) {
+double length_of(const SheetMesh& mesh, const Loop& loop) {
   double sum = 0;
   for (std::size_t n = 0; n < loop.size(); ++n)
     sum += norm(mesh.vertices[loop[(n + 1) % loop.size()]].position - mesh.vertices[loop[n]].position);
   return sum;
 }
 
-RidgeVertex middle_of(const RidgeMesh& mesh, const Loop& loop) {
-  RidgeVertex middle = mesh.vertices[loop[0]];
+SheetVertex middle_of(const SheetMesh& mesh, const Loop& loop) {
+  SheetVertex middle = mesh.vertices[loop[0]];
   // The running mean: each vertex takes its share of those so far.
   for (std::size_t n = 1; n < loop.size(); ++n)
     middle = between(middle, mesh.vertices[loop[n]], 1 / static_cast<double>(n + 1));
@@ -94,7 +80,7 @@ RidgeVertex middle_of(const RidgeMesh& mesh, const Loop& loop) {
 
 class Closing {
  public:
-  Closing(RidgeMesh& mesh, const std::function<bool(const Vec3&)>& inside, double max_share)
+  Closing(SheetMesh& mesh, const std::function<bool(const Vec3&)>& inside, double max_share)
       : mesh_(mesh), inside_(inside), max_share_(max_share), sets_(mesh.vertices.size()) {
     for (const Triangle& t : mesh.triangles) {
       sets_.unite(t[0], t[1]);
@@ -119,7 +105,7 @@ class Closing {
 
  private:
   bool close(const Loop& loop) {
-    const RidgeVertex middle = middle_of(mesh_, loop);
+    const SheetVertex middle = middle_of(mesh_, loop);
     double fan = 0;
     for (std::size_t n = 0; n < loop.size(); ++n) {
       const Vec3 &a = mesh_.vertices[loop[n]].position,
@@ -136,7 +122,7 @@ class Closing {
     return true;
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   const std::function<bool(const Vec3&)>& inside_;
   double max_share_;
   DisjointSets sets_;         // pieces, of the vertices before any was added
@@ -145,10 +131,8 @@ class Closing {
 
 }  // namespace
 
-std::uint32_t close_holes(RidgeMesh& mesh, const std::function<bool(const Vec3&)>& inside,
-                          const RidgeHoleOptions& options) {
-  require_within(options.max_share, 0, 1, "the share of a hole must lie between 0 and 1");
-  return Closing(mesh, inside, options.max_share).run();
+std::uint32_t close_holes(SheetMesh& mesh, const std::function<bool(const Vec3&)>& inside, double max_share) {
+  return Closing(mesh, inside, max_share).run();
 }
 
 }  // namespace affskel::core

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
-#include <queue>
 #include <utility>
 #include <vector>
 
+#include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/groups.h"
 #include "core/base/matrix3.h"
-#include "core/base/require.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/ridge/ridge_values.h"
@@ -22,7 +21,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr int kSmoothingPasses = 8;
 
 struct Pieces {
@@ -31,7 +29,7 @@ struct Pieces {
   bool apart = false;           // a part has several
 };
 
-Pieces pieces_of(const RidgeMesh& mesh) {
+Pieces pieces_of(const SheetMesh& mesh) {
   Pieces pieces{DisjointSets(mesh.vertices.size()), std::vector<char>(mesh.vertices.size(), 0)};
   for (const Triangle& t : mesh.triangles) {
     pieces.sets.unite(t[0], t[1]);
@@ -55,46 +53,43 @@ Pieces pieces_of(const RidgeMesh& mesh) {
 
 class Joining {
  public:
-  Joining(RidgeMesh& mesh, Pieces pieces, const Lattice& lattice, const FrameField& field)
+  Joining(SheetMesh& mesh, Pieces pieces, const Lattice& lattice, const FrameField& field)
       : mesh_(mesh),
         pieces_(std::move(pieces)),
         lattice_(lattice),
         field_(field),
         points_(lattice.points),
-        nodes_(lattice.points + mesh.vertices.size()) {
-    for (auto& side : neighbours_) side.assign(points_, kNone);
+        cheapest_(sources()),
+        beside_(lattice.points, [&](const auto& put) {
+          for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) put(mesh.vertices[v].point, v);
+        }) {
+    for (auto& side : neighbours_) side.assign(points_, kNoNode);
     for_each_edge(lattice, [&](std::uint32_t low, std::uint32_t high, std::uint8_t axis, const auto&) {
       neighbours_[axis][low] = high;
       neighbours_[3U + axis][high] = low;
     });
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) beside_.emplace_back(mesh.vertices[v].point, v);
-    std::sort(beside_.begin(), beside_.end());
   }
 
   std::uint32_t run(const std::function<bool(const Vec3&)>& inside, double max_length) {
     search();
-    std::sort(ways_.begin(), ways_.end());
     std::uint32_t count = 0;
-    for (const Way& way : ways_) {
-      std::vector<std::uint32_t> nodes = nodes_along(way);
-      const std::uint32_t first = nodes.front() - points_, last = nodes.back() - points_;
-      if (pieces_.sets.find(first) == pieces_.sets.find(last)) continue;
-      std::vector<RidgeVertex> line = line_of(nodes);
+    const auto ends = [&](const Way& way) {
+      return std::pair{cheapest_.source[way.a], cheapest_.source[way.b]};
+    };
+    take_cheapest(std::move(ways_), pieces_.sets, ends, [&](const Way& way) {
+      const std::vector<std::uint32_t> nodes = nodes_along(way);
+      std::vector<SheetVertex> line = line_of(nodes);
       smooth(line, inside);
       const double radius = std::sqrt(std::max(line.front().area, line.back().area) / std::numbers::pi);
-      if (length_of(line) > max_length * radius) continue;
-      put_in(line, first, last);
-      pieces_.sets.unite(first, last);
+      if (length_of(line) > max_length * radius) return false;
+      put_in(line, nodes.front() - points_, nodes.back() - points_);
       ++count;
-    }
+      return true;
+    });
     return count;
   }
 
  private:
-  struct Node {
-    double cost = std::numeric_limits<double>::infinity();  // of the way from its piece
-    std::uint32_t piece = kNone, from = kNone;
-  };
   struct Way {
     double cost;
     std::uint32_t a, b;  // neighbouring nodes of different pieces
@@ -118,56 +113,51 @@ class Joining {
       return;
     }
     for (const auto& side : neighbours_)
-      if (side[node] != kNone) visit(side[node]);
-    for (auto at = std::lower_bound(beside_.begin(), beside_.end(), std::pair{node, 0U});
-         at != beside_.end() && at->first == node; ++at)
-      visit(points_ + at->second);
+      if (side[node] != kNoNode) visit(side[node]);
+    for (const std::uint32_t v : beside_[node]) visit(points_ + v);
   }
 
-  // Dijkstra's algorithm from all pieces that search; the others wait.
+  // Per node its piece, where it is a vertex.
+  std::vector<std::uint32_t> sources() {
+    std::vector<std::uint32_t> result(points_ + mesh_.vertices.size(), kNoNode);
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) result[points_ + v] = pieces_.sets.find(v);
+    return result;
+  }
+
+  // From all pieces that search; the others wait.
   void search() {
-    using Step = std::pair<double, std::uint32_t>;
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-      const std::uint32_t piece = pieces_.sets.find(v);
-      nodes_[points_ + v] = {0, piece, kNone};
-      if (pieces_.searching[piece]) next.push({0, points_ + v});
-    }
-    while (!next.empty()) {
-      const auto [reached, node] = next.top();
-      next.pop();
-      if (reached > nodes_[node].cost) continue;
+    const auto steps = [&](std::uint32_t node, const auto& go) {
       neighbours_of(node, [&](std::uint32_t to) {
-        const double further = reached + cost(node, to);
-        if (further < nodes_[to].cost) {
-          nodes_[to] = {further, nodes_[node].piece, node};
-          next.push({further, to});
-        } else if (nodes_[to].piece != kNone && nodes_[to].piece != nodes_[node].piece) {
-          ways_.push_back({further + nodes_[to].cost, std::min(node, to), std::max(node, to)});
-        }
+        const double step = cost(node, to);
+        if (go(to, step, node)) return;
+        const std::uint32_t piece = cheapest_.source[to];
+        if (piece != kNoNode && piece != cheapest_.source[node])
+          ways_.push_back(
+              {cheapest_.cost[node] + step + cheapest_.cost[to], std::min(node, to), std::max(node, to)});
       });
-    }
+    };
+    cheapest_.find(steps, [&](std::uint32_t node) { return pieces_.searching[cheapest_.source[node]] != 0; });
   }
 
   // From the vertex at one end to that at the other.
   std::vector<std::uint32_t> nodes_along(const Way& way) const {
     std::vector<std::uint32_t> nodes;
-    for (std::uint32_t n = way.a; n != kNone; n = nodes_[n].from) nodes.push_back(n);
+    for (std::uint32_t n = way.a; n != kNoNode; n = cheapest_.step[n]) nodes.push_back(n);
     std::reverse(nodes.begin(), nodes.end());
-    for (std::uint32_t n = way.b; n != kNone; n = nodes_[n].from) nodes.push_back(n);
+    for (std::uint32_t n = way.b; n != kNoNode; n = cheapest_.step[n]) nodes.push_back(n);
     return nodes;
   }
 
-  std::vector<RidgeVertex> line_of(const std::vector<std::uint32_t>& nodes) const {
+  std::vector<SheetVertex> line_of(const std::vector<std::uint32_t>& nodes) const {
     std::vector<std::uint32_t> ranks(nodes.begin() + 1, nodes.end() - 1);
     std::sort(ranks.begin(), ranks.end());
     const std::vector<LatticePlace> places = lattice_places(lattice_, ranks);
     const Matrix3 to_mesh = inverse_transposed(frame_matrix(lattice_));
-    std::vector<RidgeVertex> line{mesh_.vertices[nodes.front() - points_]};
+    std::vector<SheetVertex> line{mesh_.vertices[nodes.front() - points_]};
     for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
       const auto at = std::lower_bound(ranks.begin(), ranks.end(), nodes[n]) - ranks.begin();
       const auto& [i, j, k] = places[static_cast<std::size_t>(at)];
-      RidgeVertex vertex;
+      SheetVertex vertex;
       vertex.position = lattice_.spacing * Vec3{double(i), double(j), double(k)};
       vertex.point = nodes[n];
       vertex.erosion = field_.erosion[nodes[n]];
@@ -178,7 +168,7 @@ class Joining {
     return line;
   }
 
-  static void smooth(std::vector<RidgeVertex>& line, const std::function<bool(const Vec3&)>& inside) {
+  static void smooth(std::vector<SheetVertex>& line, const std::function<bool(const Vec3&)>& inside) {
     for (int pass = 0; pass < kSmoothingPasses; ++pass) {
       for (std::size_t n = 1; n + 1 < line.size(); ++n) {
         const Vec3 middle = 0.5 * (line[n - 1].position + line[n + 1].position);
@@ -188,13 +178,13 @@ class Joining {
     }
   }
 
-  static double length_of(const std::vector<RidgeVertex>& line) {
+  static double length_of(const std::vector<SheetVertex>& line) {
     double length = 0;
     for (std::size_t n = 1; n < line.size(); ++n) length += norm(line[n].position - line[n - 1].position);
     return length;
   }
 
-  void put_in(const std::vector<RidgeVertex>& line, std::uint32_t first, std::uint32_t last) {
+  void put_in(const std::vector<SheetVertex>& line, std::uint32_t first, std::uint32_t last) {
     std::uint32_t before = first;
     const std::uint32_t part = mesh_.part[first];
     for (std::size_t n = 1; n + 1 < line.size(); ++n) {
@@ -207,26 +197,24 @@ class Joining {
     mesh_.segments.push_back({before, last});
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   Pieces pieces_;
   const Lattice& lattice_;
   const FrameField& field_;
   std::uint32_t points_;
-  std::vector<Node> nodes_;
-  std::array<std::vector<std::uint32_t>, 6> neighbours_;         // of the sample points
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> beside_;  // sample point, vertex; ascending
+  CheapestWays cheapest_;
+  Groups<std::uint32_t> beside_;                          // per sample point: the vertices at it
+  std::array<std::vector<std::uint32_t>, 6> neighbours_;  // of the sample points
   std::vector<Way> ways_;
 };
 
 }  // namespace
 
-std::uint32_t join_pieces(RidgeMesh& mesh, const Lattice& lattice, const FrameField& field,
-                          const std::function<bool(const Vec3&)>& inside, const RidgeJoinOptions& options) {
-  require_within(options.max_length, 0, 1e6,
-                 "the longest way between pieces must lie between 0 and 1e6 radii");
+std::uint32_t join_pieces(SheetMesh& mesh, const Lattice& lattice, const FrameField& field,
+                          const std::function<bool(const Vec3&)>& inside, double max_length) {
   Pieces pieces = pieces_of(mesh);
-  if (!pieces.apart || options.max_length == 0) return 0;
-  return Joining(mesh, std::move(pieces), lattice, field).run(inside, options.max_length);
+  if (!pieces.apart || max_length == 0) return 0;
+  return Joining(mesh, std::move(pieces), lattice, field).run(inside, max_length);
 }
 
 }  // namespace affskel::core

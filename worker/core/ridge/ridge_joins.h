@@ -4,16 +4,11 @@
 #include <functional>
 
 #include "core/base/vec3.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
-#include "core/ridge/ridge_mesh.h"
 
 namespace affskel::core {
-
-struct RidgeJoinOptions {
-  /// The longest way, in the radius of the larger section at its two ends, >= 0.
-  double max_length = 2;
-};
 
 /// Joins pieces of a skeleton that lie apart in one part of the solid by polylines, where no ridge leads from
 /// one to the other: over the saddles of E between limbs and trunk.
@@ -27,10 +22,9 @@ struct RidgeJoinOptions {
 /// A function of mesh, field and solid alone.
 /// @param field of the lattice.
 /// @param inside whether a place, frame coordinates, lies in the solid.
+/// @param max_length the longest way, in the radius of the larger section at its two ends.
 /// @return how many ways were put in.
-/// @throws CoreError kBadInput when the option is out of range.
-std::uint32_t join_pieces(RidgeMesh& mesh, const Lattice& lattice, const FrameField& field,
-                          const std::function<bool(const Vec3&)>& inside,
-                          const RidgeJoinOptions& options = {});
+std::uint32_t join_pieces(SheetMesh& mesh, const Lattice& lattice, const FrameField& field,
+                          const std::function<bool(const Vec3&)>& inside, double max_length);
 
 }  // namespace affskel::core

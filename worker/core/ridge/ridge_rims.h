@@ -3,19 +3,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/ridge/ridge_mesh.h"
+#include "core/contour/sheet_mesh.h"
+#include "core/ridge/ridge_constants.h"
 
 namespace affskel::core {
 
-struct RidgeRimOptions {
-  double low = 6;     ///< the sheet ends where its strength falls below this, radians, > 0
+/// Bounds on the strength of a sheet and of curves, radians.
+struct RidgeBounds {
+  double low = 6;     ///< the sheet ends where its strength falls below this, > 0; the threshold of `ridge`
   double high = 6.5;  ///< a piece has this strength somewhere, >= low
-  /// ... and, there, at most this lambda_3 / lambda_1: about the centre of a ball E falls alike in all
-  /// directions, and e is any of them.
-  double max_roundness = 0.8;
-  /// Pieces that the weaker sheet connects are weighed as one, and dropped with less than this share of the
-  /// area above `low` in their part of the solid, 0 .. 1.
-  double significance = 0.001;
 };
 
 /// What cutting has left.
@@ -41,7 +37,7 @@ struct RidgePieces {
 ///    and gaps one edge wide close.
 /// A function of the mesh alone.  O(n log n).
 /// @param mesh distinct triangles, each with three distinct corners.
-/// @throws CoreError kBadInput when an option is out of range.
-RidgePieces cut_rims(RidgeMesh& mesh, const RidgeRimOptions& options = {});
+/// @throws CoreError kBadInput when a bound is out of range.
+RidgePieces cut_rims(SheetMesh& mesh, const RidgeBounds& bounds = {}, const RidgeConstants& constants = {});
 
 }  // namespace affskel::core

@@ -5,62 +5,43 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/require.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/solid_parts.h"
 #include "core/ridge/ridge_crossings.h"
 #include "core/ridge/ridge_curves.h"
+#include "core/ridge/ridge_flaps.h"
+#include "core/ridge/ridge_holes.h"
+#include "core/ridge/ridge_joins.h"
 #include "core/ridge/ridge_values.h"
+#include "core/ridge/round_sheet.h"
+#include "core/ridge/round_stretches.h"
+#include "core/ridge/torn_strips.h"
 #include "core/solid/solid_membership.h"
 
 namespace affskel::core {
 namespace {
 
-// What a vertex tells of its cell's crossings: their mean, normals turned to agree with the first.
-RidgeVertex vertex_at(const Vec3& position, std::span<const RidgeCrossing> crossings,
-                      std::span<const std::uint32_t> members) {
-  RidgeVertex vertex;
-  for (std::size_t n = 0; n < members.size(); ++n) {
-    const RidgeVertex& here = crossings[members[n]].at;
-    vertex = n == 0 ? here : between(vertex, here, 1 / static_cast<double>(n + 1));
-  }
-  vertex.position = position;
-  return vertex;
-}
-
-RidgeMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<const RidgeCrossing> crossings,
+// A vertex has the mean of its cell's crossings, normals turned to agree with the first.
+SheetMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<const RidgeCrossing> crossings,
                   ExecutionContext* context) {
   std::vector<SheetCrossing> places;
   places.reserve(crossings.size());
   for (const RidgeCrossing& crossing : crossings)
     places.push_back({crossing.edge, crossing.at.position, crossing.normal});
-  DualContourOptions options;
-  options.context = context;
-  DualContour found = dual_contour(lattice, parts, places, options);
-  RidgeMesh mesh;
-  mesh.vertices.reserve(found.vertices.size());
-  for (std::uint32_t cell = 0; cell < found.cells.size(); ++cell)
-    mesh.vertices.push_back(vertex_at(found.vertices[cell], crossings, found.cells.edges_of(cell)));
-  mesh.part = std::move(found.cells.part);
-  mesh.triangles = std::move(found.triangles);
-  return mesh;
-}
-
-std::vector<PointDerivatives> derivatives_of(const Lattice& lattice, const FrameField& field,
-                                             const RidgeSheetOptions& options) {
-  SmoothedDerivativesOptions smoothing = options.derivatives;
-  smoothing.context = options.context;
-  std::vector<PointDerivatives> result = smoothed_derivatives(lattice, field, smoothing);
-  throw_if_stopped(options.context);
-  return result;
+  const auto mean = [&](const Vec3&, std::span<const std::uint32_t> members) {
+    SheetVertex vertex = crossings[members[0]].at;
+    for (std::size_t n = 1; n < members.size(); ++n)
+      vertex = between(vertex, crossings[members[n]].at, 1 / static_cast<double>(n + 1));
+    return vertex;
+  };
+  return dual_contour(lattice, parts, places, mean, context);
 }
 
 }  // namespace
 
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       const RidgeSheetOptions& options) {
-  require_within(options.weak_share, 1e-3, 1, "the share of the weak sheet must lie between 0.001 and 1");
+                       const RidgeSheetOptions& options, const RidgeConstants& constants) {
   if (!options.known_derivatives.empty() && options.known_derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the known derivatives are not those of this lattice");
   const SolidParts parts(solid, lattice);
@@ -68,37 +49,29 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   std::vector<RidgeCurve> curves;
   {
     std::vector<PointDerivatives> computed;
-    if (options.known_derivatives.empty()) computed = derivatives_of(lattice, field, options);
+    if (options.known_derivatives.empty())
+      computed = smoothed_derivatives(lattice, field, options.context, constants);
     const RidgeValues values(lattice, parts, field, computed.empty() ? options.known_derivatives : computed,
-                             options.weak_share * options.rims.low, options.min_erosion);
+                             constants.weak_share * options.bounds.low, constants.min_erosion);
     crossings = ridge_crossings(lattice, values);
     throw_if_stopped(options.context);
     curves = ridge_curves(lattice, parts, values, options.context);
   }
   throw_if_stopped(options.context);
-  RidgeMesh mesh = contour(lattice, parts, crossings, options.context);
+  SheetMesh mesh = contour(lattice, parts, crossings, options.context);
   throw_if_stopped(options.context);
   RidgeSheet sheet;
-  sheet.pieces = cut_rims(mesh, options.rims);
-  sheet.flaps_cut = cut_flaps(mesh, options.flaps);
+  sheet.pieces = cut_rims(mesh, options.bounds, constants);
+  sheet.flaps_cut = cut_flaps(mesh, constants.max_flap);
   const SolidMembership membership(solid.mesh);
   const auto inside = [&](const Vec3& u) {
     return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * u));
   };
-  sheet.holes_closed = close_holes(mesh, inside, options.holes);
-  RoundStretchOptions round = options.round;
-  round.low_strength = options.rims.low;
-  round.high_strength = options.rims.high;
-  round.max_roundness = options.rims.max_roundness;
-  TornStripOptions torn = options.torn;
-  torn.reach = options.round_sheet.reach;
-  torn.round_ratio = options.round_sheet.round_ratio;
-  const std::vector<RidgeCurve> stretches = torn_stretches(mesh, round_stretches(curves, round), torn);
-  sheet.curves = put_curves(mesh, stretches, inside, options.round_sheet);
-  sheet.pieces.bridges += join_pieces(mesh, lattice, field, inside, options.joins);
-  sheet.vertices = std::move(mesh.vertices);
-  sheet.triangles = std::move(mesh.triangles);
-  sheet.segments = std::move(mesh.segments);
+  sheet.holes_closed = close_holes(mesh, inside, constants.max_hole);
+  const std::vector<RidgeCurve> round = round_stretches(curves, options.bounds, constants);
+  sheet.curves = put_curves(mesh, torn_stretches(mesh, round, constants), inside, constants);
+  sheet.pieces.bridges += join_pieces(mesh, lattice, field, inside, constants.max_join);
+  static_cast<SheetMesh&>(sheet) = std::move(mesh);
   return sheet;
 }
 

@@ -6,45 +6,27 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
-#include "core/ridge/ridge_flaps.h"
-#include "core/ridge/ridge_holes.h"
-#include "core/ridge/ridge_joins.h"
-#include "core/ridge/ridge_mesh.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/ridge/ridge_rims.h"
-#include "core/ridge/round_sheet.h"
-#include "core/ridge/round_stretches.h"
 #include "core/ridge/smoothed_derivatives.h"
-#include "core/ridge/torn_strips.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
 
 struct RidgeSheetOptions {
-  SmoothedDerivativesOptions derivatives;
-  /// What smoothed_derivatives() gave for this field with `derivatives`, for several sheets of one field;
-  /// empty: they are computed.
+  RidgeBounds bounds;
+  /// What smoothed_derivatives() gave for this field, for several sheets of one field; empty: they are
+  /// computed.
   std::span<const PointDerivatives> known_derivatives;
-  RidgeRimOptions rims;  ///< its `low` is the threshold of `ridge`
-  RidgeFlapOptions flaps;
-  RidgeHoleOptions holes;
-  RoundStretchOptions round;  ///< its bounds on strength and roundness are those of `rims`
-  TornStripOptions torn;      ///< its reach and bound of roundness are those of `round_sheet`
-  RoundSheetOptions round_sheet;
-  RidgeJoinOptions joins;
-  /// Least strength of the sheet before it is cut, as a share of rims.low, 0 .. 1: what may join its pieces.
-  double weak_share = 0.125;
-  double min_erosion = 0.002;           ///< see RidgeValues
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers
 };
 
 /// The ridge surface of the E field.
-struct RidgeSheet {
-  std::vector<RidgeVertex> vertices;
-  std::vector<Triangle> triangles;
-  std::vector<Segment> segments;  ///< of curves: two vertices each
+struct RidgeSheet : SheetMesh {
   RidgePieces pieces;
   std::uint32_t flaps_cut = 0;     ///< see cut_flaps()
   std::uint32_t holes_closed = 0;  ///< see close_holes()
@@ -61,9 +43,9 @@ struct RidgeSheet {
 /// lattice and field alone.
 /// @param lattice of this solid.
 /// @param field of this lattice.
-/// @throws CoreError kBadInput when an option is not finite or out of range, or there are not as many known
+/// @throws CoreError kBadInput when a bound is not finite or out of range, or there are not as many known
 ///   derivatives as points; kLimit for 2^30 crossings and more; kCancelled when the context asks to stop.
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       const RidgeSheetOptions& options = {});
+                       const RidgeSheetOptions& options = {}, const RidgeConstants& constants = {});
 
 }  // namespace affskel::core

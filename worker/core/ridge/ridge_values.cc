@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/base/require.h"
-#include "core/base/scaled_to_unit.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/base/unit.h"
 
 namespace affskel::core {
 namespace {
@@ -19,11 +19,6 @@ double strength_of(double least, double value, const Vec3& gradient) {
 
 std::array<float, 3> floats_of(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
 }
 
 PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
@@ -76,13 +71,12 @@ Vec3 RidgeValues::gradient(std::uint32_t point) const {
 
 // E may be of any size.
 double RidgeValues::frame_area(std::uint32_t point) const {
-  const Vec3& g = field_.gradient[point];
-  return std::ldexp(norm(scaled_to_unit(g)), largest_exponent(g));
+  return length_of(field_.gradient[point]);
 }
 
-RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
+SheetVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
                             std::span<const double> weights, const Vec3& across) const {
-  RidgeVertex vertex;
+  SheetVertex vertex;
   vertex.position = position;
   vertex.point = points[0];
   Vec3 gradient;
@@ -106,11 +100,6 @@ RidgeVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t>
   vertex.normal_a = unit(gradient + rise);
   vertex.normal_b = unit(gradient - rise);
   return vertex;
-}
-
-// |grad_x E| = |F^-T g| for a gradient g in the frame.
-double section_area(const Matrix3& to_mesh, const Vec3& gradient) {
-  return std::ldexp(norm(to_mesh * scaled_to_unit(gradient)), largest_exponent(gradient));
 }
 
 }  // namespace affskel::core

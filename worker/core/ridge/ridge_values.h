@@ -7,10 +7,10 @@
 
 #include "core/base/matrix3.h"
 #include "core/base/vec3.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/lattice/solid_parts.h"
-#include "core/ridge/ridge_mesh.h"
 #include "core/ridge/smoothed_derivatives.h"
 
 namespace affskel::core {
@@ -45,7 +45,7 @@ class RidgeValues {
   Vec3 gradient(std::uint32_t point) const;
 
   /// Whether the two bounds hold for a strength and the vertex's E.
-  bool counts(double strength, const RidgeVertex& vertex) const {
+  bool counts(double strength, const SheetVertex& vertex) const {
     return strength >= min_strength_ && vertex.erosion >= least_erosion_[parts_.of_point(vertex.point)];
   }
 
@@ -54,10 +54,10 @@ class RidgeValues {
   /// @param points the first one becomes the vertex's sample point.
   /// @param weights one per point, >= 0, with the sum 1.
   /// @param across e_1 there, unit, of either sign.
-  RidgeVertex at(const Vec3& position, std::span<const std::uint32_t> points, std::span<const double> weights,
+  SheetVertex at(const Vec3& position, std::span<const std::uint32_t> points, std::span<const double> weights,
                  const Vec3& across) const;
 
-  /// |grad_u E|: the section's area as the frame measures it (RidgeVertex::area is that of the mesh).
+  /// |grad_u E|: the section's area as the frame measures it (SheetVertex::area is that of the mesh).
   double frame_area(std::uint32_t point) const;
 
  private:
@@ -69,11 +69,6 @@ class RidgeValues {
   std::vector<double> least_erosion_;  // per part
   std::vector<PointRidge> ridges_;     // per sample point
 };
-
-/// The area |grad_x E| of the optimal section, mesh units squared.
-/// @param to_mesh F^-T of the frame.
-/// @param gradient grad_u E, of any size.
-double section_area(const Matrix3& to_mesh, const Vec3& gradient);
 
 /// The entries of PointRidge and PointDerivatives as vectors.
 inline Vec3 vector_of(const std::array<float, 3>& v) {

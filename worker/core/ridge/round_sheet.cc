@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
 #include "core/ridge/curve_feet.h"
 #include "core/ridge/round_stretches.h"
 
@@ -17,12 +16,12 @@ namespace {
 
 constexpr int kPlacesOfJoint = 16;  // parts of a joint, between which it is asked whether it is in the solid
 
-bool long_enough(const RidgeCurve& curve, const RoundSheetOptions& options) {
+bool long_enough(const RidgeCurve& curve, const RidgeConstants& constants) {
   if (std::all_of(curve.vertices.begin(), curve.vertices.end(),
-                  [&](const RidgeVertex& v) { return v.ratio >= options.round_ratio; }))
+                  [&](const SheetVertex& v) { return v.ratio >= constants.round_ratio; }))
     return true;
   const double sum = std::accumulate(curve.radius.begin(), curve.radius.end(), 0.0);
-  return curve_length(curve) * static_cast<double>(curve.radius.size()) >= options.min_length * sum;
+  return curve_length(curve) * static_cast<double>(curve.radius.size()) >= constants.min_length * sum;
 }
 
 // The parts of all stretches whose vertices are wanted.
@@ -38,10 +37,10 @@ std::vector<RidgeCurve> parts_of(std::span<const RidgeCurve> stretches, const st
 }
 
 // The stretches without the places where the sheet is wide.
-std::vector<RidgeCurve> narrow_only(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
-                                    const RoundSheetOptions& options) {
+std::vector<RidgeCurve> narrow_only(const SheetMesh& mesh, std::span<const RidgeCurve> stretches,
+                                    const RidgeConstants& constants) {
   const std::vector<CurveVertex> curve = curve_vertices(stretches);
-  const std::vector<CurveFoot> feet = curve_feet(mesh, curve, options.reach);
+  const std::vector<CurveFoot> feet = curve_feet(mesh, curve, constants.reach);
   std::vector<char> wanted(curve.size(), 1);
   for (const Triangle& t : mesh.triangles) {
     bool crosses = false;
@@ -51,13 +50,13 @@ std::vector<RidgeCurve> narrow_only(const RidgeMesh& mesh, std::span<const Ridge
       if (feet[corner].place == CurveFoot::Place::kBeside) wanted[feet[corner].vertex] = 0;
   }
   std::vector<RidgeCurve> result = parts_of(stretches, wanted);
-  std::erase_if(result, [&](const RidgeCurve& part) { return !long_enough(part, options); });
+  std::erase_if(result, [&](const RidgeCurve& part) { return !long_enough(part, constants); });
   return result;
 }
 
 class Replacement {
  public:
-  Replacement(RidgeMesh& mesh, std::vector<RidgeCurve> stretches, double reach)
+  Replacement(SheetMesh& mesh, std::vector<RidgeCurve> stretches, double reach)
       : mesh_(mesh),
         stretches_(std::move(stretches)),
         reach_(reach),
@@ -206,7 +205,7 @@ class Replacement {
         mesh_.segments.push_back({joint.sheet, base + std::clamp(joint.curve, begin, last) - begin});
   }
 
-  RidgeMesh& mesh_;
+  SheetMesh& mesh_;
   std::vector<RidgeCurve> stretches_;
   double reach_;
   std::vector<CurveVertex> curve_;
@@ -220,14 +219,11 @@ class Replacement {
 
 }  // namespace
 
-std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
-                         const std::function<bool(const Vec3&)>& inside, const RoundSheetOptions& options) {
-  require_within(options.reach, 1e-3, 1e3, "the reach of a curve must lie between 0.001 and 1000 radii");
-  require_within(options.min_length, 0, 1e6,
-                 "the least length of a stretch must lie between 0 and 1e6 radii");
-  std::vector<RidgeCurve> wanted = narrow_only(mesh, stretches, options);
+std::uint32_t put_curves(SheetMesh& mesh, std::span<const RidgeCurve> stretches,
+                         const std::function<bool(const Vec3&)>& inside, const RidgeConstants& constants) {
+  std::vector<RidgeCurve> wanted = narrow_only(mesh, stretches, constants);
   for (;;) {
-    Replacement replacement(mesh, wanted, options.reach);
+    Replacement replacement(mesh, wanted, constants.reach);
     const std::vector<char> cut_off = replacement.plan(inside);
     if (std::find(cut_off.begin(), cut_off.end(), 1) == cut_off.end()) return replacement.carry_out();
     std::vector<RidgeCurve> staying;

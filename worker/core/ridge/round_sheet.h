@@ -4,18 +4,11 @@
 #include <functional>
 #include <span>
 
+#include "core/contour/sheet_mesh.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/ridge/ridge_curves.h"
-#include "core/ridge/ridge_mesh.h"
 
 namespace affskel::core {
-
-struct RoundSheetOptions {
-  /// How far from a curve its sheet reaches, in the radius of the section, > 0.  What reaches farther is wide
-  /// by right.
-  double reach = 1;
-  double min_length = 0.8;   ///< of a stretch, in its mean radius, >= 0
-  double round_ratio = 0.9;  ///< from this lambda_2 / lambda_1 on, all along it, a stretch may be shorter
-};
 
 /// Puts curves in the place of what is found of the sheet where the solid is round: narrow strips and half
 /// planes about the curve, turned by chance.
@@ -35,9 +28,8 @@ struct RoundSheetOptions {
 /// @param mesh without segments; cut (see cut_rims()).
 /// @param inside whether a place, frame coordinates, lies in the solid.
 /// @return how many stretches were put in.
-/// @throws CoreError kBadInput when an option is out of range.
-std::uint32_t put_curves(RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
+std::uint32_t put_curves(SheetMesh& mesh, std::span<const RidgeCurve> stretches,
                          const std::function<bool(const Vec3&)>& inside,
-                         const RoundSheetOptions& options = {});
+                         const RidgeConstants& constants = {});
 
 }  // namespace affskel::core

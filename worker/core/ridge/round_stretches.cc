@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/require.h"
-
 namespace affskel::core {
 namespace {
 
@@ -61,28 +59,24 @@ std::vector<RidgeCurve> parts_of_curve(const RidgeCurve& curve, const std::vecto
   return parts;
 }
 
-std::vector<RidgeCurve> round_stretches(std::span<const RidgeCurve> curves,
-                                        const RoundStretchOptions& options) {
-  require_within(options.low_ratio, 0, 1, "the lower bound of the ratio must lie between 0 and 1");
-  require_within(options.high_ratio, options.low_ratio, 1,
-                 "the higher bound of the ratio must lie between the lower one and 1");
-  require_within(options.smoothing, 0, 1e6, "the smoothing of the ratio must lie between 0 and 1e6 radii");
+std::vector<RidgeCurve> round_stretches(std::span<const RidgeCurve> curves, const RidgeBounds& bounds,
+                                        const RidgeConstants& constants) {
   std::vector<RidgeCurve> result;
   for (RidgeCurve curve : curves) {
     std::vector<double> ratio(curve.vertices.size());
-    for (std::size_t v = 0; v < ratio.size(); ++v) ratio[v] = smoothed_ratio(curve, v, options.smoothing);
+    for (std::size_t v = 0; v < ratio.size(); ++v) ratio[v] = smoothed_ratio(curve, v, constants.smoothing);
     std::vector<char> wanted(ratio.size());
     for (std::size_t v = 0; v < ratio.size(); ++v) {
       curve.vertices[v].ratio = ratio[v];
-      wanted[v] = ratio[v] >= options.low_ratio && curve.vertices[v].strength >= options.low_strength;
+      wanted[v] = ratio[v] >= constants.low_ratio && curve.vertices[v].strength >= bounds.low;
     }
     for (RidgeCurve& part : parts_of_curve(curve, wanted)) {
       const auto any = [&](auto test) {
         return std::any_of(part.vertices.begin(), part.vertices.end(), test);
       };
-      if (any([&](const RidgeVertex& v) { return v.ratio >= options.high_ratio; }) &&
-          any([&](const RidgeVertex& v) {
-            return v.strength >= options.high_strength && v.roundness <= options.max_roundness;
+      if (any([&](const SheetVertex& v) { return v.ratio >= constants.high_ratio; }) &&
+          any([&](const SheetVertex& v) {
+            return v.strength >= bounds.high && v.roundness <= constants.max_roundness;
           }))
         result.push_back(std::move(part));
     }

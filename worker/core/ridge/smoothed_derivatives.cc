@@ -211,13 +211,6 @@ class ScaledField {
   std::vector<double> value_;
 };
 
-void check(const SmoothedDerivativesOptions& options) {
-  require_within(options.width, 1e-3, 10, "the width of the derivatives must lie between 0.001 and 10");
-  require_within(options.min_width, 1, 32, "the least width of the derivatives must lie between 1 and 32");
-  require_within(options.max_width, options.min_width, 32,
-                 "the largest width of the derivatives must lie between the least one and 32");
-}
-
 // Between the ladder's Gaussians `below` and the next: 1 at its own width, 0 at its neighbours'.
 float nearness(double width, const std::vector<double>& ladder, std::size_t step) {
   if (width < ladder[step])
@@ -243,22 +236,23 @@ std::vector<std::uint8_t> reaches(const std::vector<PointDerivatives>& points,
 }  // namespace
 
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
-                                                   const SmoothedDerivativesOptions& options) {
-  check(options);
+                                                   ExecutionContext* context,
+                                                   const RidgeConstants& constants) {
   std::vector<PointDerivatives> result(field.erosion.size());
-  double widest = options.min_width;
+  double widest = constants.min_width;
   {
     const std::vector<float> depth = local_depth(lattice, field);
     for (std::size_t p = 0; p < result.size(); ++p) {
-      const double width =
-          std::clamp(options.width * static_cast<double>(depth[p]), options.min_width, options.max_width);
+      const double width = std::clamp(constants.width * static_cast<double>(depth[p]), constants.min_width,
+                                      constants.max_width);
       result[p].width = static_cast<float>(width);
       widest = std::max(widest, static_cast<double>(result[p].width));
     }
   }
-  throw_if_stopped(options.context);
-  std::vector<double> ladder{options.min_width};
-  while (ladder.back() < widest) ladder.push_back(std::min(ladder.back() * kLadderFactor, options.max_width));
+  throw_if_stopped(context);
+  std::vector<double> ladder{constants.min_width};
+  while (ladder.back() < widest)
+    ladder.push_back(std::min(ladder.back() * kLadderFactor, constants.max_width));
   const RowBand band(lattice, reach_of(ladder.back()));
   std::vector<float> values;
   {
@@ -270,10 +264,10 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   }
   std::vector<float> weight(result.size());
   for (std::size_t step = 0; step < ladder.size(); ++step) {
-    throw_if_stopped(options.context);
+    throw_if_stopped(context);
     for (std::size_t p = 0; p < result.size(); ++p)
       weight[p] = nearness(static_cast<double>(result[p].width), ladder, step);
-    LadderStep(lattice, band, values, ladder[step], weight).add_to(result, options.context);
+    LadderStep(lattice, band, values, ladder[step], weight).add_to(result, context);
   }
   return result;
 }

@@ -7,21 +7,12 @@
 #include "core/base/execution_context.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
+#include "core/ridge/ridge_constants.h"
 
 namespace affskel::core {
 
 // Notation.  P = sqrt(E / max E): near a smooth surface that bulges E grows with the square of the distance,
 // so that P is nearly linear there.  Lengths in spacings.  d = E / |grad E| is the depth of a point.
-
-struct SmoothedDerivativesOptions {
-  /// The Gaussian's standard deviation as a share of the local depth, > 0.
-  double width = 0.35;
-  /// Bounds of the standard deviation, spacings, 1 <= min_width <= max_width <= 32: what the lattice carries,
-  /// and what is affordable.
-  double min_width = 2;
-  double max_width = 9;
-  ExecutionContext* context = nullptr;  ///< asked at every step whether to stop
-};
 
 /// The derivatives of P at a sample point.
 struct PointDerivatives {
@@ -43,8 +34,10 @@ struct PointDerivatives {
 /// saddles and hollows of the surface, where E is not 0, there is no false ridge a few spacings inside.
 /// @param field of this lattice.
 /// @return per sample point.  A function of lattice and field alone.
-/// @throws CoreError kBadInput when an option is out of range; kCancelled when the context asks to stop.
+/// @param context asked at every step whether to stop.
+/// @throws CoreError kCancelled when the context asks to stop.
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
-                                                   const SmoothedDerivativesOptions& options = {});
+                                                   ExecutionContext* context = nullptr,
+                                                   const RidgeConstants& constants = {});
 
 }  // namespace affskel::core

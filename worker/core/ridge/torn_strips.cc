@@ -7,45 +7,37 @@
 #include <utility>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/require.h"
+#include "core/mesh/edges.h"
 #include "core/ridge/curve_feet.h"
 #include "core/ridge/round_stretches.h"
 
 namespace affskel::core {
 namespace {
 
-template <class Value>
-void make_distinct(std::vector<Value>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-bool is_torn(const std::vector<Triangle>& triangles) {
+bool is_torn(std::vector<Triangle> triangles) {
   if (triangles.empty()) return true;
   std::vector<std::uint32_t> corners;
   for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
-  make_distinct(corners);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  DisjointSets sets(corners.size());
-  std::size_t pieces = corners.size();
-  for (const Triangle& t : triangles) {
-    std::array<std::uint32_t, 3> place{};  // of its corners among all
-    for (std::size_t k = 0; k < 3; ++k)
-      place[k] = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), t[k]) -
-                                            corners.begin());
-    for (std::size_t k = 0; k < 3; ++k) {
-      edges.emplace_back(std::minmax(place[k], place[(k + 1) % 3]));
-      if (sets.unite(place[k], place[(k + 1) % 3])) --pieces;
-    }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (Triangle& t : triangles) {
+    for (std::uint32_t& corner : t)  // its place among all
+      corner = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), corner) -
+                                          corners.begin());
   }
-  make_distinct(edges);
-  return pieces + edges.size() != corners.size() + triangles.size();
+  DisjointSets sets(corners.size());
+  std::size_t pieces = corners.size(), edges = 0;
+  Edges(corners.size(), triangles).for_each([&](std::uint32_t low, std::uint32_t high, const auto&) {
+    ++edges;
+    pieces -= sets.unite(low, high) ? 1 : 0;
+  });
+  return pieces + edges != corners.size() + triangles.size();
 }
 
 // The triangles whose corners all lie beside one stretch.
 class TrianglesBeside {
  public:
-  TrianglesBeside(const RidgeMesh& mesh, const std::vector<CurveVertex>& curve, double reach)
+  TrianglesBeside(const SheetMesh& mesh, const std::vector<CurveVertex>& curve, double reach)
       : mesh_(mesh), feet_(curve_feet(mesh, curve, reach)), at_(curve.size()) {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       if (is_beside(feet_, curve, mesh.triangles[t])) at_[feet_[mesh.triangles[t][0]].vertex].push_back(t);
@@ -68,20 +60,17 @@ class TrianglesBeside {
   }
 
  private:
-  const RidgeMesh& mesh_;
+  const SheetMesh& mesh_;
   std::vector<CurveFoot> feet_;
   std::vector<std::vector<std::uint32_t>> at_;  // by the foot of the first corner
 };
 
 }  // namespace
 
-std::vector<RidgeCurve> torn_stretches(const RidgeMesh& mesh, std::span<const RidgeCurve> stretches,
-                                       const TornStripOptions& options) {
-  require_within(options.window, 1e-3, 1e6, "the window of a strip must lie between 0.001 and 1e6 radii");
-  require_within(options.step, 1e-3, 1e6, "the step of the windows must lie between 0.001 and 1e6 radii");
-  require_within(options.round_ratio, 0, 1, "the ratio of what is round must lie between 0 and 1");
+std::vector<RidgeCurve> torn_stretches(const SheetMesh& mesh, std::span<const RidgeCurve> stretches,
+                                       const RidgeConstants& constants) {
   const std::vector<CurveVertex> curve = curve_vertices(stretches);
-  const TrianglesBeside beside(mesh, curve, options.reach);
+  const TrianglesBeside beside(mesh, curve, constants.reach);
   std::vector<RidgeCurve> result;
   std::uint32_t first = 0;  // vertex of the stretch
   for (const RidgeCurve& stretch : stretches) {
@@ -93,13 +82,13 @@ std::vector<RidgeCurve> torn_stretches(const RidgeMesh& mesh, std::span<const Ri
       while (at < count && curve[first + at].arc - curve[first + v].arc < radii * stretch.radius[v]) ++at;
       return at;
     };
-    for (std::uint32_t begin = 0, end = 0; end < count; begin = beyond(begin, options.step)) {
-      end = beyond(begin, options.window);
+    for (std::uint32_t begin = 0, end = 0; end < count; begin = beyond(begin, constants.step)) {
+      end = beyond(begin, constants.window);
       if (is_torn(beside.in(first + begin, first + end)))
         std::fill(wanted.begin() + begin, wanted.begin() + end, char{1});
     }
     for (std::uint32_t v = 0; v < count; ++v)
-      if (stretch.vertices[v].ratio >= options.round_ratio) wanted[v] = 1;
+      if (stretch.vertices[v].ratio >= constants.round_ratio) wanted[v] = 1;
     for (RidgeCurve& part : parts_of_curve(stretch, wanted)) result.push_back(std::move(part));
     first += count;
   }

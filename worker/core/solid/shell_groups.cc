@@ -1,7 +1,6 @@
 #include "core/solid/shell_groups.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/base/disjoint_sets.h"
@@ -9,9 +8,6 @@
 
 namespace affskel::core {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Box kNothing = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 // What may strictly hold the box: a node of the tree does when one of its boxes does.
 struct Round {
@@ -41,7 +37,7 @@ struct Within {
 
 NestingShells nesting_shells(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_shell,
                              std::uint32_t shells, ExecutionContext* context) {
-  NestingShells result{std::vector<Box>(shells, kNothing), std::vector<std::uint8_t>(shells, 0), {}};
+  NestingShells result{std::vector<Box>(shells), std::vector<std::uint8_t>(shells, 0), {}};
   for (std::uint32_t t = 0; t < triangle_shell.size(); ++t)
     result.box[triangle_shell[t]].include(box_of(mesh, mesh.triangles[t]));
   const BoxTree tree(result.box);

@@ -8,6 +8,7 @@
 #include "base/number_text.h"
 #include "core/base/double_sum.h"
 #include "core/base/error.h"
+#include "core/mesh/box.h"
 #include "core/mesh/coincident_points.h"
 #include "core/mesh/mesh_topology.h"
 #include "core/mesh/unused_points.h"
@@ -182,20 +183,16 @@ class SolidBuilder {
 
   void normalise() {
     Mesh& mesh = solid_.mesh;
-    Vec3 low = mesh.points[0], high = low;
-    for (const Vec3& p : mesh.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    const Box box = box_of(mesh.points);
+    const double side = box.longest_side();
     if (side == 0) refuse("the mesh bounds no volume: all its vertices are in one place");
     if (!std::isfinite(side)) refuse("the mesh is too large: its extent is not a double");
     int exponent = 0;
     if (std::frexp(side, &exponent) == 0.5) --exponent;
     solid_.exponent = exponent;
-    solid_.bbox_min = low;
-    solid_.bbox_max = high;
-    solid_.centre = low + 0.5 * (high - low);
+    solid_.bbox_min = box.lowest();
+    solid_.bbox_max = box.highest();
+    solid_.centre = box.lowest() + 0.5 * box.sides();
     for (Vec3& p : mesh.points) {
       p = p - solid_.centre;
       p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};
@@ -352,10 +349,11 @@ class SolidBuilder {
     const std::string which =
         "solid " + std::to_string(solid) + " of " + std::to_string(solid_.solid_volume.size());
     const SolidSize size = solid_sizes(solid_)[solid];
-    if (size.longest_side() < kMinScaledSide) {
+    if (size.box.longest_side() < kMinScaledSide) {
       refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
-             place(size.first_triangle) + ", is " + base::rounded(size.longest_side() * solid_.scale(), 3) +
-             " long, the whole mesh " + base::rounded(extent(), 3) + "; take them one by one");
+             place(size.first_triangle) + ", is " +
+             base::rounded(size.box.longest_side() * solid_.scale(), 3) + " long, the whole mesh " +
+             base::rounded(extent(), 3) + "; take them one by one");
     }
     refuse("the mesh bounds no volume: " + which + " has volume " + base::to_text(volume) +
            (volume > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));

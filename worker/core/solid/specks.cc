@@ -11,22 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace affskel::core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Box kNothing = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-
-double longest_side_of(const Box& box) {
-  return std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
-}
-
 // Whether the volume can be told from rounding in a mesh with this box.
 bool counts_in(const Box& box, double volume) {
   int exponent = 0;  // of the cube that would be 1 in scaled coordinates
-  if (std::frexp(longest_side_of(box), &exponent) == 0.5) --exponent;
+  if (std::frexp(box.longest_side(), &exponent) == 0.5) --exponent;
   return volume > std::ldexp(kMinScaledVolume, 3 * exponent);
 }
 
@@ -36,16 +28,12 @@ bool is_larger(const SolidSize& a, const SolidSize& b) {
 
 }  // namespace
 
-double SolidSize::longest_side() const {
-  return longest_side_of(box);
-}
-
 std::vector<SolidSize> solid_sizes(const Solid& solid) {
   const std::vector<Vec3>& points = solid.mesh.points;
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::vector<std::uint32_t> corner(solid.shells.size(), kNone);
   std::vector<double> shell_volume(solid.shells.size(), 0);
-  std::vector<SolidSize> sizes(solid.solid_volume.size(), {kNothing, 0, 0, kNone});
+  std::vector<SolidSize> sizes(solid.solid_volume.size(), {{}, 0, 0, kNone});
   for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
     const Triangle& c = solid.mesh.triangles[t];
     const std::uint32_t shell = solid.triangle_shell[t];
@@ -72,7 +60,7 @@ std::vector<std::uint8_t> find_specks(const Solid& solid, const std::vector<doub
 
   const std::vector<SolidSize> sizes = solid_sizes(solid);
   const SolidSize& largest = *std::min_element(sizes.begin(), sizes.end(), is_larger);
-  Box rest = kNothing;
+  Box rest;
   for (std::size_t s = 0; s < sizes.size(); ++s) {
     if (large(volumes[s])) rest.include(sizes[s].box);
   }

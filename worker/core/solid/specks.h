@@ -24,8 +24,6 @@ struct SolidSize {
   double volume = 0;  ///< about a corner of its own: that it lies far from the centre takes no digits from it
   double bulk = 0;    ///< the largest volume that one of its surfaces bounds
   std::uint32_t first_triangle = 0;
-
-  double longest_side() const;
 };
 
 /// The sizes of all solids.  O(N).  @param solid with mesh, shells and triangle_shell; the surfaces may face

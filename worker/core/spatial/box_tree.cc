@@ -43,21 +43,12 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
 // Of the centres, not of the box: the faces of boxes within boxes all have their centres in the middle of the
 // longest sides.  Halved there, by nothing but their indices, each half would fill the whole box again.
 std::size_t BoxTree::longest_axis(std::uint32_t first, std::uint32_t count) const {
-  std::size_t longest = 0;
-  double length = -1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double low = centre_of(boxes_[items_[first]], axis), high = low;
-    for (std::uint32_t i = first + 1; i < first + count; ++i) {
-      const double centre = centre_of(boxes_[items_[i]], axis);
-      low = std::min(low, centre);
-      high = std::max(high, centre);
-    }
-    if (high - low > length) {
-      longest = axis;
-      length = high - low;
-    }
+  Box centres;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const Box& box = boxes_[items_[i]];
+    centres.include(Vec3{centre_of(box, 0), centre_of(box, 1), centre_of(box, 2)});
   }
-  return longest;
+  return centres.longest_axis();
 }
 
 }  // namespace affskel::core

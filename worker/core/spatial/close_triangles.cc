@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "core/base/unit.h"
+
 namespace affskel::core {
 namespace {
 
@@ -15,11 +17,6 @@ namespace {
 constexpr std::uint32_t kMaxLoose = 64;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-Box around(const Vec3& a, const Vec3& b) {
-  return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
-          {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
-}
 
 Box widened(Box box, double by) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -43,9 +40,9 @@ Box arc_box(const Vec3& v, const Vec3& p, const Vec3& q) {
   // The largest component first: squares must not leave the range of a double.
   const Vec3 a = {to_p.x / size_p, to_p.y / size_p, to_p.z / size_p};
   const Vec3 b = {to_q.x / size_q, to_q.y / size_q, to_q.z / size_q};
-  const Vec3 unit_p = (1 / norm(a)) * a, unit_q = (1 / norm(b)) * b;
+  const Vec3 unit_p = unit(a), unit_q = unit(b);
   const double rise = 1 - norm(0.5 * (unit_p + unit_q));
-  return widened(around(unit_p, unit_q), rise + 16 * kEps);
+  return widened(box_of(std::array{unit_p, unit_q}), rise + 16 * kEps);
 }
 
 std::vector<Box> arc_boxes(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::uint32_t>& fan) {

@@ -1,8 +1,9 @@
 #include "core/spatial/locality_order.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
+
+#include "core/mesh/box.h"
 
 namespace affskel::core {
 namespace {
@@ -26,13 +27,9 @@ std::uint64_t spread_cell(double x, double low, double scale) {
 }  // namespace
 
 std::vector<std::uint32_t> locality_order(const std::vector<Vec3>& points) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const Box box = box_of(points);
+  const Vec3 low = box.lowest();
+  const double side = box.longest_side();
   const double scale = side > 0 ? kMaxCell / side : 0;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
   places.reserve(points.size());

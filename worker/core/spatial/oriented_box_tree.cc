@@ -61,17 +61,10 @@ OrientedBox OrientedBoxTree::box_round(std::uint32_t first, std::uint32_t count)
 }
 
 int OrientedBoxTree::longest_axis(std::uint32_t first, std::uint32_t count) const {
-  Vec3 low = corner_sum(triangles_.corners(members_[first])), high = low;
-  for (std::uint32_t m = first + 1; m < first + count; ++m) {
-    const Vec3 p = corner_sum(triangles_.corners(members_[m]));
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-  }
-  return axis;
+  Box box;
+  for (std::uint32_t m = first; m < first + count; ++m)
+    box.include(corner_sum(triangles_.corners(members_[m])));
+  return static_cast<int>(box.longest_axis());
 }
 
 }  // namespace affskel::core

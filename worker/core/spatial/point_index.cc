@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/mesh/box.h"
 
 namespace affskel::core {
 namespace {
@@ -27,14 +28,6 @@ double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high)
   return dot(way, way);
 }
 
-int longest_side(const Vec3& low, const Vec3& high) {
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-  }
-  return axis;
-}
-
 }  // namespace
 
 PointIndex::PointIndex(std::span<const Vec3> points) : points_(points.begin(), points.end()) {
@@ -46,17 +39,12 @@ PointIndex::PointIndex(std::span<const Vec3> points) : points_(points.begin(), p
 
 std::uint32_t PointIndex::build(std::uint32_t first, std::uint32_t count) {
   constexpr std::uint32_t kLeaf = 8;
-  Vec3 low = points_[first], high = low;
-  for (std::uint32_t i = first + 1; i < first + count; ++i) {
-    const Vec3& p = points_[i];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const Box box = box_of(std::span(points_).subspan(first, count));
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({low, high, first, count, 0});
+  nodes_.push_back({box.lowest(), box.highest(), first, count, 0});
   if (count <= kLeaf) return index;
 
-  const int axis = longest_side(low, high);
+  const int axis = static_cast<int>(box.longest_axis());
   const auto begin = points_.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count,
                    [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });

@@ -18,6 +18,7 @@
 
 #include "base/number_text.h"
 #include "core/base/error.h"
+#include "core/mesh/box.h"
 #include "core/mesh/unused_points.h"
 
 namespace affskel::core {
@@ -57,18 +58,12 @@ void check_finite(std::span<const Vec3> points) {
   }
 }
 
-Vec3 lowest_corner(std::span<const Vec3> points) {
-  Vec3 low = points.front();
-  for (const Vec3& p : points) low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  return low;
-}
-
 /// The points in units of the spacing, as whole numbers, when they lie on an axis-parallel lattice.
 std::optional<std::vector<Vec3>> lattice_coordinates(std::span<const Vec3> points, double spacing) {
   if (!(spacing > 0)) return std::nullopt;
   constexpr double kTolerance = 1e-6;
   constexpr double kMaxSteps = 1 << 24;
-  const Vec3 low = lowest_corner(points);
+  const Vec3 low = box_of(points).lowest();
   bool whole = true;
   const auto snap = [&](double difference) {
     const double steps = difference / spacing, nearest = std::round(steps);

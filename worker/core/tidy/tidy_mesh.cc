@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/edges.h"
 #include "core/mesh/unused_points.h"
 
 namespace affskel::core {
@@ -43,7 +44,7 @@ class Tidier {
 
  private:
   bool change() {
-    find_stars();
+    stars_ = triangles_of_vertices(mesh_.points.size(), mesh_.triangles);
     claimed_.assign(mesh_.points.size(), 0);
     bool any = false;
     for (const ShortEdge& e : short_edges()) {
@@ -59,22 +60,7 @@ class Tidier {
     return any;
   }
 
-  void find_stars() {
-    star_begin_.assign(mesh_.points.size() + 1, 0);
-    for (const Triangle& t : mesh_.triangles) {
-      for (Index v : t) ++star_begin_[v + 1];
-    }
-    for (std::size_t v = 1; v < star_begin_.size(); ++v) star_begin_[v] += star_begin_[v - 1];
-    std::vector<Index> cursor(star_begin_.begin(), star_begin_.end() - 1);
-    stars_.resize(3 * mesh_.triangles.size());
-    for (Index t = 0; t < mesh_.triangles.size(); ++t) {
-      for (Index v : mesh_.triangles[t]) stars_[cursor[v]++] = t;
-    }
-  }
-
-  std::span<const Index> star(Index v) const {
-    return {stars_.data() + star_begin_[v], stars_.data() + star_begin_[v + 1]};
-  }
+  std::span<const Index> star(Index v) const { return stars_[v]; }
 
   std::vector<ShortEdge> short_edges() const {
     std::vector<ShortEdge> edges;
@@ -226,7 +212,7 @@ class Tidier {
 
   Mesh mesh_;
   double limit_;
-  std::vector<Index> star_begin_, stars_;
+  Groups<Index> stars_;
   std::vector<std::uint8_t> claimed_;
 };
 

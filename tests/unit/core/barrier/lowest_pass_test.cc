@@ -42,18 +42,18 @@ float by_union_find(const std::vector<float>& values, std::uint32_t from, std::u
   return -1;
 }
 
-TEST(NeighbourGraph, OfASphereHasFiveOrSixNeighbours) {
-  const NeighbourGraph graph(kSphere);
+TEST(Neighbours, OfASphereHasFiveOrSixNeighbours) {
+  const Adjacency graph = neighbours(kSphere.points.size(), kSphere.triangles);
   ASSERT_EQ(graph.size(), kSphere.points.size());
   std::size_t fives = 0, pairs = 0;
   for (std::uint32_t v = 0; v < graph.size(); ++v) {
-    const auto near = graph.of(v);
+    const auto near = graph[v];
     EXPECT_TRUE(near.size() == 5 || near.size() == 6);
     fives += near.size() == 5;
     pairs += near.size();
     for (const std::uint32_t w : near) {
       EXPECT_LT(norm(kSphere.points[v] - kSphere.points[w]), 0.25);
-      EXPECT_TRUE(std::ranges::count(graph.of(w), v) == 1);
+      EXPECT_TRUE(std::ranges::count(graph[w], v) == 1);
     }
   }
   EXPECT_EQ(fives, 12U);
@@ -61,7 +61,7 @@ TEST(NeighbourGraph, OfASphereHasFiveOrSixNeighbours) {
 }
 
 TEST(LowestPass, IsWhereSublevelSetsJoin) {
-  const NeighbourGraph graph(kSphere);
+  const Adjacency graph = neighbours(kSphere.points.size(), kSphere.triangles);
   LowestPass pass(graph);
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     // Few levels: many are equal.
@@ -75,12 +75,12 @@ TEST(LowestPass, IsWhereSublevelSetsJoin) {
 }
 
 TEST(MinimumBelow, IsLowerThanItsNeighbours) {
-  const NeighbourGraph graph(kSphere);
+  const Adjacency graph = neighbours(kSphere.points.size(), kSphere.triangles);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const std::vector<float> values = random_values(seed, seed % 2 == 0 ? 3 : 100000);
     for (std::uint32_t v = 0; v < graph.size(); v += 13) {
       const std::uint32_t least = minimum_below(graph, values, v);
-      for (const std::uint32_t near : graph.of(least)) EXPECT_LE(values[least], values[near]);
+      for (const std::uint32_t near : graph[least]) EXPECT_LE(values[least], values[near]);
       EXPECT_LE(values[least], values[v]);
       EXPECT_EQ(minimum_below(graph, values, least), least);
     }
@@ -89,7 +89,7 @@ TEST(MinimumBelow, IsLowerThanItsNeighbours) {
 
 // A height has one minimum, whatever one starts from.
 TEST(MinimumBelow, OfAHeightIsItsLowestPoint) {
-  const NeighbourGraph graph(kSphere);
+  const Adjacency graph = neighbours(kSphere.points.size(), kSphere.triangles);
   std::vector<float> height;
   for (const Vec3& p : kSphere.points) height.push_back(static_cast<float>(dot(p, {0.3, -0.5, 0.81})));
   const auto lowest = static_cast<std::uint32_t>(std::ranges::min_element(height) - height.begin());

@@ -15,9 +15,13 @@
 namespace affskel::core {
 namespace {
 
+struct Options : ChordConstants {
+  double significance = 0.005;
+};
+
 // With turns of a quarter and more strong.
-ChordPruningOptions quarter() {
-  ChordPruningOptions options;
+Options quarter() {
+  Options options;
   options.strong_turn = 0.25;
   return options;
 }
@@ -37,8 +41,9 @@ class Plane {
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
   }
 
-  SignificantShocks prune(const ChordPruningOptions& options = quarter()) const {
-    return significant_shocks(box_.lattice, SolidParts(box_.solid, box_.lattice), shocks_, options);
+  SignificantShocks prune(const Options& options = quarter()) const {
+    return significant_shocks(box_.lattice, SolidParts(box_.solid, box_.lattice), shocks_,
+                              options.significance, options);
   }
 
  private:
@@ -70,8 +75,8 @@ bool keeps(const SignificantShocks& kept, std::uint32_t i, std::uint32_t j) {
                      [&](const ChordShock& s) { return s.place[0] == i && s.place[1] == j; });
 }
 
-ChordPruningOptions with_significance(double significance) {
-  ChordPruningOptions options = quarter();
+Options with_significance(double significance) {
+  Options options = quarter();
   options.significance = significance;
   return options;
 }
@@ -114,7 +119,7 @@ TEST(SignificantShocks, PiecesAreJoinedByTheCheapestWay) {
   for (std::uint32_t i = 6; i < 14; ++i) EXPECT_TRUE(keeps(kept, i, 3)) << i;
   EXPECT_FALSE(keeps(kept, 10, 6));
   EXPECT_LE(kept.shocks.size(), 90U);
-  ChordPruningOptions options = quarter();
+  Options options = quarter();
   options.near_cost = 101;
   EXPECT_EQ(plane.prune(options).pieces, std::vector<double>{1.0});
 }
@@ -147,7 +152,7 @@ TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
 TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
   const Plane plane = {{0, 10, 0, 10, 1, 1, 3.3}, {20, 10, 0, 10, 1, 1, 3.1}};
   EXPECT_EQ(plane.prune().shocks.size(), 100U);
-  ChordPruningOptions options = quarter();
+  Options options = quarter();
   options.min_erosion = 0;
   EXPECT_EQ(plane.prune(options).shocks.size(), 200U);
 }
@@ -185,7 +190,8 @@ class Boxes {
   SignificantShocks prune() {
     std::sort(shocks_.begin(), shocks_.end(),
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
-    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_, quarter());
+    return significant_shocks(lattice_, SolidParts(solid_, lattice_), shocks_, quarter().significance,
+                              quarter());
   }
 
  private:
@@ -258,13 +264,9 @@ TEST(SignificantShocks, NothingComesOfNothing) {
   EXPECT_TRUE(plane.prune().pieces.empty());
 }
 
-TEST(SignificantShocks, RefusesOptionsOutOfRange) {
-  const Plane plane = {};
-  for (const ChordPruningOptions& options :
-       {ChordPruningOptions{-1}, ChordPruningOptions{1.5}, ChordPruningOptions{std::nan("")},
-        ChordPruningOptions{0, 2}, ChordPruningOptions{0, 0, -1}, ChordPruningOptions{0, 0, 0, -1}}) {
-    EXPECT_THROW(plane.prune(options), CoreError);
-  }
+TEST(SignificantShocks, RefuseASignificanceOutOfRange) {
+  for (const double significance : {-1.0, 1.5, std::nan("")})
+    EXPECT_THROW(Plane({}).prune(with_significance(significance)), CoreError);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::array<Vec3, 3> axes(double h) {
 
 BettiNumbers betti(const ChordSheet& sheet) {
   Mesh mesh;
-  for (const ChordSheetVertex& v : sheet.vertices) mesh.points.push_back(v.position);
+  for (const SheetVertex& v : sheet.vertices) mesh.points.push_back(v.position);
   mesh.triangles = sheet.triangles;
   return sheet_topology(mesh).betti;
 }
@@ -50,7 +50,7 @@ std::vector<Vec3> vertices_of(const ErodedSolid& solid, const ChordSheet& sheet,
   for (const auto& [edge, triangles] : edges) {
     if (triangles == 1) rim.push_back(solid.place(sheet.vertices[edge.first].position));
   }
-  for (const ChordSheetVertex& v : sheet.vertices) {
+  for (const SheetVertex& v : sheet.vertices) {
     const Vec3 p = solid.place(v.position);
     if (std::all_of(rim.begin(), rim.end(), [&](const Vec3& q) { return norm(p - q) >= far; }))
       result.push_back(p);
@@ -124,8 +124,7 @@ TEST(ChordSheet, StaysInThePlaneOfATorusOfFewTriangles) {
     // With an odd number of layers one lies in the plane, and which of two equal chords counts there is
     // chance.
     const double bound = torus.lattice.grid.dims[2] % 2 == 0 ? 0.05 : 0.55;
-    for (const ChordSheetVertex& v : sheet.vertices)
-      EXPECT_LT(std::abs(torus.place(v.position).z), bound * h);
+    for (const SheetVertex& v : sheet.vertices) EXPECT_LT(std::abs(torus.place(v.position).z), bound * h);
   }
 }
 

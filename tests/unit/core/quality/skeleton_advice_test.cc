@@ -9,6 +9,8 @@
 namespace affskel::core {
 namespace {
 
+constexpr double kStrongTurn = ChordConstants().strong_turn;
+
 Advice advice_for(const std::vector<double>& divergence, const OptimalDirections& optimal,
                   const Lattice& lattice, double threshold = 7) {
   return empty_skeleton_advice(lattice, optimal, divergence, ShockOperator::kZuckerHummel, threshold);
@@ -83,9 +85,7 @@ TEST(EmptySkeletonAdvice, SuggestsAThresholdThatKeepsSomethingWheneverThereIsSom
 
 TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
   NormalBlock block({10, 10, 10});
-  ChordPruningOptions pruning;
-  pruning.significance = 0.9;
-  const Advice advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, pruning);
+  const Advice advice = empty_sheet_advice(block.lattice, {156, 131, 125, 0.9, 0.8}, 0.9, kStrongTurn);
   EXPECT_TRUE(says(advice, "all 125 strong shocks")) << advice.text;
   EXPECT_TRUE(says(advice, "below the significance 0.9; the heaviest weighs 0.8")) << advice.text;
   EXPECT_TRUE(says(advice, "A threshold of 0.792 would keep it")) << advice.text;
@@ -97,7 +97,7 @@ TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
 // Turns of 1/16 and 1/2 are angles of 29 and 90 degrees.
 TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
   NormalBlock block({10, 10, 10});
-  const Advice advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, {});
+  const Advice advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 89")) << advice.text;
   EXPECT_FALSE(suggests(advice, "frame", "axis"));
   EXPECT_TRUE(suggests(advice, "directions", "triangles+sphere:2000"));
@@ -109,9 +109,10 @@ TEST(EmptySheetAdvice, SuggestsOtherAxesWhenTheseAreStretched) {
   NormalBlock block({10, 10, 10});
   Lattice lattice = block.lattice;
   lattice.grid.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.1}};
-  EXPECT_FALSE(suggests(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {}), "frame", "axis"));
+  EXPECT_FALSE(
+      suggests(empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn), "frame", "axis"));
   lattice.grid.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, 0.05}};
-  const Advice stretched = empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, {});
+  const Advice stretched = empty_sheet_advice(lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(stretched, "the frame axis or pca"));
   EXPECT_TRUE(suggests(stretched, "frame", "axis"));
   EXPECT_TRUE(is_plain(stretched));
@@ -119,10 +120,10 @@ TEST(EmptySheetAdvice, SuggestsOtherAxesWhenTheseAreStretched) {
 
 TEST(EmptySheetAdvice, TellsShocksNearTheSurfaceFromNone) {
   NormalBlock block({3, 3, 3}, 0.25);
-  const Advice near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, {});
+  const Advice near = empty_sheet_advice(block.lattice, {9, 5, 0, 0.7, 0}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(near, "at none of the 5")) << near.text;
   EXPECT_TRUE(says(near, "only 27 sample points: submit with a smaller spacing than 0.25")) << near.text;
-  const Advice none = empty_sheet_advice(block.lattice, {}, {});
+  const Advice none = empty_sheet_advice(block.lattice, {}, 0.005, kStrongTurn);
   EXPECT_TRUE(says(none, "nowhere do two different chords")) << none.text;
 }
 
@@ -130,7 +131,7 @@ TEST(EmptyRidgeAdvice, NamesAThresholdThatKeepsAPiece) {
   NormalBlock block({10, 10, 10});
   RidgePieces pieces;
   pieces.max_strength = 12;
-  const Advice advice = empty_ridge_advice(block.lattice, pieces, {20, 24, 0.8, 0});
+  const Advice advice = empty_ridge_advice(block.lattice, pieces, {20, 24});
   EXPECT_TRUE(says(advice, "greatest strength is 12, less than the 24")) << advice.text;
   EXPECT_TRUE(says(advice, "A threshold of 9.9 would keep one")) << advice.text;
   EXPECT_TRUE(suggests(advice, "threshold", "9.9"));

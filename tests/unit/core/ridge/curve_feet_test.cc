@@ -9,12 +9,12 @@
 namespace affskel::core {
 namespace {
 
-RidgeMesh scattered(std::size_t count, unsigned seed) {
-  RidgeMesh mesh;
+SheetMesh scattered(std::size_t count, unsigned seed) {
+  SheetMesh mesh;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(0, 30);
   for (std::size_t n = 0; n < count; ++n) {
-    RidgeVertex v;
+    SheetVertex v;
     v.position = {any(random), any(random), any(random) - 15};
     mesh.vertices.push_back(v);
     mesh.part.push_back(n % 7 == 0 ? 1 : 0);
@@ -23,9 +23,9 @@ RidgeMesh scattered(std::size_t count, unsigned seed) {
 }
 
 TEST(CurveFeet, StandOnTheNearestVertexOfTheirPart) {
-  const RidgeMesh mesh = scattered(500, 1);
+  const SheetMesh mesh = scattered(500, 1);
   std::vector<RidgeCurve> curves{line(3, 20, 4), line(8, 25, 6)};
-  for (RidgeVertex& v : curves[1].vertices) v.position.z = v.position.x;  // aslant
+  for (SheetVertex& v : curves[1].vertices) v.position.z = v.position.x;  // aslant
   RidgeCurve other = line(5, 9, 40);
   other.part = 1;
   curves.push_back(other);
@@ -48,11 +48,11 @@ TEST(CurveFeet, StandOnTheNearestVertexOfTheirPart) {
 }
 
 TEST(CurveFeet, TellWhatLiesBeyondAnEnd) {
-  RidgeMesh mesh;
+  SheetMesh mesh;
   const double x[] = {2, 4, 7, 15.5, 7};
   const double y[] = {15, 15, 18, 15, 20};
   for (int n = 0; n < 5; ++n) {
-    RidgeVertex v;
+    SheetVertex v;
     v.position = {x[n], y[n], 0};
     mesh.vertices.push_back(v);
     mesh.part.push_back(0);
@@ -74,7 +74,7 @@ TEST(CurveFeet, TellWhatLiesBeyondAnEnd) {
 }
 
 TEST(CurveFeet, TrianglesLieBesideOneCurve) {
-  const RidgeMesh strip = part_of_square(30, [](double, double y) { return y > 13 && y < 17; });
+  const SheetMesh strip = part_of_square(30, [](double, double y) { return y > 13 && y < 17; });
   const std::vector<CurveVertex> curves = curve_vertices(std::vector{line(3, 12, 4), line(18, 27, 4)});
   const std::vector<CurveFoot> feet = curve_feet(strip, curves, 1);
   for (const Triangle& t : strip.triangles) {

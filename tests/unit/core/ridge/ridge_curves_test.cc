@@ -42,9 +42,9 @@ struct Limb {
 std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field, double min_strength = 0.5,
                                   double min_erosion = 0, ExecutionContext* context = nullptr) {
   const SolidParts parts(box.solid, box.lattice);
-  SmoothedDerivativesOptions narrow;
+  RidgeConstants narrow;
   narrow.min_width = narrow.max_width = 1;
-  const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, narrow);
+  const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, nullptr, narrow);
   const RidgeValues values(box.lattice, parts, field, derivatives, min_strength, min_erosion);
   return ridge_curves(box.lattice, parts, values, context);
 }
@@ -67,7 +67,7 @@ TEST(RidgeCurves, FollowTheLineWhereEIsGreatestAcross) {
     EXPECT_FALSE(curve.closed);
     double low = 1e300, high = -1e300, length = 0;
     for (std::size_t n = 0; n < curve.vertices.size(); ++n) {
-      const RidgeVertex& v = curve.vertices[n];
+      const SheetVertex& v = curve.vertices[n];
       const Vec3 off = v.position - limb.foot;
       const double w = dot(off, limb.along);
       low = std::min(low, w);
@@ -109,7 +109,7 @@ TEST(RidgeCurves, CloseWhereEIsGreatestOnACircle) {
     ++closed;
     // Smoothing a curved crest draws it in by about width^2 / radius.
     EXPECT_NEAR(curve_length(curve), 2 * std::numbers::pi * radius, 2);
-    for (const RidgeVertex& v : curve.vertices) {
+    for (const SheetVertex& v : curve.vertices) {
       EXPECT_NEAR(std::hypot(v.position.x - centre.x, v.position.y - centre.y), radius, 0.4);
       EXPECT_NEAR(v.position.z, centre.z, 0.1);
     }
@@ -123,8 +123,8 @@ TEST(RidgeCurves, EndWhereTheirBoundsAre) {
   const FrameField field = field_of_branches(box.lattice, {limb.branch()});
   // s_2 = 2 flat E / slope^2 grows along the limb: at w = 0 it is 15.
   const RidgeCurve upper = longest(curves_of(box, field, 15));
-  for (const RidgeVertex& v : upper.vertices) EXPECT_GE(v.strength, 14.9);
-  const auto above = [&](const RidgeVertex& v) { return dot(v.position - limb.foot, limb.along); };
+  for (const SheetVertex& v : upper.vertices) EXPECT_GE(v.strength, 14.9);
+  const auto above = [&](const SheetVertex& v) { return dot(v.position - limb.foot, limb.along); };
   EXPECT_NEAR(std::min(above(upper.vertices.front()), above(upper.vertices.back())), 0, 1.5);
   EXPECT_GT(std::max(above(upper.vertices.front()), above(upper.vertices.back())), 6);
   EXPECT_TRUE(curves_of(box, field, 0.5, 1).empty());  // nowhere is E the volume
@@ -136,7 +136,7 @@ TEST(RidgeCurves, AreNoneInAFlatSheet) {
   Limb limb{.along = unit({0.2, 0.1, 1})};
   limb.flat = 0;
   for (const RidgeCurve& curve : curves_of(box, field_of_branches(box.lattice, {limb.branch()})))
-    for (const RidgeVertex& v : curve.vertices)
+    for (const SheetVertex& v : curve.vertices)
       EXPECT_GT(
           std::max({std::abs(v.position.x - 6), std::abs(v.position.y - 6), std::abs(v.position.z - 6)}),
           2.5);

@@ -30,7 +30,7 @@ struct Joined {
   // A triangle smaller than the spacing, about the sample point that is nearest to a place of the mesh.
   void add_piece(const Vec3& place) {
     const double h = solid.lattice.spacing;
-    RidgeVertex vertex;
+    SheetVertex vertex;
     double nearest = std::numeric_limits<double>::infinity();
     for_each_point(solid.lattice, [&](int i, int j, int k, std::uint32_t rank) {
       const Vec3 at = h * Vec3{double(i), double(j), double(k)};
@@ -67,7 +67,7 @@ struct Joined {
   const ErodedSolid& solid;
   SolidParts parts;
   SolidMembership membership;
-  RidgeMesh mesh;
+  SheetMesh mesh;
 };
 
 TEST(RidgeJoins, LeadThroughTheSolidAndNoFartherThanAsked) {
@@ -95,7 +95,7 @@ TEST(RidgeJoins, KeepToWhereEIsLarge) {
   joined.add_piece({7, 0.5, 0.5});
   EXPECT_EQ(joined.join(10), 1U);
   std::size_t met = 0;
-  for (const RidgeVertex& v : joined.mesh.vertices) {
+  for (const SheetVertex& v : joined.mesh.vertices) {
     const Vec3 x = box.place(v.position);
     if (std::abs(x.x - 4) > 1) continue;
     ++met;

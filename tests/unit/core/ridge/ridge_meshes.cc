@@ -2,11 +2,11 @@
 
 namespace affskel::core {
 
-RidgeMesh square(std::uint32_t n, const std::function<double(double, double)>& strength) {
-  RidgeMesh mesh;
+SheetMesh square(std::uint32_t n, const std::function<double(double, double)>& strength) {
+  SheetMesh mesh;
   for (std::uint32_t j = 0; j <= n; ++j) {
     for (std::uint32_t i = 0; i <= n; ++i) {
-      RidgeVertex v;
+      SheetVertex v;
       v.position = {double(i), double(j), 0};
       v.strength = strength(i, j);
       v.erosion = 1;
@@ -26,8 +26,8 @@ RidgeMesh square(std::uint32_t n, const std::function<double(double, double)>& s
   return mesh;
 }
 
-RidgeMesh part_of_square(std::uint32_t n, const std::function<bool(double, double)>& wanted) {
-  RidgeMesh mesh = square(n, [](double, double) { return 10; });
+SheetMesh part_of_square(std::uint32_t n, const std::function<bool(double, double)>& wanted) {
+  SheetMesh mesh = square(n, [](double, double) { return 10; });
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     Vec3 middle;
     for (const std::uint32_t corner : t) middle = middle + (1.0 / 3) * mesh.vertices[corner].position;
@@ -40,7 +40,7 @@ RidgeMesh part_of_square(std::uint32_t n, const std::function<bool(double, doubl
 RidgeCurve line(double low, double high, double radius) {
   RidgeCurve curve;
   for (double x = low; x <= high; x += 1) {
-    RidgeVertex v;
+    SheetVertex v;
     v.position = {x, 15.1, 0.2};
     v.strength = 7;
     curve.vertices.push_back(v);
@@ -49,9 +49,9 @@ RidgeCurve line(double low, double high, double radius) {
   return curve;
 }
 
-SheetTopology topology(const RidgeMesh& mesh) {
+SheetTopology topology(const SheetMesh& mesh) {
   Mesh plain;
-  for (const RidgeVertex& v : mesh.vertices) plain.points.push_back(v.position);
+  for (const SheetVertex& v : mesh.vertices) plain.points.push_back(v.position);
   plain.triangles = mesh.triangles;
   return sheet_topology(plain, mesh.segments);
 }

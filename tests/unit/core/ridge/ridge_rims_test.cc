@@ -12,7 +12,7 @@
 namespace affskel::core {
 namespace {
 
-double area(const RidgeMesh& mesh) {
+double area(const SheetMesh& mesh) {
   double sum = 0;
   for (const Triangle& t : mesh.triangles) sum += triangle_area(mesh, t);
   return sum;
@@ -20,11 +20,11 @@ double area(const RidgeMesh& mesh) {
 
 TEST(RidgeRims, AreLinesWhereTheStrengthMeetsTheLowerBound) {
   // s = 5 on the slanting line x = 10.3 + y / 3.
-  RidgeMesh mesh = square(20, [](double x, double y) { return 5 + 0.5 * (10.3 + y / 3 - x); });
-  cut_rims(mesh, {5, 6, 0.8, 0.001});
+  SheetMesh mesh = square(20, [](double x, double y) { return 5 + 0.5 * (10.3 + y / 3 - x); });
+  cut_rims(mesh, {5, 6});
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   std::size_t rim = 0;
-  for (const RidgeVertex& v : mesh.vertices) {
+  for (const SheetVertex& v : mesh.vertices) {
     EXPECT_LE(v.position.x, 10.3 + v.position.y / 3 + 1e-12);
     if (v.strength != 5) continue;
     ++rim;
@@ -40,15 +40,15 @@ TEST(RidgeRims, KeepWhatIsConnectedWithSomethingStrong) {
   const auto hill = [](double x, double y, double cx, double top) {
     return top - 0.5 * std::hypot(x - cx, y - 10);
   };
-  RidgeMesh mesh = square(20, [&](double x, double y) {
+  SheetMesh mesh = square(20, [&](double x, double y) {
     return std::max({1.0, hill(x, y, 5, 7), hill(x, y, 15, 5.9)});
   });
-  const RidgePieces pieces = cut_rims(mesh, {5, 6, 0.8, 0.001});
+  const RidgePieces pieces = cut_rims(mesh, {5, 6});
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(pieces.shares.size(), 1U);
   EXPECT_EQ(pieces.bridges, 0U);
   EXPECT_DOUBLE_EQ(pieces.max_strength, 7);
-  for (const RidgeVertex& v : mesh.vertices) EXPECT_LE(std::hypot(v.position.x - 5, v.position.y - 10), 4.01);
+  for (const SheetVertex& v : mesh.vertices) EXPECT_LE(std::hypot(v.position.x - 5, v.position.y - 10), 4.01);
   EXPECT_NEAR(area(mesh), 3.14159 * 16, 3);
 }
 
@@ -58,18 +58,18 @@ TEST(RidgeRims, JoinsStrongPiecesThroughTheWeakSheet) {
     const double hills = std::max(7 - 0.5 * std::hypot(x - 5, y - 10), 7 - 0.5 * std::hypot(x - 15, y - 10));
     return std::max({hills, 4 - std::abs(y - 10), 1.0});
   };
-  RidgeMesh mesh = square(20, strength);
-  const RidgePieces pieces = cut_rims(mesh, {5, 6, 0.8, 0.001});
+  SheetMesh mesh = square(20, strength);
+  const RidgePieces pieces = cut_rims(mesh, {5, 6});
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(pieces.bridges, 1U);
   EXPECT_EQ(pieces.shares.size(), 1U);
   // Where nothing connects them, they stay two.
-  RidgeMesh apart = square(20, strength);
+  SheetMesh apart = square(20, strength);
   std::erase_if(apart.triangles, [&](const Triangle& t) {
     return apart.vertices[t[0]].position.x == 10 || apart.vertices[t[1]].position.x == 10 ||
            apart.vertices[t[2]].position.x == 10;
   });
-  EXPECT_EQ(cut_rims(apart, {5, 6, 0.8, 0.001}).shares.size(), 2U);
+  EXPECT_EQ(cut_rims(apart, {5, 6}).shares.size(), 2U);
   EXPECT_EQ(topology(apart).betti, (BettiNumbers{2, 0, 0}));
 }
 
@@ -79,11 +79,13 @@ TEST(RidgeRims, DropsWhatIsInsignificant) {
   };
   // Apart from each other: areas of pi 64 (less the part beyond the square) and pi 4.
   const auto pieces = [&](double significance) {
-    RidgeMesh mesh = square(20, strength);
+    SheetMesh mesh = square(20, strength);
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
       return mesh.vertices[t[0]].position.x == 15 || mesh.vertices[t[1]].position.x == 15;
     });
-    return cut_rims(mesh, {5, 6, 0.8, significance}).shares;
+    RidgeConstants constants;
+    constants.significance = significance;
+    return cut_rims(mesh, {5, 6}, constants).shares;
   };
   const std::vector<double> all = pieces(0);
   ASSERT_EQ(all.size(), 2U);
@@ -93,25 +95,23 @@ TEST(RidgeRims, DropsWhatIsInsignificant) {
 }
 
 TEST(RidgeRims, LeaveThePointOfARoundSolid) {
-  RidgeMesh mesh = square(20, [](double, double) { return 50; });
-  for (RidgeVertex& v : mesh.vertices) {
+  SheetMesh mesh = square(20, [](double, double) { return 50; });
+  for (SheetVertex& v : mesh.vertices) {
     v.roundness = 0.95;
     v.erosion = 100 - std::hypot(v.position.x - 12, v.position.y - 7);
   }
   cut_rims(mesh);
   EXPECT_EQ(mesh.triangles.size(), 6U);
-  for (const RidgeVertex& v : mesh.vertices) {
+  for (const SheetVertex& v : mesh.vertices) {
     EXPECT_LE(std::abs(v.position.x - 12), 1);
     EXPECT_LE(std::abs(v.position.y - 7), 1);
   }
 }
 
 TEST(RidgeRims, RefusesBoundsThatAreNone) {
-  RidgeMesh mesh = square(2, [](double, double) { return 9; });
-  for (const RidgeRimOptions& options :
-       {RidgeRimOptions{0, 6, 0.8, 0}, RidgeRimOptions{5, 4, 0.8, 0}, RidgeRimOptions{5, 6, 0.8, 2}}) {
-    EXPECT_THROW(cut_rims(mesh, options), CoreError);
-  }
+  SheetMesh mesh = square(2, [](double, double) { return 9; });
+  for (const RidgeBounds& bounds : {RidgeBounds{0, 6}, RidgeBounds{5, 4}})
+    EXPECT_THROW(cut_rims(mesh, bounds), CoreError);
 }
 
 bool anywhere(const Vec3&) {
@@ -119,8 +119,8 @@ bool anywhere(const Vec3&) {
 }
 
 // Without the triangles round the grid's vertices in a rectangle.
-RidgeMesh with_hole(double x0, double x1, double y0, double y1) {
-  RidgeMesh mesh = square(20, [](double, double) { return 9; });
+SheetMesh with_hole(double x0, double x1, double y0, double y1) {
+  SheetMesh mesh = square(20, [](double, double) { return 9; });
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     for (const std::uint32_t c : t) {
       const Vec3& p = mesh.vertices[c].position;
@@ -133,7 +133,7 @@ RidgeMesh with_hole(double x0, double x1, double y0, double y1) {
 }
 
 TEST(RidgeHoles, AreClosedInTheSheet) {
-  RidgeMesh mesh = with_hole(6, 6, 8, 8);
+  SheetMesh mesh = with_hole(6, 6, 8, 8);
   ASSERT_EQ(topology(mesh).betti, (BettiNumbers{1, 1, 0}));
   EXPECT_EQ(close_holes(mesh, anywhere, {0.02}), 1U);
   EXPECT_EQ(topology(mesh).betti, (BettiNumbers{1, 0, 0}));
@@ -142,7 +142,7 @@ TEST(RidgeHoles, AreClosedInTheSheet) {
 }
 
 TEST(RidgeHoles, ThatTouchAreClosedBoth) {
-  RidgeMesh mesh = with_hole(6, 6, 8, 8);
+  SheetMesh mesh = with_hole(6, 6, 8, 8);
   // Both rims pass through (7, 9): one connected rim.
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     for (const std::uint32_t c : t)
@@ -157,22 +157,22 @@ TEST(RidgeHoles, ThatTouchAreClosedBoth) {
 }
 
 TEST(RidgeHoles, StayWhenLargeOrOutsideOfTheSolid) {
-  RidgeMesh large = with_hole(5, 12, 5, 12);
+  SheetMesh large = with_hole(5, 12, 5, 12);
   EXPECT_EQ(close_holes(large, anywhere, {0.02}), 0U);
   EXPECT_EQ(topology(large).betti.holes, 1U);
-  RidgeMesh outside = with_hole(6, 6, 8, 8);
+  SheetMesh outside = with_hole(6, 6, 8, 8);
   EXPECT_EQ(close_holes(outside, [](const Vec3& u) { return norm(u - Vec3{6, 8, 0}) > 0.7; }, {0.02}), 0U);
 }
 
 // The square with a strip of `width` cells standing on its line y = 10, from x = 5 to x = 5 + length.
-RidgeMesh with_flap(std::uint32_t length, std::uint32_t width) {
-  RidgeMesh mesh = square(20, [](double, double) { return 9; });
+SheetMesh with_flap(std::uint32_t length, std::uint32_t width) {
+  SheetMesh mesh = square(20, [](double, double) { return 9; });
   std::vector<std::uint32_t> below;
   for (std::uint32_t n = 0; n <= length; ++n) below.push_back(10 * 21 + 5 + n);
   for (std::uint32_t up = 1; up <= width; ++up) {
     std::vector<std::uint32_t> above;
     for (const std::uint32_t v : below) {
-      RidgeVertex vertex = mesh.vertices[v];
+      SheetVertex vertex = mesh.vertices[v];
       vertex.position.z = up;
       above.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
       mesh.vertices.push_back(vertex);
@@ -188,7 +188,7 @@ RidgeMesh with_flap(std::uint32_t length, std::uint32_t width) {
 }
 
 TEST(RidgeFlaps, AreCutOffWhenSmall) {
-  RidgeMesh mesh = with_flap(3, 1);
+  SheetMesh mesh = with_flap(3, 1);
   ASSERT_EQ(topology(mesh).branch_edges, 3U);
   EXPECT_EQ(cut_flaps(mesh, {0.01}), 1U);
   EXPECT_EQ(topology(mesh).branch_edges, 0U);
@@ -198,7 +198,7 @@ TEST(RidgeFlaps, AreCutOffWhenSmall) {
 }
 
 TEST(RidgeFlaps, StayWhenTheyAreBranches) {
-  RidgeMesh mesh = with_flap(10, 8);
+  SheetMesh mesh = with_flap(10, 8);
   EXPECT_EQ(cut_flaps(mesh, {0.01}), 0U);
   EXPECT_EQ(topology(mesh).branch_edges, 10U);
   EXPECT_NEAR(area(mesh), 480, 1e-9);

@@ -22,7 +22,7 @@ std::array<Vec3, 3> axes(double h, double x = 1, double y = 1, double z = 1) {
 
 SheetTopology topology(const RidgeSheet& sheet) {
   Mesh mesh;
-  for (const RidgeVertex& v : sheet.vertices) mesh.points.push_back(v.position);
+  for (const SheetVertex& v : sheet.vertices) mesh.points.push_back(v.position);
   mesh.triangles = sheet.triangles;
   return sheet_topology(mesh, sheet.segments);
 }
@@ -47,7 +47,7 @@ TEST(RidgeSheet, OfATorusIsAnAnnulusFromTheInnerSurfaceOutwards) {
   EXPECT_EQ(found.branch_edges, 0U);
   EXPECT_TRUE(sheet.segments.empty());
   Range r;
-  for (const RidgeVertex& v : sheet.vertices) {
+  for (const SheetVertex& v : sheet.vertices) {
     const Vec3 x = torus.place(v.position);
     EXPECT_NEAR(x.z, 0, 0.05 * h);
     r.take(std::hypot(x.x, x.y));
@@ -70,7 +70,7 @@ TEST(RidgeSheet, OfAFlatBoxIsTheMiddleRectangleAtEverySpacing) {
     EXPECT_EQ(topology(sheet).betti, (BettiNumbers{1, 0, 0})) << h;
     EXPECT_TRUE(sheet.segments.empty());
     Range x, y;
-    for (const RidgeVertex& v : sheet.vertices) {
+    for (const SheetVertex& v : sheet.vertices) {
       const Vec3 at = box.place(v.position);
       x.take(at.x);
       y.take(at.y);
@@ -93,7 +93,7 @@ TEST(RidgeSheet, OfABallIsItsCentre) {
   EXPECT_EQ(topology(sheet).betti.components, 1U);
   EXPECT_TRUE(sheet.segments.empty());
   Range across[3];
-  for (const RidgeVertex& v : sheet.vertices) {
+  for (const SheetVertex& v : sheet.vertices) {
     const Vec3 x = ball.place(v.position);
     for (int k = 0; k < 3; ++k) across[k].take(x[k]);
   }
@@ -112,7 +112,7 @@ TEST(RidgeSheet, OfAnEllipticCylinderIsAStripRoundItsAxis) {
   const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
   EXPECT_EQ(topology(sheet).betti, (BettiNumbers{1, 0, 0}));
   Range x, z;
-  for (const RidgeVertex& v : sheet.vertices) {
+  for (const SheetVertex& v : sheet.vertices) {
     const Vec3 at = solid.place(v.position);
     EXPECT_NEAR(at.y, 0, 0.05 * h);
     x.take(at.x);
@@ -131,7 +131,7 @@ void expect_axis(const ErodedSolid& solid, const RidgeSheet& sheet, double reach
   EXPECT_EQ(sheet.segments.size() + 1, sheet.vertices.size());
   EXPECT_EQ(sheet.curves, 1U);
   Range z;
-  for (const RidgeVertex& v : sheet.vertices) {
+  for (const SheetVertex& v : sheet.vertices) {
     const Vec3 at = solid.place(v.position);
     EXPECT_LT(std::hypot(at.x, at.y), reach);
     EXPECT_GE(v.strength, 6);
@@ -151,7 +151,7 @@ TEST(RidgeSheet, OfARoundCylinderIsItsAxis) {
   expect_axis(cylinder, axis, 0.5 * h, 1, 5);
   // The level plane through a point of the axis cuts off pi z, up to the 32-gon's share; smaller ones meet
   // the sample points beside it, where tilted planes have larger sections.
-  for (const RidgeVertex& v : axis.vertices) {
+  for (const SheetVertex& v : axis.vertices) {
     const double z = cylinder.place(v.position).z, level = 3.12 * std::min(z, 6 - z);
     EXPECT_LE(v.erosion, level + 0.01);
     EXPECT_GE(v.erosion, 0.9 * level);
@@ -199,17 +199,17 @@ TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
                        const double r = norm(u - centre);
                        return (-2 * (r - radius) / r) * (u - centre);
                      }};
-  RidgeSheetOptions options;
-  options.derivatives.min_width = options.derivatives.max_width = 1;
+  RidgeConstants constants;
+  constants.min_width = constants.max_width = 1;
   const RidgeSheet sheet =
-      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), options);
+      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), {}, constants);
   const SheetTopology found = topology(sheet);
   EXPECT_EQ(found.betti, (BettiNumbers{1, 0, 1}));
   EXPECT_EQ(found.boundary_loops, 0U);
   EXPECT_EQ(found.branch_edges, 0U);
   EXPECT_EQ(sheet.holes_closed, 0U);
   // Smoothing a curved crest draws it in by about width^2 / radius.
-  for (const RidgeVertex& v : sheet.vertices) EXPECT_NEAR(norm(v.position - centre), radius, 0.3);
+  for (const SheetVertex& v : sheet.vertices) EXPECT_NEAR(norm(v.position - centre), radius, 0.3);
 }
 
 // Strengths are angles and widths go with the depth: a mesh twice as large with twice the spacing is the
@@ -241,8 +241,8 @@ TEST(RidgeSheet, OfKnownDerivativesIsTheSameAtEveryThreshold) {
   const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, box.field);
   for (const double share : {1.0, 1.5}) {
     RidgeSheetOptions options;
-    options.rims.low *= share;
-    options.rims.high *= share;
+    options.bounds.low *= share;
+    options.bounds.high *= share;
     const RidgeSheet expected = ridge_sheet(box.solid, box.lattice, box.field, options);
     options.known_derivatives = derivatives;
     const RidgeSheet found = ridge_sheet(box.solid, box.lattice, box.field, options);

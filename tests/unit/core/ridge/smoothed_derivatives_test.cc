@@ -42,9 +42,9 @@ TEST(SmoothedDerivatives, OfAQuadraticAreItsOwnAtAnyWidth) {
   const Quadratic q;
   const FrameField field = field_of_branches(box.lattice, {q.branch()});
   for (const double width : {1.0, 2.0, 3.3}) {
-    SmoothedDerivativesOptions options;
-    options.min_width = options.max_width = width;
-    const auto found = smoothed_derivatives(box.lattice, field, options);
+    RidgeConstants constants;
+    constants.min_width = constants.max_width = width;
+    const auto found = smoothed_derivatives(box.lattice, field, nullptr, constants);
     for_each_point(box.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       // Where the kernel does not reach outside.
       if (std::min({i, j, k}) < 9 || std::max({i, j, k}) > 15) return;
@@ -63,10 +63,10 @@ TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
   const BoxLattice box(17, 17, 17);
   // E grows along x, its depth too: widths from the least to the largest.
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {1, 0, 0})});
-  SmoothedDerivativesOptions options;
-  options.min_width = 1;
-  options.max_width = 3;
-  const auto found = smoothed_derivatives(box.lattice, field, options);
+  RidgeConstants constants;
+  constants.min_width = 1;
+  constants.max_width = 3;
+  const auto found = smoothed_derivatives(box.lattice, field, nullptr, constants);
   const std::vector<float> depth = local_depth(box.lattice, field);
   float least = 100, most = 0;
   for (std::size_t p = 0; p < found.size(); ++p) {
@@ -90,29 +90,6 @@ TEST(SmoothedDerivatives, DoNotDependOnTheUnitOfE) {
     EXPECT_EQ(found[p].gradient, same[p].gradient);
     EXPECT_EQ(found[p].hessian, same[p].hessian);
   }
-}
-
-TEST(SmoothedDerivatives, RefusesWidthsOutOfRange) {
-  const BoxLattice box(3, 3, 3);
-  const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {0, 0, 1})});
-  const auto refused = [&](double width, double least, double most) {
-    SmoothedDerivativesOptions options;
-    options.width = width;
-    options.min_width = least;
-    options.max_width = most;
-    try {
-      smoothed_derivatives(box.lattice, field, options);
-    } catch (const CoreError& error) {
-      return error.code() == CoreError::Code::kBadInput;
-    }
-    return false;
-  };
-  EXPECT_TRUE(refused(0, 2, 9));
-  EXPECT_TRUE(refused(0.3, 0.5, 9));
-  EXPECT_TRUE(refused(0.3, 2, 1.5));
-  EXPECT_TRUE(refused(0.3, 2, 33));
-  EXPECT_TRUE(refused(std::numeric_limits<double>::quiet_NaN(), 2, 9));
-  EXPECT_FALSE(refused(0.3, 2, 2));
 }
 
 TEST(ContinuedField, GoesOnLinearlyButNeitherBelowZeroNorUp) {

@@ -20,16 +20,16 @@ std::pair<double, double> extent(const RidgeCurve& curve) {
 }
 
 TEST(TornStrips, WholeOnesStay) {
-  const RidgeMesh mesh = part_of_square(30, strip);
+  const SheetMesh mesh = part_of_square(30, strip);
   EXPECT_TRUE(torn_stretches(mesh, std::vector{line(2, 28, 3)}).empty());
   // A bay in a rim is no tear.
-  const RidgeMesh bay =
+  const SheetMesh bay =
       part_of_square(30, [](double x, double y) { return strip(x, y) && !(x > 14 && x < 16 && y > 15); });
   EXPECT_TRUE(torn_stretches(bay, std::vector{line(2, 28, 3)}).empty());
 }
 
 TEST(TornStrips, ASlitTakesInWhatLiesAboutIt) {
-  const RidgeMesh mesh = part_of_square(
+  const SheetMesh mesh = part_of_square(
       30, [](double x, double y) { return strip(x, y) && !(x > 14 && x < 15 && y > 14 && y < 16); });
   ASSERT_EQ(topology(mesh).betti.holes, 1U);
   const auto found = torn_stretches(mesh, std::vector{line(2, 28, 6)});
@@ -43,7 +43,7 @@ TEST(TornStrips, ASlitTakesInWhatLiesAboutIt) {
 }
 
 TEST(TornStrips, AGapIsOne) {
-  const RidgeMesh mesh =
+  const SheetMesh mesh =
       part_of_square(30, [](double x, double y) { return strip(x, y) && !(x > 12 && x < 20); });
   const auto found = torn_stretches(mesh, std::vector{line(2, 28, 3)});
   ASSERT_EQ(found.size(), 1U);
@@ -53,13 +53,13 @@ TEST(TornStrips, AGapIsOne) {
 
 TEST(TornStrips, CrossingSheetsThatMeetTwiceAreTorn) {
   // A second sheet over the strip that leaves and meets it in two lines: a tunnel without a rim in it.
-  RidgeMesh mesh = part_of_square(30, strip);
+  SheetMesh mesh = part_of_square(30, strip);
   const auto at = [&](double x, double y) {
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
       if (mesh.vertices[v].position.x == x && mesh.vertices[v].position.y == y) return v;
     return 0U;
   };
-  RidgeVertex top = mesh.vertices[0];
+  SheetVertex top = mesh.vertices[0];
   top.position = {14.5, 14, 1};
   mesh.vertices.push_back(top);
   top.position = {14.5, 16, 1};
@@ -80,26 +80,16 @@ TEST(TornStrips, CrossingSheetsThatMeetTwiceAreTorn) {
 }
 
 TEST(TornStrips, WhatIsRoundIsTakenWholeOrNot) {
-  const RidgeMesh mesh = part_of_square(30, strip);
+  const SheetMesh mesh = part_of_square(30, strip);
   RidgeCurve round = line(2, 28, 3);
-  for (RidgeVertex& v : round.vertices)
+  for (SheetVertex& v : round.vertices)
     if (v.position.x >= 20) v.ratio = 0.9;
   const auto found = torn_stretches(mesh, std::vector{round});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(extent(found[0]), (std::pair{20.0, 28.0}));
-  TornStripOptions options;
-  options.round_ratio = 0;
-  EXPECT_EQ(torn_stretches(mesh, std::vector{line(2, 28, 3)}, options).size(), 1U);
-}
-
-TEST(TornStrips, RefuseWrongOptions) {
-  TornStripOptions options;
-  options.window = 0;
-  EXPECT_THROW(torn_stretches({}, {}, options), CoreError);
-  options = {};
-  options.round_ratio = 1.5;
-  EXPECT_THROW(torn_stretches({}, {}, options), CoreError);
-  EXPECT_TRUE(torn_stretches({}, {}).empty());
+  RidgeConstants constants;
+  constants.round_ratio = 0;
+  EXPECT_EQ(torn_stretches(mesh, std::vector{line(2, 28, 3)}, constants).size(), 1U);
 }
 
 }  // namespace

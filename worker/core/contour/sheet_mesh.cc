@@ -1,21 +1,21 @@
-#include "core/ridge/ridge_mesh.h"
+#include "core/contour/sheet_mesh.h"
 
-#include <utility>
+#include "core/base/unit.h"
 
 namespace affskel::core {
-namespace {
 
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
+Mesh mesh_of(const SheetMesh& sheet) {
+  Mesh mesh;
+  mesh.points.reserve(sheet.vertices.size());
+  for (const SheetVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
+  mesh.triangles = sheet.triangles;
+  return mesh;
 }
 
-}  // namespace
-
-RidgeVertex between(const RidgeVertex& a, const RidgeVertex& b, double t) {
+SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t) {
   const auto mean = [t](const auto& from, const auto& to) { return (1 - t) * from + t * to; };
   const bool turned = dot(a.normal_a - a.normal_b, b.normal_a - b.normal_b) < 0;
-  RidgeVertex v;
+  SheetVertex v;
   v.position = mean(a.position, b.position);
   v.point = a.point;
   v.erosion = mean(a.erosion, b.erosion);
@@ -28,13 +28,13 @@ RidgeVertex between(const RidgeVertex& a, const RidgeVertex& b, double t) {
   return v;
 }
 
-double triangle_area(const RidgeMesh& mesh, const Triangle& triangle) {
+double triangle_area(const SheetMesh& mesh, const Triangle& triangle) {
   const Vec3& corner = mesh.vertices[triangle[0]].position;
   return 0.5 * norm(cross(mesh.vertices[triangle[1]].position - corner,
                           mesh.vertices[triangle[2]].position - corner));
 }
 
-void drop_unused_vertices(RidgeMesh& mesh) {
+void drop_unused_vertices(SheetMesh& mesh) {
   constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
   std::vector<std::uint32_t> index(mesh.vertices.size(), kUnused);
   for (const Triangle& triangle : mesh.triangles)

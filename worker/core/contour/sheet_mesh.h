@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+/// A vertex of the skeleton of `chords` or `ridge`.
+struct SheetVertex {
+  Vec3 position;            ///< frame coordinates, in the solid
+  double erosion = 0;       ///< E, volume
+  double strength = 0;      ///< of `chords` the mean r of the cell's shocks; of `ridge` s, radians, see
+                            ///< ridge_crossings(), on a curve s_2, see ridge_curves()
+  double area = 0;          ///< of the sections through the vertex, mean, mesh units squared
+  Vec3 normal_a, normal_b;  ///< unit normals of the level surfaces on the two sides, frame coordinates;
+                            ///< normal_a - normal_b points from a's side of the sheet to b's
+  std::uint32_t point = 0;  ///< of `ridge`: rank of a sample point next to it
+  double ratio = 0;         ///< of `ridge`: lambda_2 / lambda_1, see ridge_crossings()
+  double roundness = 0;     ///< of `ridge`: lambda_3 / lambda_1, see ridge_crossings()
+};
+
+/// A sheet of triangles without a common orientation, with rims and branches, and curves.
+struct SheetMesh {
+  std::vector<SheetVertex> vertices;
+  std::vector<std::uint32_t> part;  ///< per vertex: of the solid
+  std::vector<Triangle> triangles;
+  std::vector<Segment> segments;  ///< of curves: two vertices each
+};
+
+/// Points and triangles alone.
+Mesh mesh_of(const SheetMesh& sheet);
+
+/// a + t (b - a), all values; normals are turned to agree and made unit again.
+SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t);
+
+/// The area of a triangle of the mesh.
+double triangle_area(const SheetMesh& mesh, const Triangle& triangle);
+
+/// Leaves out the vertices that neither triangle nor segment uses; the others keep their order.
+void drop_unused_vertices(SheetMesh& mesh);
+
+}  // namespace affskel::core

@@ -1,0 +1,45 @@
+#include "core/mesh/edges.h"
+
+#include <algorithm>
+
+namespace affskel::core {
+
+Edges::Edges(std::size_t points, std::span<const Triangle> triangles, unsigned threads)
+    : sides_(points, [&](const auto& put) {
+        for (std::uint32_t h = 0; h < 3 * triangles.size(); ++h) {
+          const Triangle& t = triangles[h / 3];
+          const auto [low, high] = std::minmax(t[h % 3], t[(h + 1) % 3]);
+          put(low, EdgeSide{high, h});
+        }
+      }) {
+  parallel_ranges(threads, points, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) std::sort(sides_[v].begin(), sides_[v].end());
+  });
+}
+
+std::span<const EdgeSide> Edges::between(std::uint32_t a, std::uint32_t b) const {
+  const auto [low, high] = std::minmax(a, b);
+  const std::span<const EdgeSide> all = sides_[low];
+  const auto [first, last] =
+      std::equal_range(all.begin(), all.end(), EdgeSide{high, 0},
+                       [](const EdgeSide& s, const EdgeSide& t) { return s.high < t.high; });
+  return {first, last};
+}
+
+Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles) {
+  const Edges edges(points, triangles);
+  // Of a vertex first the lower neighbours come, as the higher ends of their edges, and then the higher ones.
+  return {points, [&](const auto& put) {
+            edges.for_each([&](std::uint32_t low, std::uint32_t high, const auto&) { put(high, low); });
+            edges.for_each([&](std::uint32_t low, std::uint32_t high, const auto&) { put(low, high); });
+          }};
+}
+
+Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles) {
+  return {points, [&](const auto& put) {
+            for (std::uint32_t t = 0; t < triangles.size(); ++t)
+              for (const std::uint32_t v : triangles[t]) put(v, t);
+          }};
+}
+
+}  // namespace affskel::core
