@@ -8,8 +8,29 @@
 namespace affskel::server {
 namespace {
 
+// Before 0.1.0 databases had this application_id ("AFSK"), and schemas of their own.
+constexpr std::int64_t kEarlierId = 0x4146534B;
+constexpr int kLastEarlier = 14;
+
 int schema_version(Database& db) {
   return static_cast<int>(db.integer("PRAGMA user_version").value_or(0));
+}
+
+int earlier_schema(Database& db) {
+  const int version = schema_version(db);
+  if (version == kLastEarlier) return kBeforeFirst;
+  throw StoreError(StoreError::Code::kUnusable,
+                   db.file() + ": written by an affskel-server before 0.1.0 (its schema " +
+                       std::to_string(version) + "); the last of these, of schema " +
+                       std::to_string(kLastEarlier) + ", brings it up to date");
+}
+
+// What the earlier schemas came to is schema 1.
+void adopt_earlier(Database& db) {
+  Transaction transaction(db);
+  db.execute("PRAGMA application_id = " + std::to_string(kApplicationId) + "; PRAGMA user_version = 1");
+  transaction.commit();
+  spdlog::info(base::logfmt("migrated", {{"schema", 1}, {"name", "earlier"}}));
 }
 
 // Tables that are made anew would take along what refers to them, so that foreign keys rest meanwhile.
@@ -44,6 +65,7 @@ int newest_schema(const std::vector<Migration>& migrations) {
 
 int checked_schema(Database& db, int newest) {
   const std::int64_t application = db.integer("PRAGMA application_id").value_or(0);
+  if (application == kEarlierId) return earlier_schema(db);
   const bool empty = db.integer("SELECT count(*) FROM sqlite_schema") == 0;
   if (application != kApplicationId && !(application == 0 && empty)) {
     throw StoreError(StoreError::Code::kUnusable, db.file() + ": not a database of affskel-server");
@@ -59,7 +81,7 @@ int checked_schema(Database& db, int newest) {
 }
 
 int migrate(Database& db, const std::vector<Migration>& migrations) {
-  checked_schema(db, newest_schema(migrations));
+  if (checked_schema(db, newest_schema(migrations)) == kBeforeFirst) adopt_earlier(db);
   const ForeignKeysOff keys(db);
   for (const Migration& step : migrations) {
     Transaction transaction(db);

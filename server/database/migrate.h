@@ -15,8 +15,11 @@ struct Migration {
   const char* sql;
 };
 
-/// application_id of our files: "AFSK".
-inline constexpr std::int64_t kApplicationId = 0x4146534B;
+/// application_id of our files: "AFSL".
+inline constexpr std::int64_t kApplicationId = 0x4146534C;
+
+/// "Schema" of a database of the last program before 0.1.0: the tables are those of schema 1 already.
+inline constexpr int kBeforeFirst = -1;
 
 /// The migrations compiled into this program, in order.
 const std::vector<Migration>& embedded_migrations();
@@ -24,7 +27,7 @@ const std::vector<Migration>& embedded_migrations();
 /// The schema that this program brings databases to.
 int newest_schema(const std::vector<Migration>& migrations = embedded_migrations());
 
-/// The schema of a database; 0 of an empty one.
+/// The schema of a database; 0 of an empty one, or kBeforeFirst.
 /// @throws StoreError kUnusable when the file is not ours or was written by a newer server; SqliteError.
 int checked_schema(Database& db, int newest = newest_schema());
 

@@ -42,9 +42,9 @@ base::ExitCode check_command(const Options& options, const Console& console) {
   const auto on_fault = [&](const Fault& fault) { console.fault(fault.where + ": " + fault.what); };
   const std::string server = data_dir_holder(options.data_dir).value_or("none");
   const CheckResult found = check_database(options.data_dir, on_fault);
-  if (found.schema > 0 && found.schema < newest_schema()) {
-    console.note("schema " + std::to_string(found.schema) + " is older than this program's, " +
-                 std::to_string(newest_schema()) +
+  if (found.schema != 0 && found.schema < newest_schema()) {
+    console.note((found.schema == kBeforeFirst ? "the schema" : "schema " + std::to_string(found.schema)) +
+                 " is older than this program's, " + std::to_string(newest_schema()) +
                  ": its content was not checked; affskel-server migrate brings it up to date");
   }
   nlohmann::ordered_json result = {{"database", database_file(options.data_dir)},

@@ -189,13 +189,15 @@ TEST(CheckOldDatabaseTest, OnlySqlitesOwnChecksOfAnOlderSchema) {
   const TemporaryDirectory directory;
   {
     Database db((directory.path() / "affskel.db").string(), Database::Mode::kReadWrite);
-    migrate(db, {embedded_migrations()[0]});
-    db.execute("PRAGMA foreign_keys = OFF; INSERT INTO requests VALUES ('r', '', 'nobody')");
+    migrate(db);
+    db.execute(
+        "PRAGMA foreign_keys = OFF; INSERT INTO requests VALUES ('r', '', 'nobody');"
+        "PRAGMA application_id = 1095127883; PRAGMA user_version = 14");
   }
   std::vector<Fault> faults;
   const CheckResult result =
       check_database(directory.path(), [&](const Fault& fault) { faults.push_back(fault); });
-  EXPECT_EQ(result.schema, 1);
+  EXPECT_EQ(result.schema, kBeforeFirst);
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(text_of(faults), "table requests: a row refers to a row of jobs that is missing\n");
 }

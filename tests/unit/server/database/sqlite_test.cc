@@ -157,75 +157,43 @@ TEST_F(DatabaseTest, FailedMigrationChangesNothing) {
   EXPECT_EQ(db.integer("PRAGMA user_version"), embedded_migrations().back().number);
 }
 
-TEST_F(DatabaseTest, MigratingKeepsWhatIsStored) {
-  Database db(file(), Database::Mode::kReadWrite);
-  const std::vector<Migration>& all = embedded_migrations();
-  migrate(db, {all[0]});
-  const std::string sha(64, 'a'), id(32, '0');
-  add_erosion(db, sha);
-  db.run(
-      "INSERT INTO jobs (id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key, "
-      "created_ms) VALUES (?, 'n', 'o', 5, 'queued', 'prepare', 1, x'', '', 0)",
-      id);
-  db.run("INSERT INTO tasks (id, job_id, kind, state) VALUES (7, ?, 'prepare', 'pending')", id);
-  db.run(
-      "INSERT INTO artifacts (id, erosion_id, kind, params_key, bytes, sha256, items)"
-      " VALUES (5, 1, 'lattice', '', 2, ?, 0)",
-      sha);
-  db.run("INSERT INTO artifact_chunks (artifact_id, idx, data) VALUES (5, 0, x'0102')");
-  migrate(db);
-  EXPECT_EQ(db.integer("SELECT bytes FROM artifacts WHERE id = 5"), 2);
-  EXPECT_EQ(db.integer("SELECT length(data) FROM artifact_chunks WHERE artifact_id = 5"), 2);
-  EXPECT_EQ(db.integer("SELECT count(*) FROM tasks WHERE id = 7 AND kind = 'prepare'"), 1);
-  EXPECT_EQ(db.integer("PRAGMA foreign_keys"), 1);
-  db.run("DELETE FROM jobs");
-  EXPECT_EQ(db.integer("SELECT count(*) FROM tasks"), 0) << "the new tables refer to the old ones";
-  db.run("DELETE FROM erosions");
-  EXPECT_EQ(db.integer("SELECT count(*) FROM artifact_chunks"), 0);
+/// As the last program before 0.1.0 left it.
+void make_earlier(Database& db, int schema) {
+  db.execute("PRAGMA application_id = 1095127883; PRAGMA user_version = " + std::to_string(schema));
 }
 
-TEST_F(DatabaseTest, MigratingFromTheSchemaBeforeKeepsTheQueue) {
+TEST_F(DatabaseTest, ADatabaseOfTheLastProgramBefore010IsTakenOver) {
   Database db(file(), Database::Mode::kReadWrite);
-  const std::vector<Migration>& all = embedded_migrations();
-  migrate(db, {all.begin(), all.begin() + 5});
-  const std::string sha(64, 'a'), id(32, '0');
-  add_erosion(db, sha);
-  db.run(
-      "INSERT INTO jobs (seq, id, name, owner, priority, state, stage, erosion_id, skeleton, skeleton_key,"
-      " created_ms) VALUES (9, ?, 'n', 'o', 5, 'running', 'erode', 1, x'', '', 0)",
-      id);
-  db.run(
-      "INSERT INTO tasks (id, job_id, kind, state, first_position, end_position, losses, token, worker, "
-      "host, pid,"
-      " supervised, core_version, granted_ms, reported_ms, deadline_ms, lease_directions, seq, priority,"
-      " needs_core, parked, stalled_ms)"
-      " VALUES (7, ?, 'erode', 'leased', 10, 20, 2, 't', 'w', 'h', 11, 1, 'c', 12, 13, 14, 15, 9, 5, 'c', 0, "
-      "16)",
-      id);
-  const auto task = [&] {
-    Statement row = db.query(
-        "SELECT id || job_id || kind || state || first_position || end_position || losses || token || worker "
-        "|| host"
-        " || pid || supervised || core_version || granted_ms || reported_ms || deadline_ms || "
-        "lease_directions || seq"
-        " || priority || needs_core || parked || stalled_ms FROM tasks");
-    return row.step() ? row.text(0) : std::string();
-  };
-  const std::string before = task();
-  ASSERT_NE(before, "");
   migrate(db);
-  EXPECT_EQ(task(), before);
-  db.run("UPDATE jobs SET cancel_requested = 1, priority = 8");
-  EXPECT_EQ(db.integer("SELECT parked FROM tasks"), 1) << "the trigger is there";
-  EXPECT_EQ(db.integer("SELECT priority FROM tasks"), 8);
+  add_erosion(db, std::string(64, 'a'));
+  make_earlier(db, 14);
+  EXPECT_EQ(checked_schema(db), kBeforeFirst);
+  EXPECT_EQ(migrate(db), newest_schema());
+  EXPECT_EQ(checked_schema(db), newest_schema());
+  EXPECT_EQ(db.integer("PRAGMA application_id"), kApplicationId);
+  EXPECT_EQ(db.integer("SELECT count(*) FROM erosions"), 1);
+  EXPECT_EQ(migrate(db), newest_schema());
 }
 
-TEST_F(DatabaseTest, MigratingMakesTheQueueOneOfOwners) {
+TEST_F(DatabaseTest, ThoseOfProgramsBeforeThatAreRefusedByName) {
   Database db(file(), Database::Mode::kReadWrite);
-  const std::vector<Migration>& all = embedded_migrations();
-  const auto first = std::find_if(all.begin(), all.end(), [](const Migration& m) { return m.number == 8; });
-  ASSERT_NE(first, all.end());
-  migrate(db, {all.begin(), first});
+  migrate(db);
+  make_earlier(db, 13);
+  try {
+    migrate(db);
+    FAIL();
+  } catch (const StoreError& error) {
+    EXPECT_EQ(error.code(), StoreError::Code::kUnusable);
+    EXPECT_NE(std::string(error.what()).find("before 0.1.0 (its schema 13)"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(db.integer("PRAGMA user_version"), 13);
+}
+
+TEST_F(DatabaseTest, TriggersKeepTheQueueOfOwners) {
+  Database db(file(), Database::Mode::kReadWrite);
+  migrate(db);
+  db.execute("INSERT INTO task_kinds (name) VALUES ('prepare')");
   const std::string sha(64, 'a');
   db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
   const auto add = [&](int seq, const char* owner, int priority, const char* state) {
@@ -235,15 +203,14 @@ TEST_F(DatabaseTest, MigratingMakesTheQueueOneOfOwners) {
         " created_ms) VALUES (?1, printf('%032d', ?1), 'n', ?2, ?3, ?4, 'prepare', ?1, x'', '', 0)",
         seq, owner, priority, state);
     db.run(
-        "INSERT INTO tasks (job_id, kind, state, seq, priority, parked)"
-        " VALUES (printf('%032d', ?1), 'prepare', 'pending', ?1, ?2, ?3)",
-        seq, priority, std::string(state) == "cancelled");
+        "INSERT INTO tasks (job_id, kind, state, seq, owner, priority, parked)"
+        " VALUES (printf('%032d', ?1), 'prepare', 'pending', ?1, ?2, ?3, ?4)",
+        seq, owner, priority, std::string(state) == "cancelled");
   };
   add(3, "bob", 5, "queued");
   add(4, "ada", 5, "queued");
   add(5, "bob", 5, "queued");
   add(6, "bob", 9, "cancelled");
-  migrate(db);
   const auto lines = [&](const char* sql) {
     std::string text;
     Statement row = db.query(sql);
@@ -258,12 +225,10 @@ TEST_F(DatabaseTest, MigratingMakesTheQueueOneOfOwners) {
   EXPECT_EQ(lines("SELECT owner FROM turns WHERE turn >= 0"), "") << "nobody has had a turn";
 }
 
-TEST_F(DatabaseTest, MigratingCountsWhatOwnersHave) {
+TEST_F(DatabaseTest, TriggersCountWhatOwnersHave) {
   Database db(file(), Database::Mode::kReadWrite);
-  const std::vector<Migration>& all = embedded_migrations();
-  const auto first = std::find_if(all.begin(), all.end(), [](const Migration& m) { return m.number == 9; });
-  ASSERT_NE(first, all.end());
-  migrate(db, {all.begin(), first});
+  migrate(db);
+  db.execute("INSERT INTO artifact_kinds (name) VALUES ('lattice')");
   const std::string sha(64, 'a');
   db.run("INSERT INTO meshes (sha256, bytes, created_ms) VALUES (?, 3, 0)", sha);
   db.run(
@@ -281,7 +246,6 @@ TEST_F(DatabaseTest, MigratingCountsWhatOwnersHave) {
       " VALUES (printf('%032d', 1), 'n', 'ada', 5, 'running', 'erode', 1, x'', '', 0),"
       " (printf('%032d', 2), 'n', 'ada', 5, 'cancelled', 'erode', 1, x'', '', 0),"
       " (printf('%032d', 3), 'n', 'bob', 5, 'queued', 'prepare', 2, x'', '', 0)");
-  migrate(db);
   const auto use = [&](const char* owner) {
     Statement row = db.query(
         "SELECT queued_jobs || ' ' || mesh_bytes || ' ' || stored_bytes FROM owner_use WHERE owner = ?",
