@@ -127,16 +127,16 @@ TEST(TimesLeft, AreToldOfJobsThatRun) {
   job.set_id("a");
   job.set_state(v1::JOB_STATE_RUNNING);
   job.set_stage(v1::JOB_STAGE_ERODE);
-  times.tell(job, kBegin + 50000);
+  times.fill_in(job, kBegin + 50000);
   EXPECT_TRUE(job.has_remaining_ms());
   v1::Job queued = job;
   queued.clear_remaining_ms();
   queued.set_state(v1::JOB_STATE_QUEUED);
-  times.tell(queued, kBegin + 50000);
+  times.fill_in(queued, kBegin + 50000);
   EXPECT_FALSE(queued.has_remaining_ms());
   times.add("a", kBegin + 51000, 1000, 1000);
   job.clear_remaining_ms();
-  times.tell(job, kBegin + 51000);
+  times.fill_in(job, kBegin + 51000);
   EXPECT_FALSE(job.has_remaining_ms()) << "all directions are done";
 }
 

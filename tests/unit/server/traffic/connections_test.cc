@@ -1,5 +1,7 @@
 #include "traffic/connections.h"
 
+#include "calls/status.h"
+
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
