@@ -3,7 +3,7 @@ import { call, jobPath } from './api.js';
 import { announce, button, h } from './elements.js';
 import { bytes } from './numbers.js';
 import { session } from './session.js';
-import { ARTEFACTS, OPERATORS, named } from './text.js';
+import { ARTEFACTS } from './text.js';
 
 // Saves what the service has made.
 function save(result) {
@@ -20,7 +20,7 @@ export class Downloads {
       'select',
       { id: 'download-operator' },
       h('option', { value: '' }, 'the usual: the job’s; surfaces by the ridge'),
-      session.operators.map((word) => h('option', { value: word }, named(OPERATORS, word))),
+      Object.entries(session.words.operators).map(([word, text]) => h('option', { value: word }, text)),
     );
     this.threshold = h('input', { id: 'download-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });
     this.level = h('input', { id: 'download-level', type: 'number', min: 0, max: 100, step: 'any', inputmode: 'decimal', value: 10 });

@@ -6,7 +6,8 @@ import { announce, button, facts, h, setText } from './elements.js';
 import { showProgress } from './jobs.js';
 import { count, counted, duration, measure, moment } from './numbers.js';
 import { History } from './history.js';
-import { FRAMES, OPERATORS, STATES, activity, expiry, isActive, isRemoved, named, progress } from './text.js';
+import { session } from './session.js';
+import { activity, expiry, isActive, isRemoved, operatorOf, progress, wording } from './text.js';
 
 // What of a job decides which facts, notes and buttons there are.
 const shown = (job) => job && JSON.stringify([job.state, job.prepared, job.quality, job.cancel_requested, job.pinned, job.expires_ms, job.removed_ms]);
@@ -18,8 +19,8 @@ function asked(job) {
   return [
     ['Lattice asked for', lattice],
     ['Directions', directions || 'triangles'],
-    ['Lattice along', named(FRAMES, frame || 'axis')],
-    ['Shocks by', named(OPERATORS, job.skeleton.operator || 'zucker-hummel')],
+    ['Lattice along', wording('frames', frame || session.usual.frame)],
+    ['Shocks by', operatorOf(job)],
     ['Priority', String(job.priority || 0)],
     ['Owner', job.owner],
     ['Submitted', moment(job.created_ms)],
@@ -81,12 +82,12 @@ export class JobView {
     document.title = `${job.name} – affskel`;
     setText(this.heading, job.name || 'Job');
     this.badge.className = `badge ${job.state}`;
-    setText(this.badge, named(STATES, job.state));
+    setText(this.badge, wording('states', job.state));
     showProgress(this.bar, job);
     setText(this.numbers, progress(job, this.rates.update(job)));
     setText(this.what, activity(job));
     this.what.classList.toggle('error', job.state === 'failed');
-    if (before && before.state !== job.state) announce(`${job.name}: ${named(STATES, job.state)}`);
+    if (before && before.state !== job.state) announce(`${job.name}: ${wording('states', job.state)}`);
     if (shown(before) !== shown(job)) {
       this.showFacts(job);
       this.showActions(job);

@@ -3,7 +3,7 @@ import { call } from './api.js';
 import { announce, button, h, setText } from './elements.js';
 import { ago } from './numbers.js';
 import { session } from './session.js';
-import { STATES, activity, isActive, named, progress } from './text.js';
+import { activity, isActive, progress, wording } from './text.js';
 
 // One job in the list.
 class Card {
@@ -29,13 +29,13 @@ class Card {
   update(job, rate) {
     setText(this.link, job.name || job.id.slice(0, 12));
     this.badge.className = `badge ${job.state}`;
-    setText(this.badge, named(STATES, job.state));
+    setText(this.badge, wording('states', job.state));
     showProgress(this.bar, job);
     setText(this.numbers, progress(job, rate));
     setText(this.what, activity(job));
     const owner = session.admin && job.owner !== session.owner ? `${job.owner}, ` : '';
     setText(this.when, `${owner}submitted ${ago(job.created_ms)}`);
-    if (job.state !== this.state) announce(`${job.name}: ${named(STATES, job.state)}`);
+    if (job.state !== this.state) announce(`${job.name}: ${wording('states', job.state)}`);
     this.state = job.state;
   }
 }

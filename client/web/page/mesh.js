@@ -3,7 +3,6 @@ import { call, upload } from './api.js';
 import { announce, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
-import { FRAMES, OPERATORS, named } from './text.js';
 
 const TYPES = ['.off', '.ply', '.obj', '.stl', '.vtp'];
 const USUAL_POINTS = 100000;
@@ -120,8 +119,9 @@ export class NewJob {
 const field = (id, label, control, help) =>
   h('div', {}, h('label', { for: id }, label), control, help && h('p', { class: 'small', id: `${id}-help` }, help));
 
-const choice = (id, words, table) =>
-  h('select', { id }, words.map((word) => h('option', { value: word }, named(table, word))));
+// texts: by the values that they stand for.
+const choice = (id, texts) =>
+  h('select', { id }, Object.entries(texts).map(([value, text]) => h('option', { value }, text)));
 
 const numberField = (id, attributes) =>
   h('input', { id, type: 'number', min: 0, step: 'any', inputmode: 'decimal', ...attributes });
@@ -136,7 +136,7 @@ class SubmitForm {
     this.points = numberField('points', { step: 1, value: USUAL_POINTS });
     this.spacing = numberField('spacing', {});
     this.lattice = h('p', { id: 'lattice', role: 'status' });
-    this.directions = choice('directions', ['triangles', 'sphere', 'triangles+sphere', 'random'], {
+    this.directions = choice('directions', {
       triangles: 'the mesh’s own normals',
       sphere: 'evenly from all sides',
       'triangles+sphere': 'both of these',
@@ -145,8 +145,8 @@ class SubmitForm {
     this.howMany = numberField('how-many', { min: 1, step: 1, value: 5000 });
     this.howManyField = field('how-many', 'How many', this.howMany);
     this.howManyField.hidden = true;
-    this.frame = choice('frame', session.frames, FRAMES);
-    this.operator = choice('operator', session.operators, OPERATORS);
+    this.frame = choice('frame', session.words.frames);
+    this.operator = choice('operator', session.words.operators);
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.submit = h('button', { type: 'submit', class: 'primary', id: 'submit' }, 'Compute the skeleton');
     this.element = this.build();

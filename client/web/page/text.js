@@ -1,37 +1,6 @@
 // What words of the protocol mean to people.
 import { count, counted, duration, moment } from './numbers.js';
-
-export const STATES = {
-  queued: 'waiting',
-  running: 'running',
-  done: 'done',
-  failed: 'failed',
-  cancelled: 'cancelled',
-};
-
-const STAGES = {
-  prepare: 'checking the mesh and laying the lattice',
-  erode: 'eroding',
-  derive: 'finding the skeleton',
-  complete: 'complete',
-};
-
-export const OPERATORS = {
-  'zucker-hummel': 'Zucker–Hummel, as published',
-  intermediate: 'intermediate differences',
-  central: 'central differences',
-  sobel: 'Sobel',
-  flux: 'average outward flux',
-  chords: 'equal chords, joined into a sheet',
-  ridge: 'the ridge of E: sheets, and curves where the solid is round',
-};
-
-export const FRAMES = {
-  axis: 'the axes of the mesh',
-  pca: 'the principal axes of the solid',
-  obb: 'the axes of its smallest box',
-  affine: 'axes that follow affine maps',
-};
+import { session } from './session.js';
 
 export const ARTEFACTS = {
   field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
@@ -42,7 +11,7 @@ export const ARTEFACTS = {
   mesh: ['Mesh', 'the file as it was submitted'],
 };
 
-export const EVENTS = {
+const EVENTS = {
   submitted_again: 'submitted again',
   cancel_requested: 'asked to cancel',
   removal_planned: 'to be removed',
@@ -58,8 +27,15 @@ export const EVENTS = {
   requests_cancelled: 'files are no longer wanted',
 };
 
-// What is shown under other names than the protocol's, or is of a later version.
-export const named = (table, word) => table[word] || word;
+// A word of the protocol as the service words it (`states`, `stages`, `operators` or `frames`); one that it does not
+// know, of a later server, as it is.
+export const wording = (kind, word) => session.words?.[kind][word] || word;
+
+// The operator of a job: where none was asked for, the usual one.
+export const operatorOf = (job) => wording('operators', job.skeleton.operator || session.usual.operator);
+
+// An event in words.
+export const eventText = (event) => EVENTS[event] || event;
 
 export const isActive = (job) => job.state === 'queued' || job.state === 'running';
 
@@ -78,10 +54,10 @@ export function activity(job) {
   if (job.cancel_requested && isActive(job)) return 'being cancelled';
   if (job.waiting_reason) return `waits: ${job.waiting_reason}`;
   if (job.state === 'queued') return 'waits for a worker';
-  if (job.state === 'running') return named(STAGES, job.stage);
+  if (job.state === 'running') return wording('stages', job.stage);
   if (isRemoved(job)) return 'its results were removed by the server’s retention; resume computes them again';
   // Of the job's own operator; the picture may show another's, and says so.
-  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')} (${named(OPERATORS, job.skeleton.operator || 'zucker-hummel')})`;
+  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')} (${operatorOf(job)})`;
   return 'progress is kept; resume goes on from here';
 }
 
