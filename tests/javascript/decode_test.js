@@ -1,4 +1,5 @@
 // decode.js against bytes that are written here, number by number.
+/* eslint-env node */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import {

@@ -37,9 +37,13 @@ class FakeElement extends EventTarget {
   }
 }
 
+/**
+ * An element of this kind.
+ * @param {string} [name]
+ */
 export const fakeElement = (name = 'div') => new FakeElement(name);
 
-// Makes it the document of the modules.
+/** Makes it the document of the modules. */
 export function installDocument() {
   globalThis.document = Object.assign(new EventTarget(), { createElement: fakeElement });
 }

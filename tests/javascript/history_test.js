@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { History } from '../../client/web/page/history.js';
 import { moment } from '../../client/web/page/numbers.js';
-import { fakeElement, installDocument } from './fake_document.js';
+import { installDocument } from './fake_document.js';
 
 installDocument();
 

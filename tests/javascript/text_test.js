@@ -1,4 +1,5 @@
 // text.js: jobs in words, which are the service's; and that the pages know no state or stage that the contract has not.
+/* eslint-env node */
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';

@@ -30,6 +30,7 @@ const kBallFragment = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
   }`;
 
+/** The sample points of a skeleton, most significant first. */
 export class BallCloud {
   // cell: the steps of the lattice, page units.
   constructor(positions, colours, cell, clip) {

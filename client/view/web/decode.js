@@ -9,7 +9,11 @@ function bytesOf(base64) {
   return bytes;
 }
 
-// The facts of the page; those of each of its models with arrays under `arrays`, absent ones empty.
+/**
+ * The facts of the page; those of each of its models with arrays under `arrays`, absent ones empty.
+ * @param {Document} document
+ * @returns {Page}
+ */
 export function decodePage(document) {
   const facts = JSON.parse(document.getElementById('facts').textContent);
   const bytes = bytesOf(document.getElementById('arrays').textContent.trim());
@@ -35,12 +39,33 @@ function positionsOf(steps, { origin, axes }) {
   return positions;
 }
 
+/**
+ * Of the vertices of the body's surface.
+ * @param {ModelFacts} model
+ * @returns {Float32Array}
+ */
 export const meshPositions = (model) => positionsOf(model.arrays.meshSteps, model.meshGrid);
+/**
+ * Of the sample points.
+ * @param {ModelFacts} model
+ * @returns {Float32Array}
+ */
 export const pointPositions = (model) => positionsOf(model.arrays.pointSteps, model.pointGrid);
-// Of the eroded solid at a level, by its place among the levels.
+/**
+ * Of the eroded solid at a level, by its place among the levels.
+ * @param {ModelFacts} model
+ * @param {number} level
+ * @returns {Float32Array}
+ */
 export const erodedPositions = (model, level) => positionsOf(model.arrays[`eroded${level}Steps`], model.meshGrid);
 
-// How many of `values`, taken in `order`, satisfy `inside`, when all that do come first (binary search).
+/**
+ * How many of `values`, taken in `order`, satisfy `inside`, when all that do come first (binary search).
+ * @param {ArrayLike<number>} values
+ * @param {ArrayLike<number> | null} order
+ * @param {(value: number) => boolean} inside
+ * @returns {number}
+ */
 export function prefixLength(values, order, inside) {
   let low = 0;
   let high = order ? order.length : values.length;
@@ -52,7 +77,11 @@ export function prefixLength(values, order, inside) {
   return low;
 }
 
-// Indices of `values` by descending value.
+/**
+ * Indices of `values` by descending value.
+ * @param {Float32Array | Int32Array} values
+ * @returns {Uint32Array}
+ */
 export function descending(values) {
   const order = Uint32Array.from(values.keys());
   return order.sort((a, b) => values[b] - values[a] || a - b);

@@ -84,6 +84,7 @@ function cornerNormals(points, corners) {
   return normals;
 }
 
+/** One surface, that of the body or of an eroded solid. */
 export class Glass {
   // points: 3 per vertex, page units; corners: 3 per triangle; order: of drawing, two numbers from it on.
   constructor(points, corners, clip, order) {

@@ -1,5 +1,6 @@
 // The address of what is seen: camera, sliders and layers in the fragment of the page's address.
-const kZooms = [1e-3, 1e3], kFarthest = 1e3; // what anybody looks at, in heights of the body
+const kZooms = [1e-3, 1e3]; // what anybody looks at
+const kFarthest = 1e3; // in heights of the body
 const kDelay = 200; // milliseconds after the last change: browsers refuse hundreds of changes at once
 
 const number = (text) => (text !== null && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : null);
@@ -9,7 +10,11 @@ const numbers = (text, count) => {
 };
 const short = (value) => String(Number(value.toPrecision(6)));
 
-// State as text, without the #.
+/**
+ * State as text, without the #.
+ * @param {Seen} state
+ * @returns {string}
+ */
 export function writeLink(state) {
   const link = new URLSearchParams();
   if (state.view) link.set('view', state.view);
@@ -25,7 +30,11 @@ export function writeLink(state) {
   return link.toString().replace(/%2C/g, ',');
 }
 
-// What of a state the text says; anything else in it is passed over.
+/**
+ * What of a state the text says; anything else in it is passed over.
+ * @param {string} text
+ * @returns {LinkState}
+ */
 export function readLink(text) {
   const link = new URLSearchParams(text.replace(/^#/, ''));
   const state = {};
@@ -48,6 +57,7 @@ export function readLink(text) {
   return state;
 }
 
+/** Keeps the address at what is seen. */
 export class Link {
   // state(): the text of what is seen now; changed(text): the user has opened another.
   constructor(state, changed) {

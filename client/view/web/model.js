@@ -9,6 +9,7 @@ import { TickedBox } from './ticked_box.js';
 const kFaint = 0.45; // of the body, when an eroded solid is shown in it
 const kUsual = 20; // per cent on the slider of the body's opacity: the usual glass
 
+/** A body and what is drawn of it. */
 export class Model {
   // facts: of the model; page: of all; clip: see Clip.
   constructor(facts, page, clip) {

@@ -9,6 +9,11 @@ const kLetterWidth = 10;
 const kMinLength = 0.2; // of an axis seen on the screen, as a share of itself: shorter ones get no letter
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
+/**
+ * Turns the cross of axes as the camera is turned.
+ * @param {Element} svg
+ * @param {import("three").Camera} camera
+ */
 export function drawCross(svg, camera) {
   const axes = Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }).map(([name, direction]) => {
     const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
@@ -34,7 +39,12 @@ export function drawCross(svg, camera) {
   });
 }
 
-// unitPixels: screen pixels per mesh unit.
+/**
+ * Draws a bar of a round length.
+ * @param {Element} element
+ * @param {number} unitPixels screen pixels per mesh unit
+ * @param {number} room pixels
+ */
 export function drawScaleBar(element, unitPixels, room) {
   const length = roundLength(Math.max(60, Math.min(180, 0.3 * room)) / unitPixels);
   element.querySelector('.bar').style.width = `${length * unitPixels}px`;
@@ -43,11 +53,20 @@ export function drawScaleBar(element, unitPixels, room) {
   if (label.textContent !== text) label.textContent = text;
 }
 
+/**
+ * Gives the legend the theme's colours.
+ * @param {Element} element
+ * @param {number} lift
+ */
 export function paintLegend(element, lift) {
   element.querySelector('.colours').style.background = gradient(lift);
 }
 
-// Labels in per cent of v0, at equal distances of the cube root, as the colours are.
+/**
+ * Labels in per cent of v0, at equal distances of the cube root, as the colours are.
+ * @param {Element} element
+ * @param {{ highestShare: number, scaleTitle: string, scaleNote: string }} page
+ */
 export function labelLegend(element, { highestShare, scaleTitle, scaleNote }) {
   element.querySelector('.heading').textContent = scaleTitle;
   element.querySelector('.note').textContent = scaleNote;

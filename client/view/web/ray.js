@@ -1,8 +1,16 @@
 // Where a ray meets triangles: Moller and Trumbore 1997, in double precision.
 
-// positions: 3 per vertex; corners: 3 per triangle, of which the first `count` numbers count; ray: origin and
-// unit direction `along`; skips(x, y, z): whether a place is not there.  Returns null, or of the first triangle
-// that is met its three `vertices`, the `weights` of these, and the `place`.
+/**
+ * positions: 3 per vertex; corners: 3 per triangle, of which the first `count` numbers count; ray: origin and
+ * unit direction `along`; skips(x, y, z): whether a place is not there.  Returns null, or of the first triangle
+ * that is met its three `vertices`, the `weights` of these, and the `place`.
+ * @param {ArrayLike<number>} positions
+ * @param {ArrayLike<number>} corners
+ * @param {number} count
+ * @param {Ray} ray
+ * @param {(x: number, y: number, z: number) => boolean} skips
+ * @returns {Hit | null}
+ */
 export function firstHit(positions, corners, count, { origin, along }, skips) {
   let hit = null;
   for (let t = 0; t < count; t += 3) {

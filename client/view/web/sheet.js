@@ -79,6 +79,7 @@ function tubeCorners(first) {
   return corners;
 }
 
+/** Triangles, and tubes about segments, by the weight of their pieces. */
 export class Sheet {
   // The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
   // 0.  radius: of the tubes, page units.

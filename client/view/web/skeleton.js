@@ -17,7 +17,12 @@ const direction = (bytes, p) => {
   return v.lengthSq() > 0 ? v.normalize().toArray() : null;
 };
 
-// The mean of the values at a hit's vertices; null where there are none.
+/**
+ * The mean of the values at a hit's vertices; null where there are none.
+ * @param {ArrayLike<number> | undefined} values
+ * @param {Hit} hit
+ * @returns {number | null}
+ */
 export const weighted = (values, { vertices, weights }) =>
   values && values.length ? vertices.reduce((sum, v, i) => sum + weights[i] * values[v], 0) : null;
 
@@ -95,7 +100,14 @@ function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highe
   };
 }
 
-// highest: E of the last colour, as a share of v0.  positions: of the sample points, page units.
+/**
+ * highest: E of the last colour, as a share of v0.  positions: of the sample points, page units.
+ * @param {ModelFacts} model
+ * @param {number} highest
+ * @param {import("./clip.js").Clip} clip
+ * @param {Float32Array} positions
+ * @returns {Skeleton}
+ */
 export function makeSkeleton(model, highest, clip, positions) {
   const made = model.arrays.sheetCorners
     ? makeSheet(model, highest, clip)

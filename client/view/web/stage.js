@@ -17,6 +17,7 @@ const kPole = 90 - 1e-3; // degrees: at the pole itself "right" is undefined
 // Azimuth and elevation, degrees, as in pictures (client/render/camera.h).
 const kViews = { front: [0, 0], side: [90, 0], top: [0, 90], start: [27, 13] };
 
+/** Camera, panes and what draws them. */
 export class Stage {
   // stance: unit vectors right, up and front of a body.  halfBox: half the sides, about the origin, of a box
   // that holds all models.  panes: how many.  inset(): pixels of a pane to keep free at the top, at the bottom
@@ -126,8 +127,7 @@ export class Stage {
     this.renderer.setPixelRatio(this.pixelRatio());
     this.renderer.setSize(clientWidth, clientHeight);
     this.frame();
-    if (this.view)
-      this.show(this.view); // still as chosen: keep it in the window
+    if (this.view) this.show(this.view); // still as chosen: keep it in the window
     else this.requestDraw();
     return true;
   }

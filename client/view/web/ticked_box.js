@@ -46,6 +46,7 @@ function setLines(object, ends) {
   object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(ends), 3));
 }
 
+/** Edges and ticks; the numbers are those of ticks.js. */
 export class TickedBox {
   // half: half sides, page units; centre: of the box, mesh units; unit: mesh units per page unit.
   constructor(half, centre, unit) {

@@ -10,6 +10,7 @@ const overlap = (a, b) =>
   Math.abs(a.x - b.x) < (a.width + b.width) / 2 + kMinGap / 2 &&
   Math.abs(a.y - b.y) < (a.height + b.height) / 2;
 
+/** One number for each tick, hidden where it has no room. */
 export class TickNumbers {
   constructor(container, box) {
     this.container = container;

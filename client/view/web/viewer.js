@@ -22,6 +22,7 @@ const kLayers = ['mesh', 'skeleton', 'eroded', 'axes', 'scale'];
 const element = (id) => document.getElementById(id);
 const box = (selector) => document.querySelector(selector).getBoundingClientRect();
 
+/** The page once its data are read. */
 export class Viewer {
   constructor(page) {
     this.page = page;
@@ -313,7 +314,8 @@ export class Viewer {
   // Shows what a link keeps.
   open(text) {
     const seen = readLink(text);
-    if (seen.thresholds) seen.thresholds.forEach((value, i) => this.thresholds[i] && this.thresholds[i].slider.set(value));
+    const thresholds = seen.thresholds || [];
+    thresholds.slice(0, this.thresholds.length).forEach((value, i) => this.thresholds[i].slider.set(value));
     if (this.level && 'level' in seen) this.level.put(this.level.nearest(seen.level));
     this.applySliders();
     if (seen.shown) kLayers.forEach((name) => this.toggle(name, seen.shown.includes(name)));

@@ -3,7 +3,7 @@ import { call, jobPath } from './api.js';
 import { announce, button, h } from './elements.js';
 import { bytes } from './numbers.js';
 import { session } from './session.js';
-import { ARTEFACTS } from './text.js';
+import { kArtefacts } from './text.js';
 
 // Saves what the service has made.
 function save(result) {
@@ -13,6 +13,7 @@ function save(result) {
   link.remove();
 }
 
+/** The card of files, with what they are made by. */
 export class Downloads {
   constructor(job) {
     this.job = job;
@@ -49,7 +50,7 @@ export class Downloads {
   }
 
   row(artefact) {
-    const [title, what] = ARTEFACTS[artefact.name] || [artefact.name, ''];
+    const [title, what] = kArtefacts[artefact.name] || [artefact.name, ''];
     return h(
       'div',
       { class: 'artefact' },

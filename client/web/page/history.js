@@ -15,6 +15,7 @@ function line(event) {
   return h('li', {}, time, ` ${what.filter(Boolean).join(', ')}`);
 }
 
+/** The events of one job. */
 export class History {
   constructor(job) {
     this.job = job;

@@ -10,7 +10,8 @@ import { session } from './session.js';
 import { activity, expiry, isActive, isRemoved, operatorOf, progress, wording } from './text.js';
 
 // What of a job decides which facts, notes and buttons there are.
-const shown = (job) => job && JSON.stringify([job.state, job.prepared, job.quality, job.cancel_requested, job.pinned, job.expires_ms, job.removed_ms]);
+const kShown = ['state', 'prepared', 'quality', 'cancel_requested', 'pinned', 'expires_ms', 'removed_ms'];
+const shown = (job) => job && JSON.stringify(kShown.map((name) => job[name]));
 const hasResults = (job) => job?.state === 'done' && !isRemoved(job);
 
 function asked(job) {
@@ -40,6 +41,7 @@ function prepared({ prepared: p }) {
   ];
 }
 
+/** What is seen at #job/ID. */
 export class JobView {
   constructor(id, rates) {
     this.id = id;

@@ -40,7 +40,11 @@ class Card {
   }
 }
 
-// The bar of a job; without a share while the mesh is checked.
+/**
+ * The bar of a job; without a share while the mesh is checked.
+ * @param {HTMLProgressElement} bar
+ * @param {Job} job
+ */
 export function showProgress(bar, job) {
   bar.hidden = !isActive(job) && job.state !== 'cancelled';
   bar.setAttribute('aria-label', `Progress of ${job.name}`);
@@ -49,6 +53,7 @@ export function showProgress(bar, job) {
   else bar.removeAttribute('value');
 }
 
+/** What is seen at #jobs. */
 export class JobList {
   constructor(rates) {
     this.rates = rates;
@@ -116,6 +121,7 @@ export class JobList {
     }
     card.update(job, this.rates.update(job));
     // Moved only where the order has changed: a moved element loses the focus.
-    if (this.list.children[place] !== card.element) this.list.insertBefore(card.element, this.list.children[place] || null);
+    const there = this.list.children[place];
+    if (there !== card.element) this.list.insertBefore(card.element, there || null);
   }
 }

@@ -34,7 +34,7 @@ function present(element, title) {
 }
 
 function showSignIn(message = '') {
-  poll?.stop();
+  if (poll) poll.stop();
   document.body.classList.remove('signed-in');
   showProblem(null);
   present(signInView(enter, message), 'Sign in');
@@ -43,7 +43,7 @@ function showSignIn(message = '') {
 
 // @param moved whether the user went there: then the heading takes the focus, so that it is read.
 function showView(moved) {
-  poll?.stop();
+  if (poll) poll.stop();
   showProblem(null);
   const view = viewOfAddress();
   present(view.element, view.title);

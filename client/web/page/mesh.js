@@ -4,9 +4,9 @@ import { announce, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
 
-const TYPES = ['.off', '.ply', '.obj', '.stl', '.vtp'];
-const USUAL_POINTS = 100000;
-const TYPING = 300; // milliseconds after a key until the lattice is counted
+const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp'];
+const kUsualPoints = 100000;
+const kTyping = 300; // milliseconds after a key until the lattice is counted
 
 function meshFacts(f) {
   const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
@@ -22,15 +22,16 @@ function meshFacts(f) {
   ]);
 }
 
+/** What is seen at #new. */
 export class NewJob {
   constructor() {
     this.title = 'New job';
-    this.file = h('input', { id: 'file', type: 'file', accept: TYPES.join(','), class: 'visually-hidden' });
+    this.file = h('input', { id: 'file', type: 'file', accept: kTypes.join(','), class: 'visually-hidden' });
     this.drop = h(
       'label',
       { class: 'drop', for: 'file' },
       h('strong', {}, 'Drop a mesh here, or choose a file'),
-      h('span', { class: 'small' }, `A closed surface as ${TYPES.join(', ')}, at most ${bytes(session.max_mesh_bytes)}`),
+      h('span', { class: 'small' }, `A closed surface as ${kTypes.join(', ')}, at most ${bytes(session.max_mesh_bytes)}`),
     );
     this.sent = h('progress', { max: 1, value: 0, hidden: true, 'aria-label': 'Upload' });
     this.status = h('p', { class: 'small', role: 'status' });
@@ -74,8 +75,11 @@ export class NewJob {
     this.complain('');
     this.found.replaceChildren();
     this.form.replaceChildren();
-    if (file.size > session.max_mesh_bytes)
-      return this.complain(`${file.name} has ${bytes(file.size)}; the server takes at most ${bytes(session.max_mesh_bytes)}.`);
+    const most = session.max_mesh_bytes;
+    if (file.size > most) {
+      this.complain(`${file.name} has ${bytes(file.size)}; the server takes at most ${bytes(most)}.`);
+      return;
+    }
     this.sent.hidden = false;
     this.status.textContent = `Sending ${file.name} …`;
     try {
@@ -93,7 +97,6 @@ export class NewJob {
       this.sent.hidden = true;
       this.file.value = ''; // the same file may be chosen again
     }
-    return undefined;
   }
 
   show(mesh) {
@@ -133,7 +136,7 @@ class SubmitForm {
     this.requestId = crypto.getRandomValues(new Uint32Array(4)).join('-');
     this.given = 'points'; // which of the two was typed
     this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: mesh.name.replace(/\.[^.]*$/, '') });
-    this.points = numberField('points', { step: 1, value: USUAL_POINTS });
+    this.points = numberField('points', { step: 1, value: kUsualPoints });
     this.spacing = numberField('spacing', {});
     this.lattice = h('p', { id: 'lattice', role: 'status' });
     this.directions = choice('directions', {
@@ -203,7 +206,7 @@ class SubmitForm {
     this.given = which;
     const value = parseFloat(this[which].value);
     clearTimeout(this.timer);
-    this.counting?.abort();
+    if (this.counting) this.counting.abort();
     if (!(value > 0)) {
       setText(this.lattice, 'Give a number above 0.');
       return;
@@ -211,7 +214,7 @@ class SubmitForm {
     const { volume } = this.mesh.facts;
     if (which === 'points') this.spacing.value = editable(Math.cbrt(volume / value));
     else this.points.value = String(Math.max(0, Math.round(volume / value ** 3)));
-    this.timer = setTimeout(() => this.count(which, value), TYPING);
+    this.timer = setTimeout(() => this.count(which, value), kTyping);
   }
 
   async count(which, value) {

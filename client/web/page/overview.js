@@ -4,7 +4,7 @@ import { facts, h } from './elements.js';
 import { ago, bytes, count, counted, moment } from './numbers.js';
 import { isActive } from './text.js';
 
-const WATCHED = 200; // running jobs whose progress is added up
+const kWatched = 200; // running jobs whose progress is added up
 
 function workerRow(worker) {
   const doing = worker.silent ? 'silent: dead, stopped or cut off' : worker.task || 'idle';
@@ -19,6 +19,7 @@ function workerRow(worker) {
   );
 }
 
+/** What is seen at #server. */
 export class Overview {
   constructor(rates) {
     this.rates = rates;
@@ -53,7 +54,7 @@ export class Overview {
   }
 
   async ask() {
-    const [info, { jobs }] = await Promise.all([call('GET', '/api/server'), call('GET', `/api/jobs?everybody=1&limit=${WATCHED}`)]);
+    const [info, { jobs }] = await Promise.all([call('GET', '/api/server'), call('GET', `/api/jobs?everybody=1&limit=${kWatched}`)]);
     const workers = info.workers || [];
     const awake = workers.filter((worker) => !worker.silent);
     this.facts.replaceChildren(

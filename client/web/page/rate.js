@@ -1,7 +1,8 @@
 // How fast jobs get on, smoothed over a few seconds; a page knows no more than it saw.
 
-const FORGETS = 3; // seconds
+const kForgets = 3; // seconds
 
+/** By job. */
 export class Rates {
   constructor() {
     this.jobs = new Map();
@@ -15,7 +16,7 @@ export class Rates {
     const entry = { time: now, done, perSecond: last ? last.perSecond : 0 };
     if (last && done >= last.done && now > last.time) {
       const seconds = now - last.time;
-      const weight = last.perSecond > 0 ? 1 - Math.exp(-seconds / FORGETS) : 1;
+      const weight = last.perSecond > 0 ? 1 - Math.exp(-seconds / kForgets) : 1;
       entry.perSecond += weight * ((done - last.done) / seconds - entry.perSecond);
     } else if (last && done < last.done) {
       entry.perSecond = 0;

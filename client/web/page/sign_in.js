@@ -2,7 +2,12 @@
 import { h } from './elements.js';
 import { session, signIn } from './session.js';
 
-// What stands in the page; `entered` is called once somebody is signed in.
+/**
+ * What stands in the page; `entered` is called once somebody is signed in.
+ * @param {() => void} entered
+ * @param {string} [message]
+ * @returns {HTMLElement}
+ */
 export function signInView(entered, message = '') {
   return session.mode === 'personal' ? keyView(message) : tokenView(entered, message);
 }

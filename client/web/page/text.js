@@ -2,7 +2,11 @@
 import { count, counted, duration, moment } from './numbers.js';
 import { session } from './session.js';
 
-export const ARTEFACTS = {
+/**
+ * Title of an artefact, and what it is.
+ * @type {Object<string, string[]>}
+ */
+export const kArtefacts = {
   field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
   divergence: ['Divergence', 'H, which the threshold is applied to'],
   skeleton: ['Skeleton', 'its points'],
@@ -11,7 +15,7 @@ export const ARTEFACTS = {
   mesh: ['Mesh', 'the file as it was submitted'],
 };
 
-const EVENTS = {
+const kEvents = {
   submitted_again: 'submitted again',
   cancel_requested: 'asked to cancel',
   removal_planned: 'to be removed',
@@ -27,25 +31,55 @@ const EVENTS = {
   requests_cancelled: 'files are no longer wanted',
 };
 
-// A word of the protocol as the service words it (`states`, `stages`, `operators` or `frames`); one that it does not
-// know, of a later server, as it is.
+/**
+ * A word of the protocol as the service words it (`states`, `stages`, `operators` or `frames`); one that it does not
+ * know, of a later server, as it is.
+ * @param {keyof Words} kind
+ * @param {string} word
+ * @returns {string}
+ */
 export const wording = (kind, word) => session.words?.[kind][word] || word;
 
-// The operator of a job: where none was asked for, the usual one.
+/**
+ * The operator of a job: where none was asked for, the usual one.
+ * @param {Job} job
+ * @returns {string}
+ */
 export const operatorOf = (job) => wording('operators', job.skeleton.operator || session.usual.operator);
 
-// An event in words.
-export const eventText = (event) => EVENTS[event] || event;
+/**
+ * An event in words.
+ * @param {string} event
+ * @returns {string}
+ */
+export const eventText = (event) => kEvents[event] || event;
 
+/**
+ * Whether it waits for a worker or has one.
+ * @param {Job} job
+ * @returns {boolean}
+ */
 export const isActive = (job) => job.state === 'queued' || job.state === 'running';
 
-// Whether retention has taken the results of a finished job.
+/**
+ * Whether retention has taken the results of a finished job.
+ * @param {Job} job
+ * @returns {boolean}
+ */
 export const isRemoved = (job) => job.state === 'done' && job.removed_ms > 0;
 
-// When retention will take what is left of a job; "" when it will not.
+/**
+ * When retention will take what is left of a job; "" when it will not.
+ * @param {Job} job
+ * @returns {string}
+ */
 export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
 
-// What a job is doing, or why it does not.
+/**
+ * What a job is doing, or why it does not.
+ * @param {Job} job
+ * @returns {string}
+ */
 export function activity(job) {
   if (job.state === 'failed') {
     const line = job.error?.line > 0 ? ` (line ${count(job.error.line)} of the file)` : '';
@@ -61,7 +95,12 @@ export function activity(job) {
   return 'progress is kept; resume goes on from here';
 }
 
-// Directions done of all, with the pace and the time left.
+/**
+ * Directions done of all, with the pace and the time left.
+ * @param {Job} job
+ * @param {Rate | null} rate
+ * @returns {string}
+ */
 export function progress(job, rate) {
   if (!(job.directions_total > 0) || job.state === 'done') return '';
   let text = `${count(job.directions_done)} of ${counted(job.directions_total, 'direction')}`;
