@@ -15,8 +15,10 @@ function bytesOf(base64) {
  * @returns {Page}
  */
 export function decodePage(document) {
-  const facts = JSON.parse(document.getElementById('facts').textContent);
-  const bytes = bytesOf(document.getElementById('arrays').textContent.trim());
+  /** @type {(id: string) => any} */
+  const element = (id) => document.getElementById(id);
+  const facts = JSON.parse(element('facts').textContent);
+  const bytes = bytesOf(element('arrays').textContent.trim());
   const models = facts.models.map((model) => {
     const arrays = {};
     for (const [name, [type, offset, count]] of Object.entries(model.arrays)) {

@@ -88,7 +88,9 @@ function cornerNormals(points, corners) {
 export class Glass {
   // points: 3 per vertex, page units; corners: 3 per triangle; order: of drawing, two numbers from it on.
   constructor(points, corners, clip, order) {
-    Object.assign(this, { points, corners, clip });
+    this.points = points;
+    this.corners = corners;
+    this.clip = clip;
     const positions = new Float32Array(3 * corners.length);
     corners.forEach((v, c) => positions.set(points.subarray(3 * v, 3 * v + 3), 3 * c));
     const geometry = new BufferGeometry();

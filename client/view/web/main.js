@@ -2,6 +2,7 @@
 import { decodePage } from './decode.js';
 import { Viewer } from './viewer.js';
 
+/** @type {(id: string) => any} */
 const element = (id) => document.getElementById(id);
 
 function fail(message) {

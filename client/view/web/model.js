@@ -13,7 +13,9 @@ const kUsual = 20; // per cent on the slider of the body's opacity: the usual gl
 export class Model {
   // facts: of the model; page: of all; clip: see Clip.
   constructor(facts, page, clip) {
-    Object.assign(this, { facts, page, clip });
+    this.facts = facts;
+    this.page = page;
+    this.clip = clip;
     this.skeleton = makeSkeleton(facts, page.highestShare, clip, pointPositions(facts));
     this.glass = new Glass(meshPositions(facts), facts.arrays.meshCorners, clip, 3);
     this.box = new TickedBox(facts.halfBox, facts.centre, page.unit);

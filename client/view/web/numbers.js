@@ -22,7 +22,7 @@ export function rounded(value, digits = 4) {
       : String(Number(value.toPrecision(digits)));
   }
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
-  const power = String(Math.abs(Number(exponent)), 10).replace(/\d/g, (d) => kSuperscripts[d]);
+  const power = String(Math.abs(Number(exponent))).replace(/\d/g, (d) => kSuperscripts[d]);
   return `${Number(mantissa)} × 10${Number(exponent) < 0 ? '⁻' : ''}${power}`;
 }
 

@@ -55,10 +55,10 @@ export function showWarnings(list, models) {
  */
 export function sectionFor(section, number) {
   if (number === 0) return section;
-  const copy = section.cloneNode(true);
+  const copy = /** @type {any} */ (section.cloneNode(true));
   copy.id = `${section.id}-${number + 1}`;
   for (const part of copy.querySelectorAll('[id]')) part.id = `${part.id}-${number + 1}`;
   for (const label of copy.querySelectorAll('[for]')) label.htmlFor = `${label.htmlFor}-${number + 1}`;
-  section.parentElement.insertBefore(copy, section.nextElementSibling);
+  section.after(copy);
   return copy;
 }

@@ -10,7 +10,7 @@ class Drawing {
   constructor(canvas, ratio) {
     this.room = canvas.getBoundingClientRect();
     this.sheet = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
-    this.context = this.sheet.getContext('2d');
+    this.context = /** @type {CanvasRenderingContext2D} */ (this.sheet.getContext('2d'));
     this.context.drawImage(canvas, 0, 0);
     this.context.scale(ratio, ratio);
   }
@@ -86,7 +86,7 @@ export function pictureOf(main, canvas, ratio, lift) {
   );
   all('#scale .bar').forEach((element) => drawing.bar(element));
   all('#legend .colours').forEach((element) => drawing.colours(element, gradientStops(lift)));
-  const cross = main.querySelector('#cross');
+  const cross = /** @type {Element} */ (main.querySelector('#cross'));
   for (const line of cross.querySelectorAll('line')) drawing.line(cross, line);
   for (const letter of cross.querySelectorAll('text')) {
     if (getComputedStyle(letter).opacity !== '0') drawing.text(letter);

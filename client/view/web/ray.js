@@ -30,7 +30,7 @@ export function firstHit(positions, corners, count, { origin, along }, skips) {
     const depth = (vx * qx + vy * qy + vz * qz) / volume;
     if (hit && depth >= hit.depth) continue;
     const place = [origin.x + depth * along.x, origin.y + depth * along.y, origin.z + depth * along.z];
-    if (skips(...place)) continue;
+    if (skips(place[0], place[1], place[2])) continue;
     hit = { depth, place, vertices: [a / 3, b / 3, c / 3], weights: [1 - wb - wc, wb, wc] };
   }
   return hit;

@@ -96,6 +96,7 @@ export class Sheet {
       index.push(...(tube < 0 ? corners.subarray(3 * e, 3 * e + 3) : tubeCorners(first + 2 * kSides * tube)));
       this.ends.push(index.length);
     }
+    this.drawn = 0; // of the index
     this.isTriangle = (place) => this.order[place] < triangles;
     this.geometry = new BufferGeometry();
     const places = tubePositions(positions, segments, radius);

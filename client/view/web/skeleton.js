@@ -11,10 +11,10 @@ import { Sheet } from './sheet.js';
 
 const kTube = 0.3; // radius of a curve, lattice spacings
 
-// Unit vectors are kept as bytes.
-const direction = (bytes, p) => {
+// Unit vectors are kept as bytes: none or one.
+const directions = (bytes, p) => {
   const v = new Vector3(...bytes.subarray(3 * p, 3 * p + 3));
-  return v.lengthSq() > 0 ? v.normalize().toArray() : null;
+  return v.lengthSq() > 0 ? [v.normalize().toArray()] : [];
 };
 
 /**
@@ -62,10 +62,10 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
       return {
         what: `skeleton (${operator})`,
         place: hit.place,
-        share: weighted(arrays.sheetShares, hit),
+        share: weighted(arrays.sheetShares, hit) || 0,
         slope: weighted(arrays.sheetSlopes, hit),
         strength: weighted(arrays.sheetStrengths, hit),
-        directions: sides.map((bytes) => direction(bytes, nearest)).filter(Boolean),
+        directions: sides.flatMap((bytes) => directions(bytes, nearest)),
       };
     },
   };
@@ -94,7 +94,7 @@ function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highe
         share: arrays.pointShares[p],
         slope: arrays.pointSlopes[p],
         divergence: values[p],
-        directions: [direction(arrays.pointInward, p)].filter(Boolean),
+        directions: directions(arrays.pointInward, p),
       };
     },
   };

@@ -8,7 +8,9 @@ export class Slider {
   constructor(root, { low, high, curve = 1, changed }) {
     this.range = root.querySelector('input[type=range]');
     this.field = root.querySelector('input[type=number]');
-    Object.assign(this, { low, high, curve, changed });
+    this.low = low;
+    this.high = high;
+    this.curve = curve;
     this.range.max = kSteps;
     this.range.addEventListener('input', () => {
       this.put(this.round(low + (high - low) * (this.range.valueAsNumber / kSteps) ** curve));

@@ -25,8 +25,15 @@ export class Stage {
   // other.  beforeDraw runs before every drawing, changed after every turn; thin(every) draws one point of so many
   // from then on.
   constructor(canvas, { stance, halfBox, panes, inset, room, beforeDraw, changed, thin }) {
-    Object.assign(this, { canvas, inset, room, beforeDraw, changed, thin });
-    [this.right, this.up, this.front] = ['right', 'up', 'front'].map((name) => new Vector3(...stance[name]));
+    this.canvas = canvas;
+    this.inset = inset;
+    this.room = room;
+    this.beforeDraw = beforeDraw;
+    this.changed = changed;
+    this.thin = thin;
+    this.right = new Vector3(...stance.right);
+    this.up = new Vector3(...stance.up);
+    this.front = new Vector3(...stance.front);
     this.halfBox = new Vector3(...halfBox);
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.autoClear = false;

@@ -7,6 +7,7 @@ export class ApiError extends Error {
     this.status = status;
     this.code = code;
     this.line = line;
+    this.retryAfter = 0;
   }
 }
 

@@ -45,19 +45,22 @@ function showSignIn(message = '') {
 function showView(moved) {
   if (poll) poll.stop();
   showProblem(null);
+  /** @type {View} */
   const view = viewOfAddress();
   present(view.element, view.title);
   markPlace();
-  if (view.ask) {
+  const { ask } = view;
+  if (ask) {
     poll = new Poll(
-      () => view.ask(),
+      () => ask.call(view),
       (error) => error?.status !== 401 && showProblem(error && `${error.message} Trying again …`),
     );
     view.refresh = () => poll.now();
     view.pause = () => poll.stop();
     poll.now();
   }
-  if (moved) view.element.querySelector('h1').focus();
+  const heading = view.element.querySelector('h1');
+  if (moved && heading) heading.focus();
 }
 
 function enter() {

@@ -82,8 +82,8 @@ export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 ? 'Th
  */
 export function activity(job) {
   if (job.state === 'failed') {
-    const line = job.error?.line > 0 ? ` (line ${count(job.error.line)} of the file)` : '';
-    return (job.error?.message || 'no reason was given') + line;
+    const { message, line } = job.error || { message: '', line: 0 };
+    return (message || 'no reason was given') + (line > 0 ? ` (line ${count(line)} of the file)` : '');
   }
   if (job.cancel_requested && isActive(job)) return 'being cancelled';
   if (job.waiting_reason) return `waits: ${job.waiting_reason}`;
