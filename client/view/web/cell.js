@@ -42,7 +42,11 @@ export class CellShape {
     this.uniforms = { unstretch: { value: new Matrix3() }, size: { value: 2 }, pixels: { value: 1 } };
   }
 
-  // Before a frame.  pixels: of the drawing buffer, per page unit.
+  /**
+   * Before a frame.  pixels: of the drawing buffer, per page unit.
+   * @param {import('three').Camera} camera
+   * @param {number} pixels
+   */
   look(camera, pixels) {
     const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse);
     const seen = this.halfAxes.map((axis) => axis.clone().applyMatrix3(turn));

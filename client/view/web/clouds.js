@@ -32,7 +32,10 @@ const kBallFragment = `
 
 /** The sample points of a skeleton, most significant first. */
 export class BallCloud {
-  // cell: the steps of the lattice, page units.
+  /**
+   * cell: the steps of the lattice, page units.
+   * @param {import('./clip.js').Clip} clip
+   */
   constructor(positions, colours, cell, clip) {
     this.positions = positions;
     this.clip = clip;
@@ -57,7 +60,10 @@ export class BallCloud {
     this.thin(1);
   }
 
-  // Draws one of `every` points of those that are shown.
+  /**
+   * Draws one of `every` points of those that are shown.
+   * @param {number} every
+   */
   thin(every) {
     const indices = every > 1 && Uint32Array.from({ length: Math.ceil(this.shown / every) }, (_, i) => i * every);
     this.geometry.setIndex(indices ? new BufferAttribute(indices, 1) : null);
@@ -82,11 +88,16 @@ export class BallCloud {
     return nearest;
   }
 
-  // pixels: of the drawing buffer, per page unit.
+  /**
+   * pixels: of the drawing buffer, per page unit.
+   * @param {import('three').Camera} camera
+   * @param {number} pixels
+   */
   look(camera, pixels) {
     this.shape.look(camera, pixels);
   }
 
+  /** @param {Theme} theme */
   paint(theme) {
     this.uniforms.lift.value = theme.lift;
   }

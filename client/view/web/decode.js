@@ -2,6 +2,7 @@
 // arrays in base64.
 const kTypes = { u16: Uint16Array, u32: Uint32Array, f32: Float32Array, i8: Int8Array };
 
+/** @param {string} base64 */
 function bytesOf(base64) {
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);

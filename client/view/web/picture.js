@@ -7,6 +7,7 @@ const visible = (element) => {
 };
 
 class Drawing {
+  /** @param {HTMLCanvasElement} canvas */
   constructor(canvas, ratio) {
     this.room = canvas.getBoundingClientRect();
     this.sheet = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });

@@ -34,8 +34,11 @@ export function valuesOf(model, found) {
 
 /** Shows them in a box beside the pointer. */
 export class Probe {
-  // box: the element to fill; canvas; find(x, y): what lies there, pixels of the canvas: null, or model and
-  // found.
+  /**
+   * box: the element to fill; canvas; find(x, y): what lies there, pixels of the canvas: null, or model and
+   * found.
+   * @param {HTMLCanvasElement} canvas
+   */
   constructor(box, canvas, find) {
     this.box = box;
     this.canvas = canvas;

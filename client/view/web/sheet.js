@@ -81,8 +81,11 @@ function tubeCorners(first) {
 
 /** Triangles, and tubes about segments, by the weight of their pieces. */
 export class Sheet {
-  // The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
-  // 0.  radius: of the tubes, page units.
+  /**
+   * The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
+   * 0.  radius: of the tubes, page units.
+   * @param {import('./clip.js').Clip} clip
+   */
   constructor(positions, colours, pieces, corners, segments, radius, clip) {
     this.clip = clip;
     // Lightest pieces last: the slider moves the end of what is drawn.
@@ -126,7 +129,10 @@ export class Sheet {
     this.geometry.setDrawRange(0, this.drawn);
   }
 
-  // Where a ray meets it first, see firstHit; the vertices are those of the sheet.
+  /**
+   * Where a ray meets it first, see firstHit; the vertices are those of the sheet.
+   * @param {Ray} ray
+   */
   pick(ray) {
     const hit = firstHit(this.places, this.index, this.drawn, ray, (...at) => this.clip.hides(...at));
     return hit && { ...hit, vertices: hit.vertices.map((v) => this.vertexOf[v]) };
@@ -136,6 +142,7 @@ export class Sheet {
 
   thin() {}
 
+  /** @param {Theme} theme */
   paint(theme) {
     this.uniforms.lift.value = theme.lift;
   }

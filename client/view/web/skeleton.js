@@ -26,7 +26,12 @@ const directions = (bytes, p) => {
 export const weighted = (values, { vertices, weights }) =>
   values && values.length ? vertices.reduce((sum, v, i) => sum + weights[i] * values[v], 0) : null;
 
-// Like the operator's significance, the slider drops pieces with a smaller share.
+/**
+ * Like the operator's significance, the slider drops pieces with a smaller share.
+ * @param {ModelFacts} model
+ * @param {number} highest
+ * @param {import('./clip.js').Clip} clip
+ */
 function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
   const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
   const colours = coloursOf(arrays.sheetShares, highest);
@@ -71,6 +76,12 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
   };
 }
 
+/**
+ * @param {ModelFacts} model
+ * @param {number} highest
+ * @param {import('./clip.js').Clip} clip
+ * @param {Float32Array} positions
+ */
 function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highest, clip, positions) {
   const colours = coloursOf(arrays.pointShares, highest);
   const values = arrays.pointDivergences; // descending, see page.cc

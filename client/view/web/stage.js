@@ -149,7 +149,7 @@ export class Stage {
   turn() {
     this.view = '';
     if (!this.easing) this.easing = this.chooseEasing();
-    this.ease(...this.easing);
+    this.ease(this.easing[0], this.easing[1]);
   }
 
   // Resolution and thinning with which the scene turns.
@@ -169,6 +169,7 @@ export class Stage {
     return performance.now() - start;
   }
 
+  /** @param {number} every */
   ease(resolution, every) {
     if (resolution === this.resolution && every === this.every) return;
     Object.assign(this, { resolution, every });

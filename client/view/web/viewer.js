@@ -313,7 +313,10 @@ export class Viewer {
     };
   }
 
-  // Shows what a link keeps.
+  /**
+   * Shows what a link keeps.
+   * @param {string} text
+   */
   open(text) {
     const seen = readLink(text);
     const thresholds = seen.thresholds || [];

@@ -12,8 +12,10 @@ import { activity, expiry, isActive, isRemoved, operatorOf, progress, wording } 
 // What of a job decides which facts, notes and buttons there are.
 const kShown = ['state', 'prepared', 'quality', 'cancel_requested', 'pinned', 'expires_ms', 'removed_ms'];
 const shown = (job) => job && JSON.stringify(kShown.map((name) => job[name]));
+/** @type {(job: Job | undefined) => boolean} */
 const hasResults = (job) => job?.state === 'done' && !isRemoved(job);
 
+/** @param {Job} job */
 function asked(job) {
   const { sampling, directions, frame } = job.params;
   const lattice = sampling?.spacing ? `spacing ${measure(sampling.spacing)}` : `about ${counted(sampling?.target_points || 0, 'point')}`;
@@ -30,6 +32,7 @@ function asked(job) {
   ];
 }
 
+/** @param {Job} job */
 function prepared({ prepared: p }) {
   if (!p) return [];
   return [
@@ -43,6 +46,10 @@ function prepared({ prepared: p }) {
 
 /** What is seen at #job/ID. */
 export class JobView {
+  /**
+   * @param {string} id
+   * @param {import('./rate.js').Rates} rates
+   */
   constructor(id, rates) {
     this.id = id;
     this.rates = rates;
@@ -99,6 +106,7 @@ export class JobView {
     if (!hasResults(job)) this.results.replaceChildren();
   }
 
+  /** @param {Job} job */
   showFacts(job) {
     const advice = job.quality?.advice;
     const removal = expiry(job);
@@ -110,6 +118,7 @@ export class JobView {
     this.facts.replaceChildren(facts([...prepared(job), ...asked(job)]));
   }
 
+  /** @param {Job} job */
   showActions(job) {
     const held = document.activeElement?.closest('.actions') ? document.activeElement.id : null;
     const ended = !isActive(job);
@@ -159,6 +168,7 @@ export class JobView {
     }
   }
 
+  /** @param {Job} job */
   showResults(job) {
     const downloads = new Downloads(this.id);
     const picture = h('img', { class: 'picture', alt: `${job.name}: the body and its skeleton from the front, the side and above`, hidden: true });
@@ -171,6 +181,11 @@ export class JobView {
     this.drawPicture(downloads, picture, waiting);
   }
 
+  /**
+   * @param {import('./downloads.js').Downloads} downloads
+   * @param {HTMLImageElement} picture
+   * @param {HTMLElement} waiting
+   */
   async drawPicture(downloads, picture, waiting) {
     try {
       const result = await downloads.made('picture');
@@ -184,6 +199,10 @@ export class JobView {
     }
   }
 
+  /**
+   * @param {import('./downloads.js').Downloads} downloads
+   * @param {HTMLElement} status
+   */
   async openInteractive(downloads, status) {
     const before = status.textContent;
     status.textContent = 'A moment …';

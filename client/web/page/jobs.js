@@ -7,6 +7,7 @@ import { activity, isActive, progress, wording } from './text.js';
 
 // One job in the list.
 class Card {
+  /** @param {Job} job */
   constructor(job) {
     this.link = h('a', { href: `#job/${job.id}` });
     this.badge = h('span', {});
@@ -26,6 +27,10 @@ class Card {
     this.state = job.state;
   }
 
+  /**
+   * @param {Job} job
+   * @param {Rate | null} rate
+   */
   update(job, rate) {
     setText(this.link, job.name || job.id.slice(0, 12));
     this.badge.className = `badge ${job.state}`;
@@ -55,6 +60,7 @@ export function showProgress(bar, job) {
 
 /** What is seen at #jobs. */
 export class JobList {
+  /** @param {import('./rate.js').Rates} rates */
   constructor(rates) {
     this.rates = rates;
     this.limit = 50;
@@ -113,6 +119,7 @@ export class JobList {
     return jobs.some(isActive);
   }
 
+  /** @param {Job} job */
   show(job, place) {
     let card = this.cards.get(job.id);
     if (!card) {

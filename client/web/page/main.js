@@ -33,6 +33,7 @@ function present(element, title) {
   document.title = `${title} – affskel`;
 }
 
+/** @param {string} [message] */
 function showSignIn(message = '') {
   if (poll) poll.stop();
   document.body.classList.remove('signed-in');

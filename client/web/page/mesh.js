@@ -71,6 +71,7 @@ export class NewJob {
     this.problem.hidden = !message;
   }
 
+  /** @param {File} file */
   async take(file) {
     this.complain('');
     this.found.replaceChildren();

@@ -21,6 +21,7 @@ function workerRow(worker) {
 
 /** What is seen at #server. */
 export class Overview {
+  /** @param {import('./rate.js').Rates} rates */
   constructor(rates) {
     this.rates = rates;
     this.title = 'Server';
@@ -45,7 +46,10 @@ export class Overview {
     );
   }
 
-  // Directions per second of all running jobs that are seen.
+  /**
+   * Directions per second of all running jobs that are seen.
+   * @param {Job[]} jobs
+   */
   throughput(jobs) {
     let sum = 0;
     for (const job of jobs.filter(isActive)) sum += this.rates.update(job)?.perSecond || 0;

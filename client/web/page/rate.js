@@ -8,8 +8,11 @@ export class Rates {
     this.jobs = new Map();
   }
 
-  // What the job's progress is worth by now: directions per second and the seconds that are left; null while
-  // nothing is known.
+  /**
+   * What the job's progress is worth by now: directions per second and the seconds that are left; null while
+   * nothing is known.
+   * @param {Job} job
+   */
   update(job, now = performance.now() / 1000) {
     const last = this.jobs.get(job.id);
     const done = job.directions_done || 0;
@@ -25,6 +28,7 @@ export class Rates {
     return this.of(job);
   }
 
+  /** @param {Job} job */
   of(job) {
     const entry = this.jobs.get(job.id);
     if (!entry || !(entry.perSecond > 1e-6)) return null;

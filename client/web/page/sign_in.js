@@ -12,6 +12,7 @@ export function signInView(entered, message = '') {
   return session.mode === 'personal' ? keyView(message) : tokenView(entered, message);
 }
 
+/** @param {string} message */
 function keyView(message) {
   return h(
     'section',
@@ -24,6 +25,7 @@ function keyView(message) {
   );
 }
 
+/** @param {string} message */
 function tokenView(entered, message) {
   const field = h('input', {
     id: 'token',
