@@ -2,6 +2,7 @@
 
 #include "client/operations/fetch.h"
 #include "client/text/message_json.h"
+#include "client/text/word_texts.h"
 #include "client/text/words.h"
 #include "client/web/api_answers.h"
 #include "client/web/cookie.h"
@@ -70,15 +71,17 @@ ordered_json offered_artifacts() {
 }
 
 ordered_json session_json(const WebState& web, const WebUser& user) {
-  return {{"mode", web.options.personal ? "personal" : "sign-in"},
-          {"signed_in", true},
-          {"version", wire::kVersion},
-          {"owner", user.owner.empty() ? web.backend.own_user() : user.owner},
-          {"admin", user.admin},
-          {"max_mesh_bytes", user.max_mesh_bytes},
-          {"operators", operator_words()},
-          {"frames", frame_words()},
-          {"artefacts", offered_artifacts()}};
+  return {
+      {"mode", web.options.personal ? "personal" : "sign-in"},
+      {"signed_in", true},
+      {"version", wire::kVersion},
+      {"owner", user.owner.empty() ? web.backend.own_user() : user.owner},
+      {"admin", user.admin},
+      {"max_mesh_bytes", user.max_mesh_bytes},
+      {"words", word_texts()},
+      {"usual",
+       {{"operator", operator_word(v1::OPERATOR_UNSPECIFIED)}, {"frame", frame_word(v1::FRAME_UNSPECIFIED)}}},
+      {"artefacts", offered_artifacts()}};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // So the gaps between neighbours look alike along every axis, however long its steps are.
 import { Matrix3, Vector3 } from 'three';
 
-// GLSL for the fragments of a point of `size` pixels.  Points are at least two pixels large.
+/** GLSL for the fragments of a point of `size` pixels.  Points are at least two pixels large. */
 export const kOnEllipsoid = `
   uniform mat3 unstretch;
   uniform float size, pixels;
@@ -31,6 +31,7 @@ export const kOnEllipsoid = `
     return normalize((at + along * ((sqrt(rest) - middle) / dot(along, along))) * unstretch);
   }`;
 
+/** One shape for all points: the cell, shrunk, as the camera sees it. */
 export class CellShape {
   // cell: three edges, page units; share: the ellipsoid's half axes in edges.
   constructor(cell, share) {
@@ -41,7 +42,11 @@ export class CellShape {
     this.uniforms = { unstretch: { value: new Matrix3() }, size: { value: 2 }, pixels: { value: 1 } };
   }
 
-  // Before a frame.  pixels: of the drawing buffer, per page unit.
+  /**
+   * Before a frame.  pixels: of the drawing buffer, per page unit.
+   * @param {import('three').Camera} camera
+   * @param {number} pixels
+   */
   look(camera, pixels) {
     const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse);
     const seen = this.halfAxes.map((axis) => axis.clone().applyMatrix3(turn));

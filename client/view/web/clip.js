@@ -1,9 +1,10 @@
 // The clipping plane: what lies beyond it is not drawn, and not found by the pointer.
 import { Vector4 } from 'three';
 
-// GLSL for vertices: `place` as a varying; for fragments: nothing beyond the plane.
+/** GLSL for vertices: `place` as a varying; for fragments: nothing beyond the plane. */
 export const kClipVertex = `
   varying vec3 vPlace;`;
+/** GLSL for fragments: nothing beyond the plane. */
 export const kClipFragment = `
   uniform vec4 clip;
   varying vec3 vPlace;
@@ -11,6 +12,7 @@ export const kClipFragment = `
     return dot(clip.xyz, vPlace) > clip.w;
   }`;
 
+/** The plane, as shaders and as the pointer know it. */
 export class Clip {
   constructor() {
     this.uniform = { value: new Vector4(0, 0, 0, 1) }; // nothing lies beyond

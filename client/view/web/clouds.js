@@ -30,8 +30,12 @@ const kBallFragment = `
     gl_FragColor = vec4((vColour + lift * (1.0 - vColour)) * shade, 1.0);
   }`;
 
+/** The sample points of a skeleton, most significant first. */
 export class BallCloud {
-  // cell: the steps of the lattice, page units.
+  /**
+   * cell: the steps of the lattice, page units.
+   * @param {import('./clip.js').Clip} clip
+   */
   constructor(positions, colours, cell, clip) {
     this.positions = positions;
     this.clip = clip;
@@ -56,7 +60,10 @@ export class BallCloud {
     this.thin(1);
   }
 
-  // Draws one of `every` points of those that are shown.
+  /**
+   * Draws one of `every` points of those that are shown.
+   * @param {number} every
+   */
   thin(every) {
     const indices = every > 1 && Uint32Array.from({ length: Math.ceil(this.shown / every) }, (_, i) => i * every);
     this.geometry.setIndex(indices ? new BufferAttribute(indices, 1) : null);
@@ -81,11 +88,16 @@ export class BallCloud {
     return nearest;
   }
 
-  // pixels: of the drawing buffer, per page unit.
+  /**
+   * pixels: of the drawing buffer, per page unit.
+   * @param {import('three').Camera} camera
+   * @param {number} pixels
+   */
   look(camera, pixels) {
     this.shape.look(camera, pixels);
   }
 
+  /** @param {Theme} theme */
   paint(theme) {
     this.uniforms.lift.value = theme.lift;
   }

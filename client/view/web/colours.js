@@ -1,3 +1,5 @@
+// Colours: the scale of E, and what a dark theme and a light one take.
+
 // Samples of van der Walt and Smith's viridis at equal distances, as in the renderer of pictures.
 const kViridis = [
   [68, 1, 84],
@@ -12,6 +14,11 @@ const kViridis = [
   [253, 231, 37],
 ];
 
+/**
+ * The colour at a place on the scale, 0 .. 1: red, green and blue, 0 .. 255.
+ * @param {number} t
+ * @returns {number[]}
+ */
 export function viridis(t) {
   const place = Math.min(1, Math.max(0, t)) * (kViridis.length - 1);
   const low = Math.min(Math.floor(place), kViridis.length - 2);
@@ -19,17 +26,42 @@ export function viridis(t) {
   return kViridis[low].map((value, c) => value + fraction * (kViridis[low + 1][c] - value));
 }
 
-// Colours at equal distances, for CSS.  lift: how far they are mixed with white, 0 .. 1.
+/**
+ * Colours at equal distances, for CSS.  lift: how far they are mixed with white, 0 .. 1.
+ * @param {number} lift
+ * @returns {string[]}
+ */
 export const gradientStops = (lift) =>
   kViridis.map((colour) => `rgb(${colour.map((c) => Math.round(c + lift * (255 - c)))})`);
 
+/**
+ * The same as a background.
+ * @param {number} lift
+ * @returns {string}
+ */
 export const gradient = (lift) => `linear-gradient(to right, ${gradientStops(lift).join(', ')})`;
 
-// E is a volume and varies over orders of magnitude; its cube root is a length and varies evenly.
+/**
+ * E is a volume and varies over orders of magnitude; its cube root is a length and varies evenly.
+ * @param {number} share
+ * @param {number} highest
+ * @returns {number}
+ */
 export const colourPosition = (share, highest) => (highest > 0 ? Math.cbrt(Math.max(0, share) / highest) : 0);
+/**
+ * The share at a place on the scale.
+ * @param {number} position
+ * @param {number} highest
+ * @returns {number}
+ */
 export const shareAt = (position, highest) => position ** 3 * highest;
 
-// One colour per value, as bytes r, g, b, 255.
+/**
+ * One colour per value, as bytes r, g, b, 255.
+ * @param {ArrayLike<number>} shares
+ * @param {number} highest
+ * @returns {Uint8Array}
+ */
 export function coloursOf(shares, highest) {
   const bytes = new Uint8Array(4 * shares.length);
   for (let i = 0; i < shares.length; ++i) {
@@ -55,4 +87,9 @@ const kLight = {
   lift: 0,
 };
 
+/**
+ * All colours of a theme, "dark" or "light".
+ * @param {string} name
+ * @returns {Theme}
+ */
 export const themeColours = (name) => (name === 'dark' ? kDark : kLight);

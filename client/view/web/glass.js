@@ -84,10 +84,16 @@ function cornerNormals(points, corners) {
   return normals;
 }
 
+/** One surface, that of the body or of an eroded solid. */
 export class Glass {
-  // points: 3 per vertex, page units; corners: 3 per triangle; order: of drawing, two numbers from it on.
+  /**
+   * points: 3 per vertex, page units; corners: 3 per triangle; order: of drawing, two numbers from it on.
+   * @param {import('./clip.js').Clip} clip
+   */
   constructor(points, corners, clip, order) {
-    Object.assign(this, { points, corners, clip });
+    this.points = points;
+    this.corners = corners;
+    this.clip = clip;
     const positions = new Float32Array(3 * corners.length);
     corners.forEach((v, c) => positions.set(points.subarray(3 * v, 3 * v + 3), 3 * c));
     const geometry = new BufferGeometry();
@@ -134,7 +140,10 @@ export class Glass {
     for (const { material } of this.object.children) material.depthWrite = solid >= 1;
   }
 
-  // Where a ray meets it first, see firstHit.
+  /**
+   * Where a ray meets it first, see firstHit.
+   * @param {Ray} ray
+   */
   pick(ray) {
     return firstHit(this.points, this.corners, this.corners.length, ray, (...at) => this.clip.hides(...at));
   }

@@ -1,15 +1,21 @@
 // The address of what is seen: camera, sliders and layers in the fragment of the page's address.
-const kZooms = [1e-3, 1e3], kFarthest = 1e3; // what anybody looks at, in heights of the body
+const kZooms = [1e-3, 1e3]; // what anybody looks at
+const kFarthest = 1e3; // in heights of the body
 const kDelay = 200; // milliseconds after the last change: browsers refuse hundreds of changes at once
 
 const number = (text) => (text !== null && text.trim() !== '' && Number.isFinite(Number(text)) ? Number(text) : null);
+/** @type {(text: string | null, count: number) => number[] | null} */
 const numbers = (text, count) => {
   const parts = (text || '').split(',').map(number);
-  return parts.length === count && parts.every((part) => part !== null) ? parts : null;
+  return parts.length === count && parts.every((part) => part !== null) ? /** @type {number[]} */ (parts) : null;
 };
 const short = (value) => String(Number(value.toPrecision(6)));
 
-// State as text, without the #.
+/**
+ * State as text, without the #.
+ * @param {Seen} state
+ * @returns {string}
+ */
 export function writeLink(state) {
   const link = new URLSearchParams();
   if (state.view) link.set('view', state.view);
@@ -25,29 +31,38 @@ export function writeLink(state) {
   return link.toString().replace(/%2C/g, ',');
 }
 
-// What of a state the text says; anything else in it is passed over.
+/**
+ * What of a state the text says; anything else in it is passed over.
+ * @param {string} text
+ * @returns {LinkState}
+ */
 export function readLink(text) {
   const link = new URLSearchParams(text.replace(/^#/, ''));
+  /** @type {LinkState} */
   const state = {};
   const camera = numbers(link.get('camera'), 3);
-  if (['front', 'side', 'top', 'start'].includes(link.get('view'))) state.view = link.get('view');
+  const view = link.get('view');
+  if (view && ['front', 'side', 'top', 'start'].includes(view)) state.view = view;
   else if (camera && Math.abs(camera[1]) <= 90 && camera[2] >= kZooms[0] && camera[2] <= kZooms[1]) {
     [state.azimuth, state.elevation, state.zoom] = camera;
     const target = numbers(link.get('at'), 3);
     state.target = target && target.every((c) => Math.abs(c) <= kFarthest) ? target : [0, 0, 0];
   }
-  const thresholds = (link.get('threshold') || '').split(',').map(number);
-  if (thresholds.every((value) => value !== null)) state.thresholds = thresholds;
+  const thresholds = numbers(link.get('threshold'), (link.get('threshold') || '').split(',').length);
+  if (thresholds) state.thresholds = thresholds;
   const level = number(link.get('level'));
   if (level !== null) state.level = level;
-  if (link.has('show')) state.shown = link.get('show').split(',');
+  const shown = link.get('show');
+  if (shown !== null) state.shown = shown.split(',');
   const opacity = number(link.get('opacity'));
   if (opacity !== null) state.opacity = opacity;
   const clip = /^([xyz])([<>])(-?[0-9.e-]+)$/.exec(link.get('clip') || '');
-  if (clip && number(clip[3]) !== null) state.clip = { axis: clip[1], beyond: clip[2], at: number(clip[3]) };
+  const at = clip && number(clip[3]);
+  if (clip && at !== null) state.clip = { axis: clip[1], beyond: clip[2], at };
   return state;
 }
 
+/** Keeps the address at what is seen. */
 export class Link {
   // state(): the text of what is seen now; changed(text): the user has opened another.
   constructor(state, changed) {
@@ -62,7 +77,7 @@ export class Link {
       try {
         window.history.replaceState(null, '', `#${this.state()}`);
       } catch (error) {
-        if (error.name !== 'SecurityError') throw error; // a frame of a notebook has no address of its own
+        if (/** @type {Error} */ (error).name !== 'SecurityError') throw error; // a frame of a notebook has no address of its own
       }
     }, kDelay);
   }

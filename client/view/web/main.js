@@ -2,8 +2,10 @@
 import { decodePage } from './decode.js';
 import { Viewer } from './viewer.js';
 
+/** @type {(id: string) => any} */
 const element = (id) => document.getElementById(id);
 
+/** @param {string} message */
 function fail(message) {
   const box = element('failure');
   box.textContent = message;

@@ -9,10 +9,18 @@ import { TickedBox } from './ticked_box.js';
 const kFaint = 0.45; // of the body, when an eroded solid is shown in it
 const kUsual = 20; // per cent on the slider of the body's opacity: the usual glass
 
+/** A body and what is drawn of it. */
 export class Model {
-  // facts: of the model; page: of all; clip: see Clip.
+  /**
+   * facts: of the model; page: of all; clip: see Clip.
+   * @param {ModelFacts} facts
+   * @param {Page} page
+   * @param {import('./clip.js').Clip} clip
+   */
   constructor(facts, page, clip) {
-    Object.assign(this, { facts, page, clip });
+    this.facts = facts;
+    this.page = page;
+    this.clip = clip;
     this.skeleton = makeSkeleton(facts, page.highestShare, clip, pointPositions(facts));
     this.glass = new Glass(meshPositions(facts), facts.arrays.meshCorners, clip, 3);
     this.box = new TickedBox(facts.halfBox, facts.centre, page.unit);
@@ -25,6 +33,7 @@ export class Model {
       axes: this.box.object,
     };
     this.level = -1;
+    this.opacity = kUsual;
   }
 
   paint(theme) {
@@ -35,7 +44,10 @@ export class Model {
     for (const surface of this.surfaces.filter(Boolean)) surface.paint(theme.eroded);
   }
 
-  // Shows the eroded solid at a level, by its place among the page's levels.
+  /**
+   * Shows the eroded solid at a level, by its place among the page's levels.
+   * @param {number} level
+   */
   showLevel(level) {
     this.level = level;
     if (!this.surfaces[level]) {
@@ -48,15 +60,21 @@ export class Model {
     this.surfaces.forEach((surface, l) => (surface.object.visible = l === level));
   }
 
-  // opacity: of the body, per cent.
+  /**
+   * opacity: of the body, per cent.
+   * @param {number} opacity
+   */
   fade(opacity) {
     this.opacity = opacity;
     const faint = this.eroded.visible ? kFaint : 1;
     this.glass.fade(faint * Math.min(1, opacity / kUsual), Math.max(0, (opacity - kUsual) / (100 - kUsual)));
   }
 
-  // What of the body a ray finds: the skeleton, else the eroded solid, else the body's surface; an opaque body
-  // hides the others.
+  /**
+   * What of the body a ray finds: the skeleton, else the eroded solid, else the body's surface; an opaque body
+   * hides the others.
+   * @param {Ray} ray
+   */
   at(ray) {
     const body = this.layers.mesh.visible && this.glass.pick(ray);
     if (body && this.opacity >= 100) return this.onBody(body);

@@ -9,6 +9,14 @@ const kLetterWidth = 10;
 const kMinLength = 0.2; // of an axis seen on the screen, as a share of itself: shorter ones get no letter
 const kTicks = [0, 0.25, 0.5, 0.75, 1];
 
+/** @type {(whole: Element, selector: string) => any} */
+const partOf = (whole, selector) => whole.querySelector(selector);
+
+/**
+ * Turns the cross of axes as the camera is turned.
+ * @param {Element} svg
+ * @param {import("three").Camera} camera
+ */
 export function drawCross(svg, camera) {
   const axes = Object.entries({ x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] }).map(([name, direction]) => {
     const at = new Vector3(...direction).transformDirection(camera.matrixWorldInverse);
@@ -23,8 +31,8 @@ export function drawCross(svg, camera) {
   });
   axes.sort((a, b) => b.length - a.length);
   axes.forEach(({ name, length, end, letter }, place) => {
-    const line = svg.querySelector(`line.${name}`);
-    const label = svg.querySelector(`text.${name}`);
+    const line = partOf(svg, `line.${name}`);
+    const label = partOf(svg, `text.${name}`);
     ['x2', 'y2'].forEach((attribute, c) => line.setAttribute(attribute, end[c]));
     ['x', 'y'].forEach((attribute, c) => label.setAttribute(attribute, letter[c]));
     // No letter for an axis that points at the viewer, nor where it would cover the letter of a longer axis.
@@ -34,24 +42,38 @@ export function drawCross(svg, camera) {
   });
 }
 
-// unitPixels: screen pixels per mesh unit.
+/**
+ * Draws a bar of a round length.
+ * @param {Element} element
+ * @param {number} unitPixels screen pixels per mesh unit
+ * @param {number} room pixels
+ */
 export function drawScaleBar(element, unitPixels, room) {
   const length = roundLength(Math.max(60, Math.min(180, 0.3 * room)) / unitPixels);
-  element.querySelector('.bar').style.width = `${length * unitPixels}px`;
+  partOf(element, '.bar').style.width = `${length * unitPixels}px`;
   const text = `${rounded(length, 6)} ${length === 1 ? 'unit' : 'units'}`;
-  const label = element.querySelector('.length');
+  const label = partOf(element, '.length');
   if (label.textContent !== text) label.textContent = text;
 }
 
+/**
+ * Gives the legend the theme's colours.
+ * @param {Element} element
+ * @param {number} lift
+ */
 export function paintLegend(element, lift) {
-  element.querySelector('.colours').style.background = gradient(lift);
+  partOf(element, '.colours').style.background = gradient(lift);
 }
 
-// Labels in per cent of v0, at equal distances of the cube root, as the colours are.
+/**
+ * Labels in per cent of v0, at equal distances of the cube root, as the colours are.
+ * @param {Element} element
+ * @param {{ highestShare: number, scaleTitle: string, scaleNote: string }} page
+ */
 export function labelLegend(element, { highestShare, scaleTitle, scaleNote }) {
-  element.querySelector('.heading').textContent = scaleTitle;
-  element.querySelector('.note').textContent = scaleNote;
-  const numbers = element.querySelector('.numbers');
+  partOf(element, '.heading').textContent = scaleTitle;
+  partOf(element, '.note').textContent = scaleNote;
+  const numbers = partOf(element, '.numbers');
   for (const tick of kTicks) {
     const label = numbers.ownerDocument.createElement('span');
     label.textContent = tick === 0 ? '0' : rounded(100 * shareAt(tick, highestShare), 2);

@@ -19,7 +19,11 @@ function factsOf(model) {
   };
 }
 
-// One column for each model.
+/**
+ * One column for each model.
+ * @param {HTMLElement} list
+ * @param {ModelFacts[]} models
+ */
 export function showFacts(list, models) {
   const facts = models.map(factsOf);
   const names = [...new Set(facts.flatMap((of) => Object.keys(of)))];
@@ -30,7 +34,11 @@ export function showFacts(list, models) {
   }
 }
 
-// Nothing when there is nothing to warn of.
+/**
+ * Nothing when there is nothing to warn of.
+ * @param {HTMLElement} list
+ * @param {ModelFacts[]} models
+ */
 export function showWarnings(list, models) {
   const lines = models.flatMap(({ warnings }, i) =>
     warnings.map((warning) => (models.length > 1 ? `${'AB'[i]}: ${warning}` : warning)),
@@ -39,13 +47,18 @@ export function showWarnings(list, models) {
   list.hidden = lines.length === 0;
 }
 
-// The section of a slider once more, for model `number` (0 is there already).
+/**
+ * The section of a slider once more, for model `number` (0 is there already).
+ * @param {HTMLElement} section
+ * @param {number} number
+ * @returns {HTMLElement}
+ */
 export function sectionFor(section, number) {
   if (number === 0) return section;
-  const copy = section.cloneNode(true);
+  const copy = /** @type {any} */ (section.cloneNode(true));
   copy.id = `${section.id}-${number + 1}`;
   for (const part of copy.querySelectorAll('[id]')) part.id = `${part.id}-${number + 1}`;
   for (const label of copy.querySelectorAll('[for]')) label.htmlFor = `${label.htmlFor}-${number + 1}`;
-  section.parentElement.insertBefore(copy, section.nextElementSibling);
+  section.after(copy);
   return copy;
 }

@@ -7,10 +7,11 @@ const visible = (element) => {
 };
 
 class Drawing {
+  /** @param {HTMLCanvasElement} canvas */
   constructor(canvas, ratio) {
     this.room = canvas.getBoundingClientRect();
     this.sheet = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
-    this.context = this.sheet.getContext('2d');
+    this.context = /** @type {CanvasRenderingContext2D} */ (this.sheet.getContext('2d'));
     this.context.drawImage(canvas, 0, 0);
     this.context.scale(ratio, ratio);
   }
@@ -47,8 +48,10 @@ class Drawing {
     this.context.strokeStyle = getComputedStyle(element).borderBottomColor;
     this.context.lineWidth = 2;
     this.context.beginPath();
-    for (const [x, y] of [[left + 1, top], [left + 1, top + height - 1], [left + width - 1, top + height - 1], [left + width - 1, top]])
-      this.context.lineTo(x, y);
+    this.context.lineTo(left + 1, top);
+    this.context.lineTo(left + 1, top + height - 1);
+    this.context.lineTo(left + width - 1, top + height - 1);
+    this.context.lineTo(left + width - 1, top);
     this.context.stroke();
   }
 
@@ -61,13 +64,21 @@ class Drawing {
     this.context.lineWidth = 2.5;
     this.context.beginPath();
     this.context.moveTo(left + width / 2, top + height / 2);
-    this.context.lineTo(left + width / 2 + scale * line.x2.baseVal.value, top + height / 2 + scale * line.y2.baseVal.value);
+    const [x, y] = [scale * line.x2.baseVal.value, scale * line.y2.baseVal.value];
+    this.context.lineTo(left + width / 2 + x, top + height / 2 + y);
     this.context.stroke();
   }
 }
 
-// The canvas must hold what was just drawn.  main: the element of canvas and overlay; ratio: pixels of the canvas
-// per pixel of the layout; lift: see gradientStops.  Returns a canvas.
+/**
+ * The canvas must hold what was just drawn.  main: the element of canvas and overlay; ratio: pixels of the canvas
+ * per pixel of the layout; lift: see gradientStops.  Returns a canvas.
+ * @param {Element} main
+ * @param {HTMLCanvasElement} canvas
+ * @param {number} ratio
+ * @param {number} lift
+ * @returns {HTMLCanvasElement}
+ */
 export function pictureOf(main, canvas, ratio, lift) {
   const drawing = new Drawing(canvas, ratio);
   const all = (selector) => Array.from(main.querySelectorAll(selector));
@@ -76,7 +87,7 @@ export function pictureOf(main, canvas, ratio, lift) {
   );
   all('#scale .bar').forEach((element) => drawing.bar(element));
   all('#legend .colours').forEach((element) => drawing.colours(element, gradientStops(lift)));
-  const cross = main.querySelector('#cross');
+  const cross = /** @type {Element} */ (main.querySelector('#cross'));
   for (const line of cross.querySelectorAll('line')) drawing.line(cross, line);
   for (const letter of cross.querySelectorAll('text')) {
     if (getComputedStyle(letter).opacity !== '0') drawing.text(letter);

@@ -4,9 +4,16 @@ import { coordinate, rounded } from './numbers.js';
 const kTap = 8; // pixels that a finger may move
 const kGap = 14; // pixels from the pointer
 
+// What is known of a place, of what may be.
+const known = (name, value) => (value === null || value === undefined ? [] : [[name, rounded(value, 4)]]);
 const vector = (v, digits) => `(${v.map((c) => coordinate(Number(c.toPrecision(digits)))).join(', ')})`;
 
-// Name and text of all that is known of a place: see Model.at.
+/**
+ * Name and text of all that is known of a place: see Model.at.
+ * @param {ProbedModel} model
+ * @param {Found} found
+ * @returns {string[][]}
+ */
 export function valuesOf(model, found) {
   const { volume } = model.facts;
   const e = found.share * volume;
@@ -14,9 +21,9 @@ export function valuesOf(model, found) {
     ['E', `${rounded(e, 4)}`],
     ['share of v0', `${rounded(100 * found.share, 4)} %`],
   ];
-  if (found.slope != null) values.push(['slope |∇E|', rounded(found.slope, 4)]);
-  if (found.strength != null) values.push(['strength', rounded(found.strength, 4)]);
-  if (found.divergence != null) values.push(['|H|', rounded(found.divergence, 4)]);
+  values.push(...known('slope |∇E|', found.slope));
+  values.push(...known('strength', found.strength));
+  values.push(...known('|H|', found.divergence));
   values.push(['place', vector(model.coordinates(found.place), 6)]);
   found.directions.forEach((d, i) => {
     const name = found.directions.length > 1 ? `direction, side ${i + 1}` : 'direction';
@@ -25,11 +32,17 @@ export function valuesOf(model, found) {
   return values;
 }
 
+/** Shows them in a box beside the pointer. */
 export class Probe {
-  // box: the element to fill; canvas; find(x, y): what lies there, pixels of the canvas: null, or model and
-  // found.
+  /**
+   * box: the element to fill; canvas; find(x, y): what lies there, pixels of the canvas: null, or model and
+   * found.
+   * @param {HTMLCanvasElement} canvas
+   */
   constructor(box, canvas, find) {
-    Object.assign(this, { box, canvas, find });
+    this.box = box;
+    this.canvas = canvas;
+    this.find = find;
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerleave', (event) => event.pointerType === 'mouse' && this.hide());
     canvas.addEventListener('pointerdown', (event) => this.press(event));

@@ -1,8 +1,16 @@
 // Where a ray meets triangles: Moller and Trumbore 1997, in double precision.
 
-// positions: 3 per vertex; corners: 3 per triangle, of which the first `count` numbers count; ray: origin and
-// unit direction `along`; skips(x, y, z): whether a place is not there.  Returns null, or of the first triangle
-// that is met its three `vertices`, the `weights` of these, and the `place`.
+/**
+ * positions: 3 per vertex; corners: 3 per triangle, of which the first `count` numbers count; ray: origin and
+ * unit direction `along`; skips(x, y, z): whether a place is not there.  Returns null, or of the first triangle
+ * that is met its three `vertices`, the `weights` of these, and the `place`.
+ * @param {ArrayLike<number>} positions
+ * @param {ArrayLike<number>} corners
+ * @param {number} count
+ * @param {Ray} ray
+ * @param {(x: number, y: number, z: number) => boolean} skips
+ * @returns {Hit | null}
+ */
 export function firstHit(positions, corners, count, { origin, along }, skips) {
   let hit = null;
   for (let t = 0; t < count; t += 3) {
@@ -22,7 +30,7 @@ export function firstHit(positions, corners, count, { origin, along }, skips) {
     const depth = (vx * qx + vy * qy + vz * qz) / volume;
     if (hit && depth >= hit.depth) continue;
     const place = [origin.x + depth * along.x, origin.y + depth * along.y, origin.z + depth * along.z];
-    if (skips(...place)) continue;
+    if (skips(place[0], place[1], place[2])) continue;
     hit = { depth, place, vertices: [a / 3, b / 3, c / 3], weights: [1 - wb - wc, wb, wc] };
   }
   return hit;

@@ -79,9 +79,13 @@ function tubeCorners(first) {
   return corners;
 }
 
+/** Triangles, and tubes about segments, by the weight of their pieces. */
 export class Sheet {
-  // The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
-  // 0.  radius: of the tubes, page units.
+  /**
+   * The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
+   * 0.  radius: of the tubes, page units.
+   * @param {import('./clip.js').Clip} clip
+   */
   constructor(positions, colours, pieces, corners, segments, radius, clip) {
     this.clip = clip;
     // Lightest pieces last: the slider moves the end of what is drawn.
@@ -95,6 +99,7 @@ export class Sheet {
       index.push(...(tube < 0 ? corners.subarray(3 * e, 3 * e + 3) : tubeCorners(first + 2 * kSides * tube)));
       this.ends.push(index.length);
     }
+    this.drawn = 0; // of the index
     this.isTriangle = (place) => this.order[place] < triangles;
     this.geometry = new BufferGeometry();
     const places = tubePositions(positions, segments, radius);
@@ -124,7 +129,10 @@ export class Sheet {
     this.geometry.setDrawRange(0, this.drawn);
   }
 
-  // Where a ray meets it first, see firstHit; the vertices are those of the sheet.
+  /**
+   * Where a ray meets it first, see firstHit; the vertices are those of the sheet.
+   * @param {Ray} ray
+   */
   pick(ray) {
     const hit = firstHit(this.places, this.index, this.drawn, ray, (...at) => this.clip.hides(...at));
     return hit && { ...hit, vertices: hit.vertices.map((v) => this.vertexOf[v]) };
@@ -134,6 +142,7 @@ export class Sheet {
 
   thin() {}
 
+  /** @param {Theme} theme */
   paint(theme) {
     this.uniforms.lift.value = theme.lift;
   }

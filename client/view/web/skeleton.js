@@ -11,17 +11,27 @@ import { Sheet } from './sheet.js';
 
 const kTube = 0.3; // radius of a curve, lattice spacings
 
-// Unit vectors are kept as bytes.
-const direction = (bytes, p) => {
+// Unit vectors are kept as bytes: none or one.
+const directions = (bytes, p) => {
   const v = new Vector3(...bytes.subarray(3 * p, 3 * p + 3));
-  return v.lengthSq() > 0 ? v.normalize().toArray() : null;
+  return v.lengthSq() > 0 ? [v.normalize().toArray()] : [];
 };
 
-// The mean of the values at a hit's vertices; null where there are none.
+/**
+ * The mean of the values at a hit's vertices; null where there are none.
+ * @param {ArrayLike<number> | undefined} values
+ * @param {Hit} hit
+ * @returns {number | null}
+ */
 export const weighted = (values, { vertices, weights }) =>
   values && values.length ? vertices.reduce((sum, v, i) => sum + weights[i] * values[v], 0) : null;
 
-// Like the operator's significance, the slider drops pieces with a smaller share.
+/**
+ * Like the operator's significance, the slider drops pieces with a smaller share.
+ * @param {ModelFacts} model
+ * @param {number} highest
+ * @param {import('./clip.js').Clip} clip
+ */
 function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
   const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
   const colours = coloursOf(arrays.sheetShares, highest);
@@ -57,15 +67,21 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
       return {
         what: `skeleton (${operator})`,
         place: hit.place,
-        share: weighted(arrays.sheetShares, hit),
+        share: weighted(arrays.sheetShares, hit) || 0,
         slope: weighted(arrays.sheetSlopes, hit),
         strength: weighted(arrays.sheetStrengths, hit),
-        directions: sides.map((bytes) => direction(bytes, nearest)).filter(Boolean),
+        directions: sides.flatMap((bytes) => directions(bytes, nearest)),
       };
     },
   };
 }
 
+/**
+ * @param {ModelFacts} model
+ * @param {number} highest
+ * @param {import('./clip.js').Clip} clip
+ * @param {Float32Array} positions
+ */
 function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highest, clip, positions) {
   const colours = coloursOf(arrays.pointShares, highest);
   const values = arrays.pointDivergences; // descending, see page.cc
@@ -89,13 +105,20 @@ function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highe
         share: arrays.pointShares[p],
         slope: arrays.pointSlopes[p],
         divergence: values[p],
-        directions: [direction(arrays.pointInward, p)].filter(Boolean),
+        directions: directions(arrays.pointInward, p),
       };
     },
   };
 }
 
-// highest: E of the last colour, as a share of v0.  positions: of the sample points, page units.
+/**
+ * highest: E of the last colour, as a share of v0.  positions: of the sample points, page units.
+ * @param {ModelFacts} model
+ * @param {number} highest
+ * @param {import("./clip.js").Clip} clip
+ * @param {Float32Array} positions
+ * @returns {Skeleton}
+ */
 export function makeSkeleton(model, highest, clip, positions) {
   const made = model.arrays.sheetCorners
     ? makeSheet(model, highest, clip)

@@ -1,13 +1,16 @@
 // A slider with its value in a number field beside it: the slider gives round values, the field takes any.
 const kSteps = 1000;
 
-// root: holds a range and a number input.  low, high: what both are kept to.  curve: place on the slider
-// (0 .. 1) = (share of the range) ^ (1 / curve).  changed(value): after every change by the user.
+/** Any value of a range. */
 export class Slider {
+  // root: holds a range and a number input.  low, high: what both are kept to.  curve: place on the slider
+  // (0 .. 1) = (share of the range) ^ (1 / curve).  changed(value): after every change by the user.
   constructor(root, { low, high, curve = 1, changed }) {
     this.range = root.querySelector('input[type=range]');
     this.field = root.querySelector('input[type=number]');
-    Object.assign(this, { low, high, curve, changed });
+    this.low = low;
+    this.high = high;
+    this.curve = curve;
     this.range.max = kSteps;
     this.range.addEventListener('input', () => {
       this.put(this.round(low + (high - low) * (this.range.valueAsNumber / kSteps) ** curve));
@@ -40,7 +43,7 @@ export class Slider {
   }
 }
 
-// A slider that stands at given values only; what is typed into its field goes to the nearest of them.
+/** A slider that stands at given values only; what is typed into its field goes to the nearest of them. */
 export class Stops {
   // root: as for Slider.  values: ascending, at least one.  changed(place): after every change by the user.
   constructor(root, { values, changed }) {

@@ -17,6 +17,7 @@ const kPole = 90 - 1e-3; // degrees: at the pole itself "right" is undefined
 // Azimuth and elevation, degrees, as in pictures (client/render/camera.h).
 const kViews = { front: [0, 0], side: [90, 0], top: [0, 90], start: [27, 13] };
 
+/** Camera, panes and what draws them. */
 export class Stage {
   // stance: unit vectors right, up and front of a body.  halfBox: half the sides, about the origin, of a box
   // that holds all models.  panes: how many.  inset(): pixels of a pane to keep free at the top, at the bottom
@@ -24,8 +25,15 @@ export class Stage {
   // other.  beforeDraw runs before every drawing, changed after every turn; thin(every) draws one point of so many
   // from then on.
   constructor(canvas, { stance, halfBox, panes, inset, room, beforeDraw, changed, thin }) {
-    Object.assign(this, { canvas, inset, room, beforeDraw, changed, thin });
-    [this.right, this.up, this.front] = ['right', 'up', 'front'].map((name) => new Vector3(...stance[name]));
+    this.canvas = canvas;
+    this.inset = inset;
+    this.room = room;
+    this.beforeDraw = beforeDraw;
+    this.changed = changed;
+    this.thin = thin;
+    this.right = new Vector3(...stance.right);
+    this.up = new Vector3(...stance.up);
+    this.front = new Vector3(...stance.front);
     this.halfBox = new Vector3(...halfBox);
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.autoClear = false;
@@ -126,8 +134,7 @@ export class Stage {
     this.renderer.setPixelRatio(this.pixelRatio());
     this.renderer.setSize(clientWidth, clientHeight);
     this.frame();
-    if (this.view)
-      this.show(this.view); // still as chosen: keep it in the window
+    if (this.view) this.show(this.view); // still as chosen: keep it in the window
     else this.requestDraw();
     return true;
   }
@@ -142,7 +149,7 @@ export class Stage {
   turn() {
     this.view = '';
     if (!this.easing) this.easing = this.chooseEasing();
-    this.ease(...this.easing);
+    this.ease(this.easing[0], this.easing[1]);
   }
 
   // Resolution and thinning with which the scene turns.
@@ -162,6 +169,7 @@ export class Stage {
     return performance.now() - start;
   }
 
+  /** @param {number} every */
   ease(resolution, every) {
     if (resolution === this.resolution && every === this.every) return;
     Object.assign(this, { resolution, every });

@@ -46,6 +46,7 @@ function setLines(object, ends) {
   object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(ends), 3));
 }
 
+/** Edges and ticks; the numbers are those of ticks.js. */
 export class TickedBox {
   // half: half sides, page units; centre: of the box, mesh units; unit: mesh units per page unit.
   constructor(half, centre, unit) {
@@ -64,13 +65,17 @@ export class TickedBox {
     this.edges = [];
   }
 
+  /** @param {Theme} theme */
   paint(theme) {
     this.material.color.set(theme.ink);
   }
 
-  // Moves the ticks of each axis to the edge of the box that lies lowest on the screen or, where the axis stands
-  // upright, leftmost.  `edges` then holds per axis `foot` (a point of the edge, page units), `tick` (from foot
-  // to tip) and `outward` (on the screen, y up); null for an axis that points at the viewer.
+  /**
+   * Moves the ticks of each axis to the edge of the box that lies lowest on the screen or, where the axis stands
+   * upright, leftmost.  `edges` then holds per axis `foot` (a point of the edge, page units), `tick` (from foot
+   * to tip) and `outward` (on the screen, y up); null for an axis that points at the viewer.
+   * @param {import('three').Camera} camera
+   */
   look(camera) {
     const onScreen = [0, 1, 2].map((axis) =>
       new Vector3(...[0, 1, 2].map((c) => (c === axis ? 1 : 0))).transformDirection(camera.matrixWorldInverse),

@@ -10,6 +10,7 @@ const overlap = (a, b) =>
   Math.abs(a.x - b.x) < (a.width + b.width) / 2 + kMinGap / 2 &&
   Math.abs(a.y - b.y) < (a.height + b.height) / 2;
 
+/** One number for each tick, hidden where it has no room. */
 export class TickNumbers {
   constructor(container, box) {
     this.container = container;
@@ -38,7 +39,11 @@ export class TickNumbers {
     return Math.max(0, ...this.sizes.flat().map((size) => size.width));
   }
 
-  // pixels: of the layout, per page unit.
+  /**
+   * pixels: of the layout, per page unit.
+   * @param {import('three').Camera} camera
+   * @param {number} pixels
+   */
   place(camera, pixels) {
     this.measure();
     const placed = [];
@@ -58,7 +63,10 @@ export class TickNumbers {
     });
   }
 
-  // Middles and sizes, pixels from the upper left corner of the canvas.
+  /**
+   * Middles and sizes, pixels from the upper left corner of the canvas.
+   * @param {import('three').Camera} camera
+   */
   labelsOf(edge, axis, camera) {
     const { clientWidth, clientHeight } = this.container;
     const [right, up] = edge.outward;
@@ -76,7 +84,10 @@ export class TickNumbers {
     });
   }
 
-  // Every how many ticks there is a number, so that there is room for the longest.
+  /**
+   * Every how many ticks there is a number, so that there is room for the longest.
+   * @param {number} pixels
+   */
   labelInterval(edge, axis, pixels) {
     const width = Math.max(0, ...this.sizes[axis].map((size) => size.width));
     const height = Math.max(0, ...this.sizes[axis].map((size) => size.height));

@@ -19,9 +19,11 @@ const kUsualOpacity = 20; // per cent
 const kLow = 350; // pixels: the height of a phone on its side, less the heading
 const kLayers = ['mesh', 'skeleton', 'eroded', 'axes', 'scale'];
 
+/** @type {(id: string) => any} */
 const element = (id) => document.getElementById(id);
-const box = (selector) => document.querySelector(selector).getBoundingClientRect();
+const box = (selector) => /** @type {Element} */ (document.querySelector(selector)).getBoundingClientRect();
 
+/** The page once its data are read. */
 export class Viewer {
   constructor(page) {
     this.page = page;
@@ -190,6 +192,7 @@ export class Viewer {
   }
 
   applyLevel() {
+    if (!this.level) return;
     const { place } = this.level;
     const lines = this.models.map((model) => {
       model.showLevel(place);
@@ -286,7 +289,7 @@ export class Viewer {
 
   applySliders() {
     for (const threshold of this.thresholds) this.applyThreshold(threshold);
-    if (this.level) this.applyLevel();
+    this.applyLevel();
   }
 
   // at: from -1 to 1, the share of the box.
@@ -310,13 +313,18 @@ export class Viewer {
     };
   }
 
-  // Shows what a link keeps.
+  /**
+   * Shows what a link keeps.
+   * @param {string} text
+   */
   open(text) {
     const seen = readLink(text);
-    if (seen.thresholds) seen.thresholds.forEach((value, i) => this.thresholds[i] && this.thresholds[i].slider.set(value));
+    const thresholds = seen.thresholds || [];
+    thresholds.slice(0, this.thresholds.length).forEach((value, i) => this.thresholds[i].slider.set(value));
     if (this.level && 'level' in seen) this.level.put(this.level.nearest(seen.level));
     this.applySliders();
-    if (seen.shown) kLayers.forEach((name) => this.toggle(name, seen.shown.includes(name)));
+    const { shown } = seen;
+    if (shown) kLayers.forEach((name) => this.toggle(name, shown.includes(name)));
     if ('opacity' in seen) this.setOpacity(seen.opacity);
     if (seen.clip) this.setClip(seen.clip);
     if (seen.view) this.stage.show(seen.view);
@@ -350,11 +358,13 @@ export class Viewer {
   picture() {
     this.stage.draw();
     const { renderer, canvas } = this.stage;
-    return pictureOf(document.querySelector('main'), canvas, renderer.getPixelRatio(), themeColours(this.theme).lift);
+    const main = /** @type {Element} */ (document.querySelector('main'));
+    return pictureOf(main, canvas, renderer.getPixelRatio(), themeColours(this.theme).lift);
   }
 
   save() {
     this.picture().toBlob((blob) => {
+      if (!blob) return; // too large for this browser
       const link = Object.assign(document.createElement('a'), {
         href: URL.createObjectURL(blob),
         download: `${this.page.models.map(({ name }) => name).join(' and ').replace(/[\\/:*?"<>|]/g, '_')}.png`,

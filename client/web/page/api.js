@@ -1,16 +1,17 @@
 // Calls of the page's own service.
 
-// What went wrong, in words for people; `code` as on the command line, `retryAfter` in seconds where that was told.
+/** What went wrong, in words for people; `code` as on the command line, `retryAfter` in seconds where that was told. */
 export class ApiError extends Error {
   constructor(status, code, message, line) {
     super(message);
     this.status = status;
     this.code = code;
     this.line = line;
+    this.retryAfter = 0;
   }
 }
 
-const NO_ANSWER = 'The page gets no answer. Has affskel-client web been ended, or is the network down?';
+const kNoAnswer = 'The page gets no answer. Has affskel-client web been ended, or is the network down?';
 
 function errorOf(status, text) {
   try {
@@ -26,7 +27,14 @@ function tellSignedOut() {
   document.dispatchEvent(new Event('signed-out'));
 }
 
-// @param method GET, POST or DELETE; @param body becomes JSON.  Throws ApiError.
+/**
+ * Calls the service.  Throws ApiError.
+ * @param {string} method GET, POST or DELETE
+ * @param {string} path
+ * @param {object} [body] becomes JSON
+ * @param {AbortSignal} [signal]
+ * @returns {Promise<any>}
+ */
 export async function call(method, path, body, signal) {
   let response;
   let text;
@@ -40,7 +48,7 @@ export async function call(method, path, body, signal) {
     text = await response.text();
   } catch (error) {
     if (error.name === 'AbortError') throw error;
-    throw new ApiError(0, 'UNREACHABLE', NO_ANSWER);
+    throw new ApiError(0, 'UNREACHABLE', kNoAnswer);
   }
   if (response.ok) return JSON.parse(text);
   const error = errorOf(response.status, text);
@@ -49,15 +57,26 @@ export async function call(method, path, body, signal) {
   throw error;
 }
 
+/**
+ * The address of a job's calls.
+ * @param {string} id
+ * @param {string} [rest]
+ * @returns {string}
+ */
 export const jobPath = (id, rest = '') => `/api/jobs/${encodeURIComponent(id)}${rest}`;
 
-// Sends a file; `progress` gets the share sent.  Throws ApiError.
+/**
+ * Sends a file; `progress` gets the share sent.  Throws ApiError.
+ * @param {File} file
+ * @param {(share: number) => void} progress
+ * @returns {Promise<any>}
+ */
 export function upload(file, progress) {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open('POST', `/api/meshes?name=${encodeURIComponent(file.name)}`);
     request.upload.onprogress = (event) => progress(event.lengthComputable ? event.loaded / event.total : 0);
-    request.onerror = () => reject(new ApiError(0, 'UNREACHABLE', NO_ANSWER));
+    request.onerror = () => reject(new ApiError(0, 'UNREACHABLE', kNoAnswer));
     request.onload = () => {
       if (request.status >= 200 && request.status < 300) return resolve(JSON.parse(request.responseText));
       if (request.status === 401) tellSignedOut();

@@ -1,7 +1,13 @@
 // Questions, and the interactive page of a job.
 import { byId, h } from './elements.js';
 
-// Asks before something that cannot be taken back.  Resolves to whether it is wanted.
+/**
+ * Asks before something that cannot be taken back.  Resolves to whether it is wanted.
+ * @param {string} question
+ * @param {string} detail
+ * @param {string} yes
+ * @returns {Promise<boolean>}
+ */
 export function confirmed(question, detail, yes) {
   return new Promise((resolve) => {
     const dialog = h(
@@ -25,7 +31,11 @@ export function confirmed(question, detail, yes) {
   });
 }
 
-// Shows the interactive page over everything.  It runs in a sandbox of its own.
+/**
+ * Shows the interactive page over everything.  It runs in a sandbox of its own.
+ * @param {string} href
+ * @param {string} name
+ */
 export function showInteractive(href, name) {
   const dialog = h(
     'dialog',
@@ -44,7 +54,10 @@ export function showInteractive(href, name) {
   dialog.showModal();
 }
 
-// A problem that is not about one field; null takes it away.
+/**
+ * A problem that is not about one field; null takes it away.
+ * @param {string | null} message
+ */
 export function showProblem(message) {
   const place = byId('problem');
   if (place.textContent !== (message || '')) place.textContent = message || '';

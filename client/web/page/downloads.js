@@ -3,7 +3,7 @@ import { call, jobPath } from './api.js';
 import { announce, button, h } from './elements.js';
 import { bytes } from './numbers.js';
 import { session } from './session.js';
-import { ARTEFACTS, OPERATORS, named } from './text.js';
+import { kArtefacts } from './text.js';
 
 // Saves what the service has made.
 function save(result) {
@@ -13,6 +13,7 @@ function save(result) {
   link.remove();
 }
 
+/** The card of files, with what they are made by. */
 export class Downloads {
   constructor(job) {
     this.job = job;
@@ -20,7 +21,7 @@ export class Downloads {
       'select',
       { id: 'download-operator' },
       h('option', { value: '' }, 'the usual: the job’s; surfaces by the ridge'),
-      session.operators.map((word) => h('option', { value: word }, named(OPERATORS, word))),
+      Object.entries(session.words.operators).map(([word, text]) => h('option', { value: word }, text)),
     );
     this.threshold = h('input', { id: 'download-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });
     this.level = h('input', { id: 'download-level', type: 'number', min: 0, max: 100, step: 'any', inputmode: 'decimal', value: 10 });
@@ -49,7 +50,7 @@ export class Downloads {
   }
 
   row(artefact) {
-    const [title, what] = ARTEFACTS[artefact.name] || [artefact.name, ''];
+    const [title, what] = kArtefacts[artefact.name] || [artefact.name, ''];
     return h(
       'div',
       { class: 'artefact' },

@@ -1,6 +1,12 @@
 // Elements made by script, never from text with markup.
 
-// An element with attributes (on... are listeners; false and null leave one out) and children.
+/**
+ * An element with attributes (on... are listeners; false and null leave one out) and children.
+ * @param {string} tag
+ * @param {Object<string, any>} [attributes]
+ * @param {...any} children
+ * @returns {any}
+ */
 export function h(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -12,19 +18,37 @@ export function h(tag, attributes = {}, ...children) {
   return element;
 }
 
+/**
+ * The element of the page with this id, which it has.
+ * @param {string} id
+ * @returns {any}
+ */
 export const byId = (id) => document.getElementById(id);
 
-// Sets the text only when it changes, so that screen readers hear no repetition.
+/**
+ * Sets the text only when it changes, so that screen readers hear no repetition.
+ * @param {Element} element
+ * @param {string} text
+ */
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-// Says something to screen readers that is seen anyway.
+/**
+ * Says something to screen readers that is seen anyway.
+ * @param {string} text
+ */
 export function announce(text) {
   byId('announcement').textContent = text;
 }
 
-// A button that cannot be pressed twice while its action runs.
+/**
+ * A button that cannot be pressed twice while its action runs.
+ * @param {string} label
+ * @param {(element: HTMLElement) => any} action
+ * @param {Object<string, any>} [attributes]
+ * @returns {HTMLButtonElement}
+ */
 export function button(label, action, attributes = {}) {
   const element = h('button', { type: 'button', ...attributes }, label);
   element.addEventListener('click', async () => {
@@ -39,7 +63,11 @@ export function button(label, action, attributes = {}) {
   return element;
 }
 
-// Pairs of a term and what it is.
+/**
+ * Pairs of a term and what it is.
+ * @param {string[][]} pairs
+ * @returns {HTMLElement}
+ */
 export function facts(pairs) {
   return h('dl', { class: 'facts' }, pairs.map(([term, value]) => h('div', {}, h('dt', {}, term), h('dd', {}, value))));
 }

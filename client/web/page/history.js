@@ -2,11 +2,11 @@
 import { call, jobPath } from './api.js';
 import { h } from './elements.js';
 import { counted, moment } from './numbers.js';
-import { EVENTS, named } from './text.js';
+import { eventText } from './text.js';
 
 function line(event) {
   const what = [
-    named(EVENTS, event.event),
+    eventText(event.event),
     event.task > 0 && `task ${event.task}${event.kind ? ` (${event.kind})` : ''}`,
     event.worker && `worker ${event.worker.slice(0, 12)}`,
     event.message,
@@ -15,6 +15,7 @@ function line(event) {
   return h('li', {}, time, ` ${what.filter(Boolean).join(', ')}`);
 }
 
+/** The events of one job. */
 export class History {
   constructor(job) {
     this.job = job;

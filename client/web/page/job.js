@@ -6,20 +6,24 @@ import { announce, button, facts, h, setText } from './elements.js';
 import { showProgress } from './jobs.js';
 import { count, counted, duration, measure, moment } from './numbers.js';
 import { History } from './history.js';
-import { FRAMES, OPERATORS, STATES, activity, expiry, isActive, isRemoved, named, progress } from './text.js';
+import { session } from './session.js';
+import { activity, expiry, isActive, isRemoved, operatorOf, progress, wording } from './text.js';
 
 // What of a job decides which facts, notes and buttons there are.
-const shown = (job) => job && JSON.stringify([job.state, job.prepared, job.quality, job.cancel_requested, job.pinned, job.expires_ms, job.removed_ms]);
+const kShown = ['state', 'prepared', 'quality', 'cancel_requested', 'pinned', 'expires_ms', 'removed_ms'];
+const shown = (job) => job && JSON.stringify(kShown.map((name) => job[name]));
+/** @type {(job: Job | undefined) => boolean} */
 const hasResults = (job) => job?.state === 'done' && !isRemoved(job);
 
+/** @param {Job} job */
 function asked(job) {
   const { sampling, directions, frame } = job.params;
   const lattice = sampling?.spacing ? `spacing ${measure(sampling.spacing)}` : `about ${counted(sampling?.target_points || 0, 'point')}`;
   return [
     ['Lattice asked for', lattice],
     ['Directions', directions || 'triangles'],
-    ['Lattice along', named(FRAMES, frame || 'axis')],
-    ['Shocks by', named(OPERATORS, job.skeleton.operator || 'zucker-hummel')],
+    ['Lattice along', wording('frames', frame || session.usual.frame)],
+    ['Shocks by', operatorOf(job)],
     ['Priority', String(job.priority || 0)],
     ['Owner', job.owner],
     ['Submitted', moment(job.created_ms)],
@@ -28,6 +32,7 @@ function asked(job) {
   ];
 }
 
+/** @param {Job} job */
 function prepared({ prepared: p }) {
   if (!p) return [];
   return [
@@ -39,7 +44,12 @@ function prepared({ prepared: p }) {
   ];
 }
 
+/** What is seen at #job/ID. */
 export class JobView {
+  /**
+   * @param {string} id
+   * @param {import('./rate.js').Rates} rates
+   */
   constructor(id, rates) {
     this.id = id;
     this.rates = rates;
@@ -81,12 +91,12 @@ export class JobView {
     document.title = `${job.name} – affskel`;
     setText(this.heading, job.name || 'Job');
     this.badge.className = `badge ${job.state}`;
-    setText(this.badge, named(STATES, job.state));
+    setText(this.badge, wording('states', job.state));
     showProgress(this.bar, job);
     setText(this.numbers, progress(job, this.rates.update(job)));
     setText(this.what, activity(job));
     this.what.classList.toggle('error', job.state === 'failed');
-    if (before && before.state !== job.state) announce(`${job.name}: ${named(STATES, job.state)}`);
+    if (before && before.state !== job.state) announce(`${job.name}: ${wording('states', job.state)}`);
     if (shown(before) !== shown(job)) {
       this.showFacts(job);
       this.showActions(job);
@@ -96,6 +106,7 @@ export class JobView {
     if (!hasResults(job)) this.results.replaceChildren();
   }
 
+  /** @param {Job} job */
   showFacts(job) {
     const advice = job.quality?.advice;
     const removal = expiry(job);
@@ -107,6 +118,7 @@ export class JobView {
     this.facts.replaceChildren(facts([...prepared(job), ...asked(job)]));
   }
 
+  /** @param {Job} job */
   showActions(job) {
     const held = document.activeElement?.closest('.actions') ? document.activeElement.id : null;
     const ended = !isActive(job);
@@ -156,6 +168,7 @@ export class JobView {
     }
   }
 
+  /** @param {Job} job */
   showResults(job) {
     const downloads = new Downloads(this.id);
     const picture = h('img', { class: 'picture', alt: `${job.name}: the body and its skeleton from the front, the side and above`, hidden: true });
@@ -168,6 +181,11 @@ export class JobView {
     this.drawPicture(downloads, picture, waiting);
   }
 
+  /**
+   * @param {import('./downloads.js').Downloads} downloads
+   * @param {HTMLImageElement} picture
+   * @param {HTMLElement} waiting
+   */
   async drawPicture(downloads, picture, waiting) {
     try {
       const result = await downloads.made('picture');
@@ -181,6 +199,10 @@ export class JobView {
     }
   }
 
+  /**
+   * @param {import('./downloads.js').Downloads} downloads
+   * @param {HTMLElement} status
+   */
   async openInteractive(downloads, status) {
     const before = status.textContent;
     status.textContent = 'A moment …';

@@ -3,10 +3,11 @@ import { call } from './api.js';
 import { announce, button, h, setText } from './elements.js';
 import { ago } from './numbers.js';
 import { session } from './session.js';
-import { STATES, activity, isActive, named, progress } from './text.js';
+import { activity, isActive, progress, wording } from './text.js';
 
 // One job in the list.
 class Card {
+  /** @param {Job} job */
   constructor(job) {
     this.link = h('a', { href: `#job/${job.id}` });
     this.badge = h('span', {});
@@ -26,21 +27,29 @@ class Card {
     this.state = job.state;
   }
 
+  /**
+   * @param {Job} job
+   * @param {Rate | null} rate
+   */
   update(job, rate) {
     setText(this.link, job.name || job.id.slice(0, 12));
     this.badge.className = `badge ${job.state}`;
-    setText(this.badge, named(STATES, job.state));
+    setText(this.badge, wording('states', job.state));
     showProgress(this.bar, job);
     setText(this.numbers, progress(job, rate));
     setText(this.what, activity(job));
     const owner = session.admin && job.owner !== session.owner ? `${job.owner}, ` : '';
     setText(this.when, `${owner}submitted ${ago(job.created_ms)}`);
-    if (job.state !== this.state) announce(`${job.name}: ${named(STATES, job.state)}`);
+    if (job.state !== this.state) announce(`${job.name}: ${wording('states', job.state)}`);
     this.state = job.state;
   }
 }
 
-// The bar of a job; without a share while the mesh is checked.
+/**
+ * The bar of a job; without a share while the mesh is checked.
+ * @param {HTMLProgressElement} bar
+ * @param {Job} job
+ */
 export function showProgress(bar, job) {
   bar.hidden = !isActive(job) && job.state !== 'cancelled';
   bar.setAttribute('aria-label', `Progress of ${job.name}`);
@@ -49,7 +58,9 @@ export function showProgress(bar, job) {
   else bar.removeAttribute('value');
 }
 
+/** What is seen at #jobs. */
 export class JobList {
+  /** @param {import('./rate.js').Rates} rates */
   constructor(rates) {
     this.rates = rates;
     this.limit = 50;
@@ -108,6 +119,7 @@ export class JobList {
     return jobs.some(isActive);
   }
 
+  /** @param {Job} job */
   show(job, place) {
     let card = this.cards.get(job.id);
     if (!card) {
@@ -116,6 +128,7 @@ export class JobList {
     }
     card.update(job, this.rates.update(job));
     // Moved only where the order has changed: a moved element loses the focus.
-    if (this.list.children[place] !== card.element) this.list.insertBefore(card.element, this.list.children[place] || null);
+    const there = this.list.children[place];
+    if (there !== card.element) this.list.insertBefore(card.element, there || null);
   }
 }

@@ -33,8 +33,9 @@ function present(element, title) {
   document.title = `${title} – affskel`;
 }
 
+/** @param {string} [message] */
 function showSignIn(message = '') {
-  poll?.stop();
+  if (poll) poll.stop();
   document.body.classList.remove('signed-in');
   showProblem(null);
   present(signInView(enter, message), 'Sign in');
@@ -43,21 +44,24 @@ function showSignIn(message = '') {
 
 // @param moved whether the user went there: then the heading takes the focus, so that it is read.
 function showView(moved) {
-  poll?.stop();
+  if (poll) poll.stop();
   showProblem(null);
+  /** @type {View} */
   const view = viewOfAddress();
   present(view.element, view.title);
   markPlace();
-  if (view.ask) {
+  const { ask } = view;
+  if (ask) {
     poll = new Poll(
-      () => view.ask(),
+      () => ask.call(view),
       (error) => error?.status !== 401 && showProblem(error && `${error.message} Trying again …`),
     );
     view.refresh = () => poll.now();
     view.pause = () => poll.stop();
     poll.now();
   }
-  if (moved) view.element.querySelector('h1').focus();
+  const heading = view.element.querySelector('h1');
+  if (moved && heading) heading.focus();
 }
 
 function enter() {

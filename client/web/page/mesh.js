@@ -3,11 +3,10 @@ import { call, upload } from './api.js';
 import { announce, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
-import { FRAMES, OPERATORS, named } from './text.js';
 
-const TYPES = ['.off', '.ply', '.obj', '.stl', '.vtp'];
-const USUAL_POINTS = 100000;
-const TYPING = 300; // milliseconds after a key until the lattice is counted
+const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp'];
+const kUsualPoints = 100000;
+const kTyping = 300; // milliseconds after a key until the lattice is counted
 
 function meshFacts(f) {
   const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
@@ -23,15 +22,16 @@ function meshFacts(f) {
   ]);
 }
 
+/** What is seen at #new. */
 export class NewJob {
   constructor() {
     this.title = 'New job';
-    this.file = h('input', { id: 'file', type: 'file', accept: TYPES.join(','), class: 'visually-hidden' });
+    this.file = h('input', { id: 'file', type: 'file', accept: kTypes.join(','), class: 'visually-hidden' });
     this.drop = h(
       'label',
       { class: 'drop', for: 'file' },
       h('strong', {}, 'Drop a mesh here, or choose a file'),
-      h('span', { class: 'small' }, `A closed surface as ${TYPES.join(', ')}, at most ${bytes(session.max_mesh_bytes)}`),
+      h('span', { class: 'small' }, `A closed surface as ${kTypes.join(', ')}, at most ${bytes(session.max_mesh_bytes)}`),
     );
     this.sent = h('progress', { max: 1, value: 0, hidden: true, 'aria-label': 'Upload' });
     this.status = h('p', { class: 'small', role: 'status' });
@@ -71,12 +71,16 @@ export class NewJob {
     this.problem.hidden = !message;
   }
 
+  /** @param {File} file */
   async take(file) {
     this.complain('');
     this.found.replaceChildren();
     this.form.replaceChildren();
-    if (file.size > session.max_mesh_bytes)
-      return this.complain(`${file.name} has ${bytes(file.size)}; the server takes at most ${bytes(session.max_mesh_bytes)}.`);
+    const most = session.max_mesh_bytes;
+    if (file.size > most) {
+      this.complain(`${file.name} has ${bytes(file.size)}; the server takes at most ${bytes(most)}.`);
+      return;
+    }
     this.sent.hidden = false;
     this.status.textContent = `Sending ${file.name} …`;
     try {
@@ -94,7 +98,6 @@ export class NewJob {
       this.sent.hidden = true;
       this.file.value = ''; // the same file may be chosen again
     }
-    return undefined;
   }
 
   show(mesh) {
@@ -120,8 +123,9 @@ export class NewJob {
 const field = (id, label, control, help) =>
   h('div', {}, h('label', { for: id }, label), control, help && h('p', { class: 'small', id: `${id}-help` }, help));
 
-const choice = (id, words, table) =>
-  h('select', { id }, words.map((word) => h('option', { value: word }, named(table, word))));
+// texts: by the values that they stand for.
+const choice = (id, texts) =>
+  h('select', { id }, Object.entries(texts).map(([value, text]) => h('option', { value }, text)));
 
 const numberField = (id, attributes) =>
   h('input', { id, type: 'number', min: 0, step: 'any', inputmode: 'decimal', ...attributes });
@@ -133,10 +137,10 @@ class SubmitForm {
     this.requestId = crypto.getRandomValues(new Uint32Array(4)).join('-');
     this.given = 'points'; // which of the two was typed
     this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: mesh.name.replace(/\.[^.]*$/, '') });
-    this.points = numberField('points', { step: 1, value: USUAL_POINTS });
+    this.points = numberField('points', { step: 1, value: kUsualPoints });
     this.spacing = numberField('spacing', {});
     this.lattice = h('p', { id: 'lattice', role: 'status' });
-    this.directions = choice('directions', ['triangles', 'sphere', 'triangles+sphere', 'random'], {
+    this.directions = choice('directions', {
       triangles: 'the mesh’s own normals',
       sphere: 'evenly from all sides',
       'triangles+sphere': 'both of these',
@@ -145,8 +149,8 @@ class SubmitForm {
     this.howMany = numberField('how-many', { min: 1, step: 1, value: 5000 });
     this.howManyField = field('how-many', 'How many', this.howMany);
     this.howManyField.hidden = true;
-    this.frame = choice('frame', session.frames, FRAMES);
-    this.operator = choice('operator', session.operators, OPERATORS);
+    this.frame = choice('frame', session.words.frames);
+    this.operator = choice('operator', session.words.operators);
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.submit = h('button', { type: 'submit', class: 'primary', id: 'submit' }, 'Compute the skeleton');
     this.element = this.build();
@@ -203,7 +207,7 @@ class SubmitForm {
     this.given = which;
     const value = parseFloat(this[which].value);
     clearTimeout(this.timer);
-    this.counting?.abort();
+    if (this.counting) this.counting.abort();
     if (!(value > 0)) {
       setText(this.lattice, 'Give a number above 0.');
       return;
@@ -211,7 +215,7 @@ class SubmitForm {
     const { volume } = this.mesh.facts;
     if (which === 'points') this.spacing.value = editable(Math.cbrt(volume / value));
     else this.points.value = String(Math.max(0, Math.round(volume / value ** 3)));
-    this.timer = setTimeout(() => this.count(which, value), TYPING);
+    this.timer = setTimeout(() => this.count(which, value), kTyping);
   }
 
   async count(which, value) {

@@ -3,22 +3,47 @@
 const whole = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
 const four = new Intl.NumberFormat('en', { maximumSignificantDigits: 4 });
 
+/**
+ * To the nearest whole number, with separators.
+ * @param {number} n
+ * @returns {string}
+ */
 export const count = (n) => whole.format(n);
 
-// One or many of a thing.
-export const counted = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
+/**
+ * One or many of a thing.
+ * @param {number} n
+ * @param {string} one
+ * @param {string} [many]
+ * @returns {string}
+ */
+export const counted = (n, one, many = `${one}s`) => `${count(n)} ${n === 1 ? one : many}`;
 
-// A length, an area or a volume, to four digits.
+/**
+ * A length, an area or a volume, to four digits.
+ * @param {number} value
+ * @returns {string}
+ */
 export function measure(value) {
   const size = Math.abs(value);
   return size !== 0 && (size >= 1e9 || size < 1e-3) ? value.toExponential(3).replace('e+', 'e') : four.format(value);
 }
 
-// For a field that is edited: six digits, without separators.
+/**
+ * For a field that is edited: six digits, without separators.
+ * @param {number} value
+ * @returns {string}
+ */
 export const editable = (value) => String(Number(value.toPrecision(6)));
 
-export function bytes(n) {
+/**
+ * A size in the largest unit of which it has one.
+ * @param {number} size
+ * @returns {string}
+ */
+export function bytes(size) {
   const units = ['bytes', 'KiB', 'MiB', 'GiB', 'TiB'];
+  let n = size;
   let unit = 0;
   while (n >= 1024 && unit + 1 < units.length) {
     n /= 1024;
@@ -27,6 +52,11 @@ export function bytes(n) {
   return `${unit === 0 ? count(n) : n.toPrecision(3)} ${units[unit]}`;
 }
 
+/**
+ * In the two largest units.
+ * @param {number} seconds
+ * @returns {string}
+ */
 export function duration(seconds) {
   const s = Math.max(0, Math.round(seconds));
   const two = (n) => String(n).padStart(2, '0');
@@ -36,6 +66,16 @@ export function duration(seconds) {
   return `${Math.floor(s / 86400)} d ${Math.floor((s % 86400) / 3600)} h`;
 }
 
+/**
+ * How long since.
+ * @param {number} unixMs
+ * @returns {string}
+ */
 export const ago = (unixMs) => `${duration((Date.now() - unixMs) / 1000)} ago`;
 
+/**
+ * Date and time; "not yet" for 0.
+ * @param {number} unixMs
+ * @returns {string}
+ */
 export const moment = (unixMs) => (unixMs > 0 ? new Date(unixMs).toLocaleString() : 'not yet');

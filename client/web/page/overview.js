@@ -4,7 +4,7 @@ import { facts, h } from './elements.js';
 import { ago, bytes, count, counted, moment } from './numbers.js';
 import { isActive } from './text.js';
 
-const WATCHED = 200; // running jobs whose progress is added up
+const kWatched = 200; // running jobs whose progress is added up
 
 function workerRow(worker) {
   const doing = worker.silent ? 'silent: dead, stopped or cut off' : worker.task || 'idle';
@@ -19,7 +19,9 @@ function workerRow(worker) {
   );
 }
 
+/** What is seen at #server. */
 export class Overview {
+  /** @param {import('./rate.js').Rates} rates */
   constructor(rates) {
     this.rates = rates;
     this.title = 'Server';
@@ -44,7 +46,10 @@ export class Overview {
     );
   }
 
-  // Directions per second of all running jobs that are seen.
+  /**
+   * Directions per second of all running jobs that are seen.
+   * @param {Job[]} jobs
+   */
   throughput(jobs) {
     let sum = 0;
     for (const job of jobs.filter(isActive)) sum += this.rates.update(job)?.perSecond || 0;
@@ -53,7 +58,7 @@ export class Overview {
   }
 
   async ask() {
-    const [info, { jobs }] = await Promise.all([call('GET', '/api/server'), call('GET', `/api/jobs?everybody=1&limit=${WATCHED}`)]);
+    const [info, { jobs }] = await Promise.all([call('GET', '/api/server'), call('GET', `/api/jobs?everybody=1&limit=${kWatched}`)]);
     const workers = info.workers || [];
     const awake = workers.filter((worker) => !worker.silent);
     this.facts.replaceChildren(

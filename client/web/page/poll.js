@@ -1,10 +1,11 @@
 // Asks again and again: soon while something happens, seldom while nobody looks, ever more seldom after errors.
 
-const SOON = 1000;
-const IDLE = 5000;
-const HIDDEN = 20000; // a private server leaves after a minute without calls
-const LONGEST = 30000;
+const kSoon = 1000;
+const kIdle = 5000;
+const kHidden = 20000; // a private server leaves after a minute without calls
+const kLongest = 30000;
 
+/** One question, asked as long as its view is seen. */
 export class Poll {
   // `ask` returns whether something happens; it throws when there is no answer, which `failed` is told.
   constructor(ask, failed) {
@@ -34,8 +35,8 @@ export class Poll {
       this.failed(error);
     }
     if (round !== this.round) return; // stopped, or asked anew meanwhile
-    const pause = this.failures > 0 ? Math.min(LONGEST, SOON * 2 ** this.failures) : busy ? SOON : IDLE;
-    this.timer = setTimeout(() => this.now(), document.hidden ? Math.max(pause, HIDDEN) : pause);
+    const pause = this.failures > 0 ? Math.min(kLongest, kSoon * 2 ** this.failures) : busy ? kSoon : kIdle;
+    this.timer = setTimeout(() => this.now(), document.hidden ? Math.max(pause, kHidden) : pause);
   }
 
   stop() {

@@ -1,21 +1,25 @@
 // How fast jobs get on, smoothed over a few seconds; a page knows no more than it saw.
 
-const FORGETS = 3; // seconds
+const kForgets = 3; // seconds
 
+/** By job. */
 export class Rates {
   constructor() {
     this.jobs = new Map();
   }
 
-  // What the job's progress is worth by now: directions per second and the seconds that are left; null while
-  // nothing is known.
+  /**
+   * What the job's progress is worth by now: directions per second and the seconds that are left; null while
+   * nothing is known.
+   * @param {Job} job
+   */
   update(job, now = performance.now() / 1000) {
     const last = this.jobs.get(job.id);
     const done = job.directions_done || 0;
     const entry = { time: now, done, perSecond: last ? last.perSecond : 0 };
     if (last && done >= last.done && now > last.time) {
       const seconds = now - last.time;
-      const weight = last.perSecond > 0 ? 1 - Math.exp(-seconds / FORGETS) : 1;
+      const weight = last.perSecond > 0 ? 1 - Math.exp(-seconds / kForgets) : 1;
       entry.perSecond += weight * ((done - last.done) / seconds - entry.perSecond);
     } else if (last && done < last.done) {
       entry.perSecond = 0;
@@ -24,6 +28,7 @@ export class Rates {
     return this.of(job);
   }
 
+  /** @param {Job} job */
   of(job) {
     const entry = this.jobs.get(job.id);
     if (!entry || !(entry.perSecond > 1e-6)) return null;

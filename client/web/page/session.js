@@ -1,6 +1,10 @@
 // Who is signed in, and what the service offers them.
 import { call } from './api.js';
 
+/**
+ * What the service said last, see Session.
+ * @type {Session}
+ */
 export const session = { mode: 'personal', signed_in: false };
 
 function take(answer) {
@@ -16,7 +20,10 @@ function keyOfAddress() {
   return key;
 }
 
-// Begins a session by the address, or finds the one that the browser has.
+/**
+ * Begins a session by the address, or finds the one that the browser has.
+ * @returns {Promise<Session>}
+ */
 export async function openSession() {
   const key = keyOfAddress();
   const found = take(await call('GET', '/api/session'));
@@ -24,26 +31,35 @@ export async function openSession() {
   return take(await call('POST', '/api/session', { key }));
 }
 
-const MOST_TRIES = 15;
+const kMostTries = 15;
 
-// Where too many wrong tokens came from this address, of others maybe, it asks again when it may, for a while.
+/**
+ * Where too many wrong tokens came from this address, of others maybe, it asks again when it may, for a while.
+ * @param {string} token
+ * @returns {Promise<Session>}
+ */
 export async function signIn(token) {
   for (let tries = 1; ; tries += 1) {
     try {
       return take(await call('POST', '/api/session', { token }));
     } catch (error) {
-      if (error.status !== 429 || tries === MOST_TRIES) throw error;
+      if (error.status !== 429 || tries === kMostTries) throw error;
       await new Promise((resolve) => setTimeout(resolve, 1000 * (error.retryAfter || 1)));
     }
   }
 }
 
+/**
+ * Ends it, here and at the service.
+ * @returns {Promise<Session>}
+ */
 export async function signOut() {
   const { mode } = session;
   await call('DELETE', '/api/session');
   return take({ mode, signed_in: false });
 }
 
+/** Ends it here. */
 export function forget() {
   take({ mode: session.mode, signed_in: false });
 }

@@ -2,11 +2,17 @@
 import { h } from './elements.js';
 import { session, signIn } from './session.js';
 
-// What stands in the page; `entered` is called once somebody is signed in.
+/**
+ * What stands in the page; `entered` is called once somebody is signed in.
+ * @param {() => void} entered
+ * @param {string} [message]
+ * @returns {HTMLElement}
+ */
 export function signInView(entered, message = '') {
   return session.mode === 'personal' ? keyView(message) : tokenView(entered, message);
 }
 
+/** @param {string} message */
 function keyView(message) {
   return h(
     'section',
@@ -19,6 +25,7 @@ function keyView(message) {
   );
 }
 
+/** @param {string} message */
 function tokenView(entered, message) {
   const field = h('input', {
     id: 'token',

@@ -1,39 +1,12 @@
 // What words of the protocol mean to people.
 import { count, counted, duration, moment } from './numbers.js';
+import { session } from './session.js';
 
-export const STATES = {
-  queued: 'waiting',
-  running: 'running',
-  done: 'done',
-  failed: 'failed',
-  cancelled: 'cancelled',
-};
-
-const STAGES = {
-  prepare: 'checking the mesh and laying the lattice',
-  erode: 'eroding',
-  derive: 'finding the skeleton',
-  complete: 'complete',
-};
-
-export const OPERATORS = {
-  'zucker-hummel': 'Zucker–Hummel, as published',
-  intermediate: 'intermediate differences',
-  central: 'central differences',
-  sobel: 'Sobel',
-  flux: 'average outward flux',
-  chords: 'equal chords, joined into a sheet',
-  ridge: 'the ridge of E: sheets, and curves where the solid is round',
-};
-
-export const FRAMES = {
-  axis: 'the axes of the mesh',
-  pca: 'the principal axes of the solid',
-  obb: 'the axes of its smallest box',
-  affine: 'axes that follow affine maps',
-};
-
-export const ARTEFACTS = {
+/**
+ * Title of an artefact, and what it is.
+ * @type {Object<string, string[]>}
+ */
+export const kArtefacts = {
   field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
   divergence: ['Divergence', 'H, which the threshold is applied to'],
   skeleton: ['Skeleton', 'its points'],
@@ -42,7 +15,7 @@ export const ARTEFACTS = {
   mesh: ['Mesh', 'the file as it was submitted'],
 };
 
-export const EVENTS = {
+const kEvents = {
   submitted_again: 'submitted again',
   cancel_requested: 'asked to cancel',
   removal_planned: 'to be removed',
@@ -58,34 +31,76 @@ export const EVENTS = {
   requests_cancelled: 'files are no longer wanted',
 };
 
-// What is shown under other names than the protocol's, or is of a later version.
-export const named = (table, word) => table[word] || word;
+/**
+ * A word of the protocol as the service words it (`states`, `stages`, `operators` or `frames`); one that it does not
+ * know, of a later server, as it is.
+ * @param {keyof Words} kind
+ * @param {string} word
+ * @returns {string}
+ */
+export const wording = (kind, word) => session.words?.[kind][word] || word;
 
+/**
+ * The operator of a job: where none was asked for, the usual one.
+ * @param {Job} job
+ * @returns {string}
+ */
+export const operatorOf = (job) => wording('operators', job.skeleton.operator || session.usual.operator);
+
+/**
+ * An event in words.
+ * @param {string} event
+ * @returns {string}
+ */
+export const eventText = (event) => kEvents[event] || event;
+
+/**
+ * Whether it waits for a worker or has one.
+ * @param {Job} job
+ * @returns {boolean}
+ */
 export const isActive = (job) => job.state === 'queued' || job.state === 'running';
 
-// Whether retention has taken the results of a finished job.
+/**
+ * Whether retention has taken the results of a finished job.
+ * @param {Job} job
+ * @returns {boolean}
+ */
 export const isRemoved = (job) => job.state === 'done' && job.removed_ms > 0;
 
-// When retention will take what is left of a job; "" when it will not.
+/**
+ * When retention will take what is left of a job; "" when it will not.
+ * @param {Job} job
+ * @returns {string}
+ */
 export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
 
-// What a job is doing, or why it does not.
+/**
+ * What a job is doing, or why it does not.
+ * @param {Job} job
+ * @returns {string}
+ */
 export function activity(job) {
   if (job.state === 'failed') {
-    const line = job.error?.line > 0 ? ` (line ${count(job.error.line)} of the file)` : '';
-    return (job.error?.message || 'no reason was given') + line;
+    const { message, line } = job.error || { message: '', line: 0 };
+    return (message || 'no reason was given') + (line > 0 ? ` (line ${count(line)} of the file)` : '');
   }
   if (job.cancel_requested && isActive(job)) return 'being cancelled';
   if (job.waiting_reason) return `waits: ${job.waiting_reason}`;
   if (job.state === 'queued') return 'waits for a worker';
-  if (job.state === 'running') return named(STAGES, job.stage);
+  if (job.state === 'running') return wording('stages', job.stage);
   if (isRemoved(job)) return 'its results were removed by the server’s retention; resume computes them again';
   // Of the job's own operator; the picture may show another's, and says so.
-  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')} (${named(OPERATORS, job.skeleton.operator || 'zucker-hummel')})`;
+  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')} (${operatorOf(job)})`;
   return 'progress is kept; resume goes on from here';
 }
 
-// Directions done of all, with the pace and the time left.
+/**
+ * Directions done of all, with the pace and the time left.
+ * @param {Job} job
+ * @param {Rate | null} rate
+ * @returns {string}
+ */
 export function progress(job, rate) {
   if (!(job.directions_total > 0) || job.state === 'done') return '';
   let text = `${count(job.directions_done)} of ${counted(job.directions_total, 'direction')}`;

@@ -210,6 +210,13 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);
 }
 
+TEST_F(WebServiceTest, WordsTheContractForThePage) {
+  sign_in();
+  const json session = ask("GET", "/api/session").object();
+  EXPECT_EQ(session["words"]["operators"]["flux"], "average outward flux");
+  EXPECT_EQ(session["usual"], json({{"operator", "zucker-hummel"}, {"frame", "axis"}}));
+}
+
 TEST_F(WebServiceTest, PassesParametersOn) {
   sign_in();
   made({{"artefact", "skeleton"}, {"format", ".csv"}, {"operator", "sobel"}, {"threshold", 5}});

@@ -1,0 +1,62 @@
+// The shapes of what the service answers, see client/web: messages of the contract as JSON.
+
+// Texts by the words of the contract.
+interface Words {
+  states: Record<string, string>;
+  stages: Record<string, string>;
+  operators: Record<string, string>;
+  frames: Record<string, string>;
+}
+interface Session {
+  mode: 'personal' | 'sign-in';
+  signed_in: boolean;
+  // Of who is signed in:
+  owner?: any;
+  admin?: boolean;
+  max_mesh_bytes?: any;
+  words?: any; // Words
+  usual?: any; // words of operator and frame
+  artefacts?: any;
+}
+
+// What is seen at an address; one that asks is asked again and again, and given how.
+interface View {
+  element: HTMLElement;
+  title: string;
+  ask?(): Promise<boolean>;
+  refresh?(): any;
+  pause?(): void;
+}
+
+interface Note {
+  severity: string;
+  message: string;
+}
+interface Job {
+  id: string;
+  name: string;
+  owner: string;
+  state: string;
+  stage: string;
+  priority: number;
+  params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null };
+  skeleton: { operator: string | null };
+  prepared?: { triangles: number; points: number; spacing: number; volume: number; solids: number; notes?: Note[] };
+  quality?: { advice?: string };
+  error?: { message: string; line: number };
+  directions_done: number;
+  directions_total: number;
+  skeleton_points: number;
+  waiting_reason?: string;
+  cancel_requested: boolean;
+  pinned: boolean;
+  created_ms: number;
+  started_ms: number;
+  finished_ms: number;
+  expires_ms: number;
+  removed_ms: number;
+}
+interface Rate {
+  perSecond: number;
+  left: number;
+}
