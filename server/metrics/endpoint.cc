@@ -29,8 +29,9 @@ http::Response text(int status, const char* type, std::string body) {
 http::Limits limits_of(const EndpointOptions& options) {
   http::Limits limits;
   limits.places = {.connections = options.connections, .for_known = 0};
-  // Of each kind all connections may wait: every peer is answered.
-  limits.waiting = limits.waiting_of_one = options.connections;
+  // Of each kind all connections may wait, and as many whose place has just gone to others and that leave in a
+  // moment: every peer is answered.
+  limits.waiting = limits.waiting_of_one = 2 * options.connections;
   // Health does not wait for metrics, which take longer; nothing computes.
   limits.threads = {{{1, 1}, {0, 1}, {1, 1}}};
   limits.header = limits.idle = limits.pace.window = options.patience;
