@@ -7,6 +7,8 @@ import { session } from './session.js';
 const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp'];
 const kUsualPoints = 100000;
 const kTyping = 300; // milliseconds after a key until the lattice is counted
+const kAgain = 500; // milliseconds until a count that found no place is tried again
+const kNoPlace = 429; // status: what was asked for before is still worked on
 
 function meshFacts(f) {
   const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
@@ -229,7 +231,8 @@ class SubmitForm {
       const about = found.counted ? '' : 'about ';
       setText(this.lattice, `${about}${counted(found.points, 'sample point')} at spacing ${measure(found.spacing)}`);
     } catch (error) {
-      if (error.name !== 'AbortError') setText(this.lattice, error.message);
+      if (error.status === kNoPlace) this.timer = setTimeout(() => this.count(which, value), kAgain);
+      else if (error.name !== 'AbortError') setText(this.lattice, error.message);
     }
   }
 
