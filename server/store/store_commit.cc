@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -107,9 +108,13 @@ void Store::commit_all(std::span<Change* const> together) {
   require_not_lost();
   const auto committed = std::chrono::steady_clock::now();
   for (Change* change : together) {
-    change->changes.counts.push_back([waited = begun - change->asked, worked = committed - begun](
-                                         Metrics& metrics) { metrics.transaction(waited, worked); });
     if (change->changes.grown || change->changes.eased) reserve_.allow_retry();
+    try {
+      change->changes.counts.push_back([waited = begun - change->asked, worked = committed - begun](
+                                           Metrics& metrics) { metrics.transaction(waited, worked); });
+    } catch (const std::bad_alloc&) {
+      // A count is lost; what is committed must not be made again.
+    }
   }
 }
 
