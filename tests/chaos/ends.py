@@ -9,9 +9,11 @@ Usage: ends.py PROGRAMS [--seed N] [--ends N] [--kinds KIND...] [--keep DIR]
 """
 import argparse
 import collections
+import contextlib
 import os
 import random
 import resource
+import select
 import shutil
 import signal
 import socket
@@ -23,11 +25,18 @@ import threading
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
+from event_log import EventLog  # noqa: E402
+from lab_service import LabService  # noqa: E402
+
 LONGEST_S = 70
-START_S = 60
+# Between a signal and the next, which finds the program at its end.
+AGAIN_S = 0.05
 # Nobody's, and each run's own: processes count by user.  The server of a worker's end is another's.
 USER = 61_000 + os.getpid() % 1000
 OTHER_USER = USER + 1000
+PROGRAMS = ("affskel-server", "affskel-worker", "affskel-client")
+LISTENING = r"event=listening address=localhost:(\d+)"
 PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + bytes([0, 0, 0, 4, 0, 0, 0, 0, 0])
 
 RESOURCES = {"threads": resource.RLIMIT_NPROC, "memory": resource.RLIMIT_AS, "descriptors": resource.RLIMIT_NOFILE}
@@ -56,13 +65,14 @@ def as_user(user, limit, value):
 class Load:
     """Callers that come and stay, half a handshake, and clients, until it is stopped."""
 
-    def __init__(self, place, port, client):
-        self.port, self.client, self.stopped = port, client, threading.Event()
-        self.context = ssl.create_default_context(cafile=place / "server.pem")
+    def __init__(self, lab, port):
+        self.port, self.stopped = port, threading.Event()
+        self.client = ["prlimit", "--core=0", lab.programs / "affskel-client", *lab.access(port, "user")]
+        self.context = ssl.create_default_context(cafile=lab.certificate)
         self.context.set_alpn_protocols(["h2"])
         self.threads = [threading.Thread(target=self.connect, args=(whole,)) for whole in (True, True, True, False)]
         self.threads += [threading.Thread(target=self.call, args=(arguments,)) for arguments in (
-            ("submit", place / "torus.off", "--points", "3000"), ("list",), ("list", "--json"))]
+            ("submit", lab.mesh, "--points", "3000"), ("list",), ("list", "--json"))]
         for thread in self.threads:
             thread.start()
 
@@ -97,89 +107,74 @@ class Load:
             process.wait()
 
 
-class Lab:
-    """What all ends share: programs that the user may run, a certificate, tokens, a mesh, a database."""
+class Lab(LabService):
+    """What all ends share: programs that the user may run, a certificate, tokens, a mesh, a database to copy."""
 
     def __init__(self, programs, place):
-        self.place, self.programs = place, place / "bin"
         place.chmod(0o755)
-        self.programs.mkdir()
-        for name in ("affskel-server", "affskel-worker", "affskel-client"):
-            shutil.copy(programs / name, self.programs / name)
-        self.environment = {"PATH": os.environ["PATH"], "HOME": str(place)}
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes",
-                        "-days", "2", "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost",
-                        "-keyout", place / "server.key", "-out", place / "server.pem"],
-                       check=True, stderr=subprocess.DEVNULL)
-        for role in ("user", "worker"):
-            with open(place / f"{role}.token", "w", encoding="ascii") as out:
-                subprocess.run([self.programs / "affskel-server", "token", "add", "--data-dir", place / "empty",
-                                "--owner", role, "--role", role],
-                               check=True, stdout=out, stderr=subprocess.DEVNULL)
-        subprocess.run([self.programs / "affskel-client", "make", "torus", "--triangles", "400", "-o",
-                        place / "torus.off"], check=True, env=self.environment, stdout=subprocess.DEVNULL,
-                       stderr=subprocess.DEVNULL)
-        for name in ("server.key", "worker.token"):
-            (place / name).chmod(0o644)
+        shutil.copytree(programs, place / "bin", ignore=lambda _, names: set(names) - set(PROGRAMS))
+        super().__init__(place / "bin", place, "localhost", 0)
+        self.mesh = place / "torus.off"
+        subprocess.run([self.programs / "affskel-client", "--quiet", "make", "torus", "--triangles", "400", "-o",
+                        self.mesh], check=True, env=self.environment)
+        for file in (place / "server.key", self.tokens["worker"]):
+            file.chmod(0o644)
 
     def access(self, port, role):
-        return ["--server", f"localhost:{port}", "--tls-ca", str(self.place / "server.pem"),
-                "--token-file", str(self.place / f"{role}.token")]
+        return ["--server", f"localhost:{port}", "--tls-ca", self.certificate, "--token-file", self.tokens[role]]
 
     def server(self, name, user, options=(), limit=None, value=0):
         """One with a data directory of that user's own."""
-        data = self.place / name / "data"
-        shutil.copytree(self.place / "empty", data)
+        data = self.directory / name / "data"
+        shutil.copytree(self.data, data)
         for path in (data.parent, data, *data.iterdir()):
             os.chown(path, user, user)
         return Program([self.programs / "affskel-server", "--data-dir", data, "--listen", "localhost:0", "--tls-cert",
-                        self.place / "server.pem", "--tls-key", self.place / "server.key", *options],
+                        self.certificate, "--tls-key", self.directory / "server.key", *options],
                        data.parent / "server.log", self.environment, as_user(user, limit, value))
 
     def worker(self, name, port, limit, value):
         return Program([self.programs / "affskel-worker", *self.access(port, "worker"), "--threads", "2"],
-                       self.place / name / "worker.log", self.environment, as_user(USER, limit, value))
+                       self.directory / name / "worker.log", self.environment, as_user(USER, limit, value))
 
 
 class Program:
-    """A process, and its log."""
+    """A process, and its log, which becomes a file at the end."""
 
-    def __init__(self, command, log, environment, become):
-        self.log = log
-        with open(log, "wb") as out:
-            self.process = subprocess.Popen([str(word) for word in command], env=environment, stdin=subprocess.DEVNULL,
-                                            stdout=out, stderr=out, preexec_fn=become)
+    def __init__(self, command, file, environment, become):
+        self.file = file
+        self.process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.PIPE, text=True, errors="replace", preexec_fn=become)
+        self.log = EventLog(self.process.stderr)
 
-    def text(self):
-        return self.log.read_text(encoding="utf-8", errors="replace")
+    def wait_for(self, pattern):
+        """What matches in its log; nothing when it ends without having said it."""
+        try:
+            return self.log.wait_for(pattern)[0]
+        except AssertionError:
+            return None
 
-    def wait_for(self, word):
-        """The log's line with that word; nothing when the process ended or did not say it in time."""
-        give_up = time.monotonic() + START_S
-        while time.monotonic() < give_up:
-            ended = self.process.poll() is not None
-            for line in self.text().splitlines():
-                if word in line:
-                    return line
-            if ended:
-                return None
-            time.sleep(0.01)
-        return None
+    def serve(self, seconds):
+        """Lets it run so long, unless it ends before."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(seconds)
 
     def end(self, signals):
         """Tells it, waits: how it ended and after how many seconds."""
         begin = time.monotonic()
         for number in signals:
             self.process.send_signal(number)
-            time.sleep(0.05)
+            self.serve(AGAIN_S)
         try:
             code = self.process.wait(LONGEST_S)
         except subprocess.TimeoutExpired:
             code = None
             self.process.kill()
             self.process.wait()
+        seconds = time.monotonic() - begin
+        self.file.write_text("\n".join(self.log.lines) + "\n", encoding="utf-8")
         how = "HANGS" if code is None else f"exit {code}" if code >= 0 else signal.Signals(-code).name
-        return how, time.monotonic() - begin
+        return how, seconds
 
 
 def left_behind():
@@ -197,14 +192,22 @@ def left_behind():
 
     give_up = time.monotonic() + LONGEST_S
     while (pids := look()) and time.monotonic() < give_up:
-        time.sleep(0.02)
+        wait_for_end(pids[0], give_up - time.monotonic())
     for pid in pids:
         os.kill(pid, signal.SIGKILL)
     return len(pids)
 
 
-def port_of(line):
-    return int(line.split("address=")[1].split()[0].rsplit(":", 1)[1])
+def wait_for_end(pid, seconds):
+    """Of a process that is no child, for so long at most."""
+    try:
+        process = os.pidfd_open(pid)
+    except ProcessLookupError:
+        return
+    try:
+        select.select([process], [], [], seconds)
+    finally:
+        os.close(process)
 
 
 def make_an_end(lab, name, kind, draw):
@@ -218,21 +221,18 @@ def make_an_end(lab, name, kind, draw):
     subject = None
     if program == "worker":
         server = lab.server(name, OTHER_USER)
-        port = port_of(server.wait_for("event=listening address=localhost"))
+        port = int(server.wait_for(LISTENING)[1])
         subject = lab.worker(name, port, limit, value)
     else:
         server = subject = lab.server(name, USER, workers, limit, value)
     load = None
     if in_start:
-        time.sleep(draw.uniform(0, 0.3))
-    else:
-        ready = subject.wait_for("event=listening address=localhost" if program == "server" else "event=ready")
-        if program == "server" and ready:
-            port = port_of(ready)
-        if ready:
-            client = ["prlimit", "--core=0", lab.programs / "affskel-client", *lab.access(port, "user")]
-            load = Load(lab.place, port, client)
-            time.sleep(serving_s)
+        subject.serve(draw.uniform(0, 0.3))
+    elif ready := subject.wait_for(LISTENING if program == "server" else "event=ready"):
+        if program == "server":
+            port = int(ready[1])
+        load = Load(lab, port)
+        subject.serve(serving_s)
     served = load is not None and subject.process.poll() is None
     how, seconds = subject.end(signals)
     if load:
@@ -269,8 +269,8 @@ def main():
             print(f"{number:4} {kind:20} limit {value:>10} {'served' if served else 'did not':8}"
                   f" {how:8} {seconds:6.2f} s" + (f" LEFT {left} processes" if left else ""), flush=True)
             if failed and options.keep:
-                shutil.copytree(lab.place / str(number), options.keep / str(number), dirs_exist_ok=True)
-            shutil.rmtree(lab.place / str(number))
+                shutil.copytree(lab.directory / str(number), options.keep / str(number), dirs_exist_ok=True)
+            shutil.rmtree(lab.directory / str(number))
     print(f"\n{'kind':20} {'ends':>5} {'served':>6} {'longest/s':>9}  how")
     for kind, ends in table.items():
         ways = collections.Counter(how for how, _, _ in ends)
