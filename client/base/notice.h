@@ -23,6 +23,10 @@ struct Notice {
 };
 using Notices = std::vector<Notice>;
 
+inline void append(Notices& all, Notices more) {
+  for (Notice& notice : more) all.push_back(std::move(notice));
+}
+
 /// Hears of what goes on while something is worked on, from any thread.
 using Listener = std::function<void(const Notice&)>;
 

@@ -6,7 +6,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr int kMostSpelt = 2;  // arguments of one name; more are "..."
+constexpr int kMaxSpelt = 2;  // arguments of one name; more are "..."
 
 }  // namespace
 
@@ -38,11 +38,11 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 std::string HelpFormatter::make_option_usage(const CLI::Option* positional) const {
   const std::string name = make_option_name(positional, true);
   std::string words;
-  for (int i = 0; i < std::min(positional->get_expected_max(), kMostSpelt); ++i) {
+  for (int i = 0; i < std::min(positional->get_expected_max(), kMaxSpelt); ++i) {
     const bool optional = i >= positional->get_expected_min() || !positional->get_required();
     words += (i > 0 ? " " : "") + (optional ? "[" + name + "]" : name);
   }
-  return words + (positional->get_expected_max() > kMostSpelt ? "..." : "");
+  return words + (positional->get_expected_max() > kMaxSpelt ? "..." : "");
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {

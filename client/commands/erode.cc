@@ -24,7 +24,7 @@ void run(Context& context, const Options& options) {
   if (options.volume > 0) request.eroded.set_volume(options.volume);
   if (options.form == "points") request.eroded_form = FetchRequest::Form::kPoints;
   if (options.form == "surface") request.eroded_form = FetchRequest::Form::kSurface;
-  tell_result(context.console(), fetch(context.session(), request));
+  show_result(context.console(), fetch(context.session(), request));
 }
 
 }  // namespace

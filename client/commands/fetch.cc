@@ -20,7 +20,7 @@ struct Options {
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   const FetchRequest request{options.job, options.artifact, destination, options.skeleton};
-  tell_result(context.console(), fetch(context.session(), request));
+  show_result(context.console(), fetch(context.session(), request));
 }
 
 // Options that only some artefacts have.

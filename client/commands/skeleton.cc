@@ -17,7 +17,7 @@ struct Options {
 void run(Context& context, const Options& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   const FetchRequest request{options.job, "skeleton", destination, options.skeleton};
-  tell_result(context.console(), fetch(context.session(), request));
+  show_result(context.console(), fetch(context.session(), request));
 }
 
 }  // namespace

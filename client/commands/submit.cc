@@ -44,7 +44,7 @@ std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const f
         {"skeleton", ".skeleton.ply"},
         {"surface", ".surface.ply"}}) {
     files.push_back(fetch(context.session(), {job.id(), artifact, {stem + ending}}));
-    tell_written(context.console(), files.back());
+    show_written(context.console(), files.back());
   }
   return files;
 }
@@ -79,7 +79,7 @@ void run(Context& context, const SubmitOptions& options) {
       document["files"][file.artifact] = file.destination.file.string();
   }
   console.document(document);
-  if (wait) tell_end(context, job, said);
+  if (wait) show_end(context, job, said);
 }
 
 void add_following_options(CLI::App* command, SubmitOptions& o) {

@@ -20,7 +20,7 @@ void run(Context& context, const Options& options) {
   FetchRequest request = options.request;
   request.artifact = "surface";
   request.destination = destination_of(options.output, options.format, context.console());
-  tell_result(context.console(), fetch(context.session(), request));
+  show_result(context.console(), fetch(context.session(), request));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ std::vector<ViewSubject> subjects_of(Context& context, const Options& options) {
   return subjects;
 }
 
-void tell(Context& context, const Destination& destination, const Page& page) {
+void show_page(Context& context, const Destination& destination, const Page& page) {
   say(context.console(), page.notices);
   const ViewInput& input = page.input;
   const std::size_t bytes = page.html.size();
@@ -74,7 +74,7 @@ void run(Context& context, const Options& options) {
   const Page page = make_page(context.session(), subjects_of(context, options), look);
   file.write(page.html);
   file.commit();
-  tell(context, destination, page);
+  show_page(context, destination, page);
 }
 
 void add_skeletons(CLI::App* command, Options& options) {

@@ -11,7 +11,7 @@ namespace {
 void run(Context& context, const std::string& name) {
   const v1::Job job = follow(context, name, true);
   context.console().result(state_word(job.state()) + "\n");
-  tell_end(context, job);
+  show_end(context, job);
 }
 
 }  // namespace

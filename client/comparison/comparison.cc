@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <iterator>
 
 #include "base/number_text.h"
 #include "client/base/error.h"
@@ -92,7 +91,7 @@ core::Solid read_solid(const std::string& path, Notices& notices) {
     throw ClientError(ExitCode::kBadInput, "has no triangles, so it bounds no solid", path);
   }
   core::Solid solid = check_solid(input, true);
-  std::ranges::move(solid_notices(solid, input), std::back_inserter(notices));
+  append(notices, solid_notices(solid, input));
   return solid;
 }
 

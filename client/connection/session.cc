@@ -99,7 +99,7 @@ class Session::Link {
         policy_(std::move(policy)) {}
 
   const RetryPolicy& policy() const { return policy_; }
-  void tell(const Notice& notice) const {
+  void notify(const Notice& notice) const {
     if (listener_) listener_(notice);
   }
 
@@ -117,8 +117,8 @@ class Session::Link {
   grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
                           const std::function<void(const v1::Job&)>& seen);
   [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
-  void tell_away();
-  void tell_busy(const std::string& why);
+  void notify_away();
+  void notify_busy(const std::string& why);
 
   const ServerChoice choice_;
   const Environment environment_;
@@ -137,8 +137,8 @@ Session::Session(ServerChoice choice, Environment environment, Listener listener
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 
-void Session::tell(const Notice& notice) const {
-  link_->tell(notice);
+void Session::notify(const Notice& notice) const {
+  link_->notify(notice);
 }
 
 void Session::Link::connect() {
@@ -169,9 +169,9 @@ void Session::Link::run(const std::function<grpc::Status(Stub&)>& attempt, ExitC
     const bool waits = away && retries && !policy_.stop.stop_requested();
     if (!waits || Clock::now() >= *failing + patience) fail(status, not_yet);
     if (busy) {
-      tell_busy(status.error_message());
+      notify_busy(status.error_message());
     } else {
-      tell_away();
+      notify_away();
     }
     stub_.reset();
     std::this_thread::sleep_for(pause);
@@ -187,13 +187,13 @@ void Session::Link::fail(const grpc::Status& status, ExitCode not_yet) const {
   throw ClientError(error.exit_code(), std::string(error.what()) + " (address from " + choice_.origin + ")");
 }
 
-void Session::Link::tell_away() {
-  if (proven_ && !told_away_) tell(note("SERVER_AWAY", "the server went away; trying to reach it again"));
+void Session::Link::notify_away() {
+  if (proven_ && !told_away_) notify(note("SERVER_AWAY", "the server went away; trying to reach it again"));
   told_away_ = true;
 }
 
-void Session::Link::tell_busy(const std::string& why) {
-  if (!told_away_) tell(note("SERVER_BUSY", "the server cannot answer now, trying again: " + why));
+void Session::Link::notify_busy(const std::string& why) {
+  if (!told_away_) notify(note("SERVER_BUSY", "the server cannot answer now, trying again: " + why));
   told_away_ = true;
 }
 
@@ -277,7 +277,7 @@ v1::Job Session::Link::watch(const std::string& job, const std::function<void(co
     run([&](Stub& stub) { return watch_once(stub, request, last, seen); });
     if (is_final(last.state())) return last;
     request.set_job(last.id());  // "@last" may mean another job by now
-    tell_away();
+    notify_away();
     stub_.reset();
     std::this_thread::sleep_for(policy_.first_pause);
   }

@@ -43,13 +43,13 @@ class ArtifactSink {
 class Session {
  public:
   /// @param listener hears that a private server was started, that the server is away or busy, and what
-  ///   tell() passes on.
+  ///   notify() passes on.
   Session(ServerChoice choice, Environment environment, Listener listener, RetryPolicy policy = {});
   ~Session();
   Session(Session&&) noexcept;
 
   /// Passes on what is to be known before the work is done.  From any thread.
-  void tell(const Notice& notice) const;
+  void notify(const Notice& notice) const;
 
   /// @param existed set to whether an earlier job answers this submission.
   v1::Job submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed);

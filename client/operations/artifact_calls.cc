@@ -22,7 +22,7 @@ class WaitingNote {
                 mutex_.assert_held();
                 return done_;
               })) {
-            session.tell(note("WAITING", "waiting for a worker to compute the " + what));
+            session.notify(note("WAITING", "waiting for a worker to compute the " + what));
           }
         }) {}
   ~WaitingNote() {

@@ -1,7 +1,5 @@
 #include "client/operations/job_notices.h"
 
-#include <algorithm>
-#include <iterator>
 
 #include "base/number_text.h"
 #include "client/base/error.h"
@@ -47,7 +45,7 @@ Notices eroded_notices(const v1::TriangleMesh& eroded) {
 
 Notices end_notices(const v1::Job& job) {
   Notices notices = skeleton_notices(job.skeleton_points(), job.quality(), job);
-  std::ranges::move(job_warnings(job), std::back_inserter(notices));
+  append(notices, job_warnings(job));
   return notices;
 }
 

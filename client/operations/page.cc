@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -24,7 +23,7 @@ namespace {
 // Beyond this a phone takes long to open the page; about 23 bytes each.
 constexpr std::uint64_t kMaxPoints = 400000;
 // Eroded solids: at 100,000 points their surfaces take about 600 kB each.
-constexpr double kMostLevels = 8, kFewestLevels = 3, kPointsOfMost = 1e5;
+constexpr double kMaxLevels = 8, kMinLevels = 3, kPointsOfMost = 1e5;
 
 // A field on its way into a page; a transfer that breaks off begins again from nothing.
 class PointSink : public ArtifactSink {
@@ -138,7 +137,7 @@ ViewModel fetch_model(Session& session, const ViewSubject& subject, Notices& not
   const LatticePoints lattice(
       fetch_message<v1::Lattice>(session, subject.job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
   model.grid = view_grid(lattice);
-  std::ranges::move(fetch_skeleton(session, subject, lattice, model), std::back_inserter(notices));
+  append(notices, fetch_skeleton(session, subject, lattice, model));
   model.mesh = fetch_mesh(session, subject.job.id());
   return model;
 }
@@ -148,8 +147,8 @@ ViewModel fetch_model(Session& session, const ViewSubject& subject, Notices& not
 std::vector<double> view_levels(double highest, double wanted, std::uint64_t points) {
   std::vector<double> levels;
   const double room =
-      kMostLevels * std::cbrt(std::pow(kPointsOfMost / double(std::max<std::uint64_t>(1, points)), 2));
-  const int count = static_cast<int>(std::clamp(room, kFewestLevels, kMostLevels));
+      kMaxLevels * std::cbrt(std::pow(kPointsOfMost / double(std::max<std::uint64_t>(1, points)), 2));
+  const int count = static_cast<int>(std::clamp(room, kMinLevels, kMaxLevels));
   constexpr double kFirst = 0.2, kLast = 0.94;  // of the highest depth: beyond, little is taken or left
   for (int l = 0; l < count && highest > 0; ++l) {
     const double depth = kFirst + (kLast - kFirst) * l / (count - 1);
@@ -183,8 +182,7 @@ Page make_page(Session& session, const std::vector<ViewSubject>& subjects, const
   for (ViewModel& model : input.models) {
     for (const double level : input.levels) {
       model.eroded.push_back(fetch_eroded_surface(session, model.job.id(), level));
-      if (level == options.level)
-        std::ranges::move(eroded_notices(model.eroded.back()), std::back_inserter(page.notices));
+      if (level == options.level) append(page.notices, eroded_notices(model.eroded.back()));
     }
   }
   page.html = view_page(input);

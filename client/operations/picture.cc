@@ -1,7 +1,5 @@
 #include "client/operations/picture.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "base/number_text.h"
@@ -87,8 +85,7 @@ Picture make_picture(Session& session, const v1::Job& job, const PictureOptions&
   Notices notices;
   const double applied = fetch_skeleton(session, job, params, !options.skeleton.given(), input, notices);
   if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
-  if (options.level > 0)
-    std::ranges::move(fetch_eroded(session, job, options.level, input), std::back_inserter(notices));
+  if (options.level > 0) append(notices, fetch_eroded(session, job, options.level, input));
   input.mesh = fetch_mesh(session, job.id());
   input.up = options.up.value_or(up_axis(input.mesh));
   input.cell = lattice_cell(job.prepared());

@@ -1,7 +1,6 @@
 // Files of points and surfaces of a job.
 
 #include <algorithm>
-#include <iterator>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"

@@ -1,7 +1,5 @@
 #include "client/operations/shape_notices.h"
 
-#include <algorithm>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -50,8 +48,8 @@ Notices lost_in_format(const ShapeFile& shape, FileFormat format, const std::str
     notices.push_back(
         note("COLUMNS_LOST", output + " is without the columns " + names + " of " + shape.path));
   }
-  std::ranges::move(lost_curves(shape, format, output), std::back_inserter(notices));
-  if (holds_columns(format)) std::ranges::move(renamed_columns(shape, output), std::back_inserter(notices));
+  append(notices, lost_curves(shape, format, output));
+  if (holds_columns(format)) append(notices, renamed_columns(shape, output));
   if (const std::string text = passed_over_text(shape.off); !text.empty())
     notices.push_back(note("PASSED_OVER", "passed over " + text, shape.path));
   if (shape.off.polygons_cut > 0) {

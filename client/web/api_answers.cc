@@ -79,4 +79,10 @@ double number_member(const nlohmann::json& object, const char* name, double fall
   return found->get<double>();
 }
 
+SkeletonChoice skeleton_member(const nlohmann::json& object, const std::string& usual) {
+  SkeletonChoice skeleton{text_member(object, "operator", usual), number_member(object, "threshold")};
+  if (skeleton.threshold < 0) throw ClientError(ExitCode::kUsage, "'threshold' must not be below 0");
+  return skeleton;
+}
+
 }  // namespace affskel::client

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/base/error.h"
+#include "client/operations/skeleton_choice.h"
 #include "http/message.h"
 
 namespace affskel::client {
@@ -25,5 +26,9 @@ nlohmann::json json_body(const http::Request& request);
 /// @throws ClientError kUsage naming the member when it is of another type or a number that is not finite.
 std::string text_member(const nlohmann::json& object, const char* name, const std::string& fallback = "");
 double number_member(const nlohmann::json& object, const char* name, double fallback = 0);
+
+/// The members "operator" and "threshold".
+/// @throws ClientError kUsage as above, and for a threshold below 0.
+SkeletonChoice skeleton_member(const nlohmann::json& object, const std::string& usual = "");
 
 }  // namespace affskel::client

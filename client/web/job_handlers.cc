@@ -8,7 +8,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::uint32_t kListed = 50, kMostListed = 1000;
+constexpr std::uint32_t kListed = 50, kMaxListed = 1000;
 
 // Without what only programs read, which may be long.
 nlohmann::ordered_json job_json(v1::Job job) {
@@ -22,8 +22,8 @@ std::uint32_t limit_of(const http::Request& request) {
   if (text.empty()) return kListed;
   std::uint32_t limit = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
-  if (error != std::errc{} || end != text.data() + text.size() || limit < 1 || limit > kMostListed)
-    throw ClientError(ExitCode::kUsage, "'limit' must be from 1 to " + std::to_string(kMostListed));
+  if (error != std::errc{} || end != text.data() + text.size() || limit < 1 || limit > kMaxListed)
+    throw ClientError(ExitCode::kUsage, "'limit' must be from 1 to " + std::to_string(kMaxListed));
   return limit;
 }
 

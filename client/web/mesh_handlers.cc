@@ -72,16 +72,14 @@ std::shared_ptr<UploadedMesh> mesh_of(const WebCall& call, const std::string& ke
 Submission submission_of(const nlohmann::json& body) {
   Submission submission;
   read_sampling(number_member(body, "spacing"), number_member(body, "points"), submission);
-  submission.directions = text_member(body, "directions", "triangles");
-  submission.frame = text_member(body, "frame", "axis");
-  submission.skeleton.operator_name = text_member(body, "operator", "zucker-hummel");
-  submission.skeleton.threshold = number_member(body, "threshold");
+  submission.directions = text_member(body, "directions", submission.directions);
+  submission.frame = text_member(body, "frame", submission.frame);
+  submission.skeleton = skeleton_member(body, submission.skeleton.operator_name);
   submission.name = text_member(body, "name");
   submission.request_id = text_member(body, "request_id");
   const double priority = number_member(body, "priority", submission.priority);
-  if (!(priority >= 0 && priority <= kMaxPriority) || priority != std::floor(priority) ||
-      submission.skeleton.threshold < 0)
-    throw ClientError(ExitCode::kUsage, "'priority' must be 0 to 9, 'threshold' not below 0");
+  if (!(priority >= 0 && priority <= kMaxPriority) || priority != std::floor(priority))
+    throw ClientError(ExitCode::kUsage, "'priority' must be 0 to " + std::to_string(kMaxPriority));
   submission.priority = static_cast<unsigned>(priority);
   return submission;
 }

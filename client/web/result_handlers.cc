@@ -65,12 +65,6 @@ std::string disposition(const ResultFile& result) {
          "\"; filename*=UTF-8''" + encoded;
 }
 
-SkeletonChoice skeleton_of(const nlohmann::json& body) {
-  SkeletonChoice skeleton{text_member(body, "operator"), number_member(body, "threshold")};
-  if (skeleton.threshold < 0) throw ClientError(ExitCode::kUsage, "'threshold' must not be below 0");
-  return skeleton;
-}
-
 v1::ErodedParams eroded_of(const nlohmann::json& body) {
   v1::ErodedParams eroded;
   const double fraction = number_member(body, "fraction");
@@ -97,7 +91,7 @@ struct Made {
 Made make_picture(Session& server, const nlohmann::json& body, const std::string& job,
                   const std::filesystem::path& path) {
   PictureOptions options;
-  options.skeleton = skeleton_of(body);
+  options.skeleton = skeleton_member(body);
   options.render.width = kPictureWidth;
   Made made{finished_job(server, job), {}};
   Picture picture = make_picture(server, made.job, options);
@@ -109,7 +103,7 @@ Made make_picture(Session& server, const nlohmann::json& body, const std::string
 
 Made make_view(Session& server, const nlohmann::json& body, const std::string& job,
                const std::filesystem::path& path) {
-  const SkeletonChoice skeleton = skeleton_of(body);
+  const SkeletonChoice skeleton = skeleton_member(body);
   Made made{finished_job(server, job), {}};
   Page page = make_page(server, {{made.job, shown_skeleton(skeleton, made.job)}});
   write_whole(path, page.html);
@@ -119,7 +113,7 @@ Made make_view(Session& server, const nlohmann::json& body, const std::string& j
 
 Made make_artifact(Session& server, const nlohmann::json& body, const std::string& job,
                    const std::string& name, const std::filesystem::path& path) {
-  FetchRequest request{job, name, {path}, skeleton_of(body)};
+  FetchRequest request{job, name, {path}, skeleton_member(body)};
   request.eroded = eroded_of(body);
   Fetched fetched = fetch(server, request);
   Made made{std::move(fetched.job), std::move(fetched.notices)};

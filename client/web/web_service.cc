@@ -59,9 +59,9 @@ constexpr std::array<Route, 21> kRoutes = {{
 
 constexpr std::uint64_t kMaxObjectBytes = 64 * 1024;
 // Of one owner at a time, of answers that wait for workers: others find threads, too.
-constexpr unsigned kMostAwaited = 4;
+constexpr unsigned kMaxAwaited = 4;
 // The same of those that compute here.
-constexpr unsigned kMostComputed = 2;
+constexpr unsigned kMaxComputed = 2;
 
 // What '*' stands for, empty without one; nothing when the path is another.
 std::optional<std::string> match(std::string_view pattern, std::string_view path) {
@@ -169,7 +169,7 @@ class WebService::Share {
 std::shared_ptr<WebService::Share> WebService::take_share(const Whose& whose) {
   const base::MutexLock lock(mutex_);
   unsigned& own = shares_[whose];
-  if (own == (whose.first == http::AnswerKind::kAwaited ? kMostAwaited : kMostComputed)) return nullptr;
+  if (own == (whose.first == http::AnswerKind::kAwaited ? kMaxAwaited : kMaxComputed)) return nullptr;
   ++own;
   return std::make_shared<Share>(*this, whose);
 }
@@ -206,10 +206,10 @@ std::variant<http::Response, http::Reception> WebService::admit(const http::Requ
   if (route.kind != http::AnswerKind::kQuick && !(share = take_share({route.kind, reception.owner})))
     return api_error(429, "LIMIT",
                      route.kind == http::AnswerKind::kAwaited
-                         ? "wait for the files that are being made for you; " + std::to_string(kMostAwaited) +
+                         ? "wait for the files that are being made for you; " + std::to_string(kMaxAwaited) +
                                " are made at a time"
                          : "wait for the meshes that are being looked at for you; " +
-                               std::to_string(kMostComputed) + " are looked at at a time");
+                               std::to_string(kMaxComputed) + " are looked at at a time");
   reception.respond = [this, &route, argument = chosen.argument, session, upload,
                        share](const http::Request& request) {
     WebCall call{state_, request, session, argument, std::move(*upload)};

@@ -45,7 +45,7 @@ void throw_unless_done(const Context& context, const v1::Job& job) {
   }
 }
 
-void tell_end(Context& context, const v1::Job& job, const Notices& said) {
+void show_end(Context& context, const v1::Job& job, const Notices& said) {
   throw_unless_done(context, job);
   Console& console = context.console();
   for (const Notice& notice : end_notices(job)) {

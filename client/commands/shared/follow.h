@@ -20,6 +20,6 @@ void throw_unless_done(const Context& context, const v1::Job& job);
 /// Ends a command that followed a job to its end: what to know of a done one, how long it took, what came
 /// out, and the commands to look at it with; else as throw_unless_done().
 /// @param said of the mesh before.
-void tell_end(Context& context, const v1::Job& job, const Notices& said = {});
+void show_end(Context& context, const v1::Job& job, const Notices& said = {});
 
 }  // namespace affskel::client

@@ -29,13 +29,13 @@ nlohmann::ordered_json json_of(const Fetched& fetched) {
 
 }  // namespace
 
-void tell_result(Console& console, const Fetched& fetched) {
+void show_result(Console& console, const Fetched& fetched) {
   say(console, fetched.notices);
-  tell_written(console, fetched);
+  show_written(console, fetched);
   console.document(json_of(fetched));
 }
 
-void tell_written(Console& console, const Fetched& fetched) {
+void show_written(Console& console, const Fetched& fetched) {
   console.note(
       "wrote " + fetched.destination.name() + " (" + fetched.artifact + ", " +
       base::counted(fetched.items, fetched.unit) +

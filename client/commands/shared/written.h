@@ -8,9 +8,9 @@
 namespace affskel::client {
 
 /// Tells people and scripts what was written, and what to know of it.
-void tell_result(Console& console, const Fetched& fetched);
+void show_result(Console& console, const Fetched& fetched);
 
 /// Tells people what was written.
-void tell_written(Console& console, const Fetched& fetched);
+void show_written(Console& console, const Fetched& fetched);
 
 }  // namespace affskel::client
