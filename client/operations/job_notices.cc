@@ -1,6 +1,5 @@
 #include "client/operations/job_notices.h"
 
-
 #include "base/number_text.h"
 #include "client/base/error.h"
 #include "client/text/job_text.h"
