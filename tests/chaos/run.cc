@@ -112,16 +112,18 @@ void Run::make_sure_of_a_running_job() {
 
 void Run::recover(const Fault& fault, Outcome& outcome) {
   const Clock::time_point begun = Clock::now();
-  bring_up(fault.may_end, outcome);
-  try {
-    canary();
-  } catch (const Hang&) {
-    // A server that has become deaf leaves after a while, and somebody has to start it again.
-    if (stage_.server().alive()) throw;
+  const auto all_work = [&] {
     bring_up(fault.may_end, outcome);
     canary();
+    stage_.wait_for_workers();
+  };
+  try {
+    all_work();
+  } catch (const Hang&) {
+    if (stage_.server().alive()) throw;
   }
-  stage_.wait_for_workers();
+  // A server that has become deaf leaves after a while, and is to be started again.
+  if (!stage_.server().alive()) all_work();
   outcome.recovery += std::chrono::duration_cast<Milliseconds>(Clock::now() - begun);
   ++outcome.recoveries;
 }

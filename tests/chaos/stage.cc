@@ -146,7 +146,8 @@ void Stage::wait_for_workers() {
       });
     });
     if (heard == kWorkers) return;
-    if (Process::one_ends(workers_, kEnd)) return;  // whoever restarts the dead ones calls again
+    // The caller starts again what has ended, and calls again.
+    if (!server_.alive() || Process::one_ends(workers_, kEnd)) return;
     if (Clock::now() > give_up) throw Hang("a worker is not heard from: " + info.ShortDebugString());
   }
 }
