@@ -15,13 +15,14 @@ namespace {
 }
 
 // Values of a vertex stand together in the message: a column takes every n-th of them.
+template <class Value>
 void add_columns(ShapeFile& shape, const std::vector<std::string>& names,
-                 const google::protobuf::RepeatedField<double>& values) {
+                 const google::protobuf::RepeatedField<Value>& values) {
   if (values.empty()) return;
   const std::size_t n = names.size(), vertices = shape.mesh().points.size();
   if (static_cast<std::size_t>(values.size()) != n * vertices) damaged("a vertex without its properties");
   for (std::size_t c = 0; c < n; ++c) {
-    PointColumn column{names[c], false, std::vector<double>(vertices)};
+    PointColumn column{names[c], std::is_integral_v<Value>, std::vector<double>(vertices)};
     for (std::size_t v = 0; v < vertices; ++v) column.values[v] = values[static_cast<int>(n * v + c)];
     shape.columns.push_back(std::move(column));
   }
@@ -65,6 +66,7 @@ FetchedSurface parse_surface(const std::string& bytes) {
   add_columns(surface.shape, {"E"}, message.erosion());
   add_columns(surface.shape, {"strength"}, message.strength());
   add_columns(surface.shape, {"ratio"}, message.ratio());
+  add_columns(surface.shape, {"kind"}, message.kind());
   add_columns(surface.shape, {"barrier"}, message.barrier());
   add_columns(surface.shape, {"area"}, message.area());
   if (!surface.shape.segments.empty()) add_radius(surface.shape);

@@ -44,8 +44,14 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
   }
   if (q.has_bridges())
     lines.emplace_back("bridges", std::to_string(q.bridges()) + " (ways through weaker shocks)");
+  if (q.has_lattice()) {
+    const v1::LatticeTopology& lattice = q.lattice();
+    lines.emplace_back("betti_lattice", betti(lattice.components(), lattice.holes(), lattice.cavities()));
+  }
   lines.emplace_back("betti_solid", betti(q.solid_components(), static_cast<std::uint64_t>(q.solid_genus()),
                                           q.solid_cavities()));
+  if (q.limbs() > 0)
+    lines.emplace_back("limbs", std::to_string(q.limbs()) + " beyond the ridge, reached by lines");
   if (q.has_hausdorff_there() && q.has_hausdorff_back()) {
     lines.emplace_back("hausdorff", base::rounded(q.hausdorff_there(), kDigits) +
                                         " to the skeleton of threshold " +

@@ -1,11 +1,7 @@
 #include "derive/ridge_skeleton.h"
 
-#include <vector>
-
-#include "core/quality/skeleton_advice.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
-#include "core/ridge/smoothed_derivatives.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
 #include "derive/sheet_barriers.h"
@@ -26,35 +22,35 @@ core::RidgeSheetOptions options_for(const FinishedField& field, double threshold
   return options;
 }
 
-// Of a field, at any threshold.  Most of its time goes into the derivatives, which all thresholds share.
+// Of a field, at any threshold.
 class Ridge {
  public:
-  explicit Ridge(const FinishedField& field) : field_(field), in_frame_(field.in_frame()) {
-    derivatives_ = core::smoothed_derivatives(field.lattice(), in_frame_, field.context());
-  }
+  explicit Ridge(const FinishedField& field)
+      : field_(field),
+        in_frame_(field.in_frame()),
+        basis_(core::ridge_basis(field.lattice(), in_frame_, field.threads(), field.context())) {}
 
   const core::FrameField& in_frame() const { return in_frame_; }
 
   core::RidgeSheet sheet(double threshold) const {
     core::RidgeSheetOptions options = options_for(field_, threshold);
-    options.known_derivatives = derivatives_;
+    options.basis = &basis_;
     return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
   }
 
  private:
   const FinishedField& field_;
   const core::FrameField in_frame_;
-  std::vector<core::PointDerivatives> derivatives_;
+  const core::RidgeBasis basis_;
 };
 
 v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
                                double threshold, const SheetBarriers& barriers = {}) {
-  const core::RidgeBounds rims = options_for(field, threshold).bounds;
+  const double low = options_for(field, threshold).bounds.low;
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
-  options.advice_if_empty = core::empty_ridge_advice(field.lattice(), sheet.pieces, rims);
-  if (!barriers.advice.text.empty()) options.advice_if_empty = barriers.advice;
-  const double next = core::next_threshold(rims.low);
+  options.advice_if_empty = barriers.advice;
+  const double next = core::next_threshold(low);
   core::Mesh other;
   core::RidgeSheet other_sheet;
   if (next <= kMaxThreshold && !barriers.cut) {
@@ -67,8 +63,12 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, c
   field.throw_if_stopped();
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
-  message.set_threshold(rims.low);
-  if (!sheet.vertices.empty()) message.set_bridges(sheet.pieces.bridges);
+  message.set_threshold(low);
+  v1::LatticeTopology& lattice = *message.mutable_lattice();
+  lattice.set_components(sheet.lattice.components);
+  lattice.set_holes(sheet.lattice.holes);
+  lattice.set_cavities(sheet.lattice.cavities);
+  message.set_limbs(sheet.limbs);
   return message;
 }
 
@@ -101,6 +101,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
     message.add_erosion(vertex.erosion);
     message.add_strength(vertex.strength);
     message.add_ratio(vertex.ratio);
+    message.add_kind(static_cast<std::uint32_t>(vertex.kind));
     message.add_area(vertex.area);
     append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
     append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());

@@ -200,11 +200,11 @@ class Surface:
         faces: (m, 3) indices of vertices.
         attributes: arrays by vertex.  Sheets of "chords" and "ridge" have E, strength (0 .. 1; of "ridge" radians per
             depth), area of the optimal sections, normal_a and normal_b (n, 3) of the two sides, that of "ridge" also
-            the ratio of its two curvatures; both have the barrier where it was asked for.  Eroded solids have E and
+            the ratio of its two curvatures and the kind (0 ridge surface, 1 ridge curve, 2 membrane, 3 way); both have the barrier where it was asked for.  Eroded solids have E and
             area; alpha shapes have none, the points that they are made of carry them (`Job.skeleton_points`).
         quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
-        segments: (k, 2) indices of vertices: curves, which stand for the sheet of "ridge" where the solid is round;
+        segments: (k, 2) indices of vertices: of "ridge", in the middle of limbs and between its parts;
             sqrt(area / pi) is the radius of a circle as large as the section of the optimal plane.
     """
 
@@ -297,8 +297,9 @@ def surface_of(message: types.TriangleMesh) -> Surface:
     if len(segments) % 2 or (len(segments) and segments.max() >= len(vertices)):
         raise InternalError("the server sent a damaged surface: segments out of range")
     arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "ratio": _doubles(message.ratio),
-              "barrier": _doubles(message.barrier), "area": _doubles(message.area),
-              "normal_a": _doubles(message.normal_a, 3), "normal_b": _doubles(message.normal_b, 3)}
+              "kind": _wholes(message.kind), "barrier": _doubles(message.barrier),
+              "area": _doubles(message.area), "normal_a": _doubles(message.normal_a, 3),
+              "normal_b": _doubles(message.normal_b, 3)}
     attributes = {name: array for name, array in arrays.items() if len(array)}
     if any(len(array) != len(vertices) for array in attributes.values()):
         raise InternalError("the server sent a damaged surface: a vertex without its attributes")

@@ -13,7 +13,6 @@
 #include "core/base/unit.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "core/lattice/layer_index.h"
 #include "core/solid/solid_membership.h"
 
 namespace affskel::core {
@@ -53,21 +52,15 @@ class Contouring {
  public:
   Contouring(const Lattice& lattice, const SolidParts& parts, std::span<const SheetCrossing> crossings,
              const EdgeCells& cells)
-      : spacing_(lattice.spacing),
-        parts_(parts),
-        crossings_(crossings),
-        cells_(cells),
-        ranks_(lattice),
-        interior_(parts, lattice) {}
+      : spacing_(lattice.spacing), crossings_(crossings), cells_(cells), interior_(parts, lattice) {}
 
-  std::vector<Vec3> vertices(ExecutionContext* context) {
+  std::vector<Vec3> vertices(ExecutionContext* context) const {
     std::vector<Vec3> result;
     result.reserve(cells_.size());
-    std::int64_t reached = -1;
+    StopCheck stop(context);
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
-      for (; reached < cells_.place[cell][0]; ranks_.move_to(static_cast<std::uint32_t>(++reached)))
-        throw_if_stopped(context);
       result.push_back(kept_inside(cell, place(cell)));
+      stop.did(100);
     }
     return result;
   }
@@ -91,7 +84,7 @@ class Contouring {
     const Vec3 corner =
         spacing_ * Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
     const double h = spacing_;
-    if (inside(at, cells_.part[cell])) {
+    if (cells_.whole[cell]) {
       const Vec3 n = unit(normal), away = corner + Vec3{h / 2, h / 2, h / 2} - mean;
       mean = mean + 0.5 * (away - dot(away, n) * n);
     }
@@ -103,16 +96,6 @@ class Contouring {
     const Vec3 p = mean + solve(m, right);
     return {std::clamp(p.x, corner.x, corner.x + h), std::clamp(p.y, corner.y, corner.y + h),
             std::clamp(p.z, corner.z, corner.z + h)};
-  }
-
-  // A cell's corners, in a part.
-  bool inside(const CellPlace& at, std::uint32_t part) const {
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::uint32_t point =
-          ranks_.at(at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2));
-      if (point == LayerIndex::kOutside || parts_.of_point(point) != part) return false;
-    }
-    return true;
   }
 
   Vec3 kept_inside(std::uint32_t cell, const Vec3& wanted) const {
@@ -128,16 +111,17 @@ class Contouring {
   }
 
   double spacing_;
-  const SolidParts& parts_;
   std::span<const SheetCrossing> crossings_;
   const EdgeCells& cells_;
-  LayerIndex ranks_;
   PartInterior interior_;
 };
 
-void add_quad(const std::array<std::uint32_t, 4>& ring, const std::vector<Vec3>& places, SheetMesh& sheet) {
+}  // namespace
+
+void add_quad(const std::array<std::uint32_t, 4>& ring, SheetMesh& sheet) {
   const auto [a, b, c, d] = ring;
-  const Vec3 ac = places[a] - places[c], bd = places[b] - places[d];
+  const auto place = [&](std::uint32_t v) { return sheet.vertices[v].position; };
+  const Vec3 ac = place(a) - place(c), bd = place(b) - place(d);
   if (dot(ac, ac) <= dot(bd, bd)) {
     sheet.triangles.push_back({a, b, c});
     sheet.triangles.push_back({a, c, d});
@@ -147,15 +131,9 @@ void add_quad(const std::array<std::uint32_t, 4>& ring, const std::vector<Vec3>&
   }
 }
 
-}  // namespace
-
-SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts,
+SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts, const EdgeCells& cells,
                        std::span<const SheetCrossing> crossings, const VertexOfCell& vertex_of,
                        ExecutionContext* context) {
-  std::vector<LatticeEdge> edges;
-  edges.reserve(crossings.size());
-  for (const SheetCrossing& crossing : crossings) edges.push_back(crossing.edge);
-  EdgeCells cells = edge_cells(lattice, parts, edges);
   const std::vector<Vec3> places = Contouring(lattice, parts, crossings, cells).vertices(context);
   SheetMesh sheet;
   sheet.vertices.reserve(places.size());
@@ -164,8 +142,8 @@ SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts,
     sheet.vertices.back().position = places[cell];
   }
   sheet.triangles.reserve(2 * crossings.size());
-  for (const auto& ring : cells.ring) add_quad(ring, places, sheet);
-  sheet.part = std::move(cells.part);
+  for (const auto& ring : cells.ring) add_quad(ring, sheet);
+  sheet.part = cells.part;
   return sheet;
 }
 

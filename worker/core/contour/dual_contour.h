@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 
 #include "core/base/execution_context.h"
 #include "core/base/vec3.h"
+#include "core/contour/edge_cells.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
 #include "core/lattice/lattice_edges.h"
@@ -33,14 +36,17 @@ using VertexOfCell =
 /// Vertices lie in the solid and in their cells; triangles need not.  The sheet ends at most half a spacing
 /// beyond its outermost crossings.
 /// @param parts of the solid in this lattice.
+/// @param cells of the crossings' edges, see edge_cells().
 /// @param crossings each edge once.
 /// @param vertex_of values of the vertices.
-/// @param context asked at every layer whether to stop.
-/// @return vertices in lattice order of their cells (see EdgeCells); two triangles per crossing, in the order
-///   of the crossings.
-/// @throws CoreError kLimit for 2^30 crossings and more; kCancelled when the context asks to stop.
-SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts,
+/// @param context asked at whether to stop.
+/// @return vertices in the order of their cells; two triangles per crossing, in the order of the crossings.
+/// @throws CoreError kCancelled when the context asks to stop.
+SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts, const EdgeCells& cells,
                        std::span<const SheetCrossing> crossings, const VertexOfCell& vertex_of,
                        ExecutionContext* context);
+
+/// Two triangles for a quadrilateral of the sheet, cut along its shorter diagonal.
+void add_quad(const std::array<std::uint32_t, 4>& ring, SheetMesh& sheet);
 
 }  // namespace affskel::core

@@ -4,93 +4,87 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/lattice/lattice_coordinates.h"
 
 namespace affskel::core {
 namespace {
 
-// Steps from an edge's lower end to its four cells, along the two other axes, once round.
-constexpr std::array<std::array<int, 2>, 4> kRing{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
+using Cell = DualComplex::Cell;
 
 struct Entry {
-  std::uint64_t cell;
-  std::uint32_t part;
-  std::uint32_t edge;
-  std::uint32_t corner;  // of the ring
+  Cell vertex;
+  std::uint32_t edge, corner;  // of the ring
 };
 
-class CellSorter {
- public:
-  CellSorter(const Lattice& lattice, const SolidParts& parts, std::span<const LatticeEdge> edges)
-      : parts_(parts), edges_(edges) {
-    for (std::size_t k = 0; k < 3; ++k) side_[k] = std::uint64_t{lattice.grid.dims[k]} + 1;
+std::vector<Entry> entries_of(const DualComplex& complex, std::span<const LatticeEdge> edges) {
+  std::vector<Entry> entries;
+  entries.reserve(4 * edges.size());
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    const std::array<Cell, 4> ring = vertices_round(complex, complex.square(edges[e].point, edges[e].axis));
+    for (std::uint32_t corner = 0; corner < 4; ++corner) entries.push_back({ring[corner], e, corner});
   }
-
-  EdgeCells run() {
-    list_entries();
-    EdgeCells cells;
-    cells.ring.resize(edges_.size());
-    cells.members.reserve(entries_.size());
-    for (std::size_t e = 0; e < entries_.size(); ++e) {
-      const Entry& entry = entries_[e];
-      if (e == 0 || entries_[e - 1].cell != entry.cell || entries_[e - 1].part != entry.part) {
-        cells.place.push_back(place(entry.cell));
-        cells.part.push_back(entry.part);
-        cells.begin.push_back(static_cast<std::uint32_t>(e));
-      }
-      cells.ring[entry.edge][entry.corner] = static_cast<std::uint32_t>(cells.place.size() - 1);
-      cells.members.push_back(entry.edge);
-    }
-    cells.begin.push_back(static_cast<std::uint32_t>(entries_.size()));
-    return cells;
-  }
-
- private:
-  void list_entries() {
-    entries_.reserve(4 * edges_.size());
-    for (std::uint32_t s = 0; s < edges_.size(); ++s) {
-      const std::uint32_t part = parts_.of_point(edges_[s].point);
-      const std::size_t u = (edges_[s].axis + 1U) % 3, v = (edges_[s].axis + 2U) % 3;
-      for (std::uint32_t corner = 0; corner < 4; ++corner) {
-        CellPlace at{edges_[s].place[0], edges_[s].place[1], edges_[s].place[2]};
-        at[u] += kRing[corner][0];
-        at[v] += kRing[corner][1];
-        entries_.push_back({key(at), part, s, corner});
-      }
-    }
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      if (a.cell != b.cell) return a.cell < b.cell;
-      return a.part != b.part ? a.part < b.part : a.edge < b.edge;
-    });
-  }
-
-  std::uint64_t key(const CellPlace& at) const {
-    return (static_cast<std::uint64_t>(at[0] + 1) * side_[1] + static_cast<std::uint64_t>(at[1] + 1)) *
-               side_[2] +
-           static_cast<std::uint64_t>(at[2] + 1);
-  }
-
-  CellPlace place(std::uint64_t key) const {
-    const auto k = static_cast<std::int64_t>(key % side_[2]);
-    const std::uint64_t row = key / side_[2];
-    return {static_cast<std::int64_t>(row / side_[1]) - 1, static_cast<std::int64_t>(row % side_[1]) - 1,
-            k - 1};
-  }
-
-  const SolidParts& parts_;
-  std::span<const LatticeEdge> edges_;
-  std::array<std::uint64_t, 3> side_{};
-  std::vector<Entry> entries_;
-};
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.edge < b.edge;
+  });
+  return entries;
+}
 
 }  // namespace
 
-EdgeCells edge_cells(const Lattice& lattice, const SolidParts& parts, std::span<const LatticeEdge> edges) {
+std::array<Cell, 4> vertices_round(const DualComplex& complex, Cell square) {
+  const std::uint32_t cube = DualComplex::cube_of(square), place = DualComplex::place_of(square);
+  std::size_t axis = 0;
+  while (DualComplex::digit(place, axis) == 1) ++axis;
+  const std::uint32_t u = DualComplex::kWeight[(axis + 1) % 3], v = DualComplex::kWeight[(axis + 2) % 3];
+  return {complex.cell(cube, place - u - v), complex.cell(cube, place + u - v),
+          complex.cell(cube, place + u + v), complex.cell(cube, place - u + v)};
+}
+
+std::vector<CellPlace> cells_of_vertices(const Lattice& lattice, std::span<const Cell> vertices) {
+  std::vector<std::uint32_t> cubes;
+  for (const Cell vertex : vertices) {
+    const std::uint32_t cube = DualComplex::cube_of(vertex);
+    if (cubes.empty() || cubes.back() != cube) cubes.push_back(cube);
+  }
+  const std::vector<LatticePlace> places = lattice_places(lattice, cubes);
+  std::vector<CellPlace> result;
+  result.reserve(vertices.size());
+  std::size_t n = 0;
+  for (const Cell vertex : vertices) {
+    while (cubes[n] != DualComplex::cube_of(vertex)) ++n;
+    CellPlace& place = result.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      place[axis] = std::int64_t{places[n][axis]} -
+                    (DualComplex::digit(DualComplex::place_of(vertex), axis) == 0 ? 1 : 0);
+  }
+  return result;
+}
+
+EdgeCells edge_cells(const Lattice& lattice, const DualComplex& complex, const SolidParts& parts,
+                     std::span<const LatticeEdge> edges) {
   constexpr std::size_t kMaxEdges = (std::size_t{1} << 30) - 1;  // four entries each, numbered in 32 bits
   if (edges.size() > kMaxEdges) {
     throw CoreError(CoreError::Code::kLimit, "too many crossings to join: " + std::to_string(edges.size()) +
                                                  "; take a larger spacing");
   }
-  return CellSorter(lattice, parts, edges).run();
+  const std::vector<Entry> entries = entries_of(complex, edges);
+  EdgeCells cells;
+  cells.ring.resize(edges.size());
+  cells.members.reserve(entries.size());
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    const Entry& entry = entries[e];
+    if (e == 0 || entries[e - 1].vertex != entry.vertex) {
+      cells.vertex.push_back(entry.vertex);
+      cells.whole.push_back(complex.star(entry.vertex).count == 8);
+      cells.part.push_back(parts.of_point(DualComplex::cube_of(entry.vertex)));
+      cells.begin.push_back(static_cast<std::uint32_t>(e));
+    }
+    cells.ring[entry.edge][entry.corner] = static_cast<std::uint32_t>(cells.vertex.size() - 1);
+    cells.members.push_back(entry.edge);
+  }
+  cells.begin.push_back(static_cast<std::uint32_t>(entries.size()));
+  cells.place = cells_of_vertices(lattice, cells.vertex);
+  return cells;
 }
 
 }  // namespace affskel::core

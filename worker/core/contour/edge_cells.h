@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/collapse/dual_complex.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/lattice/solid_parts.h"
 
@@ -13,11 +14,14 @@ namespace affskel::core {
 /// A cell of the lattice, the cube between (i, j, k) and (i+1, j+1, k+1); indices from -1.
 using CellPlace = std::array<std::int64_t, 3>;
 
-/// The cells round the lattice edges that a sheet crosses, four to an edge.  Where two parts of the solid
-/// come nearer to each other than a cell, each has a cell of its own there, so that their sheets never touch.
+/// The cells round the lattice edges that a sheet crosses, four to an edge.  Where the solid comes nearer to
+/// itself than a cell, each of its sides has a cell of its own there (see DualComplex), so that sheets never
+/// touch across a gap.
 struct EdgeCells {
-  std::vector<CellPlace> place;                    ///< per cell, in lattice order
-  std::vector<std::uint32_t> part;                 ///< per cell: of the solid; ascending in one place
+  std::vector<DualComplex::Cell> vertex;           ///< per cell: the vertex dual to it; ascending
+  std::vector<CellPlace> place;                    ///< per cell
+  std::vector<char> whole;                         ///< per cell: all eight corners hang together round it
+  std::vector<std::uint32_t> part;                 ///< per cell: of the solid
   std::vector<std::uint32_t> begin;                ///< per cell: its first entry in `members`; one more
   std::vector<std::uint32_t> members;              ///< indices of edges, ascending by cell
   std::vector<std::array<std::uint32_t, 4>> ring;  ///< per edge: its cells, once round
@@ -28,8 +32,18 @@ struct EdgeCells {
   }
 };
 
-/// @param edges of this lattice, each once.
+/// @param complex, parts of this lattice.
+/// @param edges of this lattice, each once, within the solid (see for_each_edge).
 /// @throws CoreError kLimit for 2^30 edges and more.
-EdgeCells edge_cells(const Lattice& lattice, const SolidParts& parts, std::span<const LatticeEdge> edges);
+EdgeCells edge_cells(const Lattice& lattice, const DualComplex& complex, const SolidParts& parts,
+                     std::span<const LatticeEdge> edges);
+
+/// The vertices round a square, once round.
+std::array<DualComplex::Cell, 4> vertices_round(const DualComplex& complex, DualComplex::Cell square);
+
+/// Where vertices of the complex lie.
+/// @param vertices ascending.
+/// @return the cells that they are dual to.
+std::vector<CellPlace> cells_of_vertices(const Lattice& lattice, std::span<const DualComplex::Cell> vertices);
 
 }  // namespace affskel::core

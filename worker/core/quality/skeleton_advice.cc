@@ -157,30 +157,6 @@ Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, dou
   return advice;
 }
 
-Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeBounds& rims) {
-  Advice advice;
-  const RidgeBounds usual;
-  if (pieces.max_strength <= 0 && rims.low > usual.low) {
-    advice = {"nowhere is the sheet nearly as strong as the threshold " + base::rounded(rims.low, 3) +
-                  "; the default is " + base::rounded(usual.low, 3) + ".",
-              {{"threshold", base::rounded(usual.low, 3)}}};
-  } else if (pieces.max_strength <= 0) {
-    advice = {
-        "nowhere do the normals turn fast across a sheet deep enough in the solid. Submit with a smaller "
-        "spacing or more directions.",
-        {kMoreDirections}};
-  } else {
-    // Both bounds fall together; just below their higher one a piece is kept.
-    const std::string lower = base::rounded(0.99 * pieces.max_strength * rims.low / rims.high, 3);
-    advice = {"the sheet's greatest strength is " + base::rounded(pieces.max_strength, 3) +
-                  ", less than the " + base::rounded(rims.high, 3) +
-                  " that a piece of it must reach. A threshold of " + lower + " would keep one.",
-              {{"threshold", lower}}};
-  }
-  add_on_few_points(lattice, advice);
-  return advice;
-}
-
 Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
                            std::span<const double> barrier, double least) {
   double greatest = 0;

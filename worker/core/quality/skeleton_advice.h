@@ -8,7 +8,6 @@
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
 #include "core/quality/advice.h"
-#include "core/ridge/ridge_rims.h"
 #include "core/shocks/shock_operator.h"
 
 namespace affskel::core {
@@ -32,12 +31,6 @@ Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& op
 /// @param significance that it was made with. @param strong_turn that was applied.
 Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
                           double strong_turn);
-
-/// The same for the operator `ridge`: names the greatest strength that there is, and a threshold that keeps
-/// it, or what else is missing.
-/// @param pieces of a sheet without triangles.
-/// @param rims the options that it was cut with.
-Advice empty_ridge_advice(const Lattice& lattice, const RidgePieces& pieces, const RidgeBounds& rims);
 
 /// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
 /// triangle or a segment.

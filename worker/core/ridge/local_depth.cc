@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
+#include <utility>
 
 #include "core/base/unit.h"
+#include "core/lattice/lattice_edges.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {
@@ -20,11 +23,8 @@ double depth(double erosion, const Vec3& g) {
 
 class Relaxation {
  public:
-  Relaxation(const Lattice& lattice, const FrameField& field)
-      : lattice_(lattice), band_(lattice, 0), rank_(band_.places(), kOutside) {
-    depth_.reserve(field.erosion.size());
-    for (std::size_t p = 0; p < field.erosion.size(); ++p)
-      depth_.push_back(static_cast<float>(depth(field.erosion[p], field.gradient[p]) / field.spacing));
+  Relaxation(const Lattice& lattice, std::vector<float> depth)
+      : lattice_(lattice), band_(lattice, 0), rank_(band_.places(), kOutside), depth_(std::move(depth)) {
     for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       rank_[static_cast<std::size_t>(band_.at(i, j, k))] = rank;
     });
@@ -82,7 +82,23 @@ class Relaxation {
 }  // namespace
 
 std::vector<float> local_depth(const Lattice& lattice, const FrameField& field) {
-  return Relaxation(lattice, field).run();
+  std::vector<float> depths;
+  depths.reserve(field.erosion.size());
+  for (std::size_t p = 0; p < field.erosion.size(); ++p)
+    depths.push_back(static_cast<float>(depth(field.erosion[p], field.gradient[p]) / field.spacing));
+  return Relaxation(lattice, std::move(depths)).run();
+}
+
+std::vector<float> surface_distance(const Lattice& lattice) {
+  std::vector<std::uint8_t> edges(lattice.points, 0);
+  for_each_edge(lattice, [&](std::uint32_t low, std::uint32_t high, std::uint8_t, const auto&) {
+    ++edges[low];
+    ++edges[high];
+  });
+  std::vector<float> depths(lattice.points);
+  for (std::uint32_t p = 0; p < lattice.points; ++p)
+    depths[p] = edges[p] < 6 ? 0.5F : std::numeric_limits<float>::max();
+  return Relaxation(lattice, std::move(depths)).run();
 }
 
 }  // namespace affskel::core

@@ -15,4 +15,9 @@ namespace affskel::core {
 /// @return per sample point.
 std::vector<float> local_depth(const Lattice& lattice, const FrameField& field);
 
+/// How far a sample point lies from the surface, in spacings: 1/2 where a lattice edge from it leaves the
+/// solid, else that of the nearest such point and the way to it, measured alike.
+/// @return per sample point.
+std::vector<float> surface_distance(const Lattice& lattice);
+
 }  // namespace affskel::core

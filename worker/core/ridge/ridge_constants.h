@@ -2,8 +2,14 @@
 
 namespace affskel::core {
 
-/// What the sheet of `ridge` is made with, found by experiments; nobody but tests takes other values.
-/// Reasons: README.md in worker/core.
+/// Bounds on the strength of the ridge surface and of ridge curves, radians.
+struct RidgeBounds {
+  double low = 6;     ///< the ridge ends where its strength falls below this, > 0; the threshold of `ridge`
+  double high = 6.5;  ///< a piece has this strength somewhere, >= low
+};
+
+/// What the skeleton of `ridge` is made with, found by experiments; nobody but tests takes other values.
+/// Lengths called radii are distances to the surface.  Reasons: README.md in worker/core.
 struct RidgeConstants {
   // Smoothed derivatives: the Gaussian's standard deviation as a share of the local depth, and its bounds,
   // spacings, at most 32: what the lattice carries, and what is affordable.
@@ -11,35 +17,27 @@ struct RidgeConstants {
   double min_width = 2;
   double max_width = 9;
 
-  // The sheet before it is cut.
-  double weak_share = 0.125;   ///< least strength, as a share of the lower bound: what may join pieces
-  double min_erosion = 0.002;  ///< see RidgeValues
+  // What counts as ridge: not nearer to the surface than this share of the width, or, where that is at its
+  // lower bound, than so many spacings: in hollows of the surface E is large.  And from this share of the lower
+  // bound on, for the line where it ends.
+  double min_radius_share = 0.9;
+  double min_radius = 1.5;
+  double weak_share = 0.125;
 
-  // Rims: lambda_3 / lambda_1 is at most max_roundness somewhere in a piece: about the centre of a ball E
-  // falls alike in all directions, and e is any of them.  Pieces that the weaker sheet connects are weighed
-  // as one, and dropped with less than the significance as share of the area above the lower bound in their
-  // part.
+  // Anchors.  About the centre of a ball E falls alike in all directions, and e is any of them: lambda_3 /
+  // lambda_1 is at most max_roundness somewhere in a piece.  A piece has this area at least, radii squared; a
+  // stretch of a ridge curve this length, radii.
   double max_roundness = 0.8;
-  double significance = 0.001;
+  double min_area = 1;
+  double min_length = 2;
 
-  double max_flap = 0.01;  ///< flaps of at most this share of their piece's area are cut off
-  double max_hole = 0.01;  ///< holes whose rim spans at most this share of it are closed
+  // Limbs: so many times as long as thick, with a tip farther than so many radii from what is anchored.
+  double limb_reach = 1;
+  double tip_distance = 0.5;
 
-  // Round stretches: lambda_2 / lambda_1, averaged this far to both sides, radii, is at least the lower
-  // bound, and somewhere the higher one.  In elliptic cylinders whose axes are as 1 to 0.9, 0.8, 0.7, 0.6 and
-  // 0.5 it is 0.84, 0.69, 0.55, 0.43 and 0.31.
-  double low_ratio = 0.4;
-  double high_ratio = 0.5;
-  double smoothing = 1;
-
-  // Curves in the place of strips.
-  double reach = 1;          ///< how far from a curve its sheet reaches, radii; what reaches farther is wide
-  double window = 1.25;      ///< strips are looked at in windows of this length, radii,
-  double step = 0.5;         ///< each one so far on from the one before
-  double round_ratio = 0.9;  ///< from this lambda_2 / lambda_1 on the strip's direction is chance
-  double min_length = 0.8;   ///< of a stretch, mean radii, unless all of it is that round
-
-  double max_join = 2;  ///< the longest way between pieces, in the radius of the larger section at its ends
+  // A way costs its length by these powers of E and of the radius.
+  double erosion_power = 0.2;
+  double radius_power = 0.5;
 };
 
 }  // namespace affskel::core

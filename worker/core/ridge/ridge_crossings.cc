@@ -16,9 +16,9 @@ RidgeCrossing crossing_at(const Lattice& lattice, const RidgeValues& values, con
   RidgeCrossing crossing;
   crossing.edge = edge;
   crossing.normal = unit(across);
-  crossing.at =
-      values.at(lattice.spacing * Vec3{u[0], u[1], u[2]}, std::array<std::uint32_t, 2>{edge.point, y},
-                std::array<double, 2>{1 - t, t}, crossing.normal);
+  crossing.at = values.at(RidgeValues::Of::kSurface, lattice.spacing * Vec3{u[0], u[1], u[2]},
+                          std::array<std::uint32_t, 2>{edge.point, y}, std::array<double, 2>{1 - t, t},
+                          crossing.normal);
   return crossing;
 }
 

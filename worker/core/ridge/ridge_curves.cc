@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -41,7 +40,6 @@ constexpr std::array<std::size_t, 8> kCorners{0, 7, 1, 2, 3, 4, 5, 6};
 
 struct CurvePoint {
   SheetVertex at;
-  double radius = 0;
   struct Link {
     std::uint32_t to = kNone;    // the next point of the curve
     std::uint32_t cell = kNone;  // passed on the way: its lowest sample point
@@ -162,7 +160,6 @@ class CurveFinder {
     std::array<std::uint32_t, 3> points{};
     Vec3 place, across;
     CurvePoint result;
-    double area = 0;
     for (std::size_t n = 0; n < 3; ++n) {
       const std::size_t c = face[n];
       points[n] = cell_.point[c];
@@ -171,11 +168,8 @@ class CurveFinder {
                                         static_cast<double>(place_[2]) + static_cast<double>(c >> 2)};
       const Vec3 e = vector_of(values_.ridge(points[n]).across);
       across = across + (dot(e, across) < 0 ? -weights[n] : weights[n]) * e;
-      area += weights[n] * values_.frame_area(points[n]);
     }
-    result.at = values_.at(lattice_.spacing * place, points, weights, unit(across));
-    result.at.strength = std::min(kMaxRidgeStrength, result.at.strength) * result.at.ratio;
-    result.radius = std::sqrt(area / std::numbers::pi);
+    result.at = values_.at(RidgeValues::Of::kCurve, lattice_.spacing * place, points, weights, unit(across));
     return result;
   }
 
@@ -199,8 +193,7 @@ class CurveFinder {
 // Follows the points from curve end to curve end, and makes one vertex of those within a cell.
 class CurveTracer {
  public:
-  CurveTracer(const SolidParts& parts, const std::vector<CurvePoint>& points)
-      : parts_(parts), points_(points), passed_(points.size(), 0) {}
+  explicit CurveTracer(const std::vector<CurvePoint>& points) : points_(points), passed_(points.size(), 0) {}
 
   std::vector<RidgeCurve> run() {
     for (std::uint32_t p = 0; p < points_.size(); ++p)
@@ -244,24 +237,19 @@ class CurveTracer {
 
   void add(const std::vector<std::uint32_t>& way, const std::vector<std::uint32_t>& cells, bool closed) {
     RidgeCurve curve;
-    curve.part = parts_.of_point(points_[way[0]].at.point);
     curve.closed = closed;
     for (std::size_t first = 0, last; first < cells.size(); first = last) {
       for (last = first + 1; last < cells.size() && cells[last] == cells[first];) ++last;
       const std::span<const std::uint32_t> within(way.data() + first, last - first + 1);
       SheetVertex vertex = points_[within[0]].at;
-      double radius = 0;
-      for (std::size_t n = 0; n < within.size(); ++n) {
-        if (n > 0) vertex = between(vertex, points_[within[n]].at, 1 / static_cast<double>(n + 1));
-        radius += points_[within[n]].radius / static_cast<double>(within.size());
-      }
+      for (std::size_t n = 1; n < within.size(); ++n)
+        vertex = between(vertex, points_[within[n]].at, 1 / static_cast<double>(n + 1));
       curve.vertices.push_back(vertex);
-      curve.radius.push_back(radius);
+      curve.cells.push_back(cells[first]);
     }
     if (curve.vertices.size() >= (closed ? 3U : 2U)) curves_.push_back(std::move(curve));
   }
 
-  const SolidParts& parts_;
   const std::vector<CurvePoint>& points_;
   std::vector<char> passed_;
   std::vector<RidgeCurve> curves_;
@@ -269,18 +257,10 @@ class CurveTracer {
 
 }  // namespace
 
-double curve_length(const RidgeCurve& curve) {
-  double sum = 0;
-  const std::size_t count = curve.vertices.size();
-  for (std::size_t v = 0; v + (curve.closed ? 0 : 1) < count; ++v)
-    sum += norm(curve.vertices[(v + 1) % count].position - curve.vertices[v].position);
-  return sum;
-}
-
-std::vector<RidgeCurve> ridge_curves(const Lattice& lattice, const SolidParts& parts,
-                                     const RidgeValues& values, ExecutionContext* context) {
+std::vector<RidgeCurve> ridge_curves(const Lattice& lattice, const RidgeValues& values,
+                                     ExecutionContext* context) {
   const std::vector<CurvePoint> points = CurveFinder(lattice, values).run(context);
-  return CurveTracer(parts, points).run();
+  return CurveTracer(points).run();
 }
 
 }  // namespace affskel::core

@@ -6,22 +6,17 @@
 #include "core/base/execution_context.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
-#include "core/lattice/solid_parts.h"
 #include "core/ridge/ridge_values.h"
 
 namespace affskel::core {
 
-/// A ridge curve as a polyline.
+/// A ridge curve as a polyline, one vertex for each lattice cell on its way.
 struct RidgeCurve {
-  std::vector<SheetVertex>
-      vertices;                ///< at least two, three when closed; strength is s_2, see ridge_curves()
-  std::vector<double> radius;  ///< per vertex: of a disc as large as the section, frame coordinates
-  std::uint32_t part = 0;      ///< of the solid
-  bool closed = false;         ///< the last vertex is followed by the first
+  std::vector<SheetVertex> vertices;  ///< two or more, three when closed; strength is s_2, see ridge_curves()
+  /// Per vertex: the sample point at its cell's lowest corner.  Cells in a row share a lattice face.
+  std::vector<std::uint32_t> cells;
+  bool closed = false;  ///< the last vertex is followed by the first
 };
-
-/// The length of a curve, frame coordinates.
-double curve_length(const RidgeCurve& curve);
 
 /// The ridge curves of E (height ridges of codimension 2: Eberly 1996, chapter 3): grad P is orthogonal to
 /// e_1 and e_2, the eigenvectors of the two least eigenvalues lambda_1 <= lambda_2 < 0 of P's Hessian, and so
@@ -40,7 +35,7 @@ double curve_length(const RidgeCurve& curve);
 /// order
 ///   of the curves' ends, then the closed ones.
 /// @throws CoreError kCancelled when the context asks to stop.
-std::vector<RidgeCurve> ridge_curves(const Lattice& lattice, const SolidParts& parts,
-                                     const RidgeValues& values, ExecutionContext* context = nullptr);
+std::vector<RidgeCurve> ridge_curves(const Lattice& lattice, const RidgeValues& values,
+                                     ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -1,30 +1,56 @@
 #include "core/ridge/ridge_sheet.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/collapse/collapse.h"
 #include "core/contour/dual_contour.h"
-#include "core/lattice/lattice_coordinates.h"
+#include "core/contour/edge_cells.h"
 #include "core/lattice/solid_parts.h"
+#include "core/ridge/local_depth.h"
+#include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"
 #include "core/ridge/ridge_curves.h"
-#include "core/ridge/ridge_flaps.h"
-#include "core/ridge/ridge_holes.h"
-#include "core/ridge/ridge_joins.h"
 #include "core/ridge/ridge_values.h"
-#include "core/ridge/round_sheet.h"
-#include "core/ridge/round_stretches.h"
-#include "core/ridge/torn_strips.h"
-#include "core/solid/solid_membership.h"
+#include "core/ridge/skeleton_mesh.h"
 
 namespace affskel::core {
 namespace {
 
+// What is found of ridges, from a weak strength on.
+struct Found {
+  std::vector<RidgeCrossing> crossings;
+  std::vector<RidgeCurve> curves;
+};
+
+Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
+                  const RidgeSheetOptions& options, const RidgeConstants& constants) {
+  std::vector<char> deep(lattice.points);
+  for (std::uint32_t p = 0; p < lattice.points; ++p) {
+    const double width = static_cast<double>(basis.derivatives[p].width);
+    const double least =
+        width > constants.min_width ? constants.min_radius_share * width : constants.min_radius;
+    deep[p] = static_cast<double>(basis.radius[p]) >= least;
+  }
+  const RidgeValues values(lattice, field, basis.derivatives, std::move(deep),
+                           constants.weak_share * options.bounds.low);
+  throw_if_stopped(options.context);
+  Found found;
+  found.crossings = ridge_crossings(lattice, values);
+  throw_if_stopped(options.context);
+  found.curves = ridge_curves(lattice, values, options.context);
+  return found;
+}
+
 // A vertex has the mean of its cell's crossings, normals turned to agree with the first.
-SheetMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<const RidgeCrossing> crossings,
-                  ExecutionContext* context) {
+SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCells& cells,
+                  std::span<const RidgeCrossing> crossings, ExecutionContext* context) {
   std::vector<SheetCrossing> places;
   places.reserve(crossings.size());
   for (const RidgeCrossing& crossing : crossings)
@@ -35,43 +61,86 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, std::span<con
       vertex = between(vertex, crossings[members[n]].at, 1 / static_cast<double>(n + 1));
     return vertex;
   };
-  return dual_contour(lattice, parts, places, mean, context);
+  return dual_contour(lattice, parts, cells, places, mean, context);
+}
+
+// What a way costs for each spacing of its length: little in the middle of the solid.
+std::vector<float> costs_of_ways(const FrameField& field, std::span<const float> radius,
+                                 const RidgeConstants& constants) {
+  const double deepest = *std::max_element(field.erosion.begin(), field.erosion.end());
+  const double widest = static_cast<double>(*std::max_element(radius.begin(), radius.end()));
+  std::vector<float> cost(radius.size());
+  for (std::size_t p = 0; p < cost.size(); ++p) {
+    const double share = std::max(field.erosion[p] / deepest, 1e-12);
+    cost[p] = static_cast<float>(std::pow(share, -constants.erosion_power) *
+                                 std::pow(static_cast<double>(radius[p]) / widest, -constants.radius_power));
+  }
+  return cost;
+}
+
+// The components of the complex that are left out go, to the last cell.
+void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet& cells) {
+  for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube)
+    if (left_out[cube]) cells.clear(cube);
 }
 
 }  // namespace
 
+RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned threads,
+                       ExecutionContext* context, const RidgeConstants& constants) {
+  RidgeBasis basis{.complex = DualComplex(lattice),
+                   .topology = {},
+                   .radius = surface_distance(lattice),
+                   .limbs = {},
+                   .derivatives = {}};
+  parallel_for(threads, 2, [&](std::size_t part) {
+    if (part == 0) {
+      basis.derivatives = smoothed_derivatives(lattice, field, context, constants);
+    } else {
+      basis.topology = betti_numbers(basis.complex);
+      basis.limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
+    }
+  });
+  return basis;
+}
+
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  if (!options.known_derivatives.empty() && options.known_derivatives.size() != lattice.points)
-    throw CoreError(CoreError::Code::kBadInput, "the known derivatives are not those of this lattice");
+  std::optional<RidgeBasis> made;
+  if (options.basis == nullptr) made = ridge_basis(lattice, field, 1, options.context, constants);
+  const RidgeBasis& basis = made ? *made : *options.basis;
+  if (basis.derivatives.size() != lattice.points)
+    throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
   const SolidParts parts(solid, lattice);
-  std::vector<RidgeCrossing> crossings;
-  std::vector<RidgeCurve> curves;
-  {
-    std::vector<PointDerivatives> computed;
-    if (options.known_derivatives.empty())
-      computed = smoothed_derivatives(lattice, field, options.context, constants);
-    const RidgeValues values(lattice, parts, field, computed.empty() ? options.known_derivatives : computed,
-                             constants.weak_share * options.bounds.low, constants.min_erosion);
-    crossings = ridge_crossings(lattice, values);
-    throw_if_stopped(options.context);
-    curves = ridge_curves(lattice, parts, values, options.context);
-  }
+  const Found found = find_ridges(lattice, field, basis, options, constants);
   throw_if_stopped(options.context);
-  SheetMesh mesh = contour(lattice, parts, crossings, options.context);
-  throw_if_stopped(options.context);
+  std::vector<LatticeEdge> edges;
+  edges.reserve(found.crossings.size());
+  for (const RidgeCrossing& crossing : found.crossings) edges.push_back(crossing.edge);
+  const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
+  const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
+  const RidgeEvidence evidence{.complex = basis.complex,
+                               .parts = parts,
+                               .field = field,
+                               .edges = edges,
+                               .cells = cells,
+                               .vertices = surface.vertices,
+                               .curves = found.curves,
+                               .limbs = basis.limbs,
+                               .radius = basis.radius};
+  const RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
+  const std::vector<float> cost = costs_of_ways(field, basis.radius, constants);
+  Collapsed left = collapse(basis.complex, chosen.anchors, {.cost = cost, .context = options.context});
+  if (count_components(basis.complex, left.cells) != basis.topology.components)
+    throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
+  drop(basis.complex, chosen.left_out, left.cells);
   RidgeSheet sheet;
-  sheet.pieces = cut_rims(mesh, options.bounds, constants);
-  sheet.flaps_cut = cut_flaps(mesh, constants.max_flap);
-  const SolidMembership membership(solid.mesh);
-  const auto inside = [&](const Vec3& u) {
-    return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * u));
-  };
-  sheet.holes_closed = close_holes(mesh, inside, constants.max_hole);
-  const std::vector<RidgeCurve> round = round_stretches(curves, options.bounds, constants);
-  sheet.curves = put_curves(mesh, torn_stretches(mesh, round, constants), inside, constants);
-  sheet.pieces.bridges += join_pieces(mesh, lattice, field, inside, constants.max_join);
-  static_cast<SheetMesh&>(sheet) = std::move(mesh);
+  sheet.lattice = basis.topology;
+  sheet.fragments = chosen.fragments;
+  sheet.limbs = chosen.limbs;
+  sheet.opened = left.opened;
+  const SkeletonParts from{lattice, parts, field, cells, surface.vertices, chosen, options.bounds.low};
+  static_cast<SheetMesh&>(sheet) = skeleton_mesh(solid, basis.complex, left.cells, from, options.context);
   return sheet;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/require.h"
 #include "core/base/symmetric_eigen.h"
@@ -12,8 +13,8 @@
 namespace affskel::core {
 namespace {
 
-double strength_of(double least, double value, const Vec3& gradient) {
-  const double square = dot(gradient, gradient), turn = -least * value;
+double strength_of(double least, double value, double square) {
+  const double turn = -least * value;
   return turn < 2 * kMaxRidgeStrength * square ? 0.5 * turn / square : kMaxRidgeStrength;
 }
 
@@ -31,8 +32,8 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
   }
   // -lambda_1 is at most the Frobenius norm: most points need no eigenvalues.
   const Vec3 gradient = vector_of(point.gradient);
-  if (largest == 0 ||
-      strength_of(-std::sqrt(squares), static_cast<double>(point.value), gradient) < 0.25 * min_strength)
+  if (largest == 0 || strength_of(-std::sqrt(squares), static_cast<double>(point.value),
+                                  dot(gradient, gradient)) < 0.25 * min_strength)
     return {};
   const auto scaled = [&](std::size_t n) { return static_cast<double>(h[n]) / largest; };
   const SymmetricEigen eigen =
@@ -47,20 +48,16 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 
 }  // namespace
 
-RidgeValues::RidgeValues(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
-                         std::span<const PointDerivatives> derivatives, double min_strength,
-                         double min_erosion)
-    : parts_(parts),
-      field_(field),
+RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
+                         std::span<const PointDerivatives> derivatives, std::vector<char> deep,
+                         double min_strength)
+    : field_(field),
       derivatives_(derivatives),
+      deep_(std::move(deep)),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
   require_within(min_strength, 1e-6, kMaxRidgeStrength,
                  "the least strength of a ridge must lie between 1e-6 and 1000");
-  require_within(min_erosion, 0, 1, "the least share of E must lie between 0 and 1");
-  const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
-  for (std::uint32_t part = 0; part < parts.count(); ++part)
-    least_erosion_.push_back(min_erosion * cell * parts.points(part));
   ridges_.reserve(derivatives.size());
   for (const PointDerivatives& point : derivatives) ridges_.push_back(ridge_at(point, min_strength));
 }
@@ -69,12 +66,7 @@ Vec3 RidgeValues::gradient(std::uint32_t point) const {
   return vector_of(derivatives_[point].gradient);
 }
 
-// E may be of any size.
-double RidgeValues::frame_area(std::uint32_t point) const {
-  return length_of(field_.gradient[point]);
-}
-
-SheetVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t> points,
+SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::uint32_t> points,
                             std::span<const double> weights, const Vec3& across) const {
   SheetVertex vertex;
   vertex.position = position;
@@ -94,7 +86,13 @@ SheetVertex RidgeValues::at(const Vec3& position, std::span<const std::uint32_t>
     vertex.erosion += w * field_.erosion[points[n]];
     vertex.area += w * section_area(to_mesh_, field_.gradient[points[n]]);
   }
-  vertex.strength = strength_of(least, value, gradient);
+  const double square = dot(gradient, gradient);
+  if (of == Of::kCurve) {
+    vertex.strength = vertex.ratio * strength_of(least, value, square);
+  } else {
+    const double slope = std::max(0.0, vertex.ratio) * least * width;
+    vertex.strength = strength_of(least, value, square + slope * slope);
+  }
   // grad P one width away along e is g -+ lambda width e, to first order.
   const Vec3 rise = (-least * width) * across;
   vertex.normal_a = unit(gradient + rise);

@@ -10,7 +10,6 @@
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
-#include "core/lattice/solid_parts.h"
 #include "core/ridge/smoothed_derivatives.h"
 
 namespace affskel::core {
@@ -31,43 +30,39 @@ struct PointRidge {
 class RidgeValues {
  public:
   /// @param derivatives of this field.
+  /// @param deep per sample point: whether a ridge may pass there, not too near the surface.
   /// @param min_strength least s that is asked for, radians: points far below it are left out.
-  /// @param min_erosion least E that is asked for, as a share of the volume of the sample points' cells in
-  /// the
-  ///   part, 0 .. 1.
-  /// @throws CoreError kBadInput when a bound is out of range.
-  RidgeValues(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
-              std::span<const PointDerivatives> derivatives, double min_strength, double min_erosion);
+  /// @throws CoreError kBadInput when the strength is out of range.
+  RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
+              std::vector<char> deep, double min_strength);
 
   const PointRidge& ridge(std::uint32_t point) const { return ridges_[point]; }
 
   /// grad P, per spacing.
   Vec3 gradient(std::uint32_t point) const;
 
-  /// Whether the two bounds hold for a strength and the vertex's E.
+  /// Whether a strength reaches the bound, at a vertex deep enough.
   bool counts(double strength, const SheetVertex& vertex) const {
-    return strength >= min_strength_ && vertex.erosion >= least_erosion_[parts_.of_point(vertex.point)];
+    return strength >= min_strength_ && deep_[vertex.point] != 0;
   }
 
-  /// The vertex at `position` that has the weighted mean of the points' values; its `strength` is that of the
-  /// surface.
+  /// What a strength is that of.
+  enum class Of { kSurface, kCurve };
+
+  /// The vertex at `position` that has the weighted mean of the points' values.
   /// @param points the first one becomes the vertex's sample point.
   /// @param weights one per point, >= 0, with the sum 1.
   /// @param across e_1 there, unit, of either sign.
-  SheetVertex at(const Vec3& position, std::span<const std::uint32_t> points, std::span<const double> weights,
-                 const Vec3& across) const;
-
-  /// |grad_u E|: the section's area as the frame measures it (SheetVertex::area is that of the mesh).
-  double frame_area(std::uint32_t point) const;
+  SheetVertex at(Of of, const Vec3& position, std::span<const std::uint32_t> points,
+                 std::span<const double> weights, const Vec3& across) const;
 
  private:
-  const SolidParts& parts_;
   const FrameField& field_;
   std::span<const PointDerivatives> derivatives_;
+  std::vector<char> deep_;
   double min_strength_;
-  Matrix3 to_mesh_;                    // F^-T
-  std::vector<double> least_erosion_;  // per part
-  std::vector<PointRidge> ridges_;     // per sample point
+  Matrix3 to_mesh_;                 // F^-T
+  std::vector<PointRidge> ridges_;  // per sample point
 };
 
 /// The entries of PointRidge and PointDerivatives as vectors.

@@ -331,12 +331,12 @@ struct Fork {
   }
 };
 
-// The sheet z = 2.5 steps: the mean of a cell's shocks is in the gap, and one of them is taken.
-TEST(ChordSheet, AVertexInAGapIsDrawnToAShock) {
+// The sheet z = 2.5 steps: on both sides of the gap it has vertices of its own, none in the gap.
+TEST(ChordSheet, IsPartedByAGapThinnerThanASpacing) {
   const Fork fork;
   const SolidMembership membership(fork.solid.mesh);
   const std::vector<Vec3> vertices = fork.vertices();
-  ASSERT_EQ(vertices.size(), 15U);
+  ASSERT_EQ(vertices.size(), 20U);
   for (const Vec3& v : vertices) {
     EXPECT_TRUE(v.x == 0 || v.x == 1) << v.x;
     EXPECT_NEAR(v.z, 2.5, 1e-12);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <span>
 #include <vector>
@@ -14,11 +15,13 @@ namespace {
 
 TEST(EdgeCells, AnEdgeHasFourCellsOnceRound) {
   const BoxLattice box(3, 3, 3);
-  const std::vector<LatticeEdge> edges{{0, 1, {0, 2, 1}}};
-  const EdgeCells cells = edge_cells(box.lattice, SolidParts(box.solid, box.lattice), edges);
+  const std::vector<LatticeEdge> edges{{4, 1, {0, 1, 1}}};
+  const EdgeCells cells =
+      edge_cells(box.lattice, DualComplex(box.lattice), SolidParts(box.solid, box.lattice), edges);
   ASSERT_EQ(cells.size(), 4U);
-  EXPECT_EQ(cells.place[0], (CellPlace{-1, 2, 0}));
-  EXPECT_EQ(cells.place[3], (CellPlace{0, 2, 1}));
+  EXPECT_EQ(*std::min_element(cells.place.begin(), cells.place.end()), (CellPlace{-1, 1, 0}));
+  EXPECT_EQ(*std::max_element(cells.place.begin(), cells.place.end()), (CellPlace{0, 1, 1}));
+  EXPECT_EQ(std::count(cells.whole.begin(), cells.whole.end(), 1), 2);
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const CellPlace &a = cells.place[cells.ring[0][corner]],
                     &b = cells.place[cells.ring[0][(corner + 1) % 4]];
@@ -31,7 +34,7 @@ TEST(EdgeCells, RefusesMoreEdgesThanCanBeNumbered) {
   const LatticeEdge edge;
   const std::span<const LatticeEdge> many(&edge, std::size_t{1} << 30);
   try {
-    edge_cells(box.lattice, SolidParts(box.solid, box.lattice), many);
+    edge_cells(box.lattice, DualComplex(box.lattice), SolidParts(box.solid, box.lattice), many);
     FAIL() << "not refused";
   } catch (const CoreError& error) {
     EXPECT_EQ(error.code(), CoreError::Code::kLimit);

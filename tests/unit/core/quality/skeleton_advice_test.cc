@@ -127,18 +127,6 @@ TEST(EmptySheetAdvice, TellsShocksNearTheSurfaceFromNone) {
   EXPECT_TRUE(says(none, "nowhere do two different chords")) << none.text;
 }
 
-TEST(EmptyRidgeAdvice, NamesAThresholdThatKeepsAPiece) {
-  NormalBlock block({10, 10, 10});
-  RidgePieces pieces;
-  pieces.max_strength = 12;
-  const Advice advice = empty_ridge_advice(block.lattice, pieces, {20, 24});
-  EXPECT_TRUE(says(advice, "greatest strength is 12, less than the 24")) << advice.text;
-  EXPECT_TRUE(says(advice, "A threshold of 9.9 would keep one")) << advice.text;
-  EXPECT_TRUE(suggests(advice, "threshold", "9.9"));
-  EXPECT_TRUE(is_plain(advice));
-  EXPECT_TRUE(says(empty_ridge_advice(block.lattice, {}, {}), "nowhere do the normals turn fast"));
-}
-
 TEST(LowBarriersAdvice, NamesOneThatKeepsATriangle) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 2, 3}};
   const std::vector<double> barrier = {0.01, 0.5, 0.04, 0.02};

@@ -1,0 +1,59 @@
+#include "core/collapse/limb_tips.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/collapse/lattice_solids.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/local_depth.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+// Where the tips lie, mesh coordinates.
+std::vector<Vec3> tips_of(const Mesh& mesh, double spacing) {
+  const LatticeSolid solid(mesh, spacing);
+  const DualComplex complex(solid.lattice);
+  const SamplePlaces places(solid.solid, solid.lattice);
+  std::vector<Vec3> result;
+  for (const LimbTip& tip : limb_tips(complex, surface_distance(solid.lattice), 1)) {
+    const std::uint32_t cube = DualComplex::cube_of(tip.vertex);
+    const LatticePlace at = lattice_places(solid.lattice, std::vector<std::uint32_t>{cube})[0];
+    result.push_back(places.at(at[0], at[1], at[2]));
+  }
+  return result;
+}
+
+TEST(LimbTips, OfAFingerAreItsTwoEnds) {
+  for (const double spacing : {0.11, 0.2, 0.31}) {
+    std::vector<Vec3> tips = tips_of(shaken(make_cylinder(1, 10, 32), 0, 7), spacing);
+    ASSERT_EQ(tips.size(), 2U) << spacing;
+    EXPECT_GT(norm(tips[0] - tips[1]), 10 - 2 * 1.5);
+    EXPECT_LT(norm(tips[0] - tips[1]), 10);
+  }
+}
+
+TEST(LimbTips, AreNoneOfWhatIsNotLongerThanThick) {
+  for (const double spacing : {0.07, 0.11}) {
+    EXPECT_TRUE(tips_of(make_sphere(1, 1280), spacing).empty());
+    EXPECT_TRUE(tips_of(make_box(2, 2, 2), spacing).empty());
+    EXPECT_TRUE(tips_of(shaken(make_box(2, 2, 2), 0, 3), spacing).empty());
+    EXPECT_TRUE(tips_of(make_box(6, 3, 1), spacing).empty());
+    EXPECT_TRUE(tips_of(shaken(make_box(3, 3, 0.6), 0, 5), spacing).empty());
+    EXPECT_TRUE(tips_of(make_torus(2, 0.7, 1024), spacing).empty());
+  }
+}
+
+// Every tooth is 3 high and 1 wide; the bar they stand on ends at the outer ones.
+TEST(LimbTips, OfACombAreItsTeeth) {
+  const std::vector<Vec3> tips = tips_of(comb(4), 0.11);
+  EXPECT_EQ(tips.size(), 4U);
+}
+
+}  // namespace
+}  // namespace affskel::core

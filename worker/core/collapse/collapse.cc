@@ -1,0 +1,110 @@
+#include "core/collapse/collapse.h"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/base/disjoint_sets.h"
+#include "core/collapse/collapsing.h"
+
+namespace affskel::core {
+namespace {
+
+using Cell = DualComplex::Cell;
+
+// What is farthest from the anchors goes first.
+class Order {
+ public:
+  Order(const DualComplex& complex, std::vector<float> way) : complex_(complex), way_(std::move(way)) {
+    for (const float way_here : way_)
+      if (way_here < kNoWay) farthest_ = std::max(farthest_, static_cast<double>(way_here));
+  }
+
+  double time(Cell coface, double) const {
+    const std::uint32_t cube = DualComplex::cube_of(coface), place = DualComplex::place_of(coface);
+    double sum = static_cast<double>(way_[cube]), count = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t digit = DualComplex::digit(place, axis);
+      const std::uint32_t beside = digit == 1 ? DualComplex::kNone : complex_.neighbour(cube, axis, digit);
+      if (beside == DualComplex::kNone) continue;
+      sum += static_cast<double>(way_[beside]);
+      ++count;
+    }
+    return std::max(0.0, farthest_ - sum / count);
+  }
+  void removed(Cell, Cell, double) {}
+  void bared(Cell, double) {}
+
+ private:
+  const DualComplex& complex_;
+  std::vector<float> way_;  // per cube, to the nearest anchor
+  double farthest_ = 0;
+};
+
+// A square is no anchor any more, nor what of its boundary bounds no other.
+void give_up(const DualComplex& complex, const CellSet& own, Cell square, Collapsing& collapsing) {
+  collapsing.release(square);
+  const auto release = [&](Cell cell) {
+    if (own.has(cell)) return;
+    for (const Cell coface : complex.cofaces(cell))
+      if (collapsing.is_fixed(coface)) return;
+    collapsing.release(cell);
+  };
+  complex.for_each_face(square, release);
+  complex.for_each_face(square, [&](Cell edge) { complex.for_each_face(edge, release); });
+}
+
+}  // namespace
+
+Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors,
+                   const CollapseOptions& options) {
+  Order order(complex, shortest_ways(complex, anchors, options.cost, options.context));
+  Collapsing collapsing(complex, options.context);
+  CellSet own(complex);
+  for (const Anchor& anchor : anchors) {
+    if (DualComplex::dimension(anchor.cell) < 2) own.insert(anchor.cell);
+    collapsing.fix(anchor.cell);
+  }
+  collapsing.run(order);
+  std::vector<Anchor> walls;
+  for (const Anchor& anchor : anchors)
+    if (DualComplex::dimension(anchor.cell) == 2 && collapsing.cofaces(anchor.cell) > 0)
+      walls.push_back(anchor);
+  std::sort(walls.begin(), walls.end(), [](const Anchor& a, const Anchor& b) {
+    return a.weight != b.weight ? a.weight < b.weight : a.cell < b.cell;
+  });
+  std::uint32_t opened = 0;
+  // A square between two pockets waits until one of them is open.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Anchor& wall : walls) {
+      if (!collapsing.is_fixed(wall.cell) || collapsing.cofaces(wall.cell) != 1) continue;
+      give_up(complex, own, wall.cell, collapsing);
+      collapsing.run_from(wall.cell, order);
+      ++opened;
+      changed = true;
+    }
+  }
+  return {collapsing.cells(), opened};
+}
+
+std::uint64_t count_components(const DualComplex& complex, const CellSet& cells) {
+  std::unordered_map<Cell, std::uint32_t> number;  // of vertices
+  cells.for_each([&](Cell cell) {
+    if (DualComplex::dimension(cell) == 0) number.emplace(cell, static_cast<std::uint32_t>(number.size()));
+  });
+  DisjointSets sets(number.size());
+  std::uint64_t components = number.size();
+  cells.for_each([&](Cell cell) {
+    if (DualComplex::dimension(cell) != 1) return;
+    std::array<std::uint32_t, 2> ends{};
+    std::size_t n = 0;
+    complex.for_each_face(cell, [&](Cell vertex) { ends[n++] = number.at(vertex); });
+    if (sets.unite(ends[0], ends[1])) --components;
+  });
+  return components;
+}
+
+}  // namespace affskel::core

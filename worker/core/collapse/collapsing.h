@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/base/bucket_queue.h"
+#include "core/base/execution_context.h"
+#include "core/collapse/dual_complex.h"
+
+namespace affskel::core {
+
+/// Elementary collapses of a complex, in an order.  A cell is free when it has exactly one coface; a free cell
+/// and its coface are removed together, which keeps the homotopy type (Whitehead 1939).  What collapse() and
+/// limb_tips() share.
+class Collapsing {
+ public:
+  using Cell = DualComplex::Cell;
+
+  /// Times are told apart by this much.
+  static constexpr double kStep = 0.125;
+
+  Collapsing(const DualComplex& complex, ExecutionContext* context)
+      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
+    complex.for_each_cell([&](Cell cell) {
+      state_[cell] |= kThere;
+      complex.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+    });
+  }
+
+  bool has(Cell cell) const { return (state_[cell] & kThere) != 0; }
+
+  /// A cell may not be removed, nor its boundary.
+  void fix(Cell cell) {
+    if ((state_[cell] & kFixed) != 0) return;
+    state_[cell] |= kFixed;
+    complex_.for_each_face(cell, [&](Cell face) { fix(face); });
+  }
+  /// It may again; its boundary may not.
+  void release(Cell cell) { state_[cell] &= static_cast<std::uint8_t>(~kFixed); }
+  bool is_fixed(Cell cell) const { return (state_[cell] & kFixed) != 0; }
+
+  /// Whether a cell may be removed and has exactly one coface.
+  bool is_free(Cell cell) const { return state_[cell] == (kThere | 1); }
+
+  /// How many cofaces a cell has.
+  std::uint32_t cofaces(Cell cell) const { return state_[cell] & static_cast<std::uint8_t>(kFixed - 1); }
+
+  CellSet cells() const {
+    CellSet result(complex_);
+    for (Cell cell = 0; cell < state_.size(); ++cell)
+      if (has(cell)) result.insert(cell);
+    return result;
+  }
+
+  /// Collapses as far as it goes, beginning with what is free now.
+  /// @param rules  time(coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time;
+  ///   removed(cell, coface, now); bared(cell, now): the last coface of a cell that stays was removed.
+  template <class Rules>
+  void run(Rules& rules) {
+    for (Cell cell = 0; cell < state_.size(); ++cell) offer(cell, 0, rules);
+    go_on(rules);
+  }
+
+  /// Goes on with a cell that was released.
+  template <class Rules>
+  void run_from(Cell cell, Rules& rules) {
+    offer(cell, static_cast<double>(queue_.current()) * kStep, rules);
+    go_on(rules);
+  }
+
+ private:
+  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40;
+
+  Cell coface_of(Cell cell) const {
+    for (const Cell coface : complex_.cofaces(cell))
+      if (has(coface)) return coface;
+    return cell;
+  }
+
+  template <class Rules>
+  void offer(Cell cell, double now, Rules& rules) {
+    if (!is_free(cell)) return;
+    const Cell coface = coface_of(cell);  // not fixed, else the cell would be
+    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), {cell, coface});
+  }
+
+  template <class Rules>
+  void go_on(Rules& rules) {
+    StopCheck stop(context_);
+    for (std::pair<Cell, Cell> pair; queue_.pop(pair); stop.did(100)) {
+      const auto [cell, coface] = pair;
+      if (!is_free(cell)) continue;
+      const double now = static_cast<double>(queue_.current()) * kStep;
+      state_[cell] = state_[coface] = 0;
+      rules.removed(cell, coface, now);
+      const auto lost = [&](Cell face) {
+        if (((--state_[face]) & ~kFixed) == kThere) rules.bared(face, now);
+        offer(face, now, rules);
+      };
+      complex_.for_each_face(coface, [&](Cell face) {
+        if (face != cell) lost(face);
+      });
+      complex_.for_each_face(cell, lost);
+    }
+  }
+
+  const DualComplex& complex_;
+  ExecutionContext* context_;
+  std::vector<std::uint8_t> state_;  // by a cell's name: kThere, kFixed, and how many cofaces it has
+  BucketQueue<std::pair<Cell, Cell>> queue_;
+};
+
+}  // namespace affskel::core

@@ -1,0 +1,238 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice/lattice.h"
+#include "core/solid/betti_numbers.h"
+
+namespace affskel::core {
+
+/// The cubical complex dual to the sample points of a lattice: a closed cube for every sample point, cubes
+/// glued along the square between them where the lattice edge from one to the other lies in the solid (see
+/// for_each_edge).  Edges and vertices are glued where the cubes about them hang together through such
+/// squares, so that a gap thinner than a spacing parts the complex as it parts the solid.  In its interior
+///
+///     a cube is dual to a sample point, a square to a lattice edge,
+///     an edge to a lattice face, a vertex to a lattice cell.
+///
+/// A cell is named by a cube that it belongs to and its place there: three digits, one per axis, 0, 1 or 2 as
+/// it lies at the cube's lower end, in its middle (where it extends along the axis), or at its upper end.  Of
+/// all such names of a cell the one of the lowest cube is its own.  Immutable.
+class DualComplex {
+ public:
+  /// 32 * cube + 9 * digit 0 + 3 * digit 1 + digit 2.
+  using Cell = std::uint64_t;
+
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kCube = 13;         ///< the place of the cube itself
+  static constexpr std::uint32_t kUpperVertex = 26;  ///< of the vertex at the upper end of all axes
+  static constexpr std::array<std::uint32_t, 3> kWeight{9, 3, 1};
+
+  /// O(points + runs); 25 bytes a point.
+  explicit DualComplex(const Lattice& lattice);
+
+  std::uint32_t cubes() const { return static_cast<std::uint32_t>(full_.size()); }
+
+  /// The cube glued to one at the lower (0) or upper (2) end of an axis, or kNone.
+  std::uint32_t neighbour(std::uint32_t cube, std::size_t axis, std::uint32_t digit) const {
+    return neighbour_[6 * std::size_t{cube} + 2 * axis + (digit >> 1)];
+  }
+
+  static std::uint32_t cube_of(Cell cell) { return static_cast<std::uint32_t>(cell >> 5); }
+  static std::uint32_t place_of(Cell cell) { return static_cast<std::uint32_t>(cell & 31); }
+  static std::uint32_t digit(std::uint32_t place, std::size_t axis) { return kDigits[place][axis]; }
+  static int dimension(std::uint32_t place) { return kDimension[place]; }
+  static int dimension(Cell cell) { return kDimension[place_of(cell)]; }
+
+  /// The own name of the cell at a place of a cube.
+  Cell cell(std::uint32_t cube, std::uint32_t place) const {
+    std::uint32_t lowest = cube;
+    for (std::uint32_t left = kLower[place]; left != 0; left &= left - 1) {
+      lowest = neighbour(lowest, static_cast<std::size_t>(std::countr_zero(left)), 0);
+      if (lowest == kNone) return own_name(cube, place);
+    }
+    return is_full(lowest, kAcross[place]) ? name(lowest, kRaised[place]) : own_name(cube, place);
+  }
+
+  /// The cube across a lattice edge from `point` upwards, where one is glued there; else the cell of its end.
+  Cell square(std::uint32_t point, std::size_t axis) const { return cell(point, kCube + kWeight[axis]); }
+
+  /// Calls visit(face) for the cells of one dimension less in the boundary of a cell.
+  template <class Visit>
+  void for_each_face(Cell of, const Visit& visit) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (digit(place, axis) != 1) continue;
+      visit(cell(cube, place - kWeight[axis]));
+      visit(cell(cube, place + kWeight[axis]));
+    }
+  }
+
+  /// The cubes about a cell, and its place in each.
+  struct Star {
+    struct Member {
+      std::uint32_t cube = kNone, place = 0;
+    };
+    std::array<Member, 8> members;
+    std::size_t count = 0;
+
+    const Member* begin() const { return members.data(); }
+    const Member* end() const { return members.data() + count; }
+  };
+  Star star(Cell of) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) return star(cube, place);
+    Star found;
+    found.members[found.count++] = {cube, place};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((kAcross[place] >> axis & 1U) == 0) continue;
+      const std::uint32_t next = neighbour(cube, axis, 2);
+      if (next == kNone) continue;  // a square of the boundary
+      for (std::size_t n = 0, known = found.count; n < known; ++n) {
+        const Star::Member& member = found.members[n];
+        found.members[found.count++] = {neighbour(member.cube, axis, 2), member.place - 2 * kWeight[axis]};
+      }
+    }
+    return found;
+  }
+
+  /// The cells of one dimension more about a cell.
+  struct Cofaces {
+    std::array<Cell, 24> cells;
+    std::size_t count = 0;
+
+    const Cell* begin() const { return cells.data(); }
+    const Cell* end() const { return cells.data() + count; }
+  };
+  Cofaces cofaces(Cell of) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) return cofaces(star(cube, place));
+    Cofaces found;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (digit(place, axis) == 1) continue;
+      found.cells[found.count++] = name(cube, place - kWeight[axis]);
+      if (const std::uint32_t next = neighbour(cube, axis, 2); next != kNone)
+        found.cells[found.count++] = name(next, place - kWeight[axis]);
+    }
+    return found;
+  }
+
+  /// Calls visit(cell) for every cell once, by its own name.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    for (std::uint32_t cube = 0; cube < cubes(); ++cube) {
+      for (std::uint32_t place = 0; place < 27; ++place) {
+        const Cell own = cell(cube, place);
+        if (own == name(cube, place)) visit(own);
+      }
+    }
+  }
+
+  /// Calls visit(neighbour, steps) for the cubes that share a cell with one all of whose cubes are there:
+  /// 1, 2 or 3 steps along different axes.
+  template <class Visit>
+  void for_each_step(std::uint32_t cube, const Visit& visit) const {
+    for (std::uint32_t place = 0; place < 27; ++place) {
+      if (place == kCube) continue;
+      if (const std::uint32_t to = across(cube, place); to != kNone)
+        visit(to, static_cast<std::uint32_t>(3 - dimension(place)));
+    }
+  }
+
+  static Cell name(std::uint32_t cube, std::uint32_t place) { return Cell{cube} << 5 | place; }
+
+ private:
+  static constexpr std::array<std::array<std::uint8_t, 3>, 27> kDigits = [] {
+    std::array<std::array<std::uint8_t, 3>, 27> digits{};
+    for (std::uint8_t place = 0; place < 27; ++place)
+      digits[place] = {static_cast<std::uint8_t>(place / 9), static_cast<std::uint8_t>(place / 3 % 3),
+                       static_cast<std::uint8_t>(place % 3)};
+    return digits;
+  }();
+  static constexpr std::array<std::uint8_t, 27> kDimension = [] {
+    std::array<std::uint8_t, 27> result{};
+    for (std::size_t place = 0; place < 27; ++place)
+      for (const std::uint8_t d : kDigits[place])
+        if (d == 1) ++result[place];
+    return result;
+  }();
+
+  // Per place: the axes (a set) on which it lies at an end of the cube; those of the lower end; and the same
+  // place at the upper ends.
+  static constexpr std::array<std::uint8_t, 27> kAcross = [] {
+    std::array<std::uint8_t, 27> result{};
+    for (std::size_t place = 0; place < 27; ++place)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (kDigits[place][axis] != 1) result[place] = static_cast<std::uint8_t>(result[place] | 1U << axis);
+    return result;
+  }();
+  static constexpr std::array<std::uint8_t, 27> kLower = [] {
+    std::array<std::uint8_t, 27> result{};
+    for (std::size_t place = 0; place < 27; ++place)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (kDigits[place][axis] == 0) result[place] = static_cast<std::uint8_t>(result[place] | 1U << axis);
+    return result;
+  }();
+  static constexpr std::array<std::uint8_t, 27> kRaised = [] {
+    std::array<std::uint8_t, 27> result{};
+    for (std::size_t place = 0; place < 27; ++place) {
+      std::uint32_t raised = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        raised += kWeight[axis] * (kDigits[place][axis] == 1 ? 1U : 2U);
+      result[place] = static_cast<std::uint8_t>(raised);
+    }
+    return result;
+  }();
+
+  Cell own_name(std::uint32_t cube, std::uint32_t place) const;
+  bool is_full(std::uint32_t lowest, std::uint32_t axes) const { return (full_[lowest] >> axes & 1U) != 0; }
+  std::uint32_t across(std::uint32_t cube, std::uint32_t place) const;
+  Star star(std::uint32_t cube, std::uint32_t place) const;
+  Cofaces cofaces(const Star& star) const;
+
+  std::vector<std::uint32_t> neighbour_;  // six per cube: axis 0 lower, upper, axis 1 lower, ...
+  // Per cube, bit `axes` (a set of them): the cubes up to one step up along these axes are all there and glued
+  // to each other; set for one axis and none.
+  std::vector<std::uint8_t> full_;
+};
+
+/// Cells of a complex.
+class CellSet {
+ public:
+  explicit CellSet(const DualComplex& complex) : bits_(complex.cubes(), 0) {}
+
+  bool has(DualComplex::Cell cell) const {
+    return (bits_[DualComplex::cube_of(cell)] >> DualComplex::place_of(cell) & 1U) != 0;
+  }
+  void insert(DualComplex::Cell cell) {
+    bits_[DualComplex::cube_of(cell)] |= 1U << DualComplex::place_of(cell);
+  }
+
+  /// Leaves out all cells named by a cube.
+  void clear(std::uint32_t cube) { bits_[cube] = 0; }
+
+  /// Calls visit(cell) for every one, by cube, then by place.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::uint32_t cube = 0; cube < bits_.size(); ++cube) {
+      for (std::uint32_t left = bits_[cube]; left != 0; left &= left - 1)
+        visit(DualComplex::name(cube, static_cast<std::uint32_t>(std::countr_zero(left))));
+    }
+  }
+
+ private:
+  std::vector<std::uint32_t> bits_;  // per cube, by place
+};
+
+/// Adds a cell and all cells in its boundary.
+void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set);
+
+/// The Betti numbers of the whole complex: cavities are the closed pieces of its boundary beyond one for each
+/// component (Alexander duality), holes follow from the Euler characteristic.
+BettiNumbers betti_numbers(const DualComplex& complex);
+
+}  // namespace affskel::core

@@ -1,0 +1,127 @@
+#include "core/collapse/limb_tips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "core/collapse/collapsing.h"
+
+namespace affskel::core {
+namespace {
+
+using Cell = DualComplex::Cell;
+
+// A line leads out of the middle of a blunt end, not along a limb, while births grow by so much of its length:
+// by 1 towards the middle of a ball, 0.58 from the corner of a box, 0.71 along the bisector of a plate's.
+constexpr double kSteep = 0.5;
+
+// Shorter lines are steps of the lattice, spacings.
+constexpr double kLeastLength = 4;
+
+class Thinning {
+ public:
+  Thinning(const DualComplex& complex, std::span<const float> depth, double least_reach)
+      : complex_(complex), depth_(depth), least_reach_(least_reach) {}
+
+  std::vector<LimbTip> tips() const {
+    std::vector<LimbTip> result;
+    for (const Line& line : lines_)
+      if (line.tip.reach >= least_reach_) result.push_back(line.tip);
+    return result;
+  }
+
+  double time(Cell coface, double now) const {
+    if (DualComplex::dimension(coface) < 3) return now + 1;
+    return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
+  }
+
+  void bared(Cell cell, double now) {
+    if (DualComplex::dimension(cell) == 1) birth_.emplace(cell, now);
+  }
+
+  // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
+  void removed(Cell vertex, Cell edge, double now) {
+    if (DualComplex::dimension(edge) != 1) return;
+    const auto born = birth_.find(edge);
+    const double birth = born->second;
+    birth_.erase(born);
+    std::uint32_t number = 0;
+    if (const auto known = line_at_.find(vertex); known != line_at_.end()) {
+      number = known->second;
+      line_at_.erase(known);
+    } else {
+      number = static_cast<std::uint32_t>(lines_.size());
+      lines_.push_back({.tip = {vertex, radius_at(vertex), 0}, .lead = birth});
+    }
+    Line& line = lines_[number];
+    std::size_t axis = 0;
+    while (DualComplex::digit(DualComplex::place_of(edge), axis) != 1) ++axis;
+    std::array<Cell, 2> ends{};
+    std::size_t n = 0;
+    complex_.for_each_face(edge, [&](Cell end) { ends[n++] = end; });
+    const bool upwards = ends[0] == vertex;
+    line.go(axis, upwards ? 1 : -1);
+    const Cell end = ends[upwards ? 1 : 0];
+    const double lead = birth - kSteep * line.length();
+    if (line.tip.reach < least_reach_ && lead > line.lead) {
+      line.tip = {end, radius_at(end), 0};
+      line.tip_at = line.length();
+      line.lead = lead;
+    } else {
+      const double way = std::min(line.length() - line.tip_at, now - birth);
+      line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kLeastLength));
+    }
+    line_at_[end] = number;  // of several lines that meet there the longest is the last
+  }
+
+ private:
+  double radius_at(Cell vertex) const {
+    float result = 0;
+    for (const auto& member : complex_.star(vertex)) result = std::max(result, depth_[member.cube]);
+    return static_cast<double>(result);
+  }
+
+  // What was eaten of a line.  Its length is measured in chords of a few edges, since edges turn with the
+  // lattice's axes.
+  struct Line {
+    static constexpr double kChord = 4;
+
+    LimbTip tip;
+    double lead = 0;    // at the tip: by how much births are ahead of a steep line's
+    double tip_at = 0;  // length before the tip
+    double whole = 0;   // of the chords
+    std::array<int, 3> chord{};
+
+    double length() const {
+      return whole + std::sqrt(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
+    }
+    void go(std::size_t axis, int step) {
+      if (length() - whole >= kChord) {
+        whole = length();
+        chord = {};
+      }
+      chord[axis] += step;
+    }
+  };
+
+  const DualComplex& complex_;
+  std::span<const float> depth_;
+  double least_reach_;
+  std::vector<Line> lines_;
+  std::unordered_map<Cell, double> birth_;           // of lone edges
+  std::unordered_map<Cell, std::uint32_t> line_at_;  // per vertex at the end of a line
+};
+
+}  // namespace
+
+std::vector<LimbTip> limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
+                               ExecutionContext* context) {
+  Thinning thinning(complex, depth, least_reach);
+  Collapsing collapsing(complex, context);
+  collapsing.run(thinning);
+  return thinning.tips();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/collapse/dual_complex.h"
+
+namespace affskel::core {
+
+/// Where a limb of the solid ends: the end of the line that is left of it when the solid is thinned.
+struct LimbTip {
+  DualComplex::Cell vertex = 0;
+  double radius = 0;  ///< how far the tip lies from the surface, spacings
+  double reach = 0;   ///< the greatest way along the line from the tip over the radius of the limb there
+};
+
+/// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and
+/// Ju 2010).  The complex is collapsed from the surface inwards at unit speed.  A lone edge, one whose last
+/// square has gone, is born then; lone edges are eaten from the ends of their line, and live until then.
+/// While births grow fast from the end of a line inwards, as from a bump to the middle of a head, the line says
+/// nothing: its tip is where that ends.  From there on it must have an edge whose way from the tip, and whose
+/// life, are `least_reach` times the time of its birth: the limb is longer than it is thick.
+/// @param depth per cube: its distance to the surface, spacings.
+/// @return by the order in which they were found.  A function of the complex and the depths alone.
+/// @throws CoreError kCancelled when the context asks to stop.
+std::vector<LimbTip> limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
+                               ExecutionContext* context = nullptr);
+
+}  // namespace affskel::core

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/collapse/dual_complex.h"
+
+namespace affskel::core {
+
+/// A cell that a collapse may not remove, nor its boundary.
+struct Anchor {
+  DualComplex::Cell cell = 0;  ///< a square, an edge or a vertex
+  float weight = 0;            ///< of squares: the lightest one opens the pocket that it bounds
+};
+
+/// No way leads there.
+inline constexpr float kNoWay = std::numeric_limits<float>::max();
+
+/// How far every cube lies from the nearest anchor: the cost of the cheapest way over cubes (26 neighbours,
+/// see DualComplex::for_each_step) to one about an anchor, to a share of a spacing (Dial 1969).
+/// @param cost per cube, of a spacing there, > 0; empty: 1 everywhere.
+/// @return per cube; kNoWay where no anchor can be reached.
+/// @throws CoreError kCancelled when the context asks to stop.
+std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
+                                 std::span<const float> cost, ExecutionContext* context = nullptr);
+
+}  // namespace affskel::core

@@ -1,0 +1,266 @@
+#include "core/ridge/ridge_anchors.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/require.h"
+#include "core/collapse/shortest_ways.h"
+
+namespace affskel::core {
+namespace {
+
+using Cell = DualComplex::Cell;
+
+class Choice {
+ public:
+  Choice(const RidgeEvidence& evidence, const RidgeBounds& bounds, const RidgeConstants& constants,
+         ExecutionContext* context)
+      : evidence_(evidence),
+        complex_(evidence.complex),
+        bounds_(bounds),
+        constants_(constants),
+        context_(context),
+        taken_(evidence.complex),
+        components_(evidence.complex.cubes()) {}
+
+  RidgeAnchors run() {
+    join_components();
+    leave_out_fragments();
+    take_surface();
+    take_curves();
+    throw_if_stopped(context_);
+    take_tips();
+    take_centres();
+    sort_places();
+    return std::move(result_);
+  }
+
+ private:
+  void take(const Anchor& anchor) {
+    result_.anchors.push_back(anchor);
+    insert_closed(complex_, anchor.cell, taken_);
+  }
+
+  double radius_at(const SheetVertex& vertex) const {
+    return static_cast<double>(evidence_.radius[vertex.point]);
+  }
+
+  // Which vertices of the surface lie in a piece that stays.
+  std::vector<char> vertices_of_pieces() const {
+    const auto& vertices = evidence_.vertices;
+    const auto strong = [&](std::uint32_t v) { return vertices[v].strength >= bounds_.low; };
+    DisjointSets pieces(vertices.size());
+    for (const auto& ring : evidence_.cells.ring) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t a = ring[k], b = ring[(k + 1) % 4];
+        if (strong(a) && strong(b)) pieces.unite(a, b);
+      }
+    }
+    std::vector<char> founded(vertices.size(), 0);
+    std::vector<double> area(vertices.size(), 0);
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+      if (!strong(v)) continue;
+      const std::uint32_t piece = pieces.find(v);
+      if (founds(vertices[v])) founded[piece] = 1;
+      area[piece] += 1 / (radius_at(vertices[v]) * radius_at(vertices[v]));
+    }
+    std::vector<char> stays(vertices.size(), 0);
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+      const std::uint32_t piece = pieces.find(v);
+      stays[v] = strong(v) && founded[piece] && area[piece] >= constants_.min_area;
+    }
+    return stays;
+  }
+
+  void take_surface() {
+    const std::vector<char> stays = vertices_of_pieces();
+    for (std::size_t e = 0; e < evidence_.edges.size(); ++e) {
+      const auto& ring = evidence_.cells.ring[e];
+      if (std::none_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return stays[v] != 0; })) continue;
+      double weight = 0;
+      for (const std::uint32_t v : ring) weight += evidence_.vertices[v].strength;
+      take({complex_.square(evidence_.edges[e].point, evidence_.edges[e].axis), static_cast<float>(weight)});
+    }
+  }
+
+  // Stretches between places that are strong, and not taken by the surface.
+  void take_curves() {
+    for (const RidgeCurve& curve : evidence_.curves) {
+      const std::size_t count = curve.vertices.size();
+      for (std::size_t first = 0, last; first < count; first = last + 1) {
+        for (last = first; last < count && off_surface(curve, last);) ++last;
+        const bool whole = curve.closed && first == 0 && last == count;
+        if (last - first >= 2) look_at({&curve, first, last, whole});
+      }
+    }
+  }
+
+  void sort_places() {
+    auto& places = result_.curves;
+    std::stable_sort(places.begin(), places.end(),
+                     [](const CurvePlace& a, const CurvePlace& b) { return a.vertex < b.vertex; });
+    places.erase(std::unique(places.begin(), places.end(),
+                             [](const CurvePlace& a, const CurvePlace& b) { return a.vertex == b.vertex; }),
+                 places.end());
+  }
+
+  bool off_surface(const RidgeCurve& curve, std::size_t v) const {
+    return curve.vertices[v].strength >= bounds_.low && !taken_.has(vertex_of(curve.cells[v]));
+  }
+
+  Cell vertex_of(std::uint32_t lowest) const { return complex_.cell(lowest, DualComplex::kUpperVertex); }
+
+  // Part of a curve, vertices first .. last - 1.
+  struct Stretch {
+    const RidgeCurve* curve = nullptr;
+    std::size_t first = 0, last = 0;
+    bool whole = false;  // of a closed curve
+    double length = 0;   // radii
+  };
+
+  // Whether a vertex tells of a ridge by itself.
+  bool founds(const SheetVertex& vertex) const {
+    return vertex.strength >= bounds_.high && vertex.roundness <= constants_.max_roundness;
+  }
+
+  void look_at(Stretch stretch) {
+    bool founded = false;
+    for (std::size_t v = stretch.first; v < stretch.last; ++v) {
+      const SheetVertex& here = stretch.curve->vertices[v];
+      founded = founded || founds(here);
+      if (v > stretch.first)
+        stretch.length += norm(here.position - stretch.curve->vertices[v - 1].position) /
+                          (evidence_.field.spacing * radius_at(here));
+    }
+    if (!founded) return;
+    if (stretch.whole || stretch.length >= constants_.min_length)
+      take_stretch(stretch);
+    else
+      short_ones_.push_back(stretch);
+  }
+
+  void take_stretch(const Stretch& stretch) {
+    const auto& [curve, first, last, whole, length] = stretch;
+    for (std::size_t v = first; v < last; ++v)
+      result_.curves.push_back({vertex_of(curve->cells[v]), curve->vertices[v]});
+    for (std::size_t v = first; v + (whole ? 0 : 1) < last; ++v) {
+      const std::uint32_t next = v + 1 < last ? curve->cells[v + 1] : curve->cells[first];
+      const Cell edge = edge_between(curve->cells[v], next);
+      if (!taken_.has(edge)) take({edge, 0});
+    }
+  }
+
+  // The edge dual to the face between two cells, by their lowest corners.
+  Cell edge_between(std::uint32_t a, std::uint32_t b) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t place = DualComplex::kUpperVertex - DualComplex::kWeight[axis];
+      if (complex_.neighbour(a, axis, 2) == b) return complex_.cell(b, place);
+      if (complex_.neighbour(a, axis, 0) == b) return complex_.cell(a, place);
+    }
+    return complex_.cell(a, DualComplex::kUpperVertex);  // cells that meet at less than a face
+  }
+
+  void take_tips() {
+    const std::vector<float> way = shortest_ways(complex_, result_.anchors, {}, context_);
+    for (const LimbTip& tip : evidence_.limbs) {
+      float nearest = std::numeric_limits<float>::max();
+      for (const auto& member : complex_.star(tip.vertex)) nearest = std::min(nearest, way[member.cube]);
+      if (static_cast<double>(nearest) <= constants_.tip_distance * tip.radius || taken_.has(tip.vertex))
+        continue;
+      take({tip.vertex, 0});
+      ++result_.limbs;
+    }
+  }
+
+  // For components that have no anchor yet.
+  void take_centres() {
+    std::vector<char> anchored(complex_.cubes(), 0);
+    const auto mark = [&](std::uint32_t cube) { return std::exchange(anchored[components_.find(cube)], 1); };
+    for (const Anchor& anchor : result_.anchors) mark(DualComplex::cube_of(anchor.cell));
+    std::stable_sort(short_ones_.begin(), short_ones_.end(),
+                     [](const Stretch& a, const Stretch& b) { return a.length > b.length; });
+    for (const Stretch& stretch : short_ones_)
+      if (!mark(stretch.curve->cells[stretch.first])) take_stretch(stretch);
+    std::map<std::uint32_t, Deepest> deepest;  // by component
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
+      if (!anchored[components_.find(cube)]) look_deeper(cube, deepest[components_.find(cube)]);
+    for (const auto& [component, found] : deepest) take({found.square, 0});
+  }
+
+  void join_components() {
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const std::uint32_t to = complex_.neighbour(cube, axis, 2); to != DualComplex::kNone)
+          components_.unite(cube, to);
+    }
+  }
+
+  void leave_out_fragments() {
+    struct Component {
+      std::uint32_t size = 0;
+      bool resolved = false;
+    };
+    std::map<std::uint32_t, Component> known;
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube) {
+      Component& here = known[components_.find(cube)];
+      ++here.size;
+      here.resolved = here.resolved || evidence_.radius[cube] > 1;
+    }
+    std::map<std::uint32_t, std::uint32_t> largest;  // size, by part
+    for (const auto& [cube, component] : known) {
+      std::uint32_t& size = largest[evidence_.parts.of_point(cube)];
+      size = std::max(size, component.size);
+    }
+    result_.left_out.assign(complex_.cubes(), 0);
+    const auto is_fragment = [&](std::uint32_t cube) {
+      const Component& component = known[cube];
+      return !component.resolved && component.size < largest[evidence_.parts.of_point(cube)];
+    };
+    for (const auto& [cube, component] : known) result_.fragments += is_fragment(cube);
+    if (result_.fragments == 0) return;
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
+      result_.left_out[cube] = is_fragment(components_.find(cube));
+  }
+
+  // The square between the two sample points of the greatest E.
+  struct Deepest {
+    double erosion = -1;
+    Cell square = 0;
+  };
+
+  void look_deeper(std::uint32_t cube, Deepest& known) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t to = complex_.neighbour(cube, axis, 2);
+      const double erosion =
+          to == DualComplex::kNone ? 0 : std::min(evidence_.field.erosion[cube], evidence_.field.erosion[to]);
+      if (erosion > known.erosion) known = {erosion, complex_.square(cube, axis)};
+    }
+  }
+
+  const RidgeEvidence& evidence_;
+  const DualComplex& complex_;
+  const RidgeBounds& bounds_;
+  const RidgeConstants& constants_;
+  ExecutionContext* context_;
+  CellSet taken_;            // closed
+  DisjointSets components_;  // of cubes
+  std::vector<Stretch> short_ones_;
+  RidgeAnchors result_;
+};
+
+}  // namespace
+
+RidgeAnchors ridge_anchors(const RidgeEvidence& evidence, const RidgeBounds& bounds,
+                           const RidgeConstants& constants, ExecutionContext* context) {
+  require_within(bounds.low, 1e-6, 1000,
+                 "the lower bound of a ridge's strength must lie between 1e-6 and 1000");
+  require_within(bounds.high, bounds.low, 1e6,
+                 "the higher bound of a ridge's strength must be at least the lower one");
+  return Choice(evidence, bounds, constants, context).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/collapse/collapse.h"
+#include "core/collapse/dual_complex.h"
+#include "core/collapse/limb_tips.h"
+#include "core/contour/edge_cells.h"
+#include "core/contour/sheet_mesh.h"
+#include "core/erosion/frame_field.h"
+#include "core/lattice/lattice_edges.h"
+#include "core/lattice/solid_parts.h"
+#include "core/ridge/ridge_constants.h"
+#include "core/ridge/ridge_curves.h"
+
+namespace affskel::core {
+
+/// What anchors are chosen from.
+struct RidgeEvidence {
+  const DualComplex& complex;
+  const SolidParts& parts;
+  const FrameField& field;
+  std::span<const LatticeEdge> edges;     ///< that the ridge surface crosses, from a weak strength on
+  const EdgeCells& cells;                 ///< of these edges
+  std::span<const SheetVertex> vertices;  ///< of the surface, one per cell
+  std::span<const RidgeCurve> curves;     ///< from the lower bound on
+  std::span<const LimbTip> limbs;         ///< of the solid
+  std::span<const float> radius;          ///< per sample point: distance to the surface, spacings
+};
+
+/// A place on a ridge curve, for the vertex of the complex that is dual to its cell.
+struct CurvePlace {
+  DualComplex::Cell vertex = 0;
+  SheetVertex at;
+};
+
+struct RidgeAnchors {
+  std::vector<Anchor> anchors;     ///< each cell once
+  std::vector<CurvePlace> curves;  ///< by vertex, each once
+  std::uint32_t limbs = 0;         ///< tips among the anchors
+  /// Per cube: it belongs to a fragment, a component beside a larger one of the same part of the solid, where the
+  /// lattice does not resolve it: it is nowhere three points thick.  No skeleton is wanted of it.
+  std::vector<char> left_out;
+  std::uint32_t fragments = 0;
+};
+
+/// What a collapse of the solid must leave of its ridges.
+/// 1. The surface where it is strong: squares with a vertex of s >= low, in pieces that vertices of s >= low
+///    form, which have one of s >= high that is not round, and area enough.
+/// 2. Stretches of ridge curves, off that, that are long enough.
+/// 3. Tips of limbs that end far from both.
+/// 4. In components of the complex that have none of these the longest stretch of a curve, or else the square
+///    with the greatest E.
+/// The lower the bounds, the more.  A function of its arguments alone.
+/// @throws CoreError kBadInput when a bound is out of range; kCancelled when the context asks to stop.
+RidgeAnchors ridge_anchors(const RidgeEvidence& evidence, const RidgeBounds& bounds,
+                           const RidgeConstants& constants = {}, ExecutionContext* context = nullptr);
+
+}  // namespace affskel::core

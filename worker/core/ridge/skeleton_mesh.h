@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+
+#include "core/base/execution_context.h"
+#include "core/collapse/dual_complex.h"
+#include "core/contour/edge_cells.h"
+#include "core/contour/sheet_mesh.h"
+#include "core/erosion/frame_field.h"
+#include "core/lattice/lattice.h"
+#include "core/lattice/solid_parts.h"
+#include "core/ridge/ridge_anchors.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+/// What is known of the places of a collapsed complex.
+struct SkeletonParts {
+  const Lattice& lattice;
+  const SolidParts& parts;
+  const FrameField& field;
+  const EdgeCells& cells;                ///< that the ridge surface passes through
+  std::span<const SheetVertex> surface;  ///< its vertex in each of these cells
+  const RidgeAnchors& anchors;
+  double low;  ///< the strength at which the surface ends
+};
+
+/// Gives the cells of a collapsed complex their places in the solid.
+/// 1. Vertices of the ridge surface and of curves have theirs.
+/// 2. Rims: where a vertex weaker than `low` lies on a rim, it goes back to the line s = low: to the mean of
+///    its places, by linear interpolation, on the ways to its strong neighbours.  Rims are then evened out.
+/// 3. All others begin in the middle of the sample points about them, and are drawn to the mean of their
+///    neighbours, as long as they stay in the solid: ways and membranes become smooth, their ends stay.
+/// @param left of the complex: squares, edges and vertices, closed under taking boundaries.
+/// @return a vertex for each of the complex, two triangles for each square, a segment for each edge of no
+///   square.
+SheetMesh skeleton_mesh(const Solid& solid, const DualComplex& complex, const CellSet& left,
+                        const SkeletonParts& from, ExecutionContext* context);
+
+}  // namespace affskel::core
