@@ -13,7 +13,6 @@
 #include "client/operations/job_notices.h"
 #include "client/text/words.h"
 #include "core/chords/chord_sheet.h"
-#include "core/ridge/ridge_constants.h"
 #include "core/shocks/shock_operator.h"
 #include "wire/params.h"
 
@@ -63,8 +62,9 @@ core::ShockOperator shock_operator(v1::Operator which) {
 // Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
 // @throws ClientError kUsage for an unknown operator.
 double first_threshold(const v1::SkeletonParams& params, double spacing) {
-  // The threshold of `ridge` is a strength, which the slider does not set.
-  if (params.operator_() == v1::OPERATOR_RIDGE) return core::RidgeConstants().significance;
+  // The threshold of `ridge` is a strength, which the slider does not set: all pieces are shown.
+  constexpr double kAnyPiece = 0.001;
+  if (params.operator_() == v1::OPERATOR_RIDGE) return kAnyPiece;
   const bool chords = params.operator_() == v1::OPERATOR_CHORDS;
   const double preset = chords ? core::ChordSheetOptions().significance
                                : core::default_threshold(shock_operator(params.operator_()), spacing);

@@ -1,7 +1,8 @@
-// Prints hashes of every bit of the fields of some solids, and of their sheets of chords: equal output means
-// equal fields and sheets.
+// Prints hashes of every bit of the fields of some solids, of their sheets of chords with the barriers there, and
+// of their ridges: equal output means equal fields and sheets.
 // Usage: field_hash [THREADS]
 #include <bit>
+#include <cinttypes>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -9,9 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "core/barrier/barriers.h"
 #include "core/chords/chord_sheet.h"
 #include "core/erosion/erosion.h"
 #include "core/erosion/frame_field.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/ridge_sheet.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/shocks/zucker_hummel.h"
@@ -42,15 +46,8 @@ Mesh hollow_ball() {
   return mesh;
 }
 
-std::uint64_t sheet_hash(const affskel::core::Solid& solid, const affskel::core::Lattice& lattice,
-                         const affskel::core::FrameField& field) {
+void add_sheet(const affskel::core::SheetMesh& sheet, Hash& hash) {
   using namespace affskel::core;
-  const ChordSheet sheet = chord_sheet(solid, lattice, field);
-  Hash hash;
-  for (const ChordShock& shock : sheet.shocks) {
-    hash.add(std::uint64_t{shock.point});
-    hash.add(shock.turn);
-  }
   for (const SheetVertex& vertex : sheet.vertices) {
     for (const Vec3& v : {vertex.position, vertex.normal_a, vertex.normal_b}) {
       for (int k = 0; k < 3; ++k) hash.add(v[k]);
@@ -60,6 +57,39 @@ std::uint64_t sheet_hash(const affskel::core::Solid& solid, const affskel::core:
   for (const Triangle& triangle : sheet.triangles) {
     for (const std::uint32_t corner : triangle) hash.add(std::uint64_t{corner});
   }
+  for (const Segment& segment : sheet.segments) {
+    for (const std::uint32_t end : segment) hash.add(std::uint64_t{end});
+  }
+}
+
+std::uint64_t chords_hash(const affskel::core::Solid& solid, const affskel::core::Lattice& lattice,
+                          const affskel::core::FrameField& field, unsigned threads) {
+  using namespace affskel::core;
+  const ChordSheet sheet = chord_sheet(solid, lattice, field);
+  Hash hash;
+  for (const ChordShock& shock : sheet.shocks) {
+    hash.add(std::uint64_t{shock.point});
+    hash.add(shock.turn);
+  }
+  add_sheet(sheet, hash);
+  std::vector<SheetPlace> places;
+  for (const SheetVertex& v : sheet.vertices)
+    places.push_back({scaled_place(lattice, (1 / lattice.spacing) * v.position), v.normal_a, v.normal_b});
+  BarrierOptions options;
+  options.directions = 162;
+  options.threads = threads;
+  for (const double barrier : barriers(solid, places, options)) hash.add(barrier);
+  return hash.value();
+}
+
+std::uint64_t ridge_hash(const affskel::core::Solid& solid, const affskel::core::Lattice& lattice,
+                         const affskel::core::FrameField& field, unsigned threads) {
+  using namespace affskel::core;
+  const RidgeBasis basis = ridge_basis(lattice, field, threads);
+  RidgeSheetOptions options;
+  options.basis = &basis;
+  Hash hash;
+  add_sheet(ridge_sheet(solid, lattice, field, options), hash);
   return hash.value();
 }
 
@@ -98,9 +128,10 @@ void print_hash(const char* name, const Mesh& mesh, const std::string& direction
     values.push_back({scale * scale * scale * value.erosion, scale * scale * value.area, value.direction});
   }
   for (double h : zucker_hummel_divergence(lattice, set, optimal)) hash.add(h);
-  const std::uint64_t sheet = sheet_hash(solid, lattice, frame_field(lattice, set, values));
-  std::printf("%-12s R=%u K=%zu %016llx %016llx\n", name, lattice.points, set.size(),
-              static_cast<unsigned long long>(hash.value()), static_cast<unsigned long long>(sheet));
+  const FrameField field = frame_field(lattice, set, values);
+  std::printf("%-12s R=%u K=%zu %016" PRIx64 " %016" PRIx64 " %016" PRIx64 "\n", name, lattice.points,
+              set.size(), hash.value(), chords_hash(solid, lattice, field, threads),
+              ridge_hash(solid, lattice, field, threads));
 }
 
 }  // namespace

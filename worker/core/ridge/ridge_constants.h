@@ -20,6 +20,7 @@ struct RidgeConstants {
   // What counts as ridge: not nearer to the surface than this share of the width, or, where that is at its
   // lower bound, than so many spacings: in hollows of the surface E is large.  And from this share of the lower
   // bound on, for the line where it ends.
+  double strip = 0.35;  ///< half the least width of a surface in a limb, radii: else it is a curve
   double min_radius_share = 0.9;
   double min_radius = 1.5;
   double weak_share = 0.125;
@@ -34,10 +35,6 @@ struct RidgeConstants {
   // Limbs: so many times as long as thick, with a tip farther than so many radii from what is anchored.
   double limb_reach = 1;
   double tip_distance = 0.5;
-
-  // A way costs its length by these powers of E and of the radius.
-  double erosion_power = 0.2;
-  double radius_power = 0.5;
 };
 
 }  // namespace affskel::core

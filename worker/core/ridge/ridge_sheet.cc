@@ -31,15 +31,8 @@ struct Found {
 
 Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
                   const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  std::vector<char> deep(lattice.points);
-  for (std::uint32_t p = 0; p < lattice.points; ++p) {
-    const double width = static_cast<double>(basis.derivatives[p].width);
-    const double least =
-        width > constants.min_width ? constants.min_radius_share * width : constants.min_radius;
-    deep[p] = static_cast<double>(basis.radius[p]) >= least;
-  }
-  const RidgeValues values(lattice, field, basis.derivatives, std::move(deep),
-                           constants.weak_share * options.bounds.low);
+  const RidgeValues values(lattice, field, basis.derivatives, basis.radius,
+                           constants.weak_share * options.bounds.low, constants);
   throw_if_stopped(options.context);
   Found found;
   found.crossings = ridge_crossings(lattice, values);
@@ -64,16 +57,15 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCel
   return dual_contour(lattice, parts, cells, places, mean, context);
 }
 
-// What a way costs for each spacing of its length: little in the middle of the solid.
-std::vector<float> costs_of_ways(const FrameField& field, std::span<const float> radius,
-                                 const RidgeConstants& constants) {
+// What a way costs for each spacing of its length: little in the middle of the solid, where E and the distance
+// to the surface are large.
+std::vector<float> costs_of_ways(const FrameField& field, std::span<const float> radius) {
   const double deepest = *std::max_element(field.erosion.begin(), field.erosion.end());
   const double widest = static_cast<double>(*std::max_element(radius.begin(), radius.end()));
   std::vector<float> cost(radius.size());
   for (std::size_t p = 0; p < cost.size(); ++p) {
     const double share = std::max(field.erosion[p] / deepest, 1e-12);
-    cost[p] = static_cast<float>(std::pow(share, -constants.erosion_power) *
-                                 std::pow(static_cast<double>(radius[p]) / widest, -constants.radius_power));
+    cost[p] = static_cast<float>(1 / std::sqrt(std::sqrt(share) * static_cast<double>(radius[p]) / widest));
   }
   return cost;
 }
@@ -129,7 +121,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .limbs = basis.limbs,
                                .radius = basis.radius};
   const RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
-  const std::vector<float> cost = costs_of_ways(field, basis.radius, constants);
+  const std::vector<float> cost = costs_of_ways(field, basis.radius);
   Collapsed left = collapse(basis.complex, chosen.anchors, {.cost = cost, .context = options.context});
   if (count_components(basis.complex, left.cells) != basis.topology.components)
     throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
@@ -139,7 +131,9 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs;
   sheet.opened = left.opened;
-  const SkeletonParts from{lattice, parts, field, cells, surface.vertices, chosen, options.bounds.low};
+  const SkeletonParts from{
+      lattice,           parts, field, cells, surface.vertices, chosen, basis.derivatives, basis.radius,
+      options.bounds.low};
   static_cast<SheetMesh&>(sheet) = skeleton_mesh(solid, basis.complex, left.cells, from, options.context);
   return sheet;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/base/require.h"
 #include "core/base/symmetric_eigen.h"
@@ -49,17 +48,25 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 }  // namespace
 
 RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
-                         std::span<const PointDerivatives> derivatives, std::vector<char> deep,
-                         double min_strength)
+                         std::span<const PointDerivatives> derivatives, std::span<const float> radius,
+                         double min_strength, const RidgeConstants& constants)
     : field_(field),
       derivatives_(derivatives),
-      deep_(std::move(deep)),
+      radius_(radius),
+      constants_(constants),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
   require_within(min_strength, 1e-6, kMaxRidgeStrength,
                  "the least strength of a ridge must lie between 1e-6 and 1000");
   ridges_.reserve(derivatives.size());
   for (const PointDerivatives& point : derivatives) ridges_.push_back(ridge_at(point, min_strength));
+}
+
+bool RidgeValues::is_deep(std::uint32_t point) const {
+  const double width = static_cast<double>(derivatives_[point].width);
+  const double least =
+      width > constants_.min_width ? constants_.min_radius_share * width : constants_.min_radius;
+  return static_cast<double>(radius_[point]) >= least;
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {
@@ -72,7 +79,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
   vertex.position = position;
   vertex.point = points[0];
   Vec3 gradient;
-  double value = 0, least = 0, width = 0;
+  double value = 0, least = 0, width = 0, radius = 0;
   for (std::size_t n = 0; n < points.size(); ++n) {
     const PointDerivatives& here = derivatives_[points[n]];
     const PointRidge& ridge = ridges_[points[n]];
@@ -81,6 +88,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
     value += w * static_cast<double>(here.value);
     width += w * static_cast<double>(here.width);
     least += w * static_cast<double>(ridge.least);
+    radius += w * static_cast<double>(radius_[points[n]]);
     vertex.ratio += w * static_cast<double>(ridge.ratio);
     vertex.roundness += w * static_cast<double>(ridge.roundness);
     vertex.erosion += w * field_.erosion[points[n]];
@@ -90,7 +98,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
   if (of == Of::kCurve) {
     vertex.strength = vertex.ratio * strength_of(least, value, square);
   } else {
-    const double slope = std::max(0.0, vertex.ratio) * least * width;
+    const double slope = std::max(0.0, vertex.ratio) * least * constants_.strip * radius;
     vertex.strength = strength_of(least, value, square + slope * slope);
   }
   // grad P one width away along e is g -+ lambda width e, to first order.

@@ -10,6 +10,7 @@
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/ridge/smoothed_derivatives.h"
 
 namespace affskel::core {
@@ -30,20 +31,20 @@ struct PointRidge {
 class RidgeValues {
  public:
   /// @param derivatives of this field.
-  /// @param deep per sample point: whether a ridge may pass there, not too near the surface.
+  /// @param radius per sample point: see surface_distance().
   /// @param min_strength least s that is asked for, radians: points far below it are left out.
   /// @throws CoreError kBadInput when the strength is out of range.
   RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
-              std::vector<char> deep, double min_strength);
+              std::span<const float> radius, double min_strength, const RidgeConstants& constants = {});
 
   const PointRidge& ridge(std::uint32_t point) const { return ridges_[point]; }
 
   /// grad P, per spacing.
   Vec3 gradient(std::uint32_t point) const;
 
-  /// Whether a strength reaches the bound, at a vertex deep enough.
+  /// Whether a strength reaches the bound, at a vertex far enough from the surface.
   bool counts(double strength, const SheetVertex& vertex) const {
-    return strength >= min_strength_ && deep_[vertex.point] != 0;
+    return strength >= min_strength_ && is_deep(vertex.point);
   }
 
   /// What a strength is that of.
@@ -57,9 +58,12 @@ class RidgeValues {
                  std::span<const double> weights, const Vec3& across) const;
 
  private:
+  bool is_deep(std::uint32_t point) const;
+
   const FrameField& field_;
   std::span<const PointDerivatives> derivatives_;
-  std::vector<char> deep_;
+  std::span<const float> radius_;
+  RidgeConstants constants_;
   double min_strength_;
   Matrix3 to_mesh_;                 // F^-T
   std::vector<PointRidge> ridges_;  // per sample point

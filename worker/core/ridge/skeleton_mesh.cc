@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/ridge_values.h"
 #include "core/solid/solid_membership.h"
 
 namespace affskel::core {
@@ -17,8 +19,11 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 4;    // each evens a rim out over one more neighbour
-constexpr int kFreePasses = 30;  // of ways and membranes: over about five neighbours
+constexpr int kRimPasses = 6;         // each evens a rim out over one more neighbour
+constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
+constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
+constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
+constexpr int kLinePasses = 8;        // of ways and curves, where they meet
 
 class Placing {
  public:
@@ -40,8 +45,10 @@ class Placing {
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
-    even_out(rim_neighbours_, fixed_on_rim(), kRimPasses, context);
-    even_out(neighbours_, bound_, kFreePasses, context);
+    even_out(rim_neighbours_, fixed_on_rim(), kRimPasses, false, context);
+    even_out(neighbours_, bound_, kFreePasses, true, context);
+    even_out(neighbours_, fixed_on_lines(), kLinePasses, false, context);
+    take_values();
     make_faces();
     return std::move(mesh_);
   }
@@ -92,36 +99,55 @@ class Placing {
     bound_.assign(vertices_.size(), 0);
     for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
       mesh_.vertices.push_back(free_vertex(vertices_[v], places[v]));
+      const Vec3 point =
+          (1 / from_.lattice.spacing) * place_of(complex_.star(vertices_[v]).members[0], places[v]);
+      point_place_.push_back({point.x, point.y, point.z});
       mesh_.part.push_back(from_.parts.of_point(DualComplex::cube_of(vertices_[v])));
     }
-    std::vector<char> in_surface(vertices_.size(), 0), on_curve(vertices_.size(), 0);
-    CellSet squares(complex_), edges(complex_);
+    place_surface();
+    place_curves();
     for (const Anchor& anchor : from_.anchors.anchors)
-      (DualComplex::dimension(anchor.cell) == 2 ? squares : edges).insert(anchor.cell);
+      if (DualComplex::dimension(anchor.cell) == 0) bound_[number(anchor.cell)] = 1;
+  }
+
+  // The vertex of the surface in the cell of a vertex, or null.
+  const SheetVertex* on_surface(std::uint32_t v) const {
+    const auto& cells = from_.cells.vertex;
+    const auto at = std::lower_bound(cells.begin(), cells.end(), vertices_[v]);
+    return at == cells.end() || *at != vertices_[v]
+               ? nullptr
+               : &from_.surface[static_cast<std::size_t>(at - cells.begin())];
+  }
+
+  // A square is of the surface when the surface crosses it; the anchor in the centre of a round part is not.
+  void place_surface() {
+    CellSet anchored(complex_);
+    for (const Anchor& anchor : from_.anchors.anchors) anchored.insert(anchor.cell);
+    std::vector<char> of_surface(vertices_.size(), 0);
     for (std::size_t s = 0; s < squares_.size(); ++s) {
-      const bool ridge = squares.has(squares_[s]);
-      for (const std::uint32_t v : rings_[s]) {
-        in_surface[v] |= static_cast<char>(ridge);
+      const auto& ring = rings_[s];
+      const bool ridge =
+          anchored.has(squares_[s]) &&
+          std::all_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return on_surface(v); });
+      for (const std::uint32_t v : ring) {
+        if (ridge) of_surface[v] = 1;
         mesh_.vertices[v].kind = SkeletonKind::kMembrane;
       }
     }
     for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
-      if (!in_surface[v]) continue;
-      const auto at = std::lower_bound(from_.cells.vertex.begin(), from_.cells.vertex.end(), vertices_[v]);
-      mesh_.vertices[v].kind = SkeletonKind::kRidge;
-      if (at == from_.cells.vertex.end() || *at != vertices_[v]) continue;  // the centre of a round part
-      mesh_.vertices[v] = from_.surface[static_cast<std::size_t>(at - from_.cells.vertex.begin())];
+      if (!of_surface[v]) continue;
+      mesh_.vertices[v] = *on_surface(v);
       bound_[v] = 1;
     }
+  }
+
+  void place_curves() {
     for (const CurvePlace& place : from_.anchors.curves) {
       const std::uint32_t v = number(place.vertex);
       if (v == vertices_.size() || vertices_[v] != place.vertex || bound_[v]) continue;
       mesh_.vertices[v] = place.at;
       mesh_.vertices[v].kind = SkeletonKind::kCurve;
       bound_[v] = 1;
-    }
-    for (const Anchor& anchor : from_.anchors.anchors) {
-      if (DualComplex::dimension(anchor.cell) == 0) bound_[number(anchor.cell)] = 1;
     }
   }
 
@@ -136,19 +162,11 @@ class Placing {
   // In the middle of the sample points about it.
   SheetVertex free_vertex(Cell vertex, const CellPlace& cell) const {
     const auto star = complex_.star(vertex);
-    const double share = 1 / static_cast<double>(star.count);
     SheetVertex result;
-    Vec3 gradient;
     result.point = star.members[0].cube;
-    for (const DualComplex::Star::Member& member : star) {
-      const std::uint32_t cube = member.cube;
-      result.position = result.position + share * place_of(member, cell);
-      result.erosion += share * from_.field.erosion[cube];
-      result.area += share * section_area(to_mesh_, from_.field.gradient[cube]);
-      gradient = gradient + unit(from_.field.gradient[cube]);
-    }
+    for (const DualComplex::Star::Member& member : star)
+      result.position = result.position + (1 / static_cast<double>(star.count)) * place_of(member, cell);
     if (!inside(result.position)) result.position = place_of(star.members[0], cell);
-    result.normal_a = result.normal_b = unit(gradient);
     result.kind = SkeletonKind::kWay;
     return result;
   }
@@ -198,10 +216,20 @@ class Placing {
     return fixed;
   }
 
-  // In each pass every vertex that is not fixed goes half way to the mean of its neighbours; at the end as far
-  // back as the solid demands.
+  // Ends, branches and what lies in a surface stay.
+  std::vector<char> fixed_on_lines() const {
+    std::vector<char> fixed(vertices_.size(), 0);
+    for (const auto& ring : rings_)
+      for (const std::uint32_t v : ring) fixed[v] = 1;
+    for (std::uint32_t v = 0; v < fixed.size(); ++v)
+      if (neighbours_[v].size() != 2) fixed[v] = 1;
+    return fixed;
+  }
+
+  // In each pass every vertex that is not fixed goes half way to the mean of its neighbours, and on lines, when
+  // asked to, towards the crest of P; at the end as far back as the solid demands.
   void even_out(const Groups<std::uint32_t>& neighbours, const std::vector<char>& fixed, int passes,
-                ExecutionContext* context) {
+                bool to_crest, ExecutionContext* context) {
     std::vector<std::uint32_t> moving;
     for (std::uint32_t v = 0; v < vertices_.size(); ++v)
       if (!fixed[v] && !neighbours[v].empty()) moving.push_back(v);
@@ -215,6 +243,9 @@ class Placing {
         for (const std::uint32_t to : around)
           mean = mean + (1 / static_cast<double>(around.size())) * mesh_.vertices[to].position;
         moved[n] = 0.5 * (mesh_.vertices[moving[n]].position + mean);
+        if (!to_crest || around.size() != 2) continue;
+        const Vec3 along = mesh_.vertices[around[1]].position - mesh_.vertices[around[0]].position;
+        moved[n] = moved[n] + way_to_crest(moving[n], unit(along));
       }
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
     }
@@ -224,6 +255,62 @@ class Placing {
       double share = 1;
       while (share > 0.2 && !inside(before[n] + share * (moved[n] - before[n]))) share *= 0.5;
       at = share > 0.2 ? before[n] + share * (moved[n] - before[n]) : before[n];
+    }
+  }
+
+  // Across a line: Newton's step to where P is greatest, not far at a time.
+  Vec3 way_to_crest(std::uint32_t v, const Vec3& along) {
+    const Vec3 off = walk(v);
+    const PointDerivatives& here = from_.derivatives[mesh_.vertices[v].point];
+    const Vec3 gradient = vector_of(here.gradient) + bent(here, off);
+    const Vec3 across = gradient - dot(gradient, along) * along;
+    const double slope = norm(across);
+    if (slope == 0) return {};
+    const Vec3 uphill = (1 / slope) * across;
+    const double bend = dot(uphill, bent(here, uphill)),
+                 reach = kNearCrest * static_cast<double>(from_.radius[mesh_.vertices[v].point]);
+    if (slope > -bend * reach) return {};  // no crest, or one on the wall of a hollow
+    const double step = std::min(slope / -bend, kLongestStep);
+    return (step * from_.lattice.spacing) * uphill;
+  }
+
+  static Vec3 bent(const PointDerivatives& at, const Vec3& v) {
+    const auto h = [&](std::size_t n) { return static_cast<double>(at.hessian[n]); };
+    return {h(0) * v.x + h(1) * v.y + h(2) * v.z, h(1) * v.x + h(3) * v.y + h(4) * v.z,
+            h(2) * v.x + h(4) * v.y + h(5) * v.z};
+  }
+
+  // Makes the sample point nearest to a vertex its own, as far as the complex leads there.
+  // @return the way from there to the vertex, spacings.
+  Vec3 walk(std::uint32_t v) {
+    SheetVertex& vertex = mesh_.vertices[v];
+    std::array<double, 3>& point = point_place_[v];
+    const Vec3 at = (1 / from_.lattice.spacing) * vertex.position;
+    std::array<double, 3> off{at.x - point[0], at.y - point[1], at.z - point[2]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      while (std::abs(off[axis]) > 0.5) {
+        const double step = off[axis] > 0 ? 1 : -1;
+        const std::uint32_t next = complex_.neighbour(vertex.point, axis, step > 0 ? 2 : 0);
+        if (next == DualComplex::kNone) break;
+        vertex.point = next;
+        point[axis] += step;
+        off[axis] -= step;
+      }
+    }
+    return {off[0], off[1], off[2]};
+  }
+
+  // What vertices that were moved freely have at their places, by the sample points next to them.
+  void take_values() {
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+      if (bound_[v]) continue;
+      const Vec3 off = walk(v);
+      SheetVertex& vertex = mesh_.vertices[v];
+      const Vec3& gradient = from_.field.gradient[vertex.point];
+      const double rise = from_.lattice.spacing * dot(gradient, off);
+      vertex.erosion = std::max(0.0, from_.field.erosion[vertex.point] + rise);
+      vertex.area = section_area(to_mesh_, gradient);
+      vertex.normal_a = vertex.normal_b = unit(gradient);
     }
   }
 
@@ -242,7 +329,8 @@ class Placing {
   std::vector<std::array<std::uint32_t, 4>> rings_;     // per square
   std::vector<std::uint8_t> squares_at_edge_;
   Groups<std::uint32_t> neighbours_, rim_neighbours_;
-  std::vector<char> bound_;  // per vertex: its place is known
+  std::vector<char> bound_;                         // per vertex: its place is known
+  std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point
   SheetMesh mesh_;
 };
 

@@ -10,6 +10,7 @@
 #include "core/lattice/lattice.h"
 #include "core/lattice/solid_parts.h"
 #include "core/ridge/ridge_anchors.h"
+#include "core/ridge/smoothed_derivatives.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
@@ -22,7 +23,9 @@ struct SkeletonParts {
   const EdgeCells& cells;                ///< that the ridge surface passes through
   std::span<const SheetVertex> surface;  ///< its vertex in each of these cells
   const RidgeAnchors& anchors;
-  double low;  ///< the strength at which the surface ends
+  std::span<const PointDerivatives> derivatives;  ///< of P
+  std::span<const float> radius;                  ///< per sample point: see surface_distance()
+  double low;                                     ///< the strength at which the surface ends
 };
 
 /// Gives the cells of a collapsed complex their places in the solid.
@@ -30,7 +33,8 @@ struct SkeletonParts {
 /// 2. Rims: where a vertex weaker than `low` lies on a rim, it goes back to the line s = low: to the mean of
 ///    its places, by linear interpolation, on the ways to its strong neighbours.  Rims are then evened out.
 /// 3. All others begin in the middle of the sample points about them, and are drawn to the mean of their
-///    neighbours, as long as they stay in the solid: ways and membranes become smooth, their ends stay.
+///    neighbours, ways also to where P is greatest across them if that is near, as long as they stay in the solid: they become
+///    smooth, and follow a ridge where there is a weak one.  Their ends stay.
 /// @param left of the complex: squares, edges and vertices, closed under taking boundaries.
 /// @return a vertex for each of the complex, two triangles for each square, a segment for each edge of no
 ///   square.

@@ -40,12 +40,12 @@ struct Limb {
 };
 
 std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field, double min_strength = 0.5,
-                                  const std::vector<char>& deep = {}, ExecutionContext* context = nullptr) {
+                                  float radius = 100, ExecutionContext* context = nullptr) {
   RidgeConstants narrow;
   narrow.min_width = narrow.max_width = 1;
   const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, nullptr, narrow);
-  const RidgeValues values(box.lattice, field, derivatives,
-                           deep.empty() ? std::vector<char>(box.lattice.points, 1) : deep, min_strength);
+  const std::vector<float> everywhere(box.lattice.points, radius);
+  const RidgeValues values(box.lattice, field, derivatives, everywhere, min_strength);
   return ridge_curves(box.lattice, values, context);
 }
 
@@ -129,7 +129,7 @@ TEST(RidgeCurves, EndWhereTheirBoundsAre) {
   const auto above = [&](const SheetVertex& v) { return dot(v.position - limb.foot, limb.along); };
   EXPECT_NEAR(std::min(above(upper.vertices.front()), above(upper.vertices.back())), 0, 1.5);
   EXPECT_GT(std::max(above(upper.vertices.front()), above(upper.vertices.back())), 6);
-  EXPECT_TRUE(curves_of(box, field, 0.5, std::vector<char>(box.lattice.points, 0)).empty());
+  EXPECT_TRUE(curves_of(box, field, 0.5, 1).empty());
 }
 
 // In a sheet E bends in one direction alone.
@@ -148,7 +148,8 @@ TEST(RidgeCurves, StopWhenTheContextAsks) {
   const BoxLattice box(5, 5, 5);
   const Limb limb{.along = {0, 0, 1}};
   StoppingContext context(0);
-  EXPECT_THROW(curves_of(box, field_of_branches(box.lattice, {limb.branch()}), 0.5, {}, &context), CoreError);
+  EXPECT_THROW(curves_of(box, field_of_branches(box.lattice, {limb.branch()}), 0.5, 100, &context),
+               CoreError);
 }
 
 }  // namespace

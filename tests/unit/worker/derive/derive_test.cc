@@ -114,17 +114,26 @@ TEST_F(DeriveTest, ChordsGiveTheTorusItsAnnulus) {
   }
 }
 
-TEST_F(DeriveTest, TheRidgeOfATorusIsItsAnnulus) {
-  const v1::SkeletonPoints points = skeleton(v1::OPERATOR_RIDGE);
+TEST(DeriveRidge, OfATorusIsItsAnnulus) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
+  const PreparedJob prepared(sample_mesh(), params);
+  const std::string field = finished_field(prepared);
+  v1::Lease of_points = lease_of(v1::TASK_KIND_SKELETON);
+  of_points.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const auto points = parsed<v1::SkeletonPoints>(derive(of_points, prepared, field));
   ASSERT_GT(points.point_size(), 20);
   EXPECT_EQ(points.quality().threshold(), 6);
   EXPECT_EQ(points.quality().inside_share(), 1);
   EXPECT_EQ(points.quality().components(), 1U);
   EXPECT_EQ(points.quality().holes(), 1U);
-  EXPECT_TRUE(points.quality().has_bridges());
+  EXPECT_EQ(points.quality().lattice().components(), 1U);
+  EXPECT_EQ(points.quality().lattice().holes(), 1U);
+  EXPECT_EQ(points.quality().limbs(), 0U);
+  EXPECT_FALSE(points.quality().has_bridges());
   v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
   lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
-  const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(run(lease));
+  const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
   const int vertices = sheet.xyz_size() / 3;
   ASSERT_EQ(vertices, points.point_size()) << "the sheet's vertices are the skeleton's points";
   ASSERT_EQ(sheet.normal_a_size(), 3 * vertices);
@@ -132,17 +141,24 @@ TEST_F(DeriveTest, TheRidgeOfATorusIsItsAnnulus) {
   ASSERT_EQ(sheet.erosion_size(), vertices);
   ASSERT_EQ(sheet.strength_size(), vertices);
   ASSERT_EQ(sheet.ratio_size(), vertices);
+  ASSERT_EQ(sheet.kind_size(), vertices);
   ASSERT_EQ(sheet.area_size(), vertices);
-  const double spacing = prepared_.lattice().spacing;
+  const double spacing = prepared.lattice().spacing;
+  int on_ridge = 0;
   for (int v = 0; v < vertices; ++v) {
     EXPECT_EQ(sheet.xyz(3 * v), points.xyz(3 * v));
     EXPECT_LT(std::abs(sheet.xyz(3 * v + 2)), 0.1 * spacing);
-    EXPECT_GE(sheet.strength(v), 6 - 1e-9);
     EXPECT_LE(sheet.ratio(v), 1);
-    // The level surfaces mirror each other in the plane z = 0.
-    EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
+    EXPECT_LE(sheet.kind(v), 3U);
+    if (sheet.kind(v) <= 1) {
+      ++on_ridge;
+      EXPECT_GE(sheet.strength(v), 6 - 1e-9);
+      // The level surfaces mirror each other in the plane z = 0.
+      EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
+    }
     EXPECT_EQ(sheet.erosion(v), points.erosion(v));
   }
+  EXPECT_GT(on_ridge, vertices / 2);
 }
 
 TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {
