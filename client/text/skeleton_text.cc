@@ -46,7 +46,9 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
     lines.emplace_back("bridges", std::to_string(q.bridges()) + " (ways through weaker shocks)");
   if (q.has_lattice()) {
     const v1::LatticeTopology& lattice = q.lattice();
-    lines.emplace_back("betti_lattice", betti(lattice.components(), lattice.holes(), lattice.cavities()));
+    std::string text = betti(lattice.components(), lattice.holes(), lattice.cavities());
+    if (q.fragments() > 0) text += ", " + std::to_string(q.fragments()) + " of the components left out";
+    lines.emplace_back("betti_lattice", text);
   }
   lines.emplace_back("betti_solid", betti(q.solid_components(), static_cast<std::uint64_t>(q.solid_genus()),
                                           q.solid_cavities()));

@@ -68,6 +68,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, c
   lattice.set_components(sheet.lattice.components);
   lattice.set_holes(sheet.lattice.holes);
   lattice.set_cavities(sheet.lattice.cavities);
+  message.set_fragments(sheet.fragments);
   message.set_limbs(sheet.limbs);
   return message;
 }

@@ -20,11 +20,14 @@ class Collapsing {
   /// Times are told apart by this much.
   static constexpr double kStep = 0.125;
 
+  /// @throws CoreError kCancelled, here and in run(), when the context asks to stop.
   Collapsing(const DualComplex& complex, ExecutionContext* context)
       : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
+    StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
       state_[cell] |= kThere;
       complex.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+      stop.did(20);
     });
   }
 

@@ -95,14 +95,16 @@ void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& 
   complex.for_each_face(cell, [&](DualComplex::Cell face) { insert_closed(complex, face, set); });
 }
 
-BettiNumbers betti_numbers(const DualComplex& complex) {
+BettiNumbers betti_numbers(const DualComplex& complex, ExecutionContext* context) {
   using Cell = DualComplex::Cell;
   DisjointSets cubes(complex.cubes());
   std::uint64_t components = complex.cubes();
   std::int64_t euler = 0;
   // Squares of the boundary, joined over its edges: each lies between two of them.
   std::vector<Cell> boundary;
+  StopCheck stop(context);
   complex.for_each_cell([&](Cell cell) {
+    stop.did(10);
     const int dimension = DualComplex::dimension(cell);
     euler += dimension % 2 == 0 ? 1 : -1;
     if (dimension != 2) return;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/betti_numbers.h"
 
@@ -233,6 +234,7 @@ void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& 
 
 /// The Betti numbers of the whole complex: cavities are the closed pieces of its boundary beyond one for each
 /// component (Alexander duality), holes follow from the Euler characteristic.
-BettiNumbers betti_numbers(const DualComplex& complex);
+/// @throws CoreError kCancelled when the context asks to stop.
+BettiNumbers betti_numbers(const DualComplex& complex, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -47,23 +47,9 @@ class Thinning {
     const auto born = birth_.find(edge);
     const double birth = born->second;
     birth_.erase(born);
-    std::uint32_t number = 0;
-    if (const auto known = line_at_.find(vertex); known != line_at_.end()) {
-      number = known->second;
-      line_at_.erase(known);
-    } else {
-      number = static_cast<std::uint32_t>(lines_.size());
-      lines_.push_back({.tip = {vertex, radius_at(vertex), 0}, .lead = birth});
-    }
+    const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
-    std::size_t axis = 0;
-    while (DualComplex::digit(DualComplex::place_of(edge), axis) != 1) ++axis;
-    std::array<Cell, 2> ends{};
-    std::size_t n = 0;
-    complex_.for_each_face(edge, [&](Cell end) { ends[n++] = end; });
-    const bool upwards = ends[0] == vertex;
-    line.go(axis, upwards ? 1 : -1);
-    const Cell end = ends[upwards ? 1 : 0];
+    const Cell end = line.go(complex_, edge, vertex);
     const double lead = birth - kSteep * line.length();
     if (line.tip.reach < least_reach_ && lead > line.lead) {
       line.tip = {end, radius_at(end), 0};
@@ -77,12 +63,6 @@ class Thinning {
   }
 
  private:
-  double radius_at(Cell vertex) const {
-    float result = 0;
-    for (const auto& member : complex_.star(vertex)) result = std::max(result, depth_[member.cube]);
-    return static_cast<double>(result);
-  }
-
   // What was eaten of a line.  Its length is measured in chords of a few edges, since edges turn with the
   // lattice's axes.
   struct Line {
@@ -97,14 +77,40 @@ class Thinning {
     double length() const {
       return whole + std::sqrt(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
     }
-    void go(std::size_t axis, int step) {
+    // Goes along an edge from one of its ends. @return the other one.
+    Cell go(const DualComplex& complex, Cell edge, Cell from) {
       if (length() - whole >= kChord) {
         whole = length();
         chord = {};
       }
-      chord[axis] += step;
+      std::size_t axis = 0;
+      while (DualComplex::digit(DualComplex::place_of(edge), axis) != 1) ++axis;
+      std::array<Cell, 2> ends{};  // lower, upper
+      std::size_t n = 0;
+      complex.for_each_face(edge, [&](Cell end) { ends[n++] = end; });
+      const bool upwards = ends[0] == from;
+      chord[axis] += upwards ? 1 : -1;
+      return ends[upwards ? 1 : 0];
     }
   };
+
+  // The line whose end a vertex is, which begins there if there is none.
+  std::uint32_t line_ending_at(Cell vertex, double birth) {
+    const auto known = line_at_.find(vertex);
+    if (known == line_at_.end()) {
+      lines_.push_back({.tip = {vertex, radius_at(vertex), 0}, .lead = birth});
+      return static_cast<std::uint32_t>(lines_.size() - 1);
+    }
+    const std::uint32_t number = known->second;
+    line_at_.erase(known);
+    return number;
+  }
+
+  double radius_at(Cell vertex) const {
+    float result = 0;
+    for (const auto& member : complex_.star(vertex)) result = std::max(result, depth_[member.cube]);
+    return static_cast<double>(result);
+  }
 
   const DualComplex& complex_;
   std::span<const float> depth_;

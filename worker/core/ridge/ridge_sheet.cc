@@ -57,6 +57,9 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCel
   return dual_contour(lattice, parts, cells, places, mean, context);
 }
 
+// A way costs a hundred times as much as in the middle at most, so that the queue of ways stays short.
+constexpr double kLeastEase = 1e-4;
+
 // What a way costs for each spacing of its length: little in the middle of the solid, where E and the distance
 // to the surface are large.
 std::vector<float> costs_of_ways(const FrameField& field, std::span<const float> radius) {
@@ -64,8 +67,8 @@ std::vector<float> costs_of_ways(const FrameField& field, std::span<const float>
   const double widest = static_cast<double>(*std::max_element(radius.begin(), radius.end()));
   std::vector<float> cost(radius.size());
   for (std::size_t p = 0; p < cost.size(); ++p) {
-    const double share = std::max(field.erosion[p] / deepest, 1e-12);
-    cost[p] = static_cast<float>(1 / std::sqrt(std::sqrt(share) * static_cast<double>(radius[p]) / widest));
+    const double ease = std::sqrt(field.erosion[p] / deepest) * static_cast<double>(radius[p]) / widest;
+    cost[p] = static_cast<float>(1 / std::sqrt(std::max(kLeastEase, ease)));
   }
   return cost;
 }
@@ -89,7 +92,7 @@ RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned
     if (part == 0) {
       basis.derivatives = smoothed_derivatives(lattice, field, context, constants);
     } else {
-      basis.topology = betti_numbers(basis.complex);
+      basis.topology = betti_numbers(basis.complex, context);
       basis.limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
     }
   });

@@ -129,6 +129,7 @@ TEST(DeriveRidge, OfATorusIsItsAnnulus) {
   EXPECT_EQ(points.quality().holes(), 1U);
   EXPECT_EQ(points.quality().lattice().components(), 1U);
   EXPECT_EQ(points.quality().lattice().holes(), 1U);
+  EXPECT_EQ(points.quality().fragments(), 0U);
   EXPECT_EQ(points.quality().limbs(), 0U);
   EXPECT_FALSE(points.quality().has_bridges());
   v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
