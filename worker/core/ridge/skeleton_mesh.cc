@@ -308,7 +308,9 @@ class Placing {
       SheetVertex& vertex = mesh_.vertices[v];
       const Vec3& gradient = from_.field.gradient[vertex.point];
       const double rise = from_.lattice.spacing * dot(gradient, off);
-      vertex.erosion = std::max(0.0, from_.field.erosion[vertex.point] + rise);
+      // E is positive in the solid, and bends up towards the surface, where the gradient would go below 0.
+      const double here = from_.field.erosion[vertex.point];
+      vertex.erosion = std::max(0.25 * here, here + rise);
       vertex.area = section_area(to_mesh_, gradient);
       vertex.normal_a = vertex.normal_b = unit(gradient);
     }

@@ -227,9 +227,11 @@ TEST(RidgeSheet, HasTheTopologyOfTheLattice) {
     expected.components -= sheet.fragments;
     EXPECT_EQ(topology(sheet).betti, expected) << n;
     const SolidMembership membership(solid.solid.mesh);
-    for (const SheetVertex& v : sheet.vertices)
+    for (const SheetVertex& v : sheet.vertices) {
+      EXPECT_GE(v.erosion, 0);
       EXPECT_TRUE(
           membership.contains(scaled_place(solid.lattice, (1 / solid.lattice.spacing) * v.position), 1e-9));
+    }
   }
 }
 
