@@ -76,9 +76,7 @@ class Collapsing {
   static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40;
 
   Cell coface_of(Cell cell) const {
-    for (const Cell coface : complex_.cofaces(cell))
-      if (has(coface)) return coface;
-    return cell;
+    return complex_.find_coface(cell, [&](Cell coface) { return has(coface); });
   }
 
   template <class Rules>

@@ -77,18 +77,6 @@ DualComplex::Cofaces DualComplex::cofaces(const Star& star) const {
   return found;
 }
 
-std::uint32_t DualComplex::across(std::uint32_t cube, std::uint32_t place) const {
-  std::uint32_t lowest = cube, to = cube, axes = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::uint32_t d = digit(place, axis);
-    if (d == 1) continue;
-    axes |= 1U << axis;
-    if (d == 0 && (lowest = neighbour(lowest, axis, 0)) == kNone) return kNone;
-    if ((to = neighbour(to, axis, d)) == kNone) return kNone;
-  }
-  return is_full(lowest, axes) ? to : kNone;
-}
-
 void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set) {
   if (set.has(cell)) return;
   set.insert(cell);

@@ -122,6 +122,25 @@ class DualComplex {
     return found;
   }
 
+  /// The first of the cofaces of a cell that `wanted` accepts, or the cell itself.
+  template <class Wanted>
+  Cell find_coface(Cell of, const Wanted& wanted) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) {
+      for (const Cell coface : cofaces(star(cube, place)))
+        if (wanted(coface)) return coface;
+      return of;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (digit(place, axis) == 1) continue;
+      if (const Cell lower = name(cube, place - kWeight[axis]); wanted(lower)) return lower;
+      const std::uint32_t next = neighbour(cube, axis, 2);
+      if (next == kNone) continue;
+      if (const Cell upper = name(next, place - kWeight[axis]); wanted(upper)) return upper;
+    }
+    return of;
+  }
+
   /// Calls visit(cell) for every cell once, by its own name.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
@@ -137,10 +156,21 @@ class DualComplex {
   /// 1, 2 or 3 steps along different axes.
   template <class Visit>
   void for_each_step(std::uint32_t cube, const Visit& visit) const {
+    std::array<std::uint32_t, 27> at;  // the cube at the other side of each place
+    at.fill(kNone);
+    at[kCube] = cube;
+    const auto extend = [&](std::uint32_t from, std::size_t axis) {
+      if (at[from] == kNone) return;
+      at[from - kWeight[axis]] = neighbour(at[from], axis, 0);
+      at[from + kWeight[axis]] = neighbour(at[from], axis, 2);
+    };
+    extend(kCube, 0);
+    for (std::uint32_t a = 0; a < 3; ++a) extend(9 * a + 4, 1);
+    for (std::uint32_t n = 0; n < 9; ++n) extend(3 * n + 1, 2);
     for (std::uint32_t place = 0; place < 27; ++place) {
-      if (place == kCube) continue;
-      if (const std::uint32_t to = across(cube, place); to != kNone)
-        visit(to, static_cast<std::uint32_t>(3 - dimension(place)));
+      const std::uint32_t lowest = at[kLowest[place]];
+      if (place == kCube || at[place] == kNone || lowest == kNone) continue;
+      if (is_full(lowest, kAcross[place])) visit(at[place], static_cast<std::uint32_t>(3 - dimension(place)));
     }
   }
 
@@ -162,8 +192,8 @@ class DualComplex {
     return result;
   }();
 
-  // Per place: the axes (a set) on which it lies at an end of the cube; those of the lower end; and the same
-  // place at the upper ends.
+  // Per place: the axes (a set) on which it lies at an end of the cube; those of the lower end; the same
+  // place at the upper ends; and where, beyond the lower ends alone, the lowest cube about it lies.
   static constexpr std::array<std::uint8_t, 27> kAcross = [] {
     std::array<std::uint8_t, 27> result{};
     for (std::size_t place = 0; place < 27; ++place)
@@ -189,9 +219,19 @@ class DualComplex {
     return result;
   }();
 
+  static constexpr std::array<std::uint8_t, 27> kLowest = [] {
+    std::array<std::uint8_t, 27> result{};
+    for (std::size_t place = 0; place < 27; ++place) {
+      std::uint32_t lowest = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        lowest += kWeight[axis] * (kDigits[place][axis] == 0 ? 0U : 1U);
+      result[place] = static_cast<std::uint8_t>(lowest);
+    }
+    return result;
+  }();
+
   Cell own_name(std::uint32_t cube, std::uint32_t place) const;
   bool is_full(std::uint32_t lowest, std::uint32_t axes) const { return (full_[lowest] >> axes & 1U) != 0; }
-  std::uint32_t across(std::uint32_t cube, std::uint32_t place) const;
   Star star(std::uint32_t cube, std::uint32_t place) const;
   Cofaces cofaces(const Star& star) const;
 

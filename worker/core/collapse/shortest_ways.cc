@@ -10,7 +10,7 @@
 namespace affskel::core {
 
 std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
-                                 std::span<const float> cost, ExecutionContext* context) {
+                                 std::span<const float> cost, ExecutionContext* context, float longest) {
   static const std::array<float, 4> kLength{0, 1, std::sqrt(2.0F), std::sqrt(3.0F)};
   constexpr float kBuckets = 8;  // per spacing of cost 1
   std::vector<float> way(complex.cubes(), kNoWay);
@@ -29,7 +29,7 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
     if (reached > way[cube]) continue;
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
       const float there = reached + 0.5F * (cost_at(cube) + cost_at(to)) * kLength[steps];
-      if (there >= way[to]) return;
+      if (there >= way[to] || there > longest) return;
       way[to] = there;
       front.push(static_cast<std::size_t>(there * kBuckets), {there, to});
     });

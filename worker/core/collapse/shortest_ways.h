@@ -21,9 +21,11 @@ inline constexpr float kNoWay = std::numeric_limits<float>::max();
 /// How far every cube lies from the nearest anchor: the cost of the cheapest way over cubes (26 neighbours,
 /// see DualComplex::for_each_step) to one about an anchor, to a share of a spacing (Dial 1969).
 /// @param cost per cube, of a spacing there, > 0; empty: 1 everywhere.
+/// @param longest ways that cost more are not looked for.
 /// @return per cube; kNoWay where no anchor can be reached.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
-                                 std::span<const float> cost, ExecutionContext* context = nullptr);
+                                 std::span<const float> cost, ExecutionContext* context = nullptr,
+                                 float longest = kNoWay);
 
 }  // namespace affskel::core

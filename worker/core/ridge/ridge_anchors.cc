@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -165,15 +164,24 @@ class Choice {
   }
 
   void take_tips() {
-    const std::vector<float> way = shortest_ways(complex_, result_.anchors, {}, context_);
+    std::vector<char> anchored(complex_.cubes(), 0);
+    for (const Anchor& anchor : result_.anchors)
+      for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     for (const LimbTip& tip : evidence_.limbs) {
-      float nearest = std::numeric_limits<float>::max();
-      for (const auto& member : complex_.star(tip.vertex)) nearest = std::min(nearest, way[member.cube]);
-      if (static_cast<double>(nearest) <= constants_.tip_distance * tip.radius || taken_.has(tip.vertex))
-        continue;
+      if (taken_.has(tip.vertex) || is_near(tip, anchored)) continue;
       take({tip.vertex, 0});
       ++result_.limbs;
     }
+  }
+
+  // Whether a cube is not farther from a tip than a limb's end is.
+  bool is_near(const LimbTip& tip, const std::vector<char>& wanted) const {
+    const Anchor from{tip.vertex, 0};
+    const std::vector<float> way = shortest_ways(complex_, {&from, 1}, {}, context_,
+                                                 static_cast<float>(constants_.tip_distance * tip.radius));
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
+      if (wanted[cube] && way[cube] != kNoWay) return true;
+    return false;
   }
 
   // For components that have no anchor yet.

@@ -83,17 +83,16 @@ void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet
 
 RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned threads,
                        ExecutionContext* context, const RidgeConstants& constants) {
-  RidgeBasis basis{.complex = DualComplex(lattice),
-                   .topology = {},
-                   .radius = surface_distance(lattice),
-                   .limbs = {},
-                   .derivatives = {}};
-  parallel_for(threads, 2, [&](std::size_t part) {
+  RidgeBasis basis{
+      .complex = DualComplex(lattice), .topology = {}, .radius = {}, .limbs = {}, .derivatives = {}};
+  parallel_for(threads, 3, [&](std::size_t part) {
     if (part == 0) {
+      basis.radius = surface_distance(lattice);
+      basis.limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
+    } else if (part == 1) {
       basis.derivatives = smoothed_derivatives(lattice, field, context, constants);
     } else {
       basis.topology = betti_numbers(basis.complex, context);
-      basis.limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
     }
   });
   return basis;

@@ -39,9 +39,24 @@ RowBand::RowBand(const Lattice& lattice, std::int32_t margin)
       for (std::int32_t m = -margin_; m <= margin_; ++m) widen(rows_[index(i + m, j)], by, 0);
     }
   }
+  for (Row& row : rows_)
+    if (row.begin == kLow) row = Row{};
+  number_places();
+}
+
+RowBand::RowBand(const RowBand& wide, const std::vector<std::uint8_t>& wanted)
+    : margin_(wide.margin_), ends_{wide.ends_[0], wide.ends_[1]}, rows_(wide.rows_) {
+  for (Row& row : rows_) {
+    const std::uint8_t* const at = wanted.data() + row.offset;
+    while (!row.empty() && at[row.begin] == 0) ++row.begin;
+    while (!row.empty() && at[row.end - 1] == 0) --row.end;
+  }
+  number_places();
+}
+
+void RowBand::number_places() {
   std::int64_t next = 0;
   for (Row& row : rows_) {
-    if (row.begin == kLow) row = Row{};
     row.offset = next - row.begin;
     next += row.end - row.begin;
   }

@@ -25,6 +25,10 @@ class RowBand {
 
   RowBand(const Lattice& lattice, std::int32_t margin);
 
+  /// The hull of the places of a row that are wanted, of each row of another band.
+  /// @param wanted per place of that one: not 0.
+  RowBand(const RowBand& wide, const std::vector<std::uint8_t>& wanted);
+
   std::size_t places() const { return places_; }
   std::int32_t margin() const { return margin_; }
   /// Rows have i from -margin to rows_end(0) - 1, and j likewise.
@@ -48,6 +52,8 @@ class RowBand {
     return static_cast<std::size_t>(i + margin_) * static_cast<std::size_t>(ends_[1] + margin_) +
            static_cast<std::size_t>(j + margin_);
   }
+
+  void number_places();
 
   std::int32_t margin_;
   std::int32_t ends_[2];

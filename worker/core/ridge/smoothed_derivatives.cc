@@ -66,9 +66,12 @@ float& entry(PointDerivatives& point, std::size_t a, std::size_t b, std::size_t 
 class LadderStep {
  public:
   // weight: of this Gaussian at each sample point; 0 where it is not asked for.
-  LadderStep(const Lattice& lattice, const RowBand& band, const std::vector<float>& values, double width,
-             std::span<const float> weight)
-      : lattice_(lattice), band_(band), values_(values), kernels_(kernels_of(width)), weight_(weight) {
+  LadderStep(const Lattice& lattice, const ContinuedField& field, double width, std::span<const float> weight)
+      : lattice_(lattice),
+        band_(field.band),
+        values_(field.values),
+        kernels_(kernels_of(width)),
+        weight_(weight) {
     const auto rows = static_cast<std::size_t>(end(0)) * static_cast<std::size_t>(end(1));
     asked_.assign(rows, {});
     for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
@@ -253,21 +256,19 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   std::vector<double> ladder{constants.min_width};
   while (ladder.back() < widest)
     ladder.push_back(std::min(ladder.back() * kLadderFactor, constants.max_width));
-  const RowBand band(lattice, reach_of(ladder.back()));
-  std::vector<float> values;
-  {
+  const ContinuedField continued = [&] {
     const ScaledField scaled(field);
     for (std::size_t p = 0; p < result.size(); ++p) result[p].value = static_cast<float>(scaled.values()[p]);
-    values = continued_field(
-        lattice, band, scaled.values(), [&](std::uint32_t p) { return scaled.gradient(p); },
+    return continued_field(
+        lattice, scaled.values(), [&](std::uint32_t p) { return scaled.gradient(p); },
         reaches(result, ladder));
-  }
+  }();
   std::vector<float> weight(result.size());
   for (std::size_t step = 0; step < ladder.size(); ++step) {
     throw_if_stopped(context);
     for (std::size_t p = 0; p < result.size(); ++p)
       weight[p] = nearness(static_cast<double>(result[p].width), ladder, step);
-    LadderStep(lattice, band, values, ladder[step], weight).add_to(result, context);
+    LadderStep(lattice, continued, ladder[step], weight).add_to(result, context);
   }
   return result;
 }
