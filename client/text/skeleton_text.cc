@@ -1,5 +1,7 @@
 #include "client/text/skeleton_text.h"
 
+#include <algorithm>
+
 #include "base/number_text.h"
 #include "client/text/words.h"
 #include "wire/params.h"
@@ -15,6 +17,11 @@ std::string percent(double share) {
 
 std::string betti(std::uint64_t components, std::uint64_t tunnels, std::uint64_t voids) {
   return std::to_string(components) + ", " + std::to_string(tunnels) + ", " + std::to_string(voids);
+}
+
+std::string place_text(const v1::CoarsePlace& place) {
+  return "at (" + base::rounded(place.x(), kDigits) + ", " + base::rounded(place.y(), kDigits) + ", " +
+         base::rounded(place.z(), kDigits) + ")";
 }
 
 }  // namespace
@@ -54,6 +61,16 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
                                           q.solid_cavities()));
   if (q.limbs() > 0)
     lines.emplace_back("limbs", std::to_string(q.limbs()) + " beyond the ridge, reached by lines");
+  for (const auto& place : q.tunnels())
+    lines.emplace_back("tunnel", place_text(place) + ", " + base::rounded(place.size(), kDigits) +
+                                     " across: not the solid's, the lattice is too coarse there");
+  for (const auto& place : q.unreached())
+    lines.emplace_back("unreached", place_text(place) + ", the skeleton ends " +
+                                        base::rounded(place.size(), kDigits) +
+                                        " away: thinner than the spacing");
+  if (const auto more = q.unreached_ends() - std::min<std::uint32_t>(q.unreached_ends(), q.unreached_size());
+      more > 0)
+    lines.emplace_back("unreached", std::to_string(more) + " more ends, nearer to the skeleton");
   if (q.has_hausdorff_there() && q.has_hausdorff_back()) {
     lines.emplace_back("hausdorff", base::rounded(q.hausdorff_there(), kDigits) +
                                         " to the skeleton of threshold " +

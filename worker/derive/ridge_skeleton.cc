@@ -1,5 +1,7 @@
 #include "derive/ridge_skeleton.h"
 
+#include <algorithm>
+
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
 #include "core/shocks/shock_operator.h"
@@ -31,6 +33,7 @@ class Ridge {
         basis_(core::ridge_basis(field.lattice(), in_frame_, field.threads(), field.context())) {}
 
   const core::FrameField& in_frame() const { return in_frame_; }
+  const core::RidgeBasis& basis() const { return basis_; }
 
   core::RidgeSheet sheet(double threshold) const {
     core::RidgeSheetOptions options = options_for(field_, threshold);
@@ -43,6 +46,28 @@ class Ridge {
   const core::FrameField in_frame_;
   const core::RidgeBasis basis_;
 };
+
+constexpr std::size_t kMaxNamed = 8;
+
+void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message) {
+  message.set_x(place.x);
+  message.set_y(place.y);
+  message.set_z(place.z);
+  message.set_size(size);
+}
+
+// Where the skeleton lacks or adds what the lattice does not resolve.
+void name_coarse_places(const FinishedField& field, const core::RidgeBasis& basis,
+                        const core::RidgeSheet& sheet, v1::SkeletonQuality& message) {
+  message.set_unreached_ends(static_cast<std::uint32_t>(sheet.unreached.size()));
+  for (std::size_t n = 0; n < std::min(kMaxNamed, sheet.unreached.size()); ++n)
+    set_place(sheet.unreached[n].place, sheet.unreached[n].distance, *message.add_unreached());
+  const auto solid = static_cast<std::uint64_t>(message.solid_genus());
+  const std::uint64_t more = sheet.lattice.holes - std::min(sheet.lattice.holes, solid);
+  for (std::size_t n = 0; n < std::min<std::size_t>(more, basis.loops.size()); ++n)
+    set_place(field.to_mesh(basis.loops[n].place), basis.loops[n].size * field.lattice().spacing,
+              *message.add_tunnels());
+}
 
 v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
                                double threshold, const SheetBarriers& barriers = {}) {
@@ -70,6 +95,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, c
   lattice.set_cavities(sheet.lattice.cavities);
   message.set_fragments(sheet.fragments);
   message.set_limbs(sheet.limbs);
+  name_coarse_places(field, ridge.basis(), sheet, message);
   return message;
 }
 

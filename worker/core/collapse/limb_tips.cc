@@ -122,12 +122,12 @@ class Thinning {
 
 }  // namespace
 
-std::vector<LimbTip> limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
-                               ExecutionContext* context) {
+LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
+                   ExecutionContext* context) {
   Thinning thinning(complex, depth, least_reach);
   Collapsing collapsing(complex, context);
   collapsing.run(thinning);
-  return thinning.tips();
+  return {thinning.tips(), collapsing.cells()};
 }
 
 }  // namespace affskel::core

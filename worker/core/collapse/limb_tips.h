@@ -15,6 +15,11 @@ struct LimbTip {
   double reach = 0;   ///< the greatest way along the line from the tip over the radius of the limb there
 };
 
+struct LimbTips {
+  std::vector<LimbTip> tips;  ///< by the order in which they were found
+  CellSet left;  ///< loops, closed surfaces, lines between them: what has no end to be eaten from
+};
+
 /// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and
 /// Ju 2010).  The complex is collapsed from the surface inwards at unit speed.  A lone edge, one whose last
 /// square has gone, is born then; lone edges are eaten from the ends of their line, and live until then.
@@ -22,9 +27,9 @@ struct LimbTip {
 /// nothing: its tip is where that ends.  From there on it must have an edge whose way from the tip, and whose
 /// life, are `least_reach` times the time of its birth: the limb is longer than it is thick.
 /// @param depth per cube: its distance to the surface, spacings.
-/// @return by the order in which they were found.  A function of the complex and the depths alone.
+/// A function of the complex and the depths alone.
 /// @throws CoreError kCancelled when the context asks to stop.
-std::vector<LimbTip> limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
-                               ExecutionContext* context = nullptr);
+LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
+                   ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

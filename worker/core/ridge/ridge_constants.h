@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace affskel::core {
 
 /// Bounds on the strength of the ridge surface and of ridge curves, radians.
@@ -16,12 +18,13 @@ struct RidgeConstants {
   double width = 0.35;
   double min_width = 2;
   double max_width = 9;
+  double width_at(double depth) const { return std::clamp(width * depth, min_width, max_width); }
 
-  // What counts as ridge: not nearer to the surface than this share of the width, or, where that is at its
-  // lower bound, than so many spacings: in hollows of the surface E is large.  And from this share of the lower
-  // bound on, for the line where it ends.
+  // What counts as ridge: not nearer to the surface than this share of the local depth, nor than so many
+  // spacings: in hollows of the surface E is large.  And from this share of the lower bound on, for the line
+  // where it ends.
   double strip = 0.35;  ///< half the least width of a surface in a limb, radii: else it is a curve
-  double min_radius_share = 0.9;
+  double min_radius_share = 0.315;
   double min_radius = 1.5;
   double weak_share = 0.125;
 

@@ -10,9 +10,11 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/collapse/collapse.h"
+#include "core/collapse/shortest_loops.h"
 #include "core/contour/dual_contour.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/solid_parts.h"
+#include "core/mesh/box.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"
@@ -79,16 +81,46 @@ void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet
     if (left_out[cube]) cells.clear(cube);
 }
 
+std::vector<LatticeLoop> loops_of(const Lattice& lattice, const DualComplex& complex, const CellSet& thinned,
+                                  ExecutionContext* context) {
+  std::vector<LatticeLoop> result;
+  for (std::vector<DualComplex::Cell>& vertices : shortest_loops(complex, thinned, kMaxLoops, context)) {
+    std::sort(vertices.begin(), vertices.end());
+    Box box;
+    for (const CellPlace& cell : cells_of_vertices(lattice, vertices))
+      box.include(
+          Vec3{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])});
+    const Vec3 middle = 0.5 * (box.lowest() + box.highest()) + Vec3{0.5, 0.5, 0.5};
+    result.push_back({lattice.spacing * middle, norm(box.sides())});
+  }
+  return result;
+}
+
+std::vector<Vec3> mesh_places(const Solid& solid, const Lattice& lattice, const SheetMesh& sheet) {
+  const Vec3 origin = SamplePlaces(solid, lattice).origin();
+  const Matrix3 frame = frame_matrix(lattice);
+  std::vector<Vec3> places;
+  places.reserve(sheet.vertices.size());
+  for (const SheetVertex& vertex : sheet.vertices) places.push_back(origin + frame * vertex.position);
+  return places;
+}
+
 }  // namespace
 
 RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned threads,
                        ExecutionContext* context, const RidgeConstants& constants) {
-  RidgeBasis basis{
-      .complex = DualComplex(lattice), .topology = {}, .radius = {}, .limbs = {}, .derivatives = {}};
+  RidgeBasis basis{.complex = DualComplex(lattice),
+                   .topology = {},
+                   .radius = {},
+                   .limbs = {},
+                   .loops = {},
+                   .derivatives = {}};
   parallel_for(threads, 3, [&](std::size_t part) {
     if (part == 0) {
       basis.radius = surface_distance(lattice);
-      basis.limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
+      LimbTips limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
+      basis.limbs = std::move(limbs.tips);
+      basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
     } else if (part == 1) {
       basis.derivatives = smoothed_derivatives(lattice, field, context, constants);
     } else {
@@ -137,6 +169,8 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
       lattice,           parts, field, cells, surface.vertices, chosen, basis.derivatives, basis.radius,
       options.bounds.low};
   static_cast<SheetMesh&>(sheet) = skeleton_mesh(solid, basis.complex, left.cells, from, options.context);
+  sheet.unreached =
+      unreached_ends(solid, lattice, chosen.left_out, mesh_places(solid, lattice, sheet), options.context);
   return sheet;
 }
 

@@ -11,10 +11,17 @@
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/ridge/smoothed_derivatives.h"
+#include "core/ridge/unreached_ends.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
+
+/// A tunnel of the complex.
+struct LatticeLoop {
+  Vec3 place;       ///< the middle of a loop round it, frame coordinates
+  double size = 0;  ///< of the loop, across, spacings
+};
 
 /// What the skeletons of one field at all thresholds share.
 struct RidgeBasis {
@@ -22,8 +29,11 @@ struct RidgeBasis {
   BettiNumbers topology;                      ///< of the complex
   std::vector<float> radius;                  ///< per sample point: see surface_distance()
   std::vector<LimbTip> limbs;                 ///< of the solid, whatever is anchored
+  std::vector<LatticeLoop> loops;             ///< the smallest tunnels, kMaxLoops at most
   std::vector<PointDerivatives> derivatives;  ///< see smoothed_derivatives()
 };
+
+inline constexpr std::size_t kMaxLoops = 8;
 
 /// @param field of this lattice.
 /// @param threads up to two are of use; the result does not depend on it.
@@ -41,9 +51,10 @@ struct RidgeSheetOptions {
 struct RidgeSheet : SheetMesh {
   BettiNumbers
       lattice;  ///< of the complex dual to the lattice: the skeleton's and its fragments', by theorem
-  std::uint32_t fragments = 0;  ///< components of the complex left out, see RidgeAnchors
-  std::uint32_t limbs = 0;      ///< tips of limbs that no ridge reaches, which lines lead to
-  std::uint32_t opened = 0;     ///< pockets of the ridge, opened; see collapse()
+  std::uint32_t fragments = 0;          ///< components of the complex left out, see RidgeAnchors
+  std::uint32_t limbs = 0;              ///< tips of limbs that no ridge reaches, which lines lead to
+  std::vector<UnreachedEnd> unreached;  ///< see unreached_ends()
+  std::uint32_t opened = 0;             ///< pockets of the ridge, opened; see collapse()
 };
 
 /// The skeleton as a ridge: the surface where E is greatest across the direction in which it bends most, a

@@ -63,10 +63,9 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
 }
 
 bool RidgeValues::is_deep(std::uint32_t point) const {
-  const double width = static_cast<double>(derivatives_[point].width);
-  const double least =
-      width > constants_.min_width ? constants_.min_radius_share * width : constants_.min_radius;
-  return static_cast<double>(radius_[point]) >= least;
+  const double depth = static_cast<double>(derivatives_[point].depth);
+  return static_cast<double>(radius_[point]) >=
+         std::max(constants_.min_radius, constants_.min_radius_share * depth);
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {
@@ -86,7 +85,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
     const double w = weights[n];
     gradient = gradient + w * vector_of(here.gradient);
     value += w * static_cast<double>(here.value);
-    width += w * static_cast<double>(here.width);
+    width += w * constants_.width_at(static_cast<double>(here.depth));
     least += w * static_cast<double>(ridge.least);
     radius += w * static_cast<double>(radius_[points[n]]);
     vertex.ratio += w * static_cast<double>(ridge.ratio);

@@ -23,6 +23,7 @@ constexpr int kRimPasses = 6;         // each evens a rim out over one more neig
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
+constexpr double kThin = 2;           // a vertex moves freely about points farther from the surface, spacings
 constexpr int kLinePasses = 8;        // of ways and curves, where they meet
 
 class Placing {
@@ -227,7 +228,7 @@ class Placing {
   }
 
   // In each pass every vertex that is not fixed goes half way to the mean of its neighbours, and on lines, when
-  // asked to, towards the crest of P; at the end as far back as the solid demands.
+  // asked to, towards the crest of P, as far as the solid lets it; those that had a place go back at the end.
   void even_out(const Groups<std::uint32_t>& neighbours, const std::vector<char>& fixed, int passes,
                 bool to_crest, ExecutionContext* context) {
     std::vector<std::uint32_t> moving;
@@ -243,9 +244,11 @@ class Placing {
         for (const std::uint32_t to : around)
           mean = mean + (1 / static_cast<double>(around.size())) * mesh_.vertices[to].position;
         moved[n] = 0.5 * (mesh_.vertices[moving[n]].position + mean);
-        if (!to_crest || around.size() != 2) continue;
-        const Vec3 along = mesh_.vertices[around[1]].position - mesh_.vertices[around[0]].position;
-        moved[n] = moved[n] + way_to_crest(moving[n], unit(along));
+        if (to_crest && around.size() == 2) {
+          const Vec3 along = mesh_.vertices[around[1]].position - mesh_.vertices[around[0]].position;
+          moved[n] = moved[n] + way_to_crest(moving[n], unit(along));
+        }
+        if (!bound_[moving[n]]) moved[n] = kept_inside(moving[n], moved[n]);
       }
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
     }
@@ -256,6 +259,15 @@ class Placing {
       while (share > 0.2 && !inside(before[n] + share * (moved[n] - before[n]))) share *= 0.5;
       at = share > 0.2 ? before[n] + share * (moved[n] - before[n]) : before[n];
     }
+  }
+
+  // How far a vertex in a thin part of the solid goes towards a place without leaving it.
+  Vec3 kept_inside(std::uint32_t v, const Vec3& to) {
+    walk(v);
+    const SheetVertex& vertex = mesh_.vertices[v];
+    if (static_cast<double>(from_.radius[vertex.point]) >= kThin || inside(to)) return to;
+    const Vec3 half = 0.5 * (vertex.position + to);
+    return inside(half) ? half : vertex.position;
   }
 
   // Across a line: Newton's step to where P is greatest, not far at a time.

@@ -224,13 +224,17 @@ float nearness(double width, const std::vector<double>& ladder, std::size_t step
   return static_cast<float>(std::max(0.0, (ladder[step + 1] - width) / (ladder[step + 1] - ladder[step])));
 }
 
+double width_of(const PointDerivatives& point, const RidgeConstants& constants) {
+  return constants.width_at(static_cast<double>(point.depth));
+}
+
 // Per point: how far the wider of its Gaussians reaches.
 std::vector<std::uint8_t> reaches(const std::vector<PointDerivatives>& points,
-                                  const std::vector<double>& ladder) {
+                                  const std::vector<double>& ladder, const RidgeConstants& constants) {
   std::vector<std::uint8_t> result;
   result.reserve(points.size());
   for (const PointDerivatives& point : points) {
-    const auto wider = std::lower_bound(ladder.begin(), ladder.end(), static_cast<double>(point.width));
+    const auto wider = std::lower_bound(ladder.begin(), ladder.end(), width_of(point, constants));
     result.push_back(static_cast<std::uint8_t>(reach_of(wider == ladder.end() ? ladder.back() : *wider)));
   }
   return result;
@@ -246,10 +250,8 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   {
     const std::vector<float> depth = local_depth(lattice, field);
     for (std::size_t p = 0; p < result.size(); ++p) {
-      const double width = std::clamp(constants.width * static_cast<double>(depth[p]), constants.min_width,
-                                      constants.max_width);
-      result[p].width = static_cast<float>(width);
-      widest = std::max(widest, static_cast<double>(result[p].width));
+      result[p].depth = depth[p];
+      widest = std::max(widest, width_of(result[p], constants));
     }
   }
   throw_if_stopped(context);
@@ -261,13 +263,13 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
     for (std::size_t p = 0; p < result.size(); ++p) result[p].value = static_cast<float>(scaled.values()[p]);
     return continued_field(
         lattice, scaled.values(), [&](std::uint32_t p) { return scaled.gradient(p); },
-        reaches(result, ladder));
+        reaches(result, ladder, constants));
   }();
   std::vector<float> weight(result.size());
   for (std::size_t step = 0; step < ladder.size(); ++step) {
     throw_if_stopped(context);
     for (std::size_t p = 0; p < result.size(); ++p)
-      weight[p] = nearness(static_cast<double>(result[p].width), ladder, step);
+      weight[p] = nearness(width_of(result[p], constants), ladder, step);
     LadderStep(lattice, continued, ladder[step], weight).add_to(result, context);
   }
   return result;

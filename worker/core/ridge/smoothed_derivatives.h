@@ -17,7 +17,7 @@ namespace affskel::core {
 /// The derivatives of P at a sample point.
 struct PointDerivatives {
   float value = 0;                  ///< P itself, not smoothed
-  float width = 0;                  ///< the Gaussian's standard deviation there
+  float depth = 0;                  ///< local, spacings: see local_depth(); the Gaussian's width follows it
   std::array<float, 3> gradient{};  ///< per spacing
   std::array<float, 6> hessian{};   ///< xx, xy, xz, yy, yz, zz, per spacing squared
 };

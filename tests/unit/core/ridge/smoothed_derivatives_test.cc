@@ -68,14 +68,16 @@ TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
   constants.max_width = 3;
   const auto found = smoothed_derivatives(box.lattice, field, nullptr, constants);
   const std::vector<float> depth = local_depth(box.lattice, field);
-  float least = 100, most = 0;
+  double least = 100, most = 0;
   for (std::size_t p = 0; p < found.size(); ++p) {
-    EXPECT_FLOAT_EQ(found[p].width, static_cast<float>(std::clamp(0.35 * double(depth[p]), 1.0, 3.0)));
-    least = std::min(least, found[p].width);
-    most = std::max(most, found[p].width);
+    EXPECT_EQ(found[p].depth, depth[p]);
+    const double width = constants.width_at(double(depth[p]));
+    EXPECT_EQ(width, std::clamp(0.35 * double(depth[p]), 1.0, 3.0));
+    least = std::min(least, width);
+    most = std::max(most, width);
   }
-  EXPECT_EQ(least, 1.0F);
-  EXPECT_EQ(most, 3.0F);
+  EXPECT_EQ(least, 1);
+  EXPECT_EQ(most, 3);
 }
 
 // The same field in numbers near the end of the range of a double.

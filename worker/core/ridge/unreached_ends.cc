@@ -1,0 +1,104 @@
+#include "core/ridge/unreached_ends.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include "core/base/disjoint_sets.h"
+#include "core/base/matrix3.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/row_band.h"
+#include "core/spatial/point_index.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kReached = 2;  // spacings: sample points so near tell of a corner's surroundings
+
+class Ends {
+ public:
+  Ends(const Solid& solid, const Lattice& lattice, std::span<const char> left_out)
+      : solid_(solid),
+        grid_(lattice.grid),
+        to_indices_(inverse_transposed(grid_.axes)),
+        band_(lattice, 0),
+        counts_(band_.places(), 0) {
+    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      counts_[static_cast<std::size_t>(band_.at(i, j, k))] = left_out[rank] == 0;
+    });
+  }
+
+  std::vector<UnreachedEnd> run(std::span<const Vec3> skeleton, ExecutionContext* context) {
+    StopCheck stop(context);
+    const auto& points = solid_.mesh.points;
+    std::vector<char> far(points.size());
+    bool any = false;
+    for (std::size_t p = 0; p < points.size(); ++p, stop.did(100)) {
+      far[p] = !is_reached(indices_of(points[p]));
+      any = any || far[p] != 0;
+    }
+    if (!any) return {};
+    DisjointSets pieces(points.size());
+    for (const Triangle& corners : solid_.mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+        if (far[a] && far[b]) pieces.unite(a, b);
+      }
+    }
+    const PointIndex index(skeleton);
+    std::map<std::uint32_t, UnreachedEnd> ends;  // by piece
+    for (std::uint32_t p = 0; p < points.size(); ++p, stop.did(100)) {
+      if (!far[p]) continue;
+      const Vec3 place = solid_.centre + solid_.scale() * points[p];
+      UnreachedEnd& end = ends[pieces.find(p)];
+      if (const double distance = index.nearest(place); distance > end.distance) end = {place, distance};
+    }
+    std::vector<UnreachedEnd> result;
+    for (const auto& [piece, end] : ends) result.push_back(end);
+    std::stable_sort(result.begin(), result.end(),
+                     [](const UnreachedEnd& a, const UnreachedEnd& b) { return a.distance > b.distance; });
+    return result;
+  }
+
+ private:
+  Vec3 indices_of(const Vec3& scaled) const { return transposed_times(to_indices_, scaled - grid_.origin); }
+
+  // Whether a sample point that counts lies within kReached.
+  bool is_reached(const Vec3& at) const {
+    const std::array<double, 3> x{at.x, at.y, at.z};
+    std::array<std::int32_t, 3> low{}, high{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = static_cast<std::int32_t>(std::ceil(x[axis] - kReached));
+      high[axis] = static_cast<std::int32_t>(std::floor(x[axis] + kReached));
+    }
+    for (std::int32_t i = low[0]; i <= high[0]; ++i) {
+      for (std::int32_t j = low[1]; j <= high[1]; ++j) {
+        for (std::int32_t k = low[2]; k <= high[2]; ++k) {
+          const std::int64_t number = band_.at(i, j, k);
+          if (number == RowBand::kNone || !counts_[static_cast<std::size_t>(number)]) continue;
+          const Vec3 way = at - Vec3{double(i), double(j), double(k)};
+          if (dot(way, way) <= kReached * kReached) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  const Solid& solid_;
+  const LatticeGrid& grid_;
+  Matrix3 to_indices_;  // its transposed inverse
+  RowBand band_;
+  std::vector<char> counts_;  // per place of the band: a sample point that has a skeleton
+};
+
+}  // namespace
+
+std::vector<UnreachedEnd> unreached_ends(const Solid& solid, const Lattice& lattice,
+                                         std::span<const char> left_out, std::span<const Vec3> skeleton,
+                                         ExecutionContext* context) {
+  return Ends(solid, lattice, left_out).run(skeleton, context);
+}
+
+}  // namespace affskel::core
