@@ -84,7 +84,7 @@ ImplicitFunction comb() {
 }
 
 ImplicitFunction trefoil() {
-  constexpr int kParts = 120;
+  constexpr int kParts = 48;
   std::vector<Bone> list;
   const auto at = [](int n) {
     const double t = 2 * std::numbers::pi * n / kParts;

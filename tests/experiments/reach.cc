@@ -143,6 +143,7 @@ Reach reach_of(const Job& job, const Skeletons& found, double longest) {
     }
     const double other = curve.nearest(end);
     ++reach.ends;
+    if (getenv("ENDS")) std::fprintf(stderr, "END (%.3g %.3g %.3g) ridge %.3g allowed %.3g mcf %.3g\n", end.x, end.y, end.z, ridge, allowed, other);
     reach.short_of += ridge > allowed;
     reach.farther += ridge > other + spacing;
     reach.ridge_worst = std::max(reach.ridge_worst, ridge);

@@ -50,11 +50,18 @@ class Thinning {
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
     const Cell end = line.go(complex_, edge, vertex);
-    const double lead = birth - kSteep * line.length();
-    if (line.tip.reach < least_reach_ && lead > line.lead) {
-      line.tip = {end, radius_at(end), 0};
+    const double radius = radius_at(end), fall = kSteep * line.length();
+    if (line.tip.reach < least_reach_ && radius - fall > line.rise) {
+      line.tip.vertex = end;
+      line.rise = radius - fall;
+    }
+    if (line.tip.reach < least_reach_ && birth - fall > line.lead) {
+      line.tip.root = end;
+      line.tip.radius = radius;
+      line.tip.width = birth;
+      line.tip.reach = 0;
       line.tip_at = line.length();
-      line.lead = lead;
+      line.lead = birth - fall;
     } else {
       const double way = std::min(line.length() - line.tip_at, now - birth);
       line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kLeastLength));
@@ -69,8 +76,9 @@ class Thinning {
     static constexpr double kChord = 4;
 
     LimbTip tip;
-    double lead = 0;    // at the tip: by how much births are ahead of a steep line's
-    double tip_at = 0;  // length before the tip
+    double rise = 0;    // at the tip: by how much the radius is ahead of a steep line's
+    double lead = 0;    // where the limb begins: by how much births are
+    double tip_at = 0;  // length before that
     double whole = 0;   // of the chords
     std::array<int, 3> chord{};
 
@@ -98,7 +106,8 @@ class Thinning {
   std::uint32_t line_ending_at(Cell vertex, double birth) {
     const auto known = line_at_.find(vertex);
     if (known == line_at_.end()) {
-      lines_.push_back({.tip = {vertex, radius_at(vertex), 0}, .lead = birth});
+      const double radius = radius_at(vertex);
+      lines_.push_back({.tip = {vertex, vertex, radius, birth, 0}, .rise = radius, .lead = birth});
       return static_cast<std::uint32_t>(lines_.size() - 1);
     }
     const std::uint32_t number = known->second;

@@ -11,8 +11,10 @@ namespace affskel::core {
 /// Where a limb of the solid ends: the end of the line that is left of it when the solid is thinned.
 struct LimbTip {
   DualComplex::Cell vertex = 0;
-  double radius = 0;  ///< how far the tip lies from the surface, spacings
-  double reach = 0;   ///< the greatest way along the line from the tip over the radius of the limb there
+  DualComplex::Cell root = 0;  ///< where the limb begins to be one
+  double radius = 0;           ///< distance of the root to the surface, spacings
+  double width = 0;            ///< half the limb's width there, across its wider side, spacings
+  double reach = 0;            ///< the greatest way along the line from there over the birth of an edge
 };
 
 struct LimbTips {
@@ -23,9 +25,10 @@ struct LimbTips {
 /// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and
 /// Ju 2010).  The complex is collapsed from the surface inwards at unit speed.  A lone edge, one whose last
 /// square has gone, is born then; lone edges are eaten from the ends of their line, and live until then.
-/// While births grow fast from the end of a line inwards, as from a bump to the middle of a head, the line says
-/// nothing: its tip is where that ends.  From there on it must have an edge whose way from the tip, and whose
-/// life, are `least_reach` times the time of its birth: the limb is longer than it is thick.
+/// While births grow fast from the end of a line inwards, as from a bump to the middle of a head, or along the
+/// middle of a foot's blunt front, the line says nothing: the limb begins where that ends.  From there on the line
+/// must have an edge whose way from there, and whose life, are `least_reach` times the time of its birth: the limb
+/// is longer than it is wide.  Its tip lies farther out, as long as the distance to the surface does not grow fast.
 /// @param depth per cube: its distance to the surface, spacings.
 /// A function of the complex and the depths alone.
 /// @throws CoreError kCancelled when the context asks to stop.

@@ -168,17 +168,20 @@ class Choice {
     for (const Anchor& anchor : result_.anchors)
       for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     for (const LimbTip& tip : evidence_.limbs) {
-      if (taken_.has(tip.vertex) || is_near(tip, anchored)) continue;
+      const bool reached =
+          taken_.has(tip.vertex) || (is_near(tip.root, constants_.tip_distance * tip.radius, anchored) &&
+                                     is_near(tip.vertex, 1 + tip.width, anchored));
+      if (reached) continue;
       take({tip.vertex, 0});
       ++result_.limbs;
     }
   }
 
-  // Whether a cube is not farther from a tip than a limb's end is.
-  bool is_near(const LimbTip& tip, const std::vector<char>& wanted) const {
-    const Anchor from{tip.vertex, 0};
-    const std::vector<float> way = shortest_ways(complex_, {&from, 1}, {}, context_,
-                                                 static_cast<float>(constants_.tip_distance * tip.radius));
+  // Whether a wanted cube is not farther from a vertex, spacings.
+  bool is_near(Cell vertex, double distance, const std::vector<char>& wanted) const {
+    const Anchor from{vertex, 0};
+    const std::vector<float> way =
+        shortest_ways(complex_, {&from, 1}, {}, context_, static_cast<float>(distance));
     for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
       if (wanted[cube] && way[cube] != kNoWay) return true;
     return false;
