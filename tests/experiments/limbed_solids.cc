@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/shapes/edge_collapse.h"
 #include "core/shapes/implicit_mesh.h"
 
 namespace affskel::experiments {
@@ -12,6 +13,8 @@ namespace {
 
 using core::ImplicitFunction;
 using core::Vec3;
+
+constexpr double kEdge = 0.05;  // of the meshes before they are made coarser
 
 struct Bone {
   Vec3 from, to;
@@ -106,17 +109,21 @@ ImplicitFunction amphora() {
   };
 }
 
+// Edges are rounded, so that the mesh has them as they are.
 ImplicitFunction pierced_block() {
   return [](const Vec3& p) {
+    constexpr double kRound = 0.08;
     double holes = HUGE_VAL;
     for (const double x : {-0.65, 0.0, 0.65}) holes = std::min(holes, std::hypot(p.x - x, p.y) - 0.18);
-    return std::max(block(p, {1, 0.4, 0.2}), -holes);
+    const double a = block(p, {0.92, 0.32, 0.12}) - 0.08, b = -holes;
+    return std::min(-kRound, std::max(a, b)) +
+           std::hypot(std::max(a + kRound, 0.0), std::max(b + kRound, 0.0));
   };
 }
 
 }  // namespace
 
-std::vector<NamedMesh> limbed_solids(double spacing) {
+std::vector<NamedMesh> limbed_solids(std::size_t triangles) {
   const std::vector<std::pair<std::string, ImplicitFunction>> functions{
       {"hand", hand()},
       {"animal", animal()},
@@ -129,9 +136,10 @@ std::vector<NamedMesh> limbed_solids(double spacing) {
       {"torus", [](const Vec3& p) { return ring(p, 0.8, 0.3); }}};
   std::vector<NamedMesh> solids;
   for (const auto& [name, function] : functions) {
-    core::Mesh mesh = core::mesh_zero_set(function, {{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}, spacing});
-    core::fair_onto(function, 0.01 * spacing, 3, mesh);
-    solids.push_back({name, std::move(mesh)});
+    core::Mesh mesh = core::mesh_zero_set(function, {{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}, kEdge});
+    core::fair_onto(function, 0.01 * kEdge, 3, mesh);
+    for (Vec3& p : mesh.points) p.x += 2;  // the collapse keeps to x >= 0
+    solids.push_back({name, core::collapse_edges(mesh, triangles)});
   }
   return solids;
 }

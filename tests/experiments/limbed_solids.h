@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct NamedMesh {
 
 /// Solids with limbs, handles and cavities, each about 2 across: a hand, an animal, a tree, a comb, a trefoil
 /// knot, an amphora, a block with three holes, a hollow ball, a torus.
-/// @param spacing about the length of an edge, > 0
-std::vector<NamedMesh> limbed_solids(double spacing);
+/// @param triangles of each, even.
+std::vector<NamedMesh> limbed_solids(std::size_t triangles);
 
 }  // namespace affskel::experiments

@@ -23,7 +23,7 @@
 namespace affskel::experiments {
 namespace {
 
-constexpr double kPoints = 100'000, kNoise = 0.01;
+constexpr double kPoints = 100'000, kNoise = 0.003;
 constexpr double kEnd = 0.08;  // an end is the farthest place within this share of the longest side
 
 std::vector<NamedMesh> solids_of(const Setting& setting) {
@@ -31,7 +31,7 @@ std::vector<NamedMesh> solids_of(const Setting& setting) {
   for (const std::string& file : setting.meshes) solids.push_back({file, client::read_shape(file).mesh()});
   if (!solids.empty()) return solids;
   if (!setting.quick) solids.push_back({"body of 5000", setting.body(5000)});
-  for (NamedMesh& solid : limbed_solids(setting.quick ? 0.1 : 0.05)) {
+  for (NamedMesh& solid : limbed_solids(setting.quick ? 1000 : 5000)) {
     solids.push_back(std::move(solid));
     if (setting.quick && solids.size() == 2) break;
   }
@@ -143,7 +143,6 @@ Reach reach_of(const Job& job, const Skeletons& found, double longest) {
     }
     const double other = curve.nearest(end);
     ++reach.ends;
-    if (getenv("ENDS")) std::fprintf(stderr, "END (%.3g %.3g %.3g) ridge %.3g allowed %.3g mcf %.3g\n", end.x, end.y, end.z, ridge, allowed, other);
     reach.short_of += ridge > allowed;
     reach.farther += ridge > other + spacing;
     reach.ridge_worst = std::max(reach.ridge_worst, ridge);
@@ -202,7 +201,7 @@ void reach_experiment(const Setting& setting, Report& report) {
   Table reaches{
       {"solid", "ends", "short", "farther", "ridge: mean", "worst", "curvature: mean", "worst", "spacing"},
       {}};
-  Table others{{"solid", "solid's topology", "ridge", "curvature", "ridge under noise of 1 %",
+  Table others{{"solid", "solid's topology", "ridge", "curvature", "ridge under noise of 0.3 %",
                 "curvature under it", "ridge, with the field", "curvature"},
                {}};
   for (const NamedMesh& solid : solids_of(setting)) study(solid, setting, reaches, others, report);

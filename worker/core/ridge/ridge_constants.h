@@ -36,7 +36,7 @@ struct RidgeConstants {
   double min_length = 2;
 
   // Limbs: so many times as long as thick, with a tip farther than so many radii from what is anchored.
-  double limb_reach = 1;
+  double limb_reach = 0.9;
   double tip_distance = 0.5;
 };
 
