@@ -131,6 +131,8 @@ TEST(DeriveRidge, OfATorusIsItsAnnulus) {
   EXPECT_EQ(points.quality().lattice().holes(), 1U);
   EXPECT_EQ(points.quality().fragments(), 0U);
   EXPECT_EQ(points.quality().limbs(), 0U);
+  EXPECT_EQ(points.quality().unreached_ends(), 0U);
+  EXPECT_EQ(points.quality().tunnels_size(), 0) << "the solid has the lattice's";
   EXPECT_FALSE(points.quality().has_bridges());
   v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
   lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
@@ -160,6 +162,29 @@ TEST(DeriveRidge, OfATorusIsItsAnnulus) {
     EXPECT_EQ(sheet.erosion(v), points.erosion(v));
   }
   EXPECT_GT(on_ridge, vertices / 2);
+}
+
+// A box of side 400 with a needle of 600 on top, thinner than the spacing and between the lattice's lines.
+TEST(DeriveRidge, NamesTheEndsThatTheLatticeIsTooCoarseFor) {
+  core::Mesh mesh = core::make_box(400, 400, 400);
+  const core::Mesh needle = core::make_box(4, 4, 700);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  for (const core::Vec3& p : needle.points) mesh.points.push_back(p + core::Vec3{183, 213, 300});
+  for (const core::Triangle& t : needle.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(50);
+  const PreparedJob prepared(core::write_off(mesh), params);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SKELETON);
+  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const v1::SkeletonQuality quality =
+      parsed<v1::SkeletonPoints>(derive(lease, prepared, finished_field(prepared))).quality();
+  EXPECT_EQ(quality.unreached_ends(), 1U);
+  ASSERT_EQ(quality.unreached_size(), 1);
+  EXPECT_EQ(quality.unreached(0).z(), 1000);
+  EXPECT_GT(quality.unreached(0).size(), 600);
+  EXPECT_LT(quality.unreached(0).size(), 900);
+  EXPECT_EQ(quality.tunnels_size(), 0);
 }
 
 TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {
