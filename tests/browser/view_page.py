@@ -7,6 +7,8 @@ if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM
     print("no chromium or chromedriver: skipped")
     sys.exit(77)
 
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+
 from browser import Page, chromium
 
 
@@ -28,11 +30,25 @@ def tick_numbers(page):
 
 
 class WithPage(unittest.TestCase):
+    """Every test loads its page anew.  The pages keep nothing in the browser, and starting one takes seconds: the tests
+    of a class share it."""
     window = dict(width=1200, height=800)
 
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = cls.enterClassContext(chromium(**cls.window))
+
     def setUp(self):
-        self.driver = self.enterContext(chromium(**self.window))
+        self.driver.get("about:blank")
+        self.leave()
         self.page = Page(self.driver, self.file())
+
+    def leave(self):
+        """Lets go of buttons and keys, and has the pointer where the page has nothing to tell."""
+        actions = ActionBuilder(self.driver)
+        actions.clear_actions()
+        actions.pointer_action.move_to_location(0, 0)
+        actions.perform()
 
     def file(self):
         """The page's place."""
