@@ -1,4 +1,6 @@
 """A page of affskel-client view in Chromium, for the tests of one; ends the program where there is no browser."""
+import atexit
+import contextlib
 import os
 import sys
 import unittest
@@ -29,14 +31,33 @@ def tick_numbers(page):
         }).filter((span) => span.shown)""")
 
 
+class Browsers:
+    """The browser of one test after the other: another one only where the window changes."""
+
+    def __init__(self):
+        self.window, self.driver = None, None
+        self.running = contextlib.ExitStack()
+
+    def of(self, window):
+        if window != self.window:
+            self.running.close()
+            self.driver = self.running.enter_context(chromium(**window))
+            self.window = window
+        return self.driver
+
+
+browsers = Browsers()
+atexit.register(browsers.running.close)
+
+
 class WithPage(unittest.TestCase):
-    """Every test loads its page anew.  The pages keep nothing in the browser, and starting one takes seconds: the tests
-    of a class share it."""
+    """Every test loads its page anew.  The pages keep nothing in the browser, and starting one takes seconds: tests share
+    it."""
     window = dict(width=1200, height=800)
 
     @classmethod
     def setUpClass(cls):
-        cls.driver = cls.enterClassContext(chromium(**cls.window))
+        cls.driver = browsers.of(cls.window)
 
     def setUp(self):
         self.driver.get("about:blank")
