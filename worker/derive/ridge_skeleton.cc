@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMaxThreshold = 800;  // the contract's, see SkeletonParams
 
-core::RidgeSheetOptions ridge_options_for(const FinishedField& field, double threshold) {
+core::RidgeSheetOptions options_for(const FinishedField& field, double threshold) {
   core::RidgeSheetOptions options;
   options.context = field.context();
   if (threshold != 0) {
@@ -33,7 +33,7 @@ class Ridge {
   const core::FrameField& in_frame() const { return in_frame_; }
 
   core::RidgeSheet sheet(double threshold) const {
-    core::RidgeSheetOptions options = ridge_options_for(field_, threshold);
+    core::RidgeSheetOptions options = options_for(field_, threshold);
     options.basis = &basis_;
     return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
   }
@@ -44,10 +44,9 @@ class Ridge {
   const core::RidgeBasis basis_;
 };
 
-v1::SkeletonQuality ridge_quality_of(const FinishedField& field, const Ridge& ridge,
-                                     const core::RidgeSheet& sheet, double threshold,
-                                     const SheetBarriers& barriers = {}) {
-  const double low = ridge_options_for(field, threshold).bounds.low;
+v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
+                               double threshold, const SheetBarriers& barriers = {}) {
+  const double low = options_for(field, threshold).bounds.low;
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
   options.advice_if_empty = barriers.advice;
@@ -88,7 +87,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
     message.add_direction(ridge.in_frame().direction[vertex.point]);
     message.add_divergence(vertex.strength);
   }
-  *message.mutable_quality() = ridge_quality_of(field, ridge, sheet, params.threshold());
+  *message.mutable_quality() = quality_of(field, ridge, sheet, params.threshold());
   return message;
 }
 
@@ -113,7 +112,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   for (const core::Segment& segment : sheet.segments) {
     for (const std::uint32_t end : segment) message.add_segments(end);
   }
-  *message.mutable_quality() = ridge_quality_of(field, ridge, sheet, threshold, barriers);
+  *message.mutable_quality() = quality_of(field, ridge, sheet, threshold, barriers);
   return message;
 }
 

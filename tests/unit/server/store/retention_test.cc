@@ -7,7 +7,7 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::int64_t kOneDay = std::int64_t{24} * 3600 * 1000;
+constexpr std::int64_t kDay = std::int64_t{24} * 3600 * 1000;
 
 class RetentionTest : public StoreTest {
  protected:
@@ -66,24 +66,24 @@ class RetentionTest : public StoreTest {
 
 TEST_F(RetentionTest, NothingGoesUnlessToldSo) {
   const std::string job = done("OFF 1");
-  clock_.advance(4000 * kOneDay);
+  clock_.advance(4000 * kDay);
   EXPECT_FALSE(store_->retain());
   EXPECT_EQ(expires(job), 0U);
 }
 
 TEST_F(RetentionTest, ResultsGoByAgeThenTheJobEachAfterItsNotice) {
   keep([](Policy& policy) {
-    policy.everyone.retention = {30 * kOneDay, 90 * kOneDay, 0};
-    policy.grace_ms = 7 * kOneDay;
+    policy.everyone.retention = {30 * kDay, 90 * kDay, 0};
+    policy.grace_ms = 7 * kDay;
   });
   const std::string job = done("OFF 1");
-  clock_.advance(22 * kOneDay);
+  clock_.advance(22 * kDay);
   retain();
   EXPECT_EQ(expires(job), 0U) << "not yet";
-  clock_.advance(1 * kOneDay);
+  clock_.advance(1 * kDay);
   retain();
-  EXPECT_EQ(expires(job), static_cast<std::uint64_t>(clock_.wall_ms() + 7 * kOneDay)) << "told a week ahead";
-  clock_.advance(7 * kOneDay - 2000);
+  EXPECT_EQ(expires(job), static_cast<std::uint64_t>(clock_.wall_ms() + 7 * kDay)) << "told a week ahead";
+  clock_.advance(7 * kDay - 2000);
   retain();
   EXPECT_FALSE(removed(job));
   EXPECT_EQ(field(job), expected_field(10, 20));
@@ -95,11 +95,11 @@ TEST_F(RetentionTest, ResultsGoByAgeThenTheJobEachAfterItsNotice) {
   expect_sound();
   tidy();
   expect_sound();
-  clock_.advance(60 * kOneDay);
+  clock_.advance(60 * kDay);
   retain();
   EXPECT_TRUE(is_there(job));
   EXPECT_GT(expires(job), 0U);
-  clock_.advance(7 * kOneDay);
+  clock_.advance(7 * kDay);
   retain();
   EXPECT_FALSE(is_there(job));
   tidy();
@@ -111,27 +111,27 @@ TEST_F(RetentionTest, ResultsGoByAgeThenTheJobEachAfterItsNotice) {
 // A server that was off for long still gives notice.
 TEST_F(RetentionTest, NoticeIsGivenHoweverLateItIs) {
   const std::string job = done("OFF 1");
-  clock_.advance(400 * kOneDay);
+  clock_.advance(400 * kDay);
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = 30 * kOneDay;
-    policy.grace_ms = 7 * kOneDay;
+    policy.everyone.retention.results_age_ms = 30 * kDay;
+    policy.grace_ms = 7 * kDay;
   });
   retain();
-  EXPECT_EQ(expires(job), static_cast<std::uint64_t>(clock_.wall_ms() + 7 * kOneDay));
+  EXPECT_EQ(expires(job), static_cast<std::uint64_t>(clock_.wall_ms() + 7 * kDay));
   EXPECT_FALSE(removed(job));
   open();
-  clock_.advance(7 * kOneDay);
+  clock_.advance(7 * kDay);
   retain();
   EXPECT_TRUE(removed(job)) << "the notice holds across a restart";
 }
 
 TEST_F(RetentionTest, AFetchSaysWhatHappenedAndResumeComputesAgain) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.grace_ms = 0;
   });
   const std::string job = done("OFF 1");
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   retain();
   v1::FetchArtifactRequest request;
   request.set_job(job);
@@ -163,7 +163,7 @@ TEST_F(RetentionTest, AFetchSaysWhatHappenedAndResumeComputesAgain) {
 // Another job of the owner may still have the field; of other owners' nothing is learnt.
 TEST_F(RetentionTest, ResultsThatTheOwnerKeepsAreTakenOverByResume) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.owners["bob"];
     policy.grace_ms = 0;
   });
@@ -175,7 +175,7 @@ TEST_F(RetentionTest, ResultsThatTheOwnerKeepsAreTakenOverByResume) {
   ASSERT_NE(kept.id(), job);
   ASSERT_EQ(kept.state(), v1::JOB_STATE_DONE) << "it shares the field";
   store_->pin(kept.id(), true);
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   retain();
   tidy();
   EXPECT_TRUE(removed(job));
@@ -183,7 +183,7 @@ TEST_F(RetentionTest, ResultsThatTheOwnerKeepsAreTakenOverByResume) {
   EXPECT_EQ(store_->resume(job).state(), v1::JOB_STATE_DONE);
   EXPECT_EQ(field(job), expected_field(10, 20));
   store_->remove(kept.id());
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   retain();
   EXPECT_TRUE(removed(job));
   EXPECT_EQ(store_->resume(job).state(), v1::JOB_STATE_QUEUED) << "bob's is there, but is bob's";
@@ -193,7 +193,7 @@ TEST_F(RetentionTest, ResultsThatTheOwnerKeepsAreTakenOverByResume) {
 // A worker that has held the job's field knows more than the server then does.
 TEST_F(RetentionTest, TheFieldThatIsComputedAgainIsAnotherOne) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.grace_ms = 0;
   });
   const std::string job = submit("OFF 1").id();
@@ -203,7 +203,7 @@ TEST_F(RetentionTest, TheFieldThatIsComputedAgainIsAnotherOne) {
   store_->cancel(job);
   clock_.advance(options_.lease_ms + 1);
   store_->expire_leases();
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   retain();
   tidy();
   ASSERT_TRUE(removed(job));
@@ -215,20 +215,20 @@ TEST_F(RetentionTest, TheFieldThatIsComputedAgainIsAnotherOne) {
 
 TEST_F(RetentionTest, SubmittingTheSameAgainMakesANewJob) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.grace_ms = 0;
   });
   const std::string job = done("OFF 1");
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   retain();
   EXPECT_NE(submit("OFF 1", "OFF 1").id(), job) << "a job without results answers nobody";
 }
 
 TEST_F(RetentionTest, PinnedAndUnfinishedJobsStay) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.everyone.retention.stored_bytes = 1;
-    policy.grace_ms = kOneDay;
+    policy.grace_ms = kDay;
   });
   const std::string pinned = done("OFF 1"), late = done("OFF 2");
   const std::string waiting = submit("OFF 3", "waiting").id();
@@ -237,13 +237,13 @@ TEST_F(RetentionTest, PinnedAndUnfinishedJobsStay) {
   EXPECT_EQ(expires(pinned), 0U);
   EXPECT_GT(expires(late), 0U);
   EXPECT_EQ(store_->pin(late, true).expires_ms(), 0U) << "in the time that the notice leaves";
-  clock_.advance(40 * kOneDay);
+  clock_.advance(40 * kDay);
   retain();
   for (const std::string& job : {pinned, late, waiting}) EXPECT_FALSE(removed(job));
   EXPECT_EQ(store_->job(waiting).state(), v1::JOB_STATE_QUEUED);
   store_->pin(late, false);
   retain();
-  clock_.advance(kOneDay);
+  clock_.advance(kDay);
   retain();
   EXPECT_TRUE(removed(late));
   EXPECT_FALSE(removed(pinned));
@@ -251,8 +251,8 @@ TEST_F(RetentionTest, PinnedAndUnfinishedJobsStay) {
 
 TEST_F(RetentionTest, WhatSomebodyWaitsForStays) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
-    policy.grace_ms = kOneDay / 2;
+    policy.everyone.retention.results_age_ms = kDay;
+    policy.grace_ms = kDay / 2;
   });
   const std::string job = done("OFF 1");
   v1::FetchArtifactRequest request;
@@ -260,14 +260,14 @@ TEST_F(RetentionTest, WhatSomebodyWaitsForStays) {
   request.set_kind(v1::ARTIFACT_KIND_SKELETON);
   request.mutable_skeleton()->set_threshold(3);
   const std::int64_t task = store_->open_artifact(request).task;
-  clock_.advance(kOneDay);
+  clock_.advance(kDay);
   retain();
-  clock_.advance(kOneDay);
+  clock_.advance(kDay);
   retain();
   EXPECT_FALSE(removed(job));
   store_->withdraw(task);
   retain();
-  clock_.advance(kOneDay);
+  clock_.advance(kDay);
   retain();
   EXPECT_TRUE(removed(job));
 }
@@ -282,15 +282,15 @@ TEST_F(RetentionTest, BytesOfAnOwner) {
   const std::int64_t each = (all - 20) / 4;
   keep([&](Policy& policy) {
     policy.everyone.retention.stored_bytes = all - each - 10;  // one is not enough
-    policy.grace_ms = kOneDay;
+    policy.grace_ms = kDay;
   });
   retain();
-  EXPECT_EQ(expires(jobs[0]), static_cast<std::uint64_t>(clock_.wall_ms() + kOneDay));
+  EXPECT_EQ(expires(jobs[0]), static_cast<std::uint64_t>(clock_.wall_ms() + kDay));
   EXPECT_GT(expires(jobs[1]), 0U);
   EXPECT_EQ(expires(jobs[2]), 0U);
   EXPECT_EQ(expires(bobs), 0U);
   store_->remove(jobs[3]);
-  clock_.advance(kOneDay);
+  clock_.advance(kDay);
   retain();
   EXPECT_TRUE(removed(jobs[0]));
   EXPECT_FALSE(removed(jobs[1])) << "there is room by then";
@@ -314,7 +314,7 @@ TEST_F(RetentionTest, MeshesGoWhenAllResultsAreGone) {
 
 TEST_F(RetentionTest, PartialResultsOfCancelledJobsGoToo) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.grace_ms = 0;
   });
   const std::string job = submit("OFF 1").id();
@@ -323,7 +323,7 @@ TEST_F(RetentionTest, PartialResultsOfCancelledJobsGoToo) {
   store_->cancel(job);
   clock_.advance(options_.lease_ms + 1);
   store_->expire_leases();
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   retain();
   EXPECT_TRUE(removed(job));
   EXPECT_EQ(store_->job(job).state(), v1::JOB_STATE_CANCELLED);
@@ -337,13 +337,13 @@ TEST_F(RetentionTest, PartialResultsOfCancelledJobsGoToo) {
 
 TEST_F(RetentionTest, OwnersMayHaveRulesOfTheirOwn) {
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
     policy.owners["bob"] = policy.everyone;
     policy.owners["bob"].retention.results_age_ms = 0;
     policy.grace_ms = 0;
   });
   const std::string adas = done("OFF 1"), bobs = done("OFF 2", "bob");
-  clock_.advance(10 * kOneDay);
+  clock_.advance(10 * kDay);
   retain();
   EXPECT_TRUE(removed(adas));
   EXPECT_FALSE(removed(bobs));
@@ -379,8 +379,8 @@ TEST_F(RetentionTest, ALongRunGoesInShortStepsAndTheFileShrinks) {
     transaction.commit();
   }
   keep([](Policy& policy) {
-    policy.everyone.retention.results_age_ms = kOneDay;
-    policy.grace_ms = kOneDay;
+    policy.everyone.retention.results_age_ms = kDay;
+    policy.grace_ms = kDay;
   });
   const auto before = std::filesystem::file_size(database());
   submit("OFF 2");
@@ -389,7 +389,7 @@ TEST_F(RetentionTest, ALongRunGoesInShortStepsAndTheFileShrinks) {
     return db.integer("SELECT count(*) FROM jobs WHERE removed_ms > 0").value();
   };
   retain();
-  clock_.advance(2 * kOneDay);
+  clock_.advance(2 * kDay);
   std::int64_t seen = 0, steps = 0;
   while (store_->retain()) {
     if (++steps % 10 == 0) {
