@@ -91,9 +91,11 @@ build_jobs() {
   echo $((cores < by_memory ? cores : by_memory))
 }
 
-# build [-DNAME=VALUE...] TARGET...: configure and build the release preset.
+# build [-DNAME=VALUE...] TARGET...: configure and build the release preset; several files at once, unless somebody has
+# built here in another way.
 build() {
   local settings=()
+  [ -e "$build_dir/CMakeCache.txt" ] || settings+=(-DAFFSKEL_UNITY=ON)
   while [[ ${1:-} == -D* ]]; do
     settings+=("$1")
     shift

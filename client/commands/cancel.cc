@@ -7,7 +7,7 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context, const std::string& name) {
+void run_cancel(Context& context, const std::string& name) {
   v1::Job job = context.session().cancel(name);
   if (!is_final(job.state())) {
     // Workers stop at their next report.
@@ -21,7 +21,7 @@ void run(Context& context, const std::string& name) {
 void add_cancel(CommandLine& line) {
   const auto job = std::make_shared<std::string>();
   CLI::App* command = line.add("cancel", "Stop a job, keeping its progress", "  affskel-client cancel @last",
-                               [job](Context& context) { run(context, *job); });
+                               [job](Context& context) { run_cancel(context, *job); });
   add_job(command, *job);
 }
 

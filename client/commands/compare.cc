@@ -15,12 +15,12 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct CompareOptions {
   CompareRequest request;
   std::string radii;  // comma-separated
 };
 
-CompareRequest request_of(const Options& options) {
+CompareRequest request_of(const CompareOptions& options) {
   CompareRequest request = options.request;
   if (options.radii.empty()) return request;
   const std::optional<std::vector<double>> radii = parse_numbers(options.radii);
@@ -32,7 +32,7 @@ CompareRequest request_of(const Options& options) {
   return request;
 }
 
-void run(Console& console, const Options& options) {
+void run_compare(Console& console, const CompareOptions& options) {
   const CompareRequest request = request_of(options);
   const Comparison comparison = compare(request);
   say(console, comparison.notices);
@@ -51,7 +51,7 @@ void run(Console& console, const Options& options) {
 }  // namespace
 
 void add_compare(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareOptions>();
   ComparisonOptions& o = options->request.comparison;
   CLI::App* command = line.add(
       "compare", "Similarity of two skeleton files; needs no server",
@@ -61,7 +61,7 @@ void add_compare(CommandLine& line) {
       "The table tells the share of A's points within r of B and back; its area under the curve is taken up\n"
       "to the largest r and divided by it. Points: .csv .ply .off .xyz .vtp .dat; surfaces: .off .ply .obj\n"
       ".stl .vtp, compared by points spread evenly over them.",
-      [options](Context& context) { run(context.console(), *options); });
+      [options](Context& context) { run_compare(context.console(), *options); });
   add_file(command, "A", o.a, "Skeleton: points or a surface");
   add_file(command, "B", o.b, "The other one");
   command

@@ -10,14 +10,14 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct ErodeOptions {
   std::string job, output, format;
   double fraction = 0;  // level as a share of v0, 0 = not given
   double volume = 0;    // level, mesh units cubed, 0 = not given
   std::string form;     // "points" or "surface", empty = by the extension
 };
 
-void run(Context& context, const Options& options) {
+void run_erode(Context& context, const ErodeOptions& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   FetchRequest request{options.job, "eroded", destination};
   if (options.fraction > 0) request.eroded.set_fraction(options.fraction);
@@ -30,14 +30,14 @@ void run(Context& context, const Options& options) {
 }  // namespace
 
 void add_erode(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ErodeOptions>();
   CLI::App* command = line.add(
       "erode", "Eroded solid: where E is at least a level, from the stored field",
       "  affskel-client erode @last --fraction 5% -o eroded.stl\n"
       "  affskel-client erode @last --volume 2e9 --as points -o eroded.ply\n"
       "The volume that is left is told: of a surface what it encloses, of points their\n"
       "share of the sample points times v0",
-      [options](Context& context) { run(context, *options); },
+      [options](Context& context) { run_erode(context, *options); },
       [](const CLI::App& erode) {
         if (erode.count("--fraction") + erode.count("--volume") == 0) {
           throw CLI::RequiredError("--fraction or --volume");

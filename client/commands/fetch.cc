@@ -12,18 +12,18 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct FetchOptions {
   std::string job, artifact, output, format;
   SkeletonChoice skeleton;  // of the divergence alone
 };
 
-void run(Context& context, const Options& options) {
+void run_fetch(Context& context, const FetchOptions& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
   const FetchRequest request{options.job, options.artifact, destination, options.skeleton};
   show_result(context.console(), fetch(context.session(), request));
 }
 
-// Options that only some artefacts have.
+// FetchOptions that only some artefacts have.
 void check_options(const CLI::App& fetch) {
   const std::string artifact = fetch.get_option("ARTEFACT")->as<std::string>();
   if (fetch.count("--operator") > 0 && artifact != "divergence") {
@@ -34,7 +34,7 @@ void check_options(const CLI::App& fetch) {
 }  // namespace
 
 void add_fetch(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FetchOptions>();
   CLI::App* command = line.add(
       "fetch", "Write one artefact of a job",
       "  affskel-client fetch @last field -o body.vti\n"
@@ -47,7 +47,7 @@ void add_fetch(CommandLine& line) {
       "surface .off .ply .obj .stl .vtp, where the mesh as .off is the submitted bytes.\n"
       ".vti and .vts open in every ParaView, .vts also where the lattice is turned.\n"
       "Of an eroded solid this is the one at a tenth of the volume; see erode",
-      [options](Context& context) { run(context, *options); }, check_options);
+      [options](Context& context) { run_fetch(context, *options); }, check_options);
   add_job(command, options->job);
   command->add_option("ARTEFACT", options->artifact, "What to fetch")
       ->required()

@@ -5,7 +5,7 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context) {
+void run_health(Context& context) {
   context.session().require_health();
   context.console().result("serving\n");
   context.console().document({{"health", "serving"}});
@@ -15,7 +15,7 @@ void run(Context& context) {
 
 void add_health(CommandLine& line) {
   line.add("health", "Whether the server serves, by the gRPC health service; asks once, needs no token",
-           "  affskel-client health\n  affskel-client --server unix:data/server.sock health", run);
+           "  affskel-client health\n  affskel-client --server unix:data/server.sock health", run_health);
 }
 
 }  // namespace affskel::client

@@ -82,12 +82,12 @@ std::string facts_text(const ordered_json& facts, bool all) {
   return text;
 }
 
-struct Options {
+struct InspectOptions {
   std::string file;
   bool all = false;
 };
 
-void run(Console& console, const Options& options) {
+void run_inspect(Console& console, const InspectOptions& options) {
   const std::size_t places = options.all ? std::numeric_limits<std::size_t>::max() : kFewPlaces;
   const Inspection inspection = inspect(read_named_input(options.file), places);
   console.result(facts_text(inspection.facts, options.all));
@@ -98,11 +98,11 @@ void run(Console& console, const Options& options) {
 }  // namespace
 
 void add_inspect(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InspectOptions>();
   CLI::App* command = line.add("inspect", "What a mesh is, and every defect with its place; needs no server",
                                "  affskel-client inspect body.off\n  affskel-client inspect scan.off --all\n"
                                "  affskel-client --json inspect scan.stl",
-                               [options](Context& context) { run(context.console(), *options); });
+                               [options](Context& context) { run_inspect(context.console(), *options); });
   command
       ->add_option("FILE", options->file,
                    "Geomview OFF text, .ply, .obj, .stl or .vtp; - reads it from stdin")

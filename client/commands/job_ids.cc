@@ -62,7 +62,7 @@ std::string lines_of(const std::vector<v1::Job>& jobs) {
 }
 
 // Why nothing comes is no completion: it is not told.
-void run(Context& context, const std::string& line) {
+void run_job_ids(Context& context, const std::string& line) {
   RetryPolicy policy;
   policy.patience = std::chrono::milliseconds(0);
   policy.call_deadline = kPatience;
@@ -83,7 +83,7 @@ void add_job_ids(CommandLine& line) {
   CLI::App* command =
       line.add("job-ids", "Ids, states and names of the newest jobs, for completions",
                "  affskel-client job-ids --line 'affskel-client --server unix:/run/s status '",
-               [typed](Context& context) { run(context, *typed); });
+               [typed](Context& context) { run_job_ids(context, *typed); });
   command->group("");  // not in the help: shells call it
   command->add_option("--line", *typed, "What is typed so far: its --server and what goes with it count")
       ->type_name("LINE");

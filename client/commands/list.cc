@@ -17,7 +17,7 @@ struct ListOptions {
   unsigned limit = 50;
 };
 
-void run(Context& context, const ListOptions& options) {
+void run_list(Context& context, const ListOptions& options) {
   v1::ListJobsRequest request;
   for (const std::string& state : options.states) request.add_states(state_named(state));
   request.set_owner(options.owner);
@@ -40,7 +40,7 @@ void add_list(CommandLine& line) {
       line.add("list", "Jobs, newest first",
                "  affskel-client list\n  affskel-client list --state running --state queued --limit 10\n"
                "  affskel-client --json list | jq -r .jobs[].id",
-               [options](Context& context) { run(context, *options); });
+               [options](Context& context) { run_list(context, *options); });
   command->add_option("--state", options->states, "Only jobs in this state; may be repeated")
       ->check(one_of(state_words()))
       ->type_name("STATE")

@@ -8,7 +8,7 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context, const std::string& name) {
+void run_log(Context& context, const std::string& name) {
   const v1::ListJobEventsResponse response = context.session().job_events(name);
   context.console().result(event_lines(response));
   // Every line is an event; the last one also says whose values the job has by now.
@@ -31,7 +31,7 @@ void add_log(CommandLine& line) {
                "  affskel-client log @last\n"
                "  affskel-client --json log @last | jq -r 'select(.event == \"lease_lost\").worker'\n"
                "  affskel-client --json log @last | jq -r '.givers[]?.worker'",
-               [job](Context& context) { run(context, *job); });
+               [job](Context& context) { run_log(context, *job); });
   add_job(command, *job);
 }
 

@@ -35,7 +35,7 @@ struct MakeOptions {
   double body_height = 18000;
 };
 
-void run(Console& console, const MakeOptions& options) {
+void run_make(Console& console, const MakeOptions& options) {
   const Destination destination = destination_of(options.output, options.output == "-" ? "off" : "", console);
   const FileFormat format = choose_format(destination, surface_formats(), "shape");
   ShapeFile shape;
@@ -97,7 +97,7 @@ void add_make(CommandLine& line) {
                             "  affskel-client make body --triangles 500 -o body.off\n"
                             "  affskel-client make torus --triangles 256 -o torus.off\n"
                             "  affskel-client make box --size 3,2,1 -o - | head -n 2",
-                            [options](Context& context) { run(context.console(), *options); });
+                            [options](Context& context) { run_make(context.console(), *options); });
   make->require_subcommand(1);
   CLI::App* torus = shape(make, o, "torus", "Torus round the z axis",
                           [&o] { return core::make_torus(o.major, o.minor, o.torus_triangles); });

@@ -23,7 +23,7 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct PerturbOptions {
   std::string file, output, format;
   std::string noise;            // share of the box diagonal, "0.5%" or "0.005"; empty = sigma
   std::optional<double> sigma;  // mesh units
@@ -52,7 +52,7 @@ bool crosses_itself(core::Mesh mesh) {
   return !core::self_intersections(mesh, options).empty();
 }
 
-void run(Console& console, const Options& options) {
+void run_perturb(Console& console, const PerturbOptions& options) {
   if (options.noise.empty() == !options.sigma) {
     throw ClientError(ExitCode::kUsage, "give either --noise (a share of the box diagonal) or --sigma");
   }
@@ -102,7 +102,7 @@ void run(Console& console, const Options& options) {
 }  // namespace
 
 void add_perturb(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PerturbOptions>();
   CLI::App* command =
       line.add("perturb", "Gaussian noise on the vertices of a mesh; needs no server",
                "  affskel-client perturb body.off -o noisy.off --noise 0.5% --seed 7\n"
@@ -110,7 +110,7 @@ void add_perturb(CommandLine& line) {
                "Every vertex moves by sigma times a normal number in x, y and z; vertices at one "
                "place move together.\n"
                "The same seed gives the same noise on every machine.",
-               [options](Context& context) { run(context.console(), *options); });
+               [options](Context& context) { run_perturb(context.console(), *options); });
   add_file(command, "FILE", options->file, "Mesh: .off .ply .obj .stl .vtp");
   command->get_option("FILE")->check(mesh_file());
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");

@@ -7,7 +7,7 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context, const std::string& name) {
+void run_pin(Context& context, const std::string& name) {
   const v1::Job job = context.session().pin(name);
   context.console().result("pinned\n");
   context.console().document(to_json(job));
@@ -17,8 +17,9 @@ void run(Context& context, const std::string& name) {
 
 void add_pin(CommandLine& line) {
   const auto job = std::make_shared<std::string>();
-  CLI::App* command = line.add("pin", "Keep a job and its results from being removed by age or lack of room",
-                               "  affskel-client pin @last", [job](Context& context) { run(context, *job); });
+  CLI::App* command =
+      line.add("pin", "Keep a job and its results from being removed by age or lack of room",
+               "  affskel-client pin @last", [job](Context& context) { run_pin(context, *job); });
   add_job(command, *job);
 }
 

@@ -16,7 +16,7 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct RenderCommandOptions {
   std::string job, output;
   PictureOptions picture;  // skeleton not given: see shown_skeleton()
   std::string up, background = "white";
@@ -24,7 +24,7 @@ struct Options {
   bool no_mesh = false;
 };
 
-PictureOptions picture_of(const Options& options) {
+PictureOptions picture_of(const RenderCommandOptions& options) {
   PictureOptions picture = options.picture;
   picture.up = chosen_up(options.up);
   picture.render.background = parse_background(options.background);
@@ -34,7 +34,7 @@ PictureOptions picture_of(const Options& options) {
   return picture;
 }
 
-void run(Context& context, const Options& options) {
+void run_render(Context& context, const RenderCommandOptions& options) {
   const PictureOptions wanted = picture_of(options);
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, picture_formats(), "picture");
@@ -49,7 +49,7 @@ void run(Context& context, const Options& options) {
       {{"job", job.id()}, {"artefact", "picture"}, {"file", options.output}, {"shown", picture.shown}});
 }
 
-void add_looks(CLI::App* command, Options& options) {
+void add_looks(CLI::App* command, RenderCommandOptions& options) {
   add_up(command, options.up);
   command
       ->add_option("--camera", options.cameras,
@@ -77,13 +77,13 @@ void add_looks(CLI::App* command, Options& options) {
 }  // namespace
 
 void add_render(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderCommandOptions>();
   CLI::App* command = line.add("render", "Picture of the body with its skeleton",
                                "  affskel-client render @last -o body.png --width 2400\n"
                                "  affskel-client render @last --camera 30,20 --level 5% -o eroded.png\n"
                                "  affskel-client render @last --operator zucker-hummel -o points.png\n"
                                "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
-                               [options](Context& context) { run(context, *options); });
+                               [options](Context& context) { run_render(context, *options); });
   add_job(command, options->job);
   add_skeleton_options(command, options->picture.skeleton, true);
   add_looks(command, *options);

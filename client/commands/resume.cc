@@ -13,7 +13,7 @@ struct ResumeOptions {
   std::string distrust;
 };
 
-void run(Context& context, const ResumeOptions& options) {
+void run_resume(Context& context, const ResumeOptions& options) {
   show_state(context.console(), context.session().resume(options.job, options.distrust));
 }
 
@@ -24,7 +24,7 @@ void add_resume(CommandLine& line) {
   CLI::App* command = line.add("resume", "Go on with a cancelled or failed job",
                                "  affskel-client resume @last && affskel-client watch @last\n"
                                "  affskel-client resume 3f2a9c --distrust 0b1c2d3e4f5a",
-                               [options](Context& context) { run(context, *options); });
+                               [options](Context& context) { run_resume(context, *options); });
   add_job(command, options->job);
   command
       ->add_option(

@@ -6,7 +6,7 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context) {
+void run_server_info(Context& context) {
   const v1::ServerInfo info = context.session().server_info();
   context.console().result(server_details(info, unix_now_ms()));
   context.console().document(to_json(info));
@@ -16,7 +16,8 @@ void run(Context& context) {
 
 void add_server_info(CommandLine& line) {
   line.add("server-info", "Version, workers and queue of the server",
-           "  affskel-client server-info\n  affskel-client --server 127.0.0.1:7060 server-info", run);
+           "  affskel-client server-info\n  affskel-client --server 127.0.0.1:7060 server-info",
+           run_server_info);
 }
 
 }  // namespace affskel::client

@@ -58,7 +58,7 @@ Notices check_mesh(const InputFile& input, const Submission& submission, Console
   return notices;
 }
 
-void run(Context& context, const SubmitOptions& options) {
+void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const InputFile input = read_named_input(options.file);
   say(console, conversion_notices(input));
@@ -143,7 +143,7 @@ void add_submit(CommandLine& line) {
                "  affskel-client submit cube.off --points 50000 --directions triangles+sphere:1000 --wait\n"
                "  JOB=$(affskel-client submit body.off --name subject-7)\n"
                "  affskel-client make torus -o - | affskel-client submit - --wait",
-               [options](Context& context) { run(context, *options); });
+               [options](Context& context) { run_submit(context, *options); });
   command
       ->add_option("FILE", o.file,
                    "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp, which are submitted as "

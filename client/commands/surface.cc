@@ -11,12 +11,12 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct SurfaceOptions {
   FetchRequest request;  // skeleton not given: see shown_skeleton()
   std::string output, format;
 };
 
-void run(Context& context, const Options& options) {
+void run_surface(Context& context, const SurfaceOptions& options) {
   FetchRequest request = options.request;
   request.artifact = "surface";
   request.destination = destination_of(options.output, options.format, context.console());
@@ -26,7 +26,7 @@ void run(Context& context, const Options& options) {
 }  // namespace
 
 void add_surface(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SurfaceOptions>();
   CLI::App* command =
       line.add("surface", "Triangulated skeleton: the sheet of ridge or chords, or the alpha shape of points",
                "  affskel-client surface @last -o sheet.vtp\n"
@@ -34,7 +34,7 @@ void add_surface(CommandLine& line) {
                "  affskel-client surface @last --operator chords --min-barrier 0.05 -o shocks.ply\n"
                "  affskel-client surface @last --operator zucker-hummel --alpha 160000 -o skeleton.obj\n"
                ".vtp, .ply and .obj also hold the curves of ridge",
-               [options](Context& context) { run(context, *options); });
+               [options](Context& context) { run_surface(context, *options); });
   add_job(command, options->request.job);
   add_skeleton_options(command, options->request.skeleton, true);
   command

@@ -21,7 +21,7 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct TransformOptions {
   std::string file, output, format;
   bool inverse = false;
 };
@@ -79,7 +79,7 @@ std::string comment_for(const std::vector<double>& numbers) {
   return text;
 }
 
-void run(Console& console, const Options& options, const std::vector<AffineStep>& steps) {
+void run_transform(Console& console, const TransformOptions& options, const std::vector<AffineStep>& steps) {
   if (steps.empty()) {
     throw ClientError(ExitCode::kUsage,
                       "no map was given; use --matrix, --scale, --rotate, --translate or --shear");
@@ -116,7 +116,7 @@ void run(Console& console, const Options& options, const std::vector<AffineStep>
 }  // namespace
 
 void add_transform(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TransformOptions>();
   const auto steps = std::make_shared<AffineStepOptions>();
   CLI::App* command = line.add(
       "transform", "Affine map of a mesh or a skeleton; needs no server",
@@ -126,7 +126,7 @@ void add_transform(CommandLine& line) {
       "Steps are taken in the order given. Normals are mapped as those of planes, E as a volume; H and "
       "other\n"
       "columns stay. A mirrored surface is turned over, so that it stays outward.",
-      [options, steps](Context& context) { run(context.console(), *options, steps->in_order()); });
+      [options, steps](Context& context) { run_transform(context.console(), *options, steps->in_order()); });
   add_file(command, "FILE", options->file,
            "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
   add_output(command, options->output,

@@ -7,7 +7,7 @@
 namespace affskel::client {
 namespace {
 
-void run(Context& context, const std::string& name) {
+void run_unpin(Context& context, const std::string& name) {
   const v1::Job job = context.session().unpin(name);
   context.console().result("unpinned\n");
   context.console().document(to_json(job));
@@ -19,7 +19,7 @@ void add_unpin(CommandLine& line) {
   const auto job = std::make_shared<std::string>();
   CLI::App* command =
       line.add("unpin", "Let a pinned job be removed when its time has come", "  affskel-client unpin @last",
-               [job](Context& context) { run(context, *job); });
+               [job](Context& context) { run_unpin(context, *job); });
   add_job(command, *job);
 }
 

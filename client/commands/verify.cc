@@ -37,7 +37,7 @@ v1::Verification follow_verification(Context& context, const VerifyOptions& opti
   return verification;
 }
 
-void run(Context& context, const VerifyOptions& options) {
+void run_verify(Context& context, const VerifyOptions& options) {
   const v1::Verification verification = follow_verification(context, options);
   context.console().result(verification_details(verification));
   context.console().document(to_json(verification));
@@ -56,7 +56,7 @@ void add_verify(CommandLine& line) {
   CLI::App* command =
       line.add("verify", "Have a sample of a job's field computed again by other workers, and compare",
                "  affskel-client verify @last\n  affskel-client verify 3f2a9c --share 10%",
-               [options](Context& context) { run(context, *options); });
+               [options](Context& context) { run_verify(context, *options); });
   add_job(command, options->job);
   command
       ->add_option("--share", options->share, "Of each worker's directions; at least one is computed again")

@@ -19,7 +19,7 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct ViewCommandOptions {
   std::vector<std::string> jobs;  // one or two
   std::string output, up;
   std::vector<std::string> operators;  // none, one for all or one for each; not given: see shown_skeleton()
@@ -34,7 +34,7 @@ Value given_for(const std::vector<Value>& values, std::size_t which) {
   return values[std::min(which, values.size() - 1)];
 }
 
-std::vector<ViewSubject> subjects_of(Context& context, const Options& options) {
+std::vector<ViewSubject> subjects_of(Context& context, const ViewCommandOptions& options) {
   const std::size_t count =
       std::max({options.jobs.size(), options.operators.size(), options.thresholds.size()});
   std::vector<ViewSubject> subjects;
@@ -66,7 +66,7 @@ void show_page(Context& context, const Destination& destination, const Page& pag
                               {"bytes", bytes}});
 }
 
-void run(Context& context, const Options& options) {
+void run_view(Context& context, const ViewCommandOptions& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, page_formats(), "page");
   base::AtomicFile file(destination.file);
@@ -77,7 +77,7 @@ void run(Context& context, const Options& options) {
   show_page(context, destination, page);
 }
 
-void add_skeletons(CLI::App* command, Options& options) {
+void add_skeletons(CLI::App* command, ViewCommandOptions& options) {
   command
       ->add_option("--operator", options.operators,
                    "How shocks are found (default: ridge; the job's, if that is not the\ndefault one); given "
@@ -100,7 +100,7 @@ void add_skeletons(CLI::App* command, Options& options) {
 }  // namespace
 
 void add_view(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ViewCommandOptions>();
   CLI::App* command =
       line.add("view",
                "Page for any browser: the body, its skeleton and eroded solids to turn, with\n"
@@ -109,7 +109,7 @@ void add_view(CommandLine& line) {
                "  affskel-client view 3f2a9c --threshold 5 --level 5% -o body.html\n"
                "  affskel-client view 3f2a9c 8b41d0 -o both.html            # two jobs side by side\n"
                "  affskel-client view @last --operator ridge --operator chords -o both.html",
-               [options](Context& context) { run(context, *options); });
+               [options](Context& context) { run_view(context, *options); });
   command
       ->add_option("JOB", options->jobs, "Job id, a unique prefix of 6 characters or more, or @last; or two")
       ->required()

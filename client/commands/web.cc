@@ -17,7 +17,7 @@
 namespace affskel::client {
 namespace {
 
-struct Options {
+struct WebCommandOptions {
   std::string http = "127.0.0.1:0";
   std::string tls_cert, tls_key;
   bool no_open = false;
@@ -31,7 +31,7 @@ constexpr std::chrono::minutes kArtifactPatience{10};
 constexpr std::chrono::seconds kLongestEnd{30};
 constexpr const char* kStuck = "event=stuck message=\"the end takes too long; leaving without it\"";
 
-wire::Address http_address(const Options& options) {
+wire::Address http_address(const WebCommandOptions& options) {
   wire::Address address;
   try {
     address = wire::parse_address(options.http);
@@ -80,7 +80,7 @@ std::unique_ptr<http::Server> listen(const wire::Address& address, TlsIdentity* 
   }
 }
 
-void run(Context& context, const Options& options, const GlobalOptions& global) {
+void run_web(Context& context, const WebCommandOptions& options, const GlobalOptions& global) {
   wire::Address address = http_address(options);
   std::optional<TlsIdentity> identity;
   if (!options.tls_cert.empty()) identity.emplace(options.tls_cert, options.tls_key);
@@ -127,7 +127,7 @@ void check_options(const CLI::App& web) {
 }  // namespace
 
 void add_web(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WebCommandOptions>();
   CLI::App* command = line.add(
       "web", "The page in a browser: submit, follow, look at, download; prints its address",
       "  affskel-client web\n"
@@ -136,7 +136,7 @@ void add_web(CommandLine& line) {
       "On a loopback address the page is yours: it acts as this client does, and the address holds a\n"
       "key that opens it once.  Where the server refuses this client, and on any other address, people\n"
       "sign in with their own tokens, and the service can do nothing without them.",
-      [options, &line](Context& context) { run(context, *options, line.global()); }, check_options);
+      [options, &line](Context& context) { run_web(context, *options, line.global()); }, check_options);
   command->add_option("--http", options->http, "HOST:PORT to listen on; port 0 takes any free one")
       ->check(non_empty())
       ->capture_default_str()

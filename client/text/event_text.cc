@@ -7,7 +7,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::size_t kShortId = 12;
+constexpr std::size_t kShortWorkerName = 12;
 
 // Longer than most: what follows stands in a column.
 constexpr std::size_t kEventWidth = 16;
@@ -17,7 +17,7 @@ std::string event_line(const v1::JobEvent& event) {
   std::string rest;
   const auto add = [&rest](const std::string& text) { rest += (rest.empty() ? "" : ", ") + one_line(text); };
   if (event.task() != 0) add("task " + std::to_string(event.task()) + " (" + event.kind() + ")");
-  if (!event.worker().empty()) add("worker " + event.worker().substr(0, kShortId));
+  if (!event.worker().empty()) add("worker " + event.worker().substr(0, kShortWorkerName));
   if (!event.message().empty()) add(event.message());
   if (!rest.empty()) {
     line.append(event.event().size() < kEventWidth ? kEventWidth - event.event().size() : 0, ' ');

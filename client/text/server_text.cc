@@ -9,7 +9,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr std::size_t kShortId = 12;
+constexpr std::size_t kShortWorkerId = 12;
 
 /// Told to admins alone.
 std::string place_of(const v1::WorkerInfo& worker) {
@@ -39,7 +39,7 @@ std::string server_details(const v1::ServerInfo& info, std::uint64_t now_ms) {
   for (const v1::WorkerInfo& w : info.workers()) {
     const std::string threads = base::counted(w.threads(), "thread");
     text +=
-        key_line("worker", w.id().substr(0, kShortId) + " " + place_of(w) + ", " + threads +
+        key_line("worker", w.id().substr(0, kShortWorkerId) + " " + place_of(w) + ", " + threads +
                                (w.memory() > 0 ? ", " + std::to_string(w.memory() / 1000000) + " MB" : "") +
                                (w.supervised() ? ", supervised" : "") + ", core " + w.core_version() +
                                ", seen " + age_text(w.last_seen_ms(), now_ms) + " ago, " +

@@ -22,7 +22,7 @@ struct Entry {
   std::string_view value;
 };
 
-[[noreturn]] void refuse(const Entry& entry, const std::string& why) {
+[[noreturn]] void refuse_entry(const Entry& entry, const std::string& why) {
   throw std::invalid_argument(base::quoted(entry.text) + ": " + why);
 }
 
@@ -30,7 +30,7 @@ struct Entry {
 Entry split(const std::string& text) {
   const std::string_view all = text;
   const std::size_t equals = all.rfind('=');
-  if (equals == std::string_view::npos) refuse({text, {}, {}, {}}, "expected [OWNER:]NAME=VALUE");
+  if (equals == std::string_view::npos) refuse_entry({text, {}, {}, {}}, "expected [OWNER:]NAME=VALUE");
   const std::string_view left = all.substr(0, equals), value = all.substr(equals + 1);
   const std::size_t colon = left.rfind(':');
   if (colon == std::string_view::npos) return {text, {}, left, value};
@@ -73,8 +73,8 @@ std::int64_t value_of(const Entry& entry, Unit unit) {
   const std::optional<std::int64_t> times = factor(unit, suffix);
   if (problem != std::errc() || number < 0 || !times ||
       number > std::numeric_limits<std::int64_t>::max() / 2 / *times) {
-    refuse(entry, unit == Unit::kAge ? "expected an age such as 90d, 12h or 30s"
-                                     : "expected a whole number >= 0, such as 500 or 20G (K, M, G, T)");
+    refuse_entry(entry, unit == Unit::kAge ? "expected an age such as 90d, 12h or 30s"
+                                           : "expected a whole number >= 0, such as 500 or 20G (K, M, G, T)");
   }
   return number * *times;
 }
@@ -113,16 +113,16 @@ OwnerPolicy& policy_of(Policy& policy, const Entry& entry) {
 }
 
 void set_limit(Policy& policy, const Entry& entry) {
-  if (!entry.owner.empty()) refuse(entry, "a limit is of the server, not of an owner: that is a quota");
+  if (!entry.owner.empty()) refuse_entry(entry, "a limit is of the server, not of an owner: that is a quota");
   if (!set(policy.server, entry, kQuotas)) {
-    refuse(entry, "expected queued-jobs, mesh-bytes, stored-bytes or chords");
+    refuse_entry(entry, "expected queued-jobs, mesh-bytes, stored-bytes or chords");
   }
 }
 
 /// 0 .. 9, without a suffix.
 std::int64_t priority_of(const Entry& entry) {
   if (entry.value.size() != 1 || entry.value[0] < '0' || entry.value[0] > '9') {
-    refuse(entry, "expected a priority 0 .. 9");
+    refuse_entry(entry, "expected a priority 0 .. 9");
   }
   return entry.value[0] - '0';
 }
@@ -133,14 +133,15 @@ void set_quota(Policy& policy, const Entry& entry) {
     return;
   }
   if (!set(policy_of(policy, entry).quota, entry, kQuotas)) {
-    refuse(entry, "expected queued-jobs, mesh-bytes, stored-bytes, chords or priority");
+    refuse_entry(entry, "expected queued-jobs, mesh-bytes, stored-bytes, chords or priority");
   }
 }
 
 void set_retention(Policy& policy, const Entry& entry) {
   if (entry.owner.empty() && set(policy, entry, kOfServer)) return;
   if (!set(policy_of(policy, entry).retention, entry, kRetentions)) {
-    refuse(entry, "expected results-age, jobs-age or stored-bytes, or without an owner total-bytes or grace");
+    refuse_entry(entry,
+                 "expected results-age, jobs-age or stored-bytes, or without an owner total-bytes or grace");
   }
 }
 

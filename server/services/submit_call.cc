@@ -8,7 +8,7 @@
 namespace affskel::server {
 namespace {
 
-[[noreturn]] void refuse_without_header() {
+[[noreturn]] void refuse_mesh_without_header() {
   throw StoreError(StoreError::Code::kInvalid, "a submission begins with its header");
 }
 
@@ -24,7 +24,7 @@ void SubmitCall::on_message(v1::SubmitJobRequest& message) {
     }
     return;
   }
-  if (!message.has_header()) refuse_without_header();
+  if (!message.has_header()) refuse_mesh_without_header();
   // Before the data, which may take minutes to arrive.
   v1::SubmitJobHeader& header = *message.mutable_header();
   header.set_owner(owner_of_submission(header.owner(), caller().identity));
@@ -33,7 +33,7 @@ void SubmitCall::on_message(v1::SubmitJobRequest& message) {
 }
 
 void SubmitCall::on_end() {
-  if (!mesh_) refuse_without_header();
+  if (!mesh_) refuse_mesh_without_header();
   if (is_cancelled()) throw CallEnded(grpc::Status::CANCELLED);
   Store::Submitted submitted = store_.submit(*submission_, mesh_->data());
   *response_.mutable_job() = jobs_.with_reason(std::move(submitted.job));

@@ -30,7 +30,7 @@ constexpr double kRoundedUp = 1 + 0x1p-30;
 // A worker sends a point once per report and thread; anything above this is a bug or an attack.
 constexpr std::int64_t kMaxRecordsPerPoint = 64;
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_field(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
 
@@ -134,24 +134,24 @@ RecordBatch::RecordBatch(std::int64_t points, std::int64_t directions, double vo
 void RecordBatch::append(const v1::FieldRecords& records) {
   const int count = records.point_size();
   if (records.direction_size() != count || records.erosion_size() != count || records.area_size() != count) {
-    refuse("the four arrays of records differ in length");
+    refuse_field("the four arrays of records differ in length");
   }
   if (cleared_ + static_cast<std::int64_t>(records_.size()) + count > kMaxRecordsPerPoint * points_) {
-    refuse("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
+    refuse_field("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
   }
   for (int i = 0; i < count; ++i) {
     PointRecord record{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
     if (record.point >= points_)
-      refuse("point " + std::to_string(record.point) + " of " + std::to_string(points_));
+      refuse_field("point " + std::to_string(record.point) + " of " + std::to_string(points_));
     if (record.direction >= directions_) {
-      refuse("direction " + std::to_string(record.direction) + " of " + std::to_string(directions_));
+      refuse_field("direction " + std::to_string(record.direction) + " of " + std::to_string(directions_));
     }
     if (!(record.erosion > 0 && record.erosion <= most_)) {
-      refuse("E of point " + std::to_string(record.point) + " is " + std::to_string(record.erosion) +
-             ": not above 0 and at most the volume of the solid");
+      refuse_field("E of point " + std::to_string(record.point) + " is " + std::to_string(record.erosion) +
+                   ": not above 0 and at most the volume of the solid");
     }
     if (!std::isfinite(record.area) || record.area < 0) {
-      refuse("the area of point " + std::to_string(record.point) + " is negative or not finite");
+      refuse_field("the area of point " + std::to_string(record.point) + " is negative or not finite");
     }
     record.area += 0.0;  // one zero only: equal values must be equal bytes, whatever the order of merging
     records_.push_back(record);

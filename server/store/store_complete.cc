@@ -25,7 +25,7 @@ constexpr std::uint64_t kMaxMemory = std::uint64_t{1} << 48;
 // Kept and sent with the job from then on: reasons of failure, advice on a skeleton.
 constexpr std::size_t kMaxReasonBytes = 4000;
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_completion(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "result: " + why);
 }
 
@@ -46,48 +46,49 @@ struct Prepared {
 void check_lattice(std::string_view bytes, std::uint64_t points) {
   v1::Lattice lattice;
   if (!lattice.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
-    refuse("the lattice cannot be read");
+    refuse_completion("the lattice cannot be read");
   if (lattice.origin_size() != 3 || lattice.axes_size() != 9 || lattice.dims_size() != 3 ||
       lattice.run_start_size() != lattice.run_length_size()) {
-    refuse("the lattice is malformed");
+    refuse_completion("the lattice is malformed");
   }
   if (!all_finite(lattice.origin()) || !all_finite(lattice.axes()))
-    refuse("a place of the lattice is not finite");
+    refuse_completion("a place of the lattice is not finite");
   const std::uint64_t inside =
       std::accumulate(lattice.run_length().begin(), lattice.run_length().end(), std::uint64_t{0});
   if (inside != points) {
-    refuse("the lattice has " + std::to_string(inside) + " points inside, the summary says " +
-           std::to_string(points));
+    refuse_completion("the lattice has " + std::to_string(inside) + " points inside, the summary says " +
+                      std::to_string(points));
   }
 }
 
 void check_directions(std::string_view bytes, std::uint64_t count) {
   v1::Directions directions;
   if (!directions.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-    refuse("the directions cannot be read");
+    refuse_completion("the directions cannot be read");
   }
   if (static_cast<std::uint64_t>(directions.xyz_size()) != 3 * count) {
-    refuse("not 3 numbers for each of the " + std::to_string(count) + " directions");
+    refuse_completion("not 3 numbers for each of the " + std::to_string(count) + " directions");
   }
-  if (!all_finite(directions.xyz())) refuse("a direction is not finite");
+  if (!all_finite(directions.xyz())) refuse_completion("a direction is not finite");
 }
 
 Prepared checked_prepared(const v1::CompleteTaskHeader& header, std::string_view data) {
   const v1::PreparedSummary& summary = header.prepared();
-  if (!header.has_prepared()) refuse("no summary");
+  if (!header.has_prepared()) refuse_completion("no summary");
   if (summary.directions() < 1 || summary.directions() >= wire::kNoDirection)
-    refuse("the number of directions");
-  if (summary.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 sample points");
-  if (!positive(summary.volume()) || !positive(summary.spacing())) refuse("volume and spacing must be > 0");
+    refuse_completion("the number of directions");
+  if (summary.points() > 0xFFFFFFFF) refuse_completion("more than 2^32 - 1 sample points");
+  if (!positive(summary.volume()) || !positive(summary.spacing()))
+    refuse_completion("volume and spacing must be > 0");
   if (summary.bbox_min_size() != 3 || summary.bbox_max_size() != 3 || !all_finite(summary.bbox_min()) ||
       !all_finite(summary.bbox_max())) {
-    refuse("the bounding box must be 3 + 3 finite numbers");
+    refuse_completion("the bounding box must be 3 + 3 finite numbers");
   }
   if (header.order_stride() < 1 || std::gcd(header.order_stride(), summary.directions()) != 1 ||
       header.order_stride() > summary.directions()) {
-    refuse("the stride must be 1 .. directions and coprime to their number");
+    refuse_completion("the stride must be 1 .. directions and coprime to their number");
   }
-  if (header.lattice_bytes() > data.size()) refuse("the lattice is longer than the data");
+  if (header.lattice_bytes() > data.size()) refuse_completion("the lattice is longer than the data");
   const Prepared parts{data.substr(0, header.lattice_bytes()), data.substr(header.lattice_bytes())};
   check_lattice(parts.lattice, summary.points());
   check_directions(parts.directions, summary.directions());
@@ -100,7 +101,7 @@ void store_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& h
   const v1::PreparedSummary& summary = header.prepared();
   const v1::Frame asked = job_message(tx.db, job.id).params().frame();
   if (asked != v1::FRAME_UNSPECIFIED && asked != v1::FRAME_AXIS && summary.frame_size() != 9) {
-    refuse("prepared without the frame that was asked for; the worker is older than frames");
+    refuse_completion("prepared without the frame that was asked for; the worker is older than frames");
   }
   const std::string bytes = summary.SerializeAsString();
   tx.db.run(
@@ -127,16 +128,17 @@ void restore_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader&
   Statement row = tx.db.query("SELECT prepared, stride FROM erosions WHERE id = ?", job.erosion_id);
   if (!row.step() || row.blob(0) != header.prepared().SerializeAsString() ||
       static_cast<std::uint64_t>(row.integer(1)) != header.order_stride()) {
-    refuse("prepared anew, the job has another lattice or other directions than its field");
+    refuse_completion("prepared anew, the job has another lattice or other directions than its field");
   }
   put_artifact(tx, {job.erosion_id, "lattice", ""}, parts.lattice, 0);
   put_artifact(tx, {job.erosion_id, "directions", ""}, parts.directions, 0);
 }
 
 void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header, std::string_view data) {
-  if (header.points() > 0xFFFFFFFF) refuse("more than 2^32 - 1 points or triangles");
+  if (header.points() > 0xFFFFFFFF) refuse_completion("more than 2^32 - 1 points or triangles");
   const JobRow job = get_job(tx.db, task.job_id);
-  if (header.quality().advice().size() > kMaxReasonBytes) refuse("the advice on the skeleton is too long");
+  if (header.quality().advice().size() > kMaxReasonBytes)
+    refuse_completion("the advice on the skeleton is too long");
   put_artifact(tx, {job.erosion_id, wire::find_derived_kind(task.kind)->name(), task.params_key}, data,
                static_cast<std::int64_t>(header.points()),
                header.has_quality() ? header.quality().SerializeAsString() : std::string());
@@ -153,10 +155,11 @@ std::string known_code(const std::string& code) {
 
 v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::string_view data) {
   if (data.size() != header.bytes()) {
-    refuse("announced with " + std::to_string(header.bytes()) + " bytes, but " + std::to_string(data.size()) +
-           " arrived");
+    refuse_completion("announced with " + std::to_string(header.bytes()) + " bytes, but " +
+                      std::to_string(data.size()) + " arrived");
   }
-  if (wire::sha256_hex(data) != header.sha256()) refuse("the data does not have the announced SHA-256");
+  if (wire::sha256_hex(data) != header.sha256())
+    refuse_completion("the data does not have the announced SHA-256");
   const std::optional<Prepared> parts =
       header.has_prepared() ? std::optional(checked_prepared(header, data)) : std::nullopt;
   const v1::TaskKind kind = read([&](Database& db) { return task_of_token(db, header.token()).kind; });
@@ -170,9 +173,10 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
       finish_task(tx, task);
       return reply(false);
     }
-    if (task.kind == v1::TASK_KIND_ERODE) refuse("a block of directions is finished by its reports");
+    if (task.kind == v1::TASK_KIND_ERODE)
+      refuse_completion("a block of directions is finished by its reports");
     if ((task.kind == v1::TASK_KIND_PREPARE) != parts.has_value()) {
-      refuse("a summary belongs to the prepare task, and only to it");
+      refuse_completion("a summary belongs to the prepare task, and only to it");
     }
     if (parts) {
       const JobRow job = get_job(tx.db, task.job_id);

@@ -12,12 +12,13 @@
 namespace affskel::server {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_report(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
 
 TaskRow of_erosion(TaskRow task) {
-  if (task.kind != v1::TASK_KIND_ERODE) refuse("the lease is for a " + wire::word(task.kind) + " task");
+  if (task.kind != v1::TASK_KIND_ERODE)
+    refuse_report("the lease is for a " + wire::word(task.kind) + " task");
   return task;
 }
 
@@ -25,16 +26,16 @@ TaskRow of_erosion(TaskRow task) {
 std::vector<Range> checked_ranges(const v1::ReportErosionHeader& header, Range block) {
   // Each range costs a query with the database locked; there cannot be more of them than positions.
   if (header.positions_done_size() > block.end - block.begin) {
-    refuse(std::to_string(header.positions_done_size()) + " ranges in a block of " +
-           std::to_string(block.end - block.begin) + " positions");
+    refuse_report(std::to_string(header.positions_done_size()) + " ranges in a block of " +
+                  std::to_string(block.end - block.begin) + " positions");
   }
   std::vector<Range> ranges;
   for (const v1::PositionRange& range : header.positions_done()) {
     if (range.begin() >= range.end() || range.begin() < static_cast<std::uint64_t>(block.begin) ||
         range.end() > static_cast<std::uint64_t>(block.end)) {
-      refuse("positions [" + std::to_string(range.begin()) + ", " + std::to_string(range.end()) +
-             ") are not a range inside the block [" + std::to_string(block.begin) + ", " +
-             std::to_string(block.end) + ")");
+      refuse_report("positions [" + std::to_string(range.begin()) + ", " + std::to_string(range.end()) +
+                    ") are not a range inside the block [" + std::to_string(block.begin) + ", " +
+                    std::to_string(block.end) + ")");
     }
     ranges.push_back({static_cast<std::int64_t>(range.begin()), static_cast<std::int64_t>(range.end())});
   }
@@ -153,7 +154,7 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     if (task.state == "done") return reply(false);
     if (header.block_done()) {
       if (!remaining_ranges(tx.db, job.erosion_id, task.block).empty()) {
-        refuse("the block is called done, but not all of its positions are");
+        refuse_report("the block is called done, but not all of its positions are");
       }
       finish_task(tx, task);
     } else if (!job.active() || job.cancel_requested) {

@@ -18,14 +18,14 @@ constexpr std::size_t kMaxDirectionsBytes = 1000;  // kept and sent with every j
 constexpr std::uint32_t kMaxPriority = 9;
 constexpr std::size_t kSha256Digits = 64;
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_submission(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, why);
 }
 
 void check_size(const char* what, const std::string& text, std::size_t most) {
   if (text.size() <= most) return;
-  refuse(std::string(what) + " has " + std::to_string(text.size()) + " bytes, and may have at most " +
-         std::to_string(most));
+  refuse_submission(std::string(what) + " has " + std::to_string(text.size()) +
+                    " bytes, and may have at most " + std::to_string(most));
 }
 
 char lower(char c) {
@@ -37,10 +37,11 @@ bool is_hex(char c) {
 }
 
 std::string checked_sha256(std::string digits) {
-  if (digits.empty()) refuse("mesh_sha256 is not set");
+  if (digits.empty()) refuse_submission("mesh_sha256 is not set");
   std::transform(digits.begin(), digits.end(), digits.begin(), lower);
   if (digits.size() != kSha256Digits || !std::all_of(digits.begin(), digits.end(), is_hex)) {
-    refuse("mesh_sha256 " + base::quoted(digits) + " is no SHA-256: expected 64 hexadecimal digits");
+    refuse_submission("mesh_sha256 " + base::quoted(digits) +
+                      " is no SHA-256: expected 64 hexadecimal digits");
   }
   return digits;
 }
@@ -51,10 +52,10 @@ void check_header(const v1::SubmitJobHeader& header, std::uint64_t max_mesh_byte
   check_size("the request id", header.request_id(), kMaxRequestIdBytes);
   check_size("the direction set", header.params().directions(), kMaxDirectionsBytes);
   if (header.priority() > kMaxPriority) {
-    refuse("the priority must be 0 .. 9, not " + std::to_string(header.priority()));
+    refuse_submission("the priority must be 0 .. 9, not " + std::to_string(header.priority()));
   }
   if (header.mesh_bytes() == 0) {
-    refuse("mesh_bytes is 0 or not set: it is the size of the mesh file, which must not be empty");
+    refuse_submission("mesh_bytes is 0 or not set: it is the size of the mesh file, which must not be empty");
   }
   if (header.mesh_bytes() > max_mesh_bytes) {
     throw StoreError(StoreError::Code::kLimit, "the mesh has " + std::to_string(header.mesh_bytes()) +
@@ -74,7 +75,7 @@ Submission checked_submission(const v1::SubmitJobHeader& header, std::uint64_t m
     submission.params = wire::canonical(header.params());
     submission.skeleton = wire::canonical(header.skeleton());
   } catch (const std::invalid_argument& error) {
-    refuse(error.what());
+    refuse_submission(error.what());
   }
   submission.params_key = wire::cache_key(submission.params);
   submission.skeleton_key = wire::cache_key(submission.skeleton);
@@ -84,12 +85,12 @@ Submission checked_submission(const v1::SubmitJobHeader& header, std::uint64_t m
 void check_mesh(const Submission& submission, std::string_view mesh) {
   const v1::SubmitJobHeader& header = submission.header;
   if (header.mesh_bytes() != mesh.size()) {
-    refuse("mesh_bytes announced " + std::to_string(header.mesh_bytes()) + " bytes, but " +
-           std::to_string(mesh.size()) + " arrived");
+    refuse_submission("mesh_bytes announced " + std::to_string(header.mesh_bytes()) + " bytes, but " +
+                      std::to_string(mesh.size()) + " arrived");
   }
   if (const std::string sha256 = wire::sha256_hex(mesh); sha256 != header.mesh_sha256()) {
-    refuse("the mesh that arrived has the SHA-256 " + sha256 + ", not the announced mesh_sha256 " +
-           header.mesh_sha256());
+    refuse_submission("the mesh that arrived has the SHA-256 " + sha256 + ", not the announced mesh_sha256 " +
+                      header.mesh_sha256());
   }
 }
 

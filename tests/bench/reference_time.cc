@@ -10,7 +10,7 @@
 namespace affskel::bench {
 namespace {
 
-constexpr std::uint32_t kMaxTriangles = 500;
+constexpr std::uint32_t kMaxPublishedTriangles = 500;
 constexpr std::size_t kFirstSample = 8;
 
 // The solid's own mesh in mesh units, so that both programs see the same surface.
@@ -23,7 +23,7 @@ core::Mesh mesh_of(const core::Solid& solid) {
 }  // namespace
 
 std::optional<ReferenceTime> run_reference(const RowSpec& row, const std::string& off_file, double budget_s) {
-  if (row.spacing <= 0 || row.mesh.triangles > kMaxTriangles) return std::nullopt;
+  if (row.spacing <= 0 || row.mesh.triangles > kMaxPublishedTriangles) return std::nullopt;
   RowSpec all = row;
   all.max_directions = 0;
   const Job job(off_file, all, 1);

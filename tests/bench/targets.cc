@@ -77,7 +77,7 @@ void add_ratios(std::span<const RowResult> results, std::vector<Target>& targets
       [](const RowResult&) { return true; }, [](const RowResult& r) { return r.two_thread_speed_up(); }));
 }
 
-void add_growth(std::span<const RowResult> results, std::vector<Target>& targets) {
+void add_growth_targets(std::span<const RowResult> results, std::vector<Target>& targets) {
   const Growth growth = growth_of(results);
   targets.push_back(at_most("exponent of wall time over N, bodies 1000 to 107024", 1.4));
   targets.back().measured = growth.wall_over_n;
@@ -116,7 +116,7 @@ Growth growth_of(std::span<const RowResult> results) {
 std::vector<Target> targets_of(std::span<const RowResult> results) {
   std::vector<Target> targets;
   add_ratios(results, targets);
-  add_growth(results, targets);
+  add_growth_targets(results, targets);
   add_memory(results, targets);
   targets.push_back(worst(
       results, at_most("seconds on two threads, body 107024, all directions, 1e5 points", 600),

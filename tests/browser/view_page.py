@@ -1,4 +1,6 @@
 """A page of affskel-client view in Chromium, for the tests of one; ends the program where there is no browser."""
+import atexit
+import contextlib
 import os
 import sys
 import unittest
@@ -6,6 +8,8 @@ import unittest
 if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
     print("no chromium or chromedriver: skipped")
     sys.exit(77)
+
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
 
 from browser import Page, chromium
 
@@ -27,12 +31,45 @@ def tick_numbers(page):
         }).filter((span) => span.shown)""")
 
 
+class Browsers:
+    """The browser of one test after the other: another one only where the window changes."""
+
+    def __init__(self):
+        self.window, self.driver = None, None
+        self.running = contextlib.ExitStack()
+
+    def of(self, window):
+        if window != self.window:
+            self.running.close()
+            self.driver = self.running.enter_context(chromium(**window))
+            self.window = window
+        return self.driver
+
+
+browsers = Browsers()
+atexit.register(browsers.running.close)
+
+
 class WithPage(unittest.TestCase):
+    """Every test loads its page anew.  The pages keep nothing in the browser, and starting one takes seconds: tests share
+    it."""
     window = dict(width=1200, height=800)
 
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = browsers.of(cls.window)
+
     def setUp(self):
-        self.driver = self.enterContext(chromium(**self.window))
+        self.driver.get("about:blank")
+        self.leave()
         self.page = Page(self.driver, self.file())
+
+    def leave(self):
+        """Lets go of buttons and keys, and has the pointer where the page has nothing to tell."""
+        actions = ActionBuilder(self.driver)
+        actions.clear_actions()
+        actions.pointer_action.move_to_location(0, 0)
+        actions.perform()
 
     def file(self):
         """The page's place."""

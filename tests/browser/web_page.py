@@ -172,10 +172,29 @@ class Visitor:
 
 @contextlib.contextmanager
 def visitor(width, height, phone=False, dark=False):
+    """A visitor with a browser of his own."""
+    with browser_of_visitors(width, height, phone, dark) as driver, new_visitor(driver) as page:
+        yield page
+
+
+@contextlib.contextmanager
+def browser_of_visitors(width, height, phone=False, dark=False):
+    """A browser for one visitor after the other."""
+    with chromium(width, height, phone=phone) as driver:
+        if dark:
+            features = [{"name": "prefers-color-scheme", "value": "dark"}]
+            driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+        yield driver
+
+
+@contextlib.contextmanager
+def new_visitor(driver):
+    """One whom no service knows, and of whose predecessor nothing is left."""
     with tempfile.TemporaryDirectory(prefix="affskel-downloads-") as downloads:
-        with chromium(width, height, phone=phone) as driver:
-            driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": downloads})
-            if dark:
-                features = [{"name": "prefers-color-scheme", "value": "dark"}]
-                driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-            yield Visitor(driver, downloads)
+        driver.get("about:blank")  # nothing asks a service that has gone
+        driver.execute_cdp_cmd("Network.clearBrowserCookies", {})
+        driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": downloads})
+        page = Visitor(driver, downloads)
+        page.errors()
+        page.asked()
+        yield page

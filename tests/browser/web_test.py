@@ -14,7 +14,7 @@ if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM
 
 from selenium.webdriver.common.keys import Keys
 
-from web_page import Service, visitor
+from web_page import Service, browser_of_visitors, new_visitor, visitor
 from web_servers import Bench, Lab
 
 CLIENT, SERVER = sys.argv[1:3]
@@ -35,10 +35,14 @@ class OnThePage(unittest.TestCase):
     window = DESKTOP
     dark = False
 
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = cls.enterClassContext(browser_of_visitors(dark=cls.dark, **cls.window))
+
     def setUp(self):
         self.service = Service(CLIENT, bench.environment)
         self.addCleanup(self.stop)
-        self.page = self.enterContext(visitor(dark=self.dark, **self.window))
+        self.page = self.enterContext(new_visitor(self.driver))
         self.page.open(self.service.address)
         self.page.heading("Jobs")
 

@@ -17,16 +17,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kHourNs = 3'600'000'000'000;
-constexpr Milliseconds kCall{1000};
+constexpr Milliseconds kMachineCall{1000};
 
 /// Calls that need the disk, so that a fault there is met: answers of any kind are welcome.
 void use_disk(Scene& scene) {
-  scene.submit(scene.stage.api(), scene.catalogue.next(kTiny, scene.new_name()), kCall);
+  scene.submit(scene.stage.api(), scene.catalogue.next(kTiny, scene.new_name()), kMachineCall);
   for (const auto& [id, entry] : scene.ledger.entries()) {
     if (!entry.verified) continue;
     std::string bytes;
     const v1::ArtifactKind kind = scene.pick(2) == 0 ? v1::ARTIFACT_KIND_FIELD : v1::ARTIFACT_KIND_MESH;
-    static_cast<void>(scene.stage.api().fetch(artefact(id, kind), bytes, kCall));
+    static_cast<void>(scene.stage.api().fetch(artefact(id, kind), bytes, kMachineCall));
     if (scene.pick(3) == 0) break;
   }
 }
@@ -101,7 +101,7 @@ bool starve(Scene& scene, const Process& process, std::size_t spare) {
   std::vector<Submission> submissions;
   for (int i = 0; i < 4; ++i) submissions.push_back(scene.catalogue.next(kMedium, scene.new_name()));
   in_parallel(submissions.size(),
-              [&](std::size_t i) { scene.submit(scene.stage.api(), submissions[i], kCall); });
+              [&](std::size_t i) { scene.submit(scene.stage.api(), submissions[i], kMachineCall); });
   use_disk(scene);
   last_for(Milliseconds(300));
   prlimit(process.pid(), RLIMIT_AS, &before, nullptr);

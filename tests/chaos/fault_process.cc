@@ -8,7 +8,7 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{5000};
+constexpr Milliseconds kProcessCall{5000};
 
 std::vector<std::string> client(const Scene& scene, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {scene.stage.programs().client, "--server", scene.stage.address()});
@@ -27,7 +27,7 @@ std::vector<std::string> submit_command(const Scene& scene, const Submission& su
 void note_job(Scene& scene, const Submission& submission, const std::string& id) {
   v1::Job job;
   const grpc::Status status =
-      until_answered("asking for a job", [&] { return scene.stage.api().job(id, job, kCall); });
+      until_answered("asking for a job", [&] { return scene.stage.api().job(id, job, kProcessCall); });
   if (!status.ok()) return scene.complain(submission.name + ": acknowledged, and " + status.error_message());
   scene.complain(scene.ledger.submitted(submission.name, submission.mesh_sha256, submission.recipe, job));
 }

@@ -9,17 +9,17 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{3000};
+constexpr Milliseconds kReportCall{3000};
 constexpr std::uint32_t kPoisoned = 400;
 
 struct Open {
   grpc::ClientContext context;
-  Open() { context.set_deadline(std::chrono::system_clock::now() + kCall); }
+  Open() { context.set_deadline(std::chrono::system_clock::now() + kReportCall); }
 };
 
 v1::WorkerIdentity identity(const Scene& scene) {
   v1::ServerInfo info;
-  static_cast<void>(scene.stage.api().info(info, kCall));
+  static_cast<void>(scene.stage.api().info(info, kReportCall));
   v1::WorkerIdentity worker;
   worker.set_id(wire::random_id());
   worker.set_host(wire::host_name());
@@ -57,7 +57,7 @@ v1::Lease lease_block(Scene& scene) {
   return {};
 }
 
-v1::ReportErosionRequest header_of(const v1::Lease& lease, std::uint32_t records) {
+v1::ReportErosionRequest report_header_of(const v1::Lease& lease, std::uint32_t records) {
   v1::ReportErosionRequest message;
   v1::ReportErosionHeader& header = *message.mutable_header();
   header.set_token(lease.token());
@@ -86,7 +86,7 @@ bool half_report(Scene& scene) {
   Open call;
   v1::ReportResponse response;
   const auto writer = scene.stage.api().worker().ReportErosion(&call.context, &response);
-  writer->Write(header_of(lease, 2 * kPoisoned));
+  writer->Write(report_header_of(lease, 2 * kPoisoned));
   writer->Write(poison(kPoisoned));
   if (scene.pick(2) == 0) {
     writer->WritesDone();
@@ -114,7 +114,7 @@ bool late_report(Scene& scene) {
   }
   Open call;
   const auto writer = scene.stage.api().worker().ReportErosion(&call.context, &response);
-  writer->Write(header_of(lease, kPoisoned));
+  writer->Write(report_header_of(lease, kPoisoned));
   writer->Write(poison(kPoisoned));
   writer->WritesDone();
   if (writer->Finish().ok()) scene.complain("a report was taken after its lease was lost");
@@ -127,7 +127,7 @@ bool poisoned_report(Scene& scene) {
   Open call;
   v1::ReportResponse response;
   const auto writer = scene.stage.api().worker().ReportErosion(&call.context, &response);
-  writer->Write(header_of(lease, kPoisoned));
+  writer->Write(report_header_of(lease, kPoisoned));
   writer->Write(poison(kPoisoned));
   writer->WritesDone();
   return writer->Finish().ok();
@@ -137,7 +137,7 @@ bool job_deleted_in_secret(Scene& scene) {
   const std::string id =
       scene.submit_patiently(scene.stage.api(), scene.catalogue.next(kTiny, scene.new_name()));
   scene.stage.api().follow(id, [](const v1::Job&) { return false; });
-  return scene.stage.api().remove(id, kCall).ok();
+  return scene.stage.api().remove(id, kReportCall).ok();
 }
 
 }  // namespace affskel::chaos

@@ -7,7 +7,7 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{10000};
+constexpr Milliseconds kStormCall{10000};
 
 std::vector<Submission> several(Scene& scene, std::size_t recipe, std::size_t number) {
   std::vector<Submission> submissions;
@@ -29,11 +29,12 @@ std::vector<std::pair<std::string, std::size_t>> finished(const Scene& scene) {
 void cancel_and_delete(Scene& scene, const std::string& id) {
   const Api& api = scene.stage.api();
   v1::Job job;
-  const grpc::Status cancelled = until_answered("cancelling", [&] { return api.cancel(id, job, kCall); });
+  const grpc::Status cancelled =
+      until_answered("cancelling", [&] { return api.cancel(id, job, kStormCall); });
   if (cancelled.ok()) scene.ledger.cancelled(job);
   api.follow(id, [](const v1::Job&) { return false; });
   scene.ledger.deleting(id);
-  const grpc::Status removed = until_answered("deleting", [&] { return api.remove(id, kCall); });
+  const grpc::Status removed = until_answered("deleting", [&] { return api.remove(id, kStormCall); });
   // Of a call that is repeated the first may have got there.
   if (removed.ok() || removed.error_code() == grpc::StatusCode::NOT_FOUND) {
     scene.ledger.deleted(id);
@@ -48,7 +49,7 @@ bool stays_cancelled(Scene& scene) {
   v1::Job job = api.follow(scene.running_job, [](const v1::Job&) { return false; });
   if (job.state() == v1::JOB_STATE_DONE) return false;
   const grpc::Status status =
-      until_answered("asking for a job", [&] { return api.job(scene.running_job, job, kCall); });
+      until_answered("asking for a job", [&] { return api.job(scene.running_job, job, kStormCall); });
   if (!status.ok() || job.state() != v1::JOB_STATE_CANCELLED) {
     scene.complain(job.name() + ": cancelled, and then " + v1::JobState_Name(job.state()));
   }
@@ -73,7 +74,7 @@ struct OpenUpload {
 };
 
 template <class Open>
-void end_all(std::vector<std::unique_ptr<Open>>& calls) {
+void end_storm(std::vector<std::unique_ptr<Open>>& calls) {
   for (const auto& call : calls) call->context.TryCancel();
 }
 
@@ -86,7 +87,7 @@ bool duplicate_submissions(Scene& scene) {
     const Api& api = i % 2 == 0 ? scene.stage.api() : scene.stage.proxied();
     Submission mine = submission;
     if (i >= 4) mine.request_id.clear();  // the content alone finds the job, too
-    ids[i] = scene.submit(api, mine, kCall);
+    ids[i] = scene.submit(api, mine, kStormCall);
   });
   const std::string id = scene.submit_patiently(scene.stage.api(), submission);
   for (const std::string& other : ids) {
@@ -100,7 +101,7 @@ bool submit_storm(Scene& scene) {
   const std::vector<Submission> submissions = several(scene, kTiny, 24);
   in_parallel(8, [&](std::size_t client) {
     for (std::size_t i = client; i < submissions.size(); i += 8) {
-      scene.submit(i % 2 == 0 ? scene.stage.api() : scene.stage.proxied(), submissions[i], kCall);
+      scene.submit(i % 2 == 0 ? scene.stage.api() : scene.stage.proxied(), submissions[i], kStormCall);
     }
   });
   for (const Submission& submission : submissions) scene.submit_patiently(scene.stage.api(), submission);
@@ -112,19 +113,19 @@ bool cancel_resume_storm(Scene& scene) {
   in_parallel(4, [&](std::size_t client) {
     for (std::size_t i = 0; i < 6; ++i) {
       v1::Job job;
-      static_cast<void>((client + i) % 2 == 0 ? api.cancel(scene.running_job, job, kCall)
-                                              : api.resume(scene.running_job, job, kCall));
+      static_cast<void>((client + i) % 2 == 0 ? api.cancel(scene.running_job, job, kStormCall)
+                                              : api.resume(scene.running_job, job, kStormCall));
     }
   });
   // What it is told when nobody contradicts any more must hold.
   v1::Job job;
   const grpc::Status cancelled =
-      until_answered("cancelling", [&] { return api.cancel(scene.running_job, job, kCall); });
+      until_answered("cancelling", [&] { return api.cancel(scene.running_job, job, kStormCall); });
   if (!cancelled.ok()) return false;  // done meanwhile
   scene.ledger.cancelled(job);
   if (!stays_cancelled(scene)) return true;
   const grpc::Status resumed =
-      until_answered("resuming", [&] { return api.resume(scene.running_job, job, kCall); });
+      until_answered("resuming", [&] { return api.resume(scene.running_job, job, kStormCall); });
   if (resumed.ok()) scene.ledger.resumed(job);
   return true;
 }
@@ -158,7 +159,7 @@ bool fetch_storm(Scene& scene) {
     skeleton.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
     skeleton.mutable_skeleton()->set_threshold(threshold);
     std::string bytes;
-    static_cast<void>(api.fetch(skeleton, bytes, kCall));
+    static_cast<void>(api.fetch(skeleton, bytes, kStormCall));
   });
   return true;
 }
@@ -173,7 +174,7 @@ bool stalled_fetches(Scene& scene) {
     calls.back()->reader = scene.stage.proxied().client().FetchArtifact(&calls.back()->context, request);
   }
   outlast_lease();
-  end_all(calls);
+  end_storm(calls);
   return true;
 }
 
@@ -184,14 +185,14 @@ bool watch_storm(Scene& scene) {
   for (std::size_t i = 0; i < 60; ++i) {
     calls.push_back(std::make_unique<OpenWatch>());
     const Api& api = i % 2 == 0 ? scene.stage.api() : scene.stage.proxied();
-    calls.back()->context.set_deadline(std::chrono::system_clock::now() + kCall);
+    calls.back()->context.set_deadline(std::chrono::system_clock::now() + kStormCall);
     calls.back()->reader = api.client().WatchJob(&calls.back()->context, request);
   }
   v1::Job job;
   for (std::size_t i = 0; i < calls.size(); i += 2) {
     if (calls[i]->reader->Read(&job)) scene.ledger.saw(job);
   }
-  end_all(calls);
+  end_storm(calls);
   return true;
 }
 
@@ -219,7 +220,7 @@ bool slow_uploads(Scene& scene) {
     scene.submit_patiently(scene.stage.api(), scene.catalogue.next(kTiny, scene.new_name()));
     last_for(Milliseconds(1000));
   }
-  end_all(calls);
+  end_storm(calls);
   return true;
 }
 

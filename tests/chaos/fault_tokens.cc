@@ -4,7 +4,7 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{20000};
+constexpr Milliseconds kTokenCall{20000};
 
 void must_be_refused(const char* what, const grpc::Status& status) {
   // A call that the network or a restart ended first is none of the gate's.
@@ -17,7 +17,7 @@ void must_be_refused(const char* what, const grpc::Status& status) {
 /// An upload that stands still in the middle.
 struct HalfUpload {
   HalfUpload(const Api& api, const Submission& submission) {
-    context.set_deadline(std::chrono::system_clock::now() + kCall);
+    context.set_deadline(std::chrono::system_clock::now() + kTokenCall);
     writer = api.client().SubmitJob(&context, &response);
     v1::SubmitJobRequest message;
     v1::SubmitJobHeader& header = *message.mutable_header();
@@ -51,7 +51,7 @@ bool revoke_client(Scene& scene) {
   const Api& api = scene.stage.proxied();
   HalfUpload upload(api, scene.catalogue.next(kLongBody, scene.new_name()));
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kCall);
+  context.set_deadline(std::chrono::system_clock::now() + kTokenCall);
   v1::WatchJobRequest request;
   request.set_job(scene.running_job);
   const auto watch = api.client().WatchJob(&context, request);

@@ -3,7 +3,7 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{1500};
+constexpr Milliseconds kLoadCall{1500};
 
 }  // namespace
 
@@ -50,11 +50,11 @@ void Load::work() {
 void Load::step() {
   const Api& api = ++steps_ % 2 == 0 ? scene_.stage.api() : scene_.stage.proxied();
   if (open_.name.empty()) open_ = scene_.catalogue.next(steps_ % 3 == 0 ? kMedium : kTiny, scene_.new_name());
-  const std::string id = scene_.submit(api, open_, kCall);
+  const std::string id = scene_.submit(api, open_, kLoadCall);
   if (id.empty()) return;
   open_ = {};
   v1::Job job;
-  if (api.job(id, job, kCall).ok()) scene_.ledger.saw(job);
+  if (api.job(id, job, kLoadCall).ok()) scene_.ledger.saw(job);
 }
 
 }  // namespace affskel::chaos

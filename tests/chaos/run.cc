@@ -5,7 +5,7 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{5000};
+constexpr Milliseconds kRunCall{5000};
 constexpr std::size_t kKeptJobs = 10;
 
 double share(const v1::Job& job) {
@@ -99,8 +99,8 @@ void Run::collect(Outcome& outcome) {
 void Run::make_sure_of_a_running_job() {
   v1::Job job;
   if (!scene_.running_job.empty()) {
-    const grpc::Status status =
-        until_answered("asking for a job", [&] { return stage_.api().job(scene_.running_job, job, kCall); });
+    const grpc::Status status = until_answered(
+        "asking for a job", [&] { return stage_.api().job(scene_.running_job, job, kRunCall); });
     if (status.ok() && !is_final(job) && share(job) < 0.5) return;
   }
   const std::size_t recipe = scene_.pick(2) == 0 ? kLongTorus : kLongBody;
@@ -161,14 +161,15 @@ std::vector<v1::Job> Run::with_progress(const Api& api, std::vector<v1::Job> job
   for (v1::Job& job : jobs) {
     if (job.state() == v1::JOB_STATE_DONE || job.directions_done() == 0) continue;
     const std::string id = job.id();
-    until_answered("asking for a job", [&] { return api.job(id, job, kCall); });
+    until_answered("asking for a job", [&] { return api.job(id, job, kRunCall); });
   }
   return jobs;
 }
 
 void Run::audit() {
   std::vector<v1::Job> jobs;
-  const grpc::Status status = until_answered("listing jobs", [&] { return stage_.api().list(jobs, kCall); });
+  const grpc::Status status =
+      until_answered("listing jobs", [&] { return stage_.api().list(jobs, kRunCall); });
   if (!status.ok()) return scene_.complain("jobs cannot be listed: " + status.error_message());
   jobs = with_progress(stage_.api(), std::move(jobs));
   scene_.complain(ledger_.audit(jobs));
@@ -176,7 +177,7 @@ void Run::audit() {
     if (job.state() != v1::JOB_STATE_FAILED) continue;
     note("resumed " + job.name() + ", which failed: " + job.error().code() + " " + job.error().message());
     v1::Job resumed;
-    until_answered("resuming", [&] { return stage_.api().resume(job.id(), resumed, kCall); });
+    until_answered("resuming", [&] { return stage_.api().resume(job.id(), resumed, kRunCall); });
   }
 }
 
@@ -196,7 +197,8 @@ void Run::tidy_up() {
     if (!entry.verified || entry.wish == Ledger::Wish::kGone || ++kept <= kKeptJobs) continue;
     ledger_.deleting(id);
     const std::string job = id;
-    const grpc::Status status = until_answered("deleting", [&] { return stage_.api().remove(job, kCall); });
+    const grpc::Status status =
+        until_answered("deleting", [&] { return stage_.api().remove(job, kRunCall); });
     if (status.ok() || status.error_code() == grpc::StatusCode::NOT_FOUND) ledger_.deleted(id);
   }
 }

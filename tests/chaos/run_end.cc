@@ -9,7 +9,7 @@
 namespace affskel::chaos {
 namespace {
 
-constexpr Milliseconds kCall{10000};
+constexpr Milliseconds kEndCall{10000};
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void Run::finish_all() {
       v1::Job job = stage_.api().follow(id, [](const v1::Job&) { return false; });
       if (job.state() == v1::JOB_STATE_DONE) break;
       const std::string name = id;
-      until_answered("resuming", [&] { return stage_.api().resume(name, job, kCall); });
+      until_answered("resuming", [&] { return stage_.api().resume(name, job, kEndCall); });
       ledger_.resumed(job);
     }
   }
@@ -59,7 +59,7 @@ void Run::compare_artefacts(const Api& api, const std::string& id, const Ledger:
   std::string bytes;
   const auto get = [&](v1::ArtifactKind kind) {
     const grpc::Status status =
-        until_answered("fetching", [&] { return api.fetch(artefact(id, kind), bytes, kCall); });
+        until_answered("fetching", [&] { return api.fetch(artefact(id, kind), bytes, kEndCall); });
     if (!status.ok()) scene_.complain(entry.name + ": no artefact: " + status.error_message());
     return status.ok();
   };
@@ -96,7 +96,7 @@ void Run::go_on_with_a_copy(const std::string& unfinished, Outcome& outcome) {
   fresh.start_server();
   fresh.wait_for_server();
   std::vector<v1::Job> jobs;
-  until_answered("listing jobs", [&] { return fresh.api().list(jobs, kCall); });
+  until_answered("listing jobs", [&] { return fresh.api().list(jobs, kEndCall); });
   scene_.complain(ledger_.audit(with_progress(fresh.api(), std::move(jobs))));
   fresh.start_workers();
   const v1::Job job = fresh.api().follow(unfinished, [](const v1::Job&) { return false; });

@@ -14,11 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPoints = "100000";
-constexpr const char* kDirections = "triangles+sphere:8000";
+constexpr const char* kKeptPoints = "100000";
+constexpr const char* kKeptDirections = "triangles+sphere:8000";
 
 // Small reports, so that the backup falls into the middle of the job; no lease ends by itself.
-const std::vector<std::string> kQuickReports = {"--lease-ms", "60000", "--report-interval-ms", "50"};
+const std::vector<std::string> kOftenReports = {"--lease-ms", "60000", "--report-interval-ms", "50"};
 
 class ServerCommandsTest : public testing::Test {
  protected:
@@ -51,15 +51,15 @@ class ServerCommandsTest : public testing::Test {
 
 // Taken in mid run and put into an empty directory, it goes on there as the original does here.
 TEST_F(ServerCommandsTest, ABackupTakenInMidRunGoesOnElsewhere) {
-  const Output plain = lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points", kPoints,
-                                 "--directions", kDirections, "-o", lab_.path("plain.csv")});
+  const Output plain = lab_.run({AFFSKEL_WORKER_BINARY, "compute", lab_.path("m.off"), "--points",
+                                 kKeptPoints, "--directions", kKeptDirections, "-o", lab_.path("plain.csv")});
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
   const std::string expected = lab_.read("plain.csv");
 
-  const Process server = lab_.server(kQuickReports);
+  const Process server = lab_.server(kOftenReports);
   const Process worker = lab_.worker();
   const std::string done = lab_.submit({"--points", "2000", "--wait"});
-  const std::string id = lab_.submit({"--points", kPoints, "--directions", kDirections});
+  const std::string id = lab_.submit({"--points", kKeptPoints, "--directions", kKeptDirections});
   const v1::Job acknowledged = lab_.follow_to_share(id, 0.3);
   ASSERT_EQ(acknowledged.state(), v1::JOB_STATE_RUNNING);
   const Output backup = command({"backup", "-o", lab_.path("copy.db")}, lab_.path("data"));
@@ -75,7 +75,7 @@ TEST_F(ServerCommandsTest, ABackupTakenInMidRunGoesOnElsewhere) {
   const Output sound = command({"check"}, other.path("data"));
   EXPECT_EQ(sound.exit_code, 0) << sound.err;
   EXPECT_NE(sound.out.find("\nserver: none\n"), std::string::npos) << sound.out;
-  const Process restored = other.server(kQuickReports);
+  const Process restored = other.server(kOftenReports);
   const v1::Job copy = other.job(id);
   EXPECT_GE(copy.directions_done(), acknowledged.directions_done()) << "acknowledged work is missing";
   EXPECT_LT(copy.directions_done(), copy.directions_total());
@@ -87,9 +87,9 @@ TEST_F(ServerCommandsTest, ABackupTakenInMidRunGoesOnElsewhere) {
 
 // What a killed server had acknowledged may still be in the log alone.
 TEST_F(ServerCommandsTest, AKilledServersDatabaseIsSoundAndCopiedWithItsLog) {
-  Process server = lab_.server(kQuickReports);
+  Process server = lab_.server(kOftenReports);
   Process worker = lab_.worker();
-  const std::string id = lab_.submit({"--points", kPoints, "--directions", kDirections});
+  const std::string id = lab_.submit({"--points", kKeptPoints, "--directions", kKeptDirections});
   const v1::Job acknowledged = lab_.follow_to_share(id, 0.2);
   server.kill_hard();
   worker.kill_hard();
@@ -107,7 +107,7 @@ TEST_F(ServerCommandsTest, AKilledServersDatabaseIsSoundAndCopiedWithItsLog) {
   fs::remove_all(lab_.path("data"));
   fs::create_directory(lab_.path("data"));
   fs::rename(lab_.path("copy.db"), lab_.path("data/affskel.db"));
-  server = lab_.server(kQuickReports);
+  server = lab_.server(kOftenReports);
   EXPECT_GE(lab_.job(id).directions_done(), acknowledged.directions_done());
 }
 

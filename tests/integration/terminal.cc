@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPatienceMs = 120000;  // for a loaded machine; nothing waits for it when all is well
 
-[[noreturn]] void execute(const std::string& line, const std::vector<std::string>& environment) {
+[[noreturn]] void execute_line(const std::string& line, const std::vector<std::string>& environment) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setenv("TERM", "xterm", 1);
   setenv("PS1", "$ ", 1);
@@ -40,7 +40,7 @@ Terminal::Terminal(const std::string& line, const std::vector<std::string>& envi
   size.ws_col = 120;
   pid_ = forkpty(&fd_, nullptr, nullptr, &size);
   if (pid_ < 0) throw std::runtime_error("no pseudo-terminal");
-  if (pid_ == 0) execute(line, environment);
+  if (pid_ == 0) execute_line(line, environment);
 }
 
 Terminal::~Terminal() {

@@ -10,7 +10,7 @@
 namespace affskel::integration {
 namespace {
 
-constexpr int kWorkers = 2;
+constexpr int kTurnWorkers = 2;
 constexpr int kAdasJobs = 200;
 
 class TurnsTest : public testing::Test {
@@ -57,7 +57,7 @@ TEST_F(TurnsTest, ALongQueueOfOneOwnerDelaysAnotherByABlockPerWorker) {
   mesh_ = lab_.read("m.off");
   const Process server = lab_.server();
   std::vector<Process> workers;
-  for (int i = 0; i < kWorkers; ++i) workers.push_back(lab_.worker({"--threads", "1"}));
+  for (int i = 0; i < kTurnWorkers; ++i) workers.push_back(lab_.worker({"--threads", "1"}));
   std::string first;
   for (int i = 0; i < kAdasJobs; ++i) {
     const std::string id = submit_as("ada", i);
@@ -68,7 +68,7 @@ TEST_F(TurnsTest, ALongQueueOfOneOwnerDelaysAnotherByABlockPerWorker) {
   ASSERT_EQ(lab_.follow_to_end(bobs).state(), v1::JOB_STATE_DONE);
   const std::string order = grants(bobs);
   const std::string after = order.substr(order.find('!') + 1);
-  EXPECT_LE(after.find('b'), static_cast<std::size_t>(kWorkers)) << after;
+  EXPECT_LE(after.find('b'), static_cast<std::size_t>(kTurnWorkers)) << after;
   // From then on each owner has a worker; what is prepared and derived has one alone.
   int adas = 0, bobs_grants = 0;
   for (const char grant : after.substr(0, after.rfind('b') + 1)) ++(grant == 'a' ? adas : bobs_grants);

@@ -2,7 +2,7 @@
 
 Marked members are private, so the files that can touch them are those that mark some themselves, that include a
 header which does, or that see one of their own folder.  These are looked at as compile_commands.json says they are
-compiled; files with coroutines are left out.
+compiled, those together that are compiled as one file; files with coroutines are left out.
 
 Usage: thread_safety.py PROJECT BUILD CLANG++    Exit code 1, and Clang's words, for each that breaks a rule.
 """
@@ -60,30 +60,56 @@ def has_coroutines(project, path, known):
     return False
 
 
+def sources_of(project, entry):
+    """The sources of an entry: its file, or those that CMake had it include (AFFSKEL_UNITY)."""
+    paths = [entry["file"]]
+    if os.path.basename(os.path.dirname(entry["file"])) == "Unity":
+        with open(entry["file"], encoding="utf-8") as batch:
+            paths = INCLUDE.findall(batch.read())
+    return [os.path.relpath(os.path.realpath(path), os.path.realpath(project)) for path in paths]
+
+
 def analysis(entry, clang):
-    """The command that looks at a file as it is compiled, without writing anything."""
+    """The command that looks at what is written to it as the entry is compiled, without writing anything."""
     words = shlex.split(entry["command"])
     kept = [word for before, word in zip([""] + words, words)
             if re.match(r"-(I|D|std=|isystem)", word) or before == "-isystem"]
-    return [clang, "-fsyntax-only", "-Wno-everything", "-Wthread-safety", "-Werror", *kept, entry["file"]]
+    return [clang, "-fsyntax-only", "-Wno-everything", "-Wthread-safety", "-Werror", *kept, "-x", "c++", "-"]
 
 
 def analyse(project, build, clang):
     """What Clang says of each file that it looks at, by path; nothing of a file without faults."""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as commands:
-        entries = {os.path.relpath(os.path.realpath(entry["file"]), os.path.realpath(project)): entry
-                   for entry in json.load(commands)}
+        entries = json.load(commands)
     known = {}
-    chosen = [path for path in sorted(entries) if path.startswith(TOPS) and touches_marked(project, path, known)
-              and not has_coroutines(project, path, known)]
 
-    def words_about(path):
-        ended = subprocess.run(analysis(entries[path], clang), cwd=entries[path]["directory"],
+    def is_chosen(path):
+        return (path.startswith(TOPS) and touches_marked(project, path, known)
+                and not has_coroutines(project, path, known))
+
+    def words_about(entry, paths):
+        text = "".join(f'#include "{os.path.join(os.path.realpath(project), path)}"\n' for path in paths)
+        ended = subprocess.run(analysis(entry, clang), cwd=entry["directory"], input=text,
                                capture_output=True, text=True, check=False)
         return ended.stderr if ended.returncode != 0 else ""
 
+    def words_by_path(entry, paths):
+        together = words_about(entry, paths)
+        if not together or len(paths) == 1:
+            return dict.fromkeys(paths, together)
+        alone = {path: words_about(entry, [path]) for path in paths}
+        return alone if any(alone.values()) else dict.fromkeys(paths, together)
+
+    chosen = {}  # a source of several programs is looked at once
+    for entry in entries:
+        paths = tuple(path for path in sources_of(project, entry) if is_chosen(path))
+        if paths:
+            chosen.setdefault(paths, entry)
+    said = {}
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        return dict(zip(chosen, pool.map(words_about, chosen)))
+        for words in pool.map(words_by_path, chosen.values(), chosen.keys()):
+            said.update(words)
+    return said
 
 
 def main():

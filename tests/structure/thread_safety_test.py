@@ -30,24 +30,40 @@ OTHER = "int main() { return 0; }\n"
 
 
 class ThreadSafety(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.project = folder.name
+        self.files = {"server/count.h": HEADER, "server/add.cc": ADD, "server/value.cc": VALUE, "server/other.cc": OTHER}
+        for path, text in self.files.items():
+            self.write(path, text)
+        os.makedirs(os.path.join(self.project, "proto/base"))
+        shutil.copy(os.path.join(HERE, "../../proto/base/mutex.h"), os.path.join(self.project, "proto/base"))
+
+    def write(self, path, text):
+        os.makedirs(os.path.dirname(os.path.join(self.project, path)), exist_ok=True)
+        with open(os.path.join(self.project, path), "w", encoding="utf-8") as out:
+            out.write(text)
+
+    def said(self, compiled):
+        commands = [{"directory": self.project, "file": os.path.join(self.project, path),
+                     "command": f"c++ -std=c++20 -I{self.project}/proto -o x.o -c {path}"} for path in compiled]
+        self.write("compile_commands.json", json.dumps(commands))
+        return thread_safety.analyse(self.project, self.project, CLANG)
+
+    def assert_fault_is_found(self, said):
+        self.assertEqual(sorted(said), ["server/add.cc", "server/value.cc"])
+        self.assertEqual(said["server/add.cc"], "")
+        self.assertIn("requires holding mutex 'mutex_'", said["server/value.cc"])
+
     def test_faults(self):
-        with tempfile.TemporaryDirectory() as project:
-            files = {"server/count.h": HEADER, "server/add.cc": ADD, "server/value.cc": VALUE, "server/other.cc": OTHER}
-            for path, text in files.items():
-                os.makedirs(os.path.join(project, os.path.dirname(path)), exist_ok=True)
-                with open(os.path.join(project, path), "w", encoding="utf-8") as out:
-                    out.write(text)
-            os.makedirs(os.path.join(project, "proto/base"))
-            shutil.copy(os.path.join(HERE, "../../proto/base/mutex.h"), os.path.join(project, "proto/base"))
-            commands = [{"directory": project, "file": os.path.join(project, path),
-                         "command": f"c++ -std=c++20 -I{project}/proto -o x.o -c {path}"}
-                        for path in files if path.endswith(".cc")]
-            with open(os.path.join(project, "compile_commands.json"), "w", encoding="utf-8") as out:
-                json.dump(commands, out)
-            said = thread_safety.analyse(project, project, CLANG)
-            self.assertEqual(sorted(said), ["server/add.cc", "server/value.cc"])
-            self.assertEqual(said["server/add.cc"], "")
-            self.assertIn("requires holding mutex 'mutex_'", said["server/value.cc"])
+        self.assert_fault_is_found(self.said([path for path in self.files if path.endswith(".cc")]))
+
+    def test_faults_of_files_that_are_compiled_as_one(self):
+        batch = "Unity/unity_0_cxx.cxx"
+        self.write(batch, "".join(f'#include "{os.path.join(self.project, path)}"\n'
+                                  for path in self.files if path.endswith(".cc")))
+        self.assert_fault_is_found(self.said([batch]))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@
 namespace affskel::worker {
 namespace {
 
-core::ChordSheetOptions options_for(const FinishedField& field, double threshold) {
+core::ChordSheetOptions chord_options_for(const FinishedField& field, double threshold) {
   core::ChordSheetOptions options;
   options.context = field.context();
   if (threshold != 0) options.significance = threshold;
@@ -18,14 +18,16 @@ core::ChordSheetOptions options_for(const FinishedField& field, double threshold
 }
 
 core::ChordSheet sheet_of(const FinishedField& field, const core::FrameField& in_frame, double threshold) {
-  return core::chord_sheet(field.job().solid(), field.lattice(), in_frame, options_for(field, threshold));
+  return core::chord_sheet(field.job().solid(), field.lattice(), in_frame,
+                           chord_options_for(field, threshold));
 }
 
 // @param points the shocks, when they are the skeleton's points; null: the sheet's vertices are.
-v1::SkeletonQuality quality_of(const FinishedField& field, const core::FrameField& in_frame,
-                               const core::ChordSheet& sheet, double threshold,
-                               const std::vector<core::Vec3>* points, const SheetBarriers& barriers = {}) {
-  const double significance = options_for(field, threshold).significance;
+v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::FrameField& in_frame,
+                                     const core::ChordSheet& sheet, double threshold,
+                                     const std::vector<core::Vec3>* points,
+                                     const SheetBarriers& barriers = {}) {
+  const double significance = chord_options_for(field, threshold).significance;
   const double next = core::next_threshold(significance);
   core::SheetQualityOptions options;
   options.advice_if_empty =
@@ -62,7 +64,7 @@ v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::Skeleton
     message.add_direction(shock.direction_low);
     message.add_divergence(shock.strength);
   }
-  *message.mutable_quality() = quality_of(field, in_frame, sheet, params.threshold(), &points);
+  *message.mutable_quality() = chord_quality_of(field, in_frame, sheet, params.threshold(), &points);
   return message;
 }
 
@@ -83,7 +85,7 @@ v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams
   }
   message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
-  *message.mutable_quality() = quality_of(field, in_frame, sheet, threshold, nullptr, barriers);
+  *message.mutable_quality() = chord_quality_of(field, in_frame, sheet, threshold, nullptr, barriers);
   return message;
 }
 

@@ -10,7 +10,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 
 // The surface swept by turning a closed polygon (r, z) round the z axis; r = 0 gives a point of the axis.
 Mesh turned(const std::vector<std::pair<double, double>>& profile, std::uint32_t segments) {
@@ -23,7 +23,7 @@ Mesh turned(const std::vector<std::pair<double, double>>& profile, std::uint32_t
         ring[i].push_back(ring[i][0]);
         continue;
       }
-      const double angle = 2 * kPi * s / segments;
+      const double angle = 2 * kHalfTurn * s / segments;
       ring[i].push_back(static_cast<std::uint32_t>(mesh.points.size()));
       mesh.points.push_back({r * std::cos(angle), r * std::sin(angle), z});
     }

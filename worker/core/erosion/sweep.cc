@@ -13,7 +13,7 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kSegment = 8;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 double load(const double& shared) {
   return std::atomic_ref<double>(const_cast<double&>(shared)).load(std::memory_order_relaxed);
@@ -58,7 +58,7 @@ class Sweeper::Pass {
   // The axis nearest to level: V hardly changes along its runs, so that one test decides for many points.
   std::size_t choose_axis() const {
     std::size_t best = 0;
-    double best_slope = kInfinity;
+    double best_slope = kUnbounded;
     for (std::size_t k = 0; k < 3; ++k) {
       const double slope = std::abs(step_[k]) / norm(owner_.lattice_.grid.axes[k]);
       if (slope < best_slope) {
@@ -258,8 +258,8 @@ Sweeper::Sweeper(const Lattice& lattice, ErosionField& field, const SweepOptions
       bounds.first_segment.push_back(segments);
       segments += (run.length + kSegment - 1) / kSegment;
     }
-    bounds.run.assign(lattice.axis[a].runs.size(), kInfinity);
-    bounds.segment.assign(segments, kInfinity);
+    bounds.run.assign(lattice.axis[a].runs.size(), kUnbounded);
+    bounds.segment.assign(segments, kUnbounded);
   }
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint32_t kSlab = 8;  // planes of constant x written at a time; a chunk is as thick in x
 constexpr hsize_t kChunk = 32;      // edge of a chunk in y and z
-constexpr unsigned kCompression = 4;
+constexpr unsigned kDeflation = 4;
 
 // What failed in HDF5, with the cause in errno, which it leaves as the failed system call set it.
 struct Hdf5Error {
@@ -206,7 +206,7 @@ class VtkHdfGrid : public GridFile {
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     H5Pset_chunk(properties, rank(array), chunk.data());
     H5Pset_shuffle(properties);
-    H5Pset_deflate(properties, kCompression);
+    H5Pset_deflate(properties, kDeflation);
     H5Pset_obj_track_times(properties, false);  // equal fields are equal files
     return std::make_unique<Handle>(
         H5Dcreate2(open_->points, name, stored_type(array.type), space, H5P_DEFAULT, properties, H5P_DEFAULT),

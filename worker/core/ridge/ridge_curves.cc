@@ -48,7 +48,7 @@ struct CurvePoint {
 };
 
 // The eight corners of a cell, those that may lie near a curve.
-struct Cell {
+struct CurveCell {
   std::array<std::uint32_t, 8> point{};  // kNone: none there, or no curve near
   std::array<Vec3, 8> e, v;
   std::array<std::array<double, 8>, 8> turn{}, det{};  // e oriented alike; D, e as at the lower corner
@@ -185,7 +185,7 @@ class CurveFinder {
   LayerIndex ranks_;
   std::vector<std::uint8_t> open_;  // per point: bit k, the edge from it along axis k lies in the solid
   std::array<std::int32_t, 3> place_{};
-  Cell cell_;
+  CurveCell cell_;
   std::map<std::uint64_t, std::uint32_t> number_;  // of crossed triangles
   std::vector<CurvePoint> points_;
 };

@@ -6,7 +6,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMissed = std::numeric_limits<double>::infinity();
 
 // The parameter s at which o + s r meets triangle abc, or infinity.  Moeller & Trumbore (1997), borders
 // included.
@@ -14,12 +14,12 @@ double hit(const Vec3& o, const Vec3& r, const Vec3& a, const Vec3& b, const Vec
   const Vec3 e = b - a, f = c - a;
   const Vec3 p = cross(r, f);
   const double det = dot(e, p);
-  if (det == 0) return kInfinity;
+  if (det == 0) return kMissed;
   const Vec3 q = o - a;
   const double u = dot(q, p) / det;
   const Vec3 w = cross(q, e);
   const double v = dot(r, w) / det;
-  if (!(u >= -slack && v >= -slack && u + v <= 1 + slack)) return kInfinity;
+  if (!(u >= -slack && v >= -slack && u + v <= 1 + slack)) return kMissed;
   return dot(f, w) / det;
 }
 
@@ -27,7 +27,7 @@ double hit(const Vec3& o, const Vec3& r, const Vec3& a, const Vec3& b, const Vec
 struct Ray {
   Vec3 origin, ray;
   double slack;
-  double nearest_s = kInfinity;
+  double nearest_s = kMissed;
   std::uint32_t nearest = RayShooter::kNone;
 
   // Whether the ray may meet something in the box before the nearest hit, or at it.
@@ -48,7 +48,7 @@ struct Ray {
   }
 
   void take(double s, std::uint32_t triangle) {
-    if (s < 0 || s == kInfinity || s > nearest_s || (s == nearest_s && triangle > nearest)) return;
+    if (s < 0 || s == kMissed || s > nearest_s || (s == nearest_s && triangle > nearest)) return;
     nearest = triangle;
     nearest_s = s;
   }

@@ -55,7 +55,7 @@ constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
 /// Their sides, counter-clockwise seen from outside.
 constexpr std::array<std::array<std::size_t, 3>, 4> kSides{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 /// Stops stay this far from the ends of their edge and from each other, so that no triangle is without area.
-constexpr double kMargin = 1e-3;
+constexpr double kLevelMargin = 1e-3;
 
 class Marcher {
  public:
@@ -238,13 +238,13 @@ class Marcher {
 
   std::uint32_t add_stop(unsigned p, unsigned q, const LatticeCut* cut) {
     LevelCrossing found = crossing(p, q, cut);
-    double max_share = 1 - kMargin;
+    double max_share = 1 - kLevelMargin;
     if (full(q)) {  // stay on this side of the gap
-      const double gap = std::clamp((cut->leaves + cut->enters) / 2, 3 * kMargin, 1 - 3 * kMargin);
-      max_share = (p == (p & q) ? gap : 1 - gap) - kMargin;
+      const double gap = std::clamp((cut->leaves + cut->enters) / 2, 3 * kLevelMargin, 1 - 3 * kLevelMargin);
+      max_share = (p == (p & q) ? gap : 1 - gap) - kLevelMargin;
     }
     for (double* t : {&found.share, &found.min_share, &found.max_share})
-      *t = std::clamp(*t, kMargin, max_share);
+      *t = std::clamp(*t, kLevelMargin, max_share);
     const Place from = place(p), to = place(q);
     const Vec3 start = position(from), along = position(to) - start;
     const std::uint32_t vertex = add_vertex(start + found.share * along);

@@ -16,8 +16,8 @@
 namespace affskel::client {
 namespace {
 
-std::string written(FileFormat format, const v1::SkeletonPoints& skeleton,
-                    const std::vector<std::string>& comments = {}) {
+std::string written_points(FileFormat format, const v1::SkeletonPoints& skeleton,
+                           const std::vector<std::string>& comments = {}) {
   const tests::TemporaryDirectory dir;
   base::AtomicFile file(dir / "s");
   write_into(file,
@@ -27,7 +27,7 @@ std::string written(FileFormat format, const v1::SkeletonPoints& skeleton,
 }
 
 TEST(SkeletonWriter, CsvReadsBackExactly) {
-  std::istringstream in(written(FileFormat::kCsv, sample_skeleton()));
+  std::istringstream in(written_points(FileFormat::kCsv, sample_skeleton()));
   std::string line;
   std::getline(in, line);
   EXPECT_EQ(line, "x,y,z,E,nx,ny,nz,direction,H");
@@ -50,7 +50,8 @@ TEST(SkeletonWriter, CsvReadsBackExactly) {
 }
 
 TEST(SkeletonWriter, PlyHeaderDescribesTheBytes) {
-  const std::string ply = written(FileFormat::kPly, sample_skeleton(), {"job 0123", "two\x1b[2Jlines"});
+  const std::string ply =
+      written_points(FileFormat::kPly, sample_skeleton(), {"job 0123", "two\x1b[2Jlines"});
   const std::string end = "end_header\n";
   const std::size_t body = ply.find(end) + end.size();
   const std::string header = ply.substr(0, body);
@@ -90,9 +91,10 @@ TEST(SkeletonWriter, PlyHeaderDescribesTheBytes) {
 }
 
 TEST(SkeletonWriter, OffAndXyzHoldTheCoordinates) {
-  const std::string xyz = written(FileFormat::kXyz, sample_skeleton());
-  EXPECT_EQ(written(FileFormat::kOff, sample_skeleton()), "OFF\n2 0 0\n" + xyz);
-  EXPECT_EQ(written(FileFormat::kOff, sample_skeleton(), {"job 0\n1"}), "OFF\n# job 0 1\n2 0 0\n" + xyz);
+  const std::string xyz = written_points(FileFormat::kXyz, sample_skeleton());
+  EXPECT_EQ(written_points(FileFormat::kOff, sample_skeleton()), "OFF\n2 0 0\n" + xyz);
+  EXPECT_EQ(written_points(FileFormat::kOff, sample_skeleton(), {"job 0\n1"}),
+            "OFF\n# job 0 1\n2 0 0\n" + xyz);
   std::istringstream in(xyz);
   const v1::SkeletonPoints skeleton = sample_skeleton();
   for (const double expected : skeleton.xyz()) {
@@ -103,9 +105,9 @@ TEST(SkeletonWriter, OffAndXyzHoldTheCoordinates) {
 }
 
 TEST(SkeletonWriter, AnEmptySkeletonIsAValidFile) {
-  EXPECT_EQ(written(FileFormat::kCsv, {}), "x,y,z,E,nx,ny,nz,direction,H\n");
-  EXPECT_NE(written(FileFormat::kPly, {}).find("element vertex 0\n"), std::string::npos);
-  EXPECT_EQ(written(FileFormat::kXyz, {}), "");
+  EXPECT_EQ(written_points(FileFormat::kCsv, {}), "x,y,z,E,nx,ny,nz,direction,H\n");
+  EXPECT_NE(written_points(FileFormat::kPly, {}).find("element vertex 0\n"), std::string::npos);
+  EXPECT_EQ(written_points(FileFormat::kXyz, {}), "");
 }
 
 TEST(ParseSkeleton, RefusesArraysOfDifferentLengths) {

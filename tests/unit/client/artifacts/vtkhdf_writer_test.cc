@@ -20,7 +20,7 @@ namespace {
 
 using core::FileFormat;
 
-constexpr double kVolume = 10;
+constexpr double kHdfVolume = 10;
 
 struct Expected {
   std::vector<FieldPoint> points;
@@ -76,7 +76,7 @@ void expect_arrays(const std::string& path, const Expected& expected, const Latt
     ASSERT_EQ(inside[at], p != nullptr ? 1 : 0) << at;
     ASSERT_EQ(direction[at], p != nullptr ? static_cast<std::int32_t>(p->direction) : -1) << at;
     ASSERT_EQ(erosion[at], grid.erosion(at)) << at;
-    ASSERT_EQ(share[at], erosion[at] / kVolume) << at;
+    ASSERT_EQ(share[at], erosion[at] / kHdfVolume) << at;
     for (int c = 0; c < 3; ++c) {
       ASSERT_EQ(normal[3 * at + std::size_t(c)], p != nullptr ? p->normal[c] : 0.0) << at;
     }
@@ -87,7 +87,7 @@ TEST(VtkHdfWriter, PlacesTheImage) {
   const tests::TemporaryDirectory dir;
   const LatticePoints points(sample_lattice());
   base::AtomicFile out(dir / "f.vtkhdf");
-  FieldWriter writer(FileFormat::kVtkHdf, out, points, kVolume, {});
+  FieldWriter writer(FileFormat::kVtkHdf, out, points, kHdfVolume, {});
   writer.finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -124,7 +124,7 @@ TEST(VtkHdfWriter, PlacesAShearedImage) {
   const LatticePoints points(lattice);
   const tests::TemporaryDirectory dir;
   base::AtomicFile out(dir / "f.vtkhdf");
-  FieldWriter(FileFormat::kVtkHdf, out, points, kVolume, {}).finish();
+  FieldWriter(FileFormat::kVtkHdf, out, points, kHdfVolume, {}).finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
@@ -149,7 +149,7 @@ TEST(VtkHdfWriter, AnUprightImageHasNoFrame) {
   const tests::TemporaryDirectory dir;
   base::AtomicFile out(dir / "f.vtkhdf");
   const LatticePoints points(sample_lattice());
-  FieldWriter(FileFormat::kVtkHdf, out, points, kVolume, {}).finish();
+  FieldWriter(FileFormat::kVtkHdf, out, points, kHdfVolume, {}).finish();
   out.commit();
   const hid_t file = H5Fopen((dir / "f.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   EXPECT_EQ(H5Aexists_by_name(file, "VTKHDF", "frame_axes", H5P_DEFAULT), 0);
@@ -161,7 +161,7 @@ TEST(VtkHdfWriter, ArraysReadBackExactlyAcrossSlabs) {
   const tests::TemporaryDirectory dir;
   Expected expected{{}, points.dims()};
   base::AtomicFile out(dir / "f.vtkhdf");
-  FieldWriter writer(FileFormat::kVtkHdf, out, points, kVolume, {});
+  FieldWriter writer(FileFormat::kVtkHdf, out, points, kHdfVolume, {});
   for (LatticeCursor cursor(points); !cursor.at_end(); cursor.advance()) {
     const auto rank = static_cast<std::uint32_t>(expected.points.size());
     const double value = 1.0 / (rank + 1);
@@ -178,7 +178,7 @@ TEST(VtkHdfWriter, SaysWhatItIs) {
   const tests::TemporaryDirectory dir;
   base::AtomicFile out(dir / "f.hdf");
   const LatticePoints points(sample_lattice());
-  FieldWriter(FileFormat::kHdf, out, points, kVolume,
+  FieldWriter(FileFormat::kHdf, out, points, kHdfVolume,
               {{"job", "J\xc3\xb6rg"}, {"frame", ""}, {"v0", "2.5", 2.5}})
       .finish();
   out.commit();
@@ -203,7 +203,7 @@ TEST(VtkHdfWriter, AnAbandonedFileLeavesNothing) {
   {
     const LatticePoints points(sample_lattice());
     base::AtomicFile out(dir / "f.vtkhdf");
-    FieldWriter writer(FileFormat::kVtkHdf, out, points, kVolume, {});
+    FieldWriter writer(FileFormat::kVtkHdf, out, points, kHdfVolume, {});
     writer.put({});
   }
   EXPECT_TRUE(dir.names().empty());
@@ -215,7 +215,7 @@ TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
   ::testing::internal::CaptureStdout();
   for (const std::string& target : {dir / "f.vtkhdf", std::string("-")}) {
     base::AtomicFile out(target);
-    FieldWriter(FileFormat::kVtkHdf, out, points, kVolume, {}).finish();
+    FieldWriter(FileFormat::kVtkHdf, out, points, kHdfVolume, {}).finish();
     out.commit();
   }
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), tests::read_file(dir / "f.vtkhdf"));
@@ -229,7 +229,7 @@ TEST(VtkHdfWriter, GoesThroughAPipeAsItIs) {
   try {
     base::AtomicFile file(target);
     const LatticePoints points(sample_lattice());
-    FieldWriter(FileFormat::kVtkHdf, file, points, kVolume, {}).finish();
+    FieldWriter(FileFormat::kVtkHdf, file, points, kHdfVolume, {}).finish();
   } catch (const base::FileError& error) {
     const bool told = error.code().value() == EFBIG && error.file() == target;
     std::_Exit(told ? 0 : 1);

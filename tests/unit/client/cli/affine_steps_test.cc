@@ -9,22 +9,22 @@ namespace {
 
 using core::Vec3;
 
-Vec3 mapped(const AffineStep& step, const Vec3& point = {1, 2, 4}) {
+Vec3 moved(const AffineStep& step, const Vec3& point = {1, 2, 4}) {
   return affine_step(step)(point);
 }
 
 TEST(AffineSteps, EveryFormDoesWhatItSays) {
-  EXPECT_EQ(mapped({"--matrix", "1,2,3, 0,1,0, 0,0,2"}), (Vec3{17, 2, 8}));
-  EXPECT_EQ(mapped({"--matrix", "1,0,0,10, 0,1,0,20, 0,0,1,-30"}), (Vec3{11, 22, -26}));
-  EXPECT_EQ(mapped({"--scale", "2"}), (Vec3{2, 4, 8}));
-  EXPECT_EQ(mapped({"--scale", "2,1,0.5"}), (Vec3{2, 2, 2}));
-  EXPECT_EQ(mapped({"--translate", "-1,0,1"}), (Vec3{0, 2, 5}));
-  EXPECT_EQ(mapped({"--rotate", "z:90"}), (Vec3{-2, 1, 4}));
-  EXPECT_EQ(mapped({"--rotate", "x:-90"}), (Vec3{1, 4, -2}));
-  EXPECT_EQ(mapped({"--shear", "y+=z"}), (Vec3{1, 6, 4}));
-  EXPECT_EQ(mapped({"--shear", "y += 0.5 z"}), (Vec3{1, 4, 4}));
-  EXPECT_EQ(mapped({"--shear", "x+=-2*y"}), (Vec3{-3, 2, 4}));
-  EXPECT_EQ(mapped({"--shear", "zx:3"}), (Vec3{1, 2, 7}));
+  EXPECT_EQ(moved({"--matrix", "1,2,3, 0,1,0, 0,0,2"}), (Vec3{17, 2, 8}));
+  EXPECT_EQ(moved({"--matrix", "1,0,0,10, 0,1,0,20, 0,0,1,-30"}), (Vec3{11, 22, -26}));
+  EXPECT_EQ(moved({"--scale", "2"}), (Vec3{2, 4, 8}));
+  EXPECT_EQ(moved({"--scale", "2,1,0.5"}), (Vec3{2, 2, 2}));
+  EXPECT_EQ(moved({"--translate", "-1,0,1"}), (Vec3{0, 2, 5}));
+  EXPECT_EQ(moved({"--rotate", "z:90"}), (Vec3{-2, 1, 4}));
+  EXPECT_EQ(moved({"--rotate", "x:-90"}), (Vec3{1, 4, -2}));
+  EXPECT_EQ(moved({"--shear", "y+=z"}), (Vec3{1, 6, 4}));
+  EXPECT_EQ(moved({"--shear", "y += 0.5 z"}), (Vec3{1, 4, 4}));
+  EXPECT_EQ(moved({"--shear", "x+=-2*y"}), (Vec3{-3, 2, 4}));
+  EXPECT_EQ(moved({"--shear", "zx:3"}), (Vec3{1, 2, 7}));
 }
 
 TEST(AffineSteps, OrderMatters) {

@@ -23,13 +23,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Vec3 unit(const Vec3& v) {
+Vec3 unit_of(const Vec3& v) {
   return (1 / norm(v)) * v;
 }
 
 // A place in mesh coordinates, with normals of any length.
 SheetPlace at(const Solid& solid, const Vec3& x, const Vec3& a, const Vec3& b) {
-  return {(1 / solid.scale()) * (x - solid.centre), unit(a), unit(b)};
+  return {(1 / solid.scale()) * (x - solid.centre), unit_of(a), unit_of(b)};
 }
 
 double barrier(const Solid& solid, const Vec3& x, const Vec3& a, const Vec3& b,
@@ -259,7 +259,7 @@ TEST(Barriers, OfABoxAreThoseOfItsFormula) {
   const Solid solid = make_solid(make_box(box.x, box.y, box.z));
   for (const auto& [x, a, b] : places) {
     const auto chord = [&](const Vec3& d) { return volume_below(box, d, dot(d, x)); };
-    const double wanted = barrier_of(chord, unit(a), unit(b));
+    const double wanted = barrier_of(chord, unit_of(a), unit_of(b));
     EXPECT_LT(wanted, 1e-3) << x.x << " " << x.y << " " << x.z;
     EXPECT_NEAR(barrier(solid, x, a, b), wanted, 0.015) << x.x << " " << x.y << " " << x.z;
     EXPECT_NEAR(barrier(solid, x, a, b, 10242), wanted, 4e-3) << x.x << " " << x.y << " " << x.z;
@@ -278,7 +278,7 @@ TEST(Barriers, OfATetrahedronAreThoseOfItsFormula) {
     const Vec3 x = s * corner[0] + s * corner[1] + t * corner[2] + u * corner[3];
     const auto chord = [&](const Vec3& d) { return share_below(corner, d, dot(d, x)); };
     const Vec3 a = x - corner[0], b = x - corner[1];
-    const double wanted = barrier_of(chord, unit(a), unit(b));
+    const double wanted = barrier_of(chord, unit_of(a), unit_of(b));
     EXPECT_NEAR(barrier(solid, x, a, b, 10242), wanted, 5e-3) << t << " " << u;
     least = std::min(least, wanted);
     greatest = std::max(greatest, wanted);
@@ -325,7 +325,7 @@ TEST(Barriers, GoAlongWithAffineMaps) {
   const Solid image = make_solid(map_mesh(map, kStar));
   std::vector<SheetPlace> places;
   for (const auto& [x, a, b] : star_places(60))
-    places.push_back(at(image, map(x), normals(unit(a)), normals(unit(b))));
+    places.push_back(at(image, map(x), normals(unit_of(a)), normals(unit_of(b))));
   BarrierOptions options, mapped;
   options.directions = mapped.directions = 642;
   const auto& rows = map.rows;
@@ -358,7 +358,7 @@ TEST(Barriers, OfTwoSolidsAreThoseOfEach) {
 TEST(Barriers, AreNoneOutsideAndWithoutNormals) {
   const Mesh mesh = make_tetrahedron(1);
   const Solid solid = make_solid(mesh);
-  const std::vector<SheetPlace> places = {{{}, -unit(mesh.points[0]), {}},
+  const std::vector<SheetPlace> places = {{{}, -unit_of(mesh.points[0]), {}},
                                           at(solid, {2, 0, 0}, mesh.points[0], mesh.points[1])};
   EXPECT_EQ(barriers(solid, places), (std::vector<double>{0, 0}));
   EXPECT_TRUE(barriers(solid, {}).empty());

@@ -33,9 +33,9 @@ struct Patch {
 };
 
 // Patches in the plane z = 1.5 of a box of 40 x 20 x 4 points.
-class Plane {
+class PrunedPlane {
  public:
-  Plane(std::initializer_list<Patch> patches) {
+  PrunedPlane(std::initializer_list<Patch> patches) {
     for (const Patch& patch : patches) add(patch);
     std::sort(shocks_.begin(), shocks_.end(),
               [](const ChordShock& a, const ChordShock& b) { return a.point < b.point; });
@@ -82,7 +82,7 @@ Options with_significance(double significance) {
 }
 
 TEST(SignificantShocks, APieceIsWeighedByAreaStrengthAndTurn) {
-  const Plane plane = {
+  const PrunedPlane plane = {
       {0, 10, 0, 10, 1}, {30, 5, 0, 4, 0.3, 0.5}  // 20 * 0.15 = 3 against 100
   };
   const SignificantShocks all = plane.prune(with_significance(0.029));
@@ -97,20 +97,20 @@ TEST(SignificantShocks, APieceIsWeighedByAreaStrengthAndTurn) {
 }
 
 TEST(SignificantShocks, WeakShocksAloneAreDroppedAndCarryNoWeight) {
-  const Plane plane = {{0, 3, 0, 3, 1}, {20, 10, 0, 20, 0.24}};
+  const PrunedPlane plane = {{0, 3, 0, 3, 1}, {20, 10, 0, 20, 0.24}};
   const SignificantShocks kept = plane.prune(with_significance(0));
   EXPECT_EQ(kept.shocks.size(), 9U);
   EXPECT_EQ(kept.pieces, std::vector<double>{1.0});
 }
 
 TEST(SignificantShocks, DiagonalNeighboursTouch) {
-  const Plane plane = {{0, 5, 0, 5, 1}, {5, 5, 5, 5, 1}, {20, 1, 5, 1, 1}};
+  const PrunedPlane plane = {{0, 5, 0, 5, 1}, {5, 5, 5, 5, 1}, {20, 1, 5, 1, 1}};
   EXPECT_EQ(plane.prune(with_significance(0)).pieces.size(), 2U);
 }
 
 // Between two pieces a weak field with a cheaper lane in row 3.
 TEST(SignificantShocks, PiecesAreJoinedByTheCheapestWay) {
-  const Plane plane = {
+  const PrunedPlane plane = {
       {0, 5, 0, 8, 1}, {15, 5, 0, 8, 0.5}, {5, 10, 0, 3, 0.05}, {5, 10, 3, 1, 0.1}, {5, 10, 4, 4, 0.05}};
   const SignificantShocks kept = plane.prune();
   EXPECT_EQ(kept.pieces.size(), 2U);  // 10 steps of cost 10: too far to be weighed as one
@@ -126,11 +126,11 @@ TEST(SignificantShocks, PiecesAreJoinedByTheCheapestWay) {
 
 // A speck counts with the piece that it hangs on by a cheap way, but not with one far away.
 TEST(SignificantShocks, NearPiecesAreWeighedAsOne) {
-  const Plane plane = {{0, 10, 0, 20, 1},
-                       {12, 1, 10, 1, 0.25},
-                       {10, 2, 10, 1, 0.2},
-                       {30, 1, 10, 1, 0.25},
-                       {13, 17, 10, 1, 0.01}};
+  const PrunedPlane plane = {{0, 10, 0, 20, 1},
+                             {12, 1, 10, 1, 0.25},
+                             {10, 2, 10, 1, 0.2},
+                             {30, 1, 10, 1, 0.25},
+                             {13, 17, 10, 1, 0.01}};
   const SignificantShocks kept = plane.prune();
   EXPECT_TRUE(keeps(kept, 12, 10));
   EXPECT_TRUE(keeps(kept, 11, 10));
@@ -140,8 +140,8 @@ TEST(SignificantShocks, NearPiecesAreWeighedAsOne) {
 }
 
 TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
-  const Plane plane = {{0, 9, 0, 4, 1}, {0, 4, 4, 1, 1}, {4, 1, 4, 1, 0.01},
-                       {5, 4, 4, 1, 1}, {0, 9, 5, 4, 1}, {0, 9, 9, 1, 0.01}};
+  const PrunedPlane plane = {{0, 9, 0, 4, 1}, {0, 4, 4, 1, 1}, {4, 1, 4, 1, 0.01},
+                             {5, 4, 4, 1, 1}, {0, 9, 5, 4, 1}, {0, 9, 9, 1, 0.01}};
   const SignificantShocks kept = plane.prune();
   EXPECT_TRUE(keeps(kept, 4, 4));
   EXPECT_FALSE(keeps(kept, 4, 9));
@@ -150,7 +150,7 @@ TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
 
 // The volume is 40 * 20 * 4 = 3200, a thousandth of it 3.2.
 TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
-  const Plane plane = {{0, 10, 0, 10, 1, 1, 3.3}, {20, 10, 0, 10, 1, 1, 3.1}};
+  const PrunedPlane plane = {{0, 10, 0, 10, 1, 1, 3.3}, {20, 10, 0, 10, 1, 1, 3.1}};
   EXPECT_EQ(plane.prune().shocks.size(), 100U);
   Options options = quarter();
   options.min_erosion = 0;
@@ -247,7 +247,7 @@ TEST(SignificantShocks, ASmallSolidIsWeighedAlone) {
 }
 
 TEST(SignificantShocks, TellsWhatThereWasToChooseFrom) {
-  const Plane plane = {
+  const PrunedPlane plane = {
       {0, 10, 0, 10, 0.9}, {20, 5, 0, 5, 0.9}, {20, 5, 10, 5, 0.2}, {30, 3, 0, 2, 0.3, 1, 3.1}};
   const SignificantShocks kept = plane.prune(with_significance(0.9));
   EXPECT_TRUE(kept.shocks.empty());
@@ -259,14 +259,14 @@ TEST(SignificantShocks, TellsWhatThereWasToChooseFrom) {
 }
 
 TEST(SignificantShocks, NothingComesOfNothing) {
-  const Plane plane = {};
+  const PrunedPlane plane = {};
   EXPECT_TRUE(plane.prune().shocks.empty());
   EXPECT_TRUE(plane.prune().pieces.empty());
 }
 
 TEST(SignificantShocks, RefuseASignificanceOutOfRange) {
   for (const double significance : {-1.0, 1.5, std::nan("")})
-    EXPECT_THROW(Plane({}).prune(with_significance(significance)), CoreError);
+    EXPECT_THROW(PrunedPlane({}).prune(with_significance(significance)), CoreError);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@
 namespace affskel::core {
 namespace {
 
-std::array<Vec3, 3> axes(double h) {
+std::array<Vec3, 3> cubic_axes(double h) {
   return {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}};
 }
 
@@ -76,8 +76,8 @@ struct HalvedSpacing {
   std::vector<Vec3> inner_a, inner_b;  // `far` coarse spacings and more from the sheet's own rim
 
   HalvedSpacing(const Mesh& mesh, double h, double far)
-      : coarse(mesh, axes(h), "triangles"),
-        fine(mesh, axes(h / 2), "triangles"),
+      : coarse(mesh, cubic_axes(h), "triangles"),
+        fine(mesh, cubic_axes(h / 2), "triangles"),
         a(chord_sheet(coarse.solid, coarse.lattice, coarse.field)),
         b(chord_sheet(fine.solid, fine.lattice, fine.field)),
         inner_a(vertices_of(coarse, a, far * h)),
@@ -104,7 +104,7 @@ TEST(ChordSheet, IsOneAnnulusWhenSamplePointsLieOnIt) {
   for (const std::string directions : {"triangles", "sphere:2000"}) {
     for (const std::uint32_t triangles : {256U, 1024U}) {
       for (const double h : {0.14, 0.16, 0.23}) {
-        const ErodedSolid torus(make_torus(3, 1, triangles), axes(h), directions);
+        const ErodedSolid torus(make_torus(3, 1, triangles), cubic_axes(h), directions);
         ASSERT_EQ(torus.lattice.grid.dims[2] % 2, 1U);
         const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
         EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0})) << directions << ", " << triangles << ", " << h;
@@ -118,7 +118,7 @@ TEST(ChordSheet, StaysInThePlaneOfATorusOfFewTriangles) {
   const Mesh mesh = make_torus(4, 2, 256);
   for (const double h : {0.25, 0.2, 0.12, 0.1}) {
     SCOPED_TRACE(h);
-    const ErodedSolid torus(mesh, axes(h), "triangles");
+    const ErodedSolid torus(mesh, cubic_axes(h), "triangles");
     const ChordSheet sheet = chord_sheet(torus.solid, torus.lattice, torus.field);
     EXPECT_EQ(betti(sheet), (BettiNumbers{1, 1, 0}));
     // With an odd number of layers one lies in the plane, and which of two equal chords counts there is

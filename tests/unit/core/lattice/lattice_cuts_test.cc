@@ -14,7 +14,7 @@ namespace {
 
 using Place = std::array<std::int64_t, 3>;
 
-Lattice lattice_of(const Solid& solid, double spacing) {
+Lattice lattice_at(const Solid& solid, double spacing) {
   LatticeOptions options;
   options.spacing = spacing;
   return make_lattice(solid, options);
@@ -52,7 +52,7 @@ Vec3 at(const SamplePlaces& places, const Place& from, const Place& to, double s
 TEST(LatticeCutsTest, MeetABallsSurfaceOnEveryEdgeThatLeavesIt) {
   // No place of the lattice lies on the surface; sagitta of 20480 triangles: 0.0013.
   const Solid solid = make_solid(make_sphere(1, 20000));
-  const Lattice lattice = lattice_of(solid, 0.19);
+  const Lattice lattice = lattice_at(solid, 0.19);
   const LatticeCuts cuts(solid, lattice);
   const SamplePlaces places(solid, lattice);
   std::size_t crossed = 0;
@@ -76,7 +76,7 @@ TEST(LatticeCutsTest, FindTheGapBetweenTwoBoxes) {
   // The gap, 2 to 2.1, lies between the lattice's places along x at 1.45 and 2.45.
   const Mesh mesh = joined(make_box(2, 4, 4), moved(make_box(1.8, 4, 4), {2.1, 0, 0}));
   const Solid solid = make_solid(mesh);
-  const Lattice lattice = lattice_of(solid, 1);
+  const Lattice lattice = lattice_at(solid, 1);
   const LatticeCuts cuts(solid, lattice);
   const SamplePlaces places(solid, lattice);
   std::size_t gaps = 0;
@@ -136,7 +136,7 @@ TEST(LatticeCutsTest, OfABoxAreAsManyAlongEachStepInEveryOrderOfTheAxes) {
            {200, 6, 4}, {6, 200, 4}, {6, 4, 200}, {40, 50, 2}, {40, 2, 50}, {2, 40, 50}}) {
     const Solid solid =
         make_solid(make_box(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])));
-    const LatticeCuts cuts(solid, lattice_of(solid, 1));
+    const LatticeCuts cuts(solid, lattice_at(solid, 1));
     std::array<std::int64_t, 8> leaving{};
     for (const LatticeCut& cut : cuts.all()) leaving[cut.edge % 8] += cut.leaves > 0 && cut.leaves < 1;
     for (std::int64_t step = 1; step < 8; ++step) {

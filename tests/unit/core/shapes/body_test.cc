@@ -17,10 +17,10 @@
 namespace affskel::core {
 namespace {
 
-using Place = std::array<double, 3>;
+using Position = std::array<double, 3>;
 
-std::set<Place> places(const Mesh& mesh, double mirror) {
-  std::set<Place> out;
+std::set<Position> places(const Mesh& mesh, double mirror) {
+  std::set<Position> out;
   for (const Vec3& p : mesh.points) out.insert({mirror * p.x + 0.0, p.y, p.z});
   return out;
 }

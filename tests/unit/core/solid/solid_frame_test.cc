@@ -34,7 +34,7 @@ Matrix3 turn() {
 const Matrix3 kShear = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 1, 1}};  // y += z
 const Matrix3 kStretch = {Vec3{2, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 0.5}};
 
-Mesh mapped(Mesh mesh, const Matrix3& map, const Vec3& shift = {}) {
+Mesh mapped_by(Mesh mesh, const Matrix3& map, const Vec3& shift = {}) {
   for (Vec3& p : mesh.points) p = map * p + shift;
   return mesh;
 }
@@ -92,7 +92,7 @@ TEST(SolidFrame, AxisIsTheIdentity) {
 
 TEST(SolidFrame, PcaAndObbFindTheAxesOfATurnedBox) {
   // Longest along y, then z, then x.
-  const Mesh box = mapped(make_box(1, 3, 2, 2), turn(), {10, 20, 30});
+  const Mesh box = mapped_by(make_box(1, 3, 2, 2), turn(), {10, 20, 30});
   for (const FrameKind kind : {FrameKind::kPca, FrameKind::kObb}) {
     const Matrix3 f = frame_of(box, kind);
     expect_rotation(f);
@@ -106,7 +106,7 @@ TEST(SolidFrame, PcaAndObbFindTheAxesOfATurnedBox) {
 // Second moments do not see the box of a body whose mass lies off its middle.
 TEST(SolidFrame, ObbFindsTheBoxOfALopsidedSolid) {
   const Mesh slab = make_box(4, 3, 1), block = moved(make_box(0.5, 0.75, 0.5), {0.1, 0.1, 1});
-  const Mesh turned = mapped(joined(slab, block), turn());
+  const Mesh turned = mapped_by(joined(slab, block), turn());
   const Matrix3 f = frame_of(turned, FrameKind::kObb);
   expect_along(f[0], turn()[0], 1e-13);
   expect_along(f[1], turn()[1], 1e-13);
@@ -115,7 +115,7 @@ TEST(SolidFrame, ObbFindsTheBoxOfALopsidedSolid) {
 TEST(SolidFrame, PcaAndObbTurnWithTheSolid) {
   const Mesh mesh = crooked();
   for (const FrameKind kind : {FrameKind::kPca, FrameKind::kObb}) {
-    const Matrix3 before = frame_of(mesh, kind), after = frame_of(mapped(mesh, turn(), {1, 2, 3}), kind);
+    const Matrix3 before = frame_of(mesh, kind), after = frame_of(mapped_by(mesh, turn(), {1, 2, 3}), kind);
     expect_rotation(before);
     EXPECT_LT(distance(after, turn() * before), 1e-12);
   }
@@ -133,7 +133,7 @@ TEST(SolidFrame, AffineGoesAlongWithEveryMapOfDeterminantOne) {
   const Matrix3 before = frame_of(mesh, FrameKind::kAffine);
   EXPECT_NEAR(determinant(before), 1, 1e-15);
   for (const Matrix3& map : {turn(), kShear, kStretch, kShear * turn() * kStretch}) {
-    const Matrix3 after = frame_of(mapped(mesh, map, {-4, 5, 6}), FrameKind::kAffine);
+    const Matrix3 after = frame_of(mapped_by(mesh, map, {-4, 5, 6}), FrameKind::kAffine);
     EXPECT_LT(distance(after, map * before), 1e-12);
   }
 }
@@ -162,13 +162,13 @@ TEST(SolidFrame, AffineMakesSecondMomentsEqual) {
   expect_normal_form(make_solid(crooked()));
   // If one of the two has axes in right-handed order, the other has not.
   const Matrix3 mirror = {Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  expect_normal_form(make_solid(reversed(mapped(crooked(), mirror))));
+  expect_normal_form(make_solid(reversed(mapped_by(crooked(), mirror))));
 }
 
 // The mean of |w|^2 w w^T does not see the edges of a box, but the kurtosis does.  To within order and sign,
 // which map the lattice onto itself.
 TEST(SolidFrame, NoiseTurnsTheAffineFrameOfABoxALittle) {
-  const Mesh box = mapped(make_box(3, 2, 1, 6), turn());
+  const Mesh box = mapped_by(make_box(3, 2, 1, 6), turn());
   const Matrix3 back = inverse_transposed(frame_of(box, FrameKind::kAffine));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Mesh noisy = perturb(box, {0.01 * box_diagonal(box), seed});
@@ -186,7 +186,7 @@ TEST(SolidFrame, AffineGoesAlongWithAMirrorSymmetricSolid) {
   const Mesh body = make_body({292, 1800});
   const Matrix3 before = frame_of(body, FrameKind::kAffine);
   for (const Matrix3& map : {turn(), kShear, kStretch, kShear * turn() * kStretch}) {
-    EXPECT_LT(distance(frame_of(mapped(body, map), FrameKind::kAffine), map * before), 1e-11);
+    EXPECT_LT(distance(frame_of(mapped_by(body, map), FrameKind::kAffine), map * before), 1e-11);
   }
 }
 
@@ -230,7 +230,7 @@ TEST(MakeLattice, FollowsTheFrame) {
   // In their own frame all these boxes are the same; the lattice divides the sides without a rest.
   const Mesh box = make_box(3, 2, 1, 2);
   for (const FrameKind kind : {FrameKind::kPca, FrameKind::kObb}) {
-    const Solid solid = make_solid(mapped(box, turn(), {7, 8, 9}));
+    const Solid solid = make_solid(mapped_by(box, turn(), {7, 8, 9}));
     const Lattice lattice = make_lattice(solid, options_for(solid, kind, 0.25));
     EXPECT_EQ(lattice.points, 12U * 8 * 4);
     EXPECT_EQ(lattice.grid.dims, (std::array<std::uint32_t, 3>{12, 8, 4}));
@@ -244,7 +244,7 @@ TEST(MakeLattice, FollowsTheFrame) {
 
 TEST(MakeLattice, InTheAffineFrameGoesAlongWithTheMap) {
   const Matrix3 map = kShear * turn() * kStretch;
-  const Solid before = make_solid(crooked()), after = make_solid(mapped(crooked(), map, {1, 2, 3}));
+  const Solid before = make_solid(crooked()), after = make_solid(mapped_by(crooked(), map, {1, 2, 3}));
   const Lattice a = make_lattice(before, options_for(before, FrameKind::kAffine, 0.13)),
                 b = make_lattice(after, options_for(after, FrameKind::kAffine, 0.13));
   ASSERT_EQ(a.grid.dims, b.grid.dims);
@@ -256,7 +256,7 @@ TEST(MakeLattice, InTheAffineFrameGoesAlongWithTheMap) {
 
 TEST(MakeDirections, OfTheSphereGoAlongWithTheFrame) {
   const Matrix3 map = kShear * turn() * kStretch;
-  const Solid before = make_solid(crooked()), after = make_solid(mapped(crooked(), map));
+  const Solid before = make_solid(crooked()), after = make_solid(mapped_by(crooked(), map));
   const auto set_of = [](const Solid& solid) {
     DirectionOptions options;
     options.frame = solid_frame(solid, FrameKind::kAffine);

@@ -12,9 +12,9 @@
 namespace affskel::core {
 namespace {
 
-class Draw {
+class DrawnTriangles {
  public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  explicit DrawnTriangles(std::uint64_t seed) : random_(seed) {}
   Vec3 vector(double size = 0.25) {
     return size * Vec3{random_.symmetric(), random_.symmetric(), random_.symmetric()};
   }
@@ -42,7 +42,7 @@ void expect_orthonormal(const Matrix3& axes) {
 }
 
 TEST(OrientedBox, HoldsItsTriangleTightly) {
-  Draw draw(1);
+  DrawnTriangles draw(1);
   for (int n = 0; n < 2000; ++n) {
     const Corners c = draw.triangle();
     const OrientedBox box = oriented_box(c);
@@ -72,7 +72,7 @@ TEST(OrientedBox, OfTrianglesWithoutAreaIsSound) {
 }
 
 TEST(OrientedBox, WhatHasAPointInCommonIsNeverApart) {
-  Draw draw(2);
+  DrawnTriangles draw(2);
   for (int n = 0; n < 20000; ++n) {
     const Corners c = draw.triangle();
     Corners d = draw.triangle();
@@ -114,7 +114,7 @@ TEST(UnitTriangles, AreAtMostOneAndExact) {
 
 // Triangle 300 + i has a point in common with triangle i.
 Mesh pairs_that_meet() {
-  Draw draw(3);
+  DrawnTriangles draw(3);
   std::vector<Corners> corners;
   for (int n = 0; n < 300; ++n) corners.push_back(draw.triangle());
   for (std::size_t n = 0; n < 300; ++n) {

@@ -10,8 +10,8 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::uint32_t kPoints = 9000;  // three chunks
-constexpr std::uint32_t kDirections = 64;
+constexpr std::uint32_t kRepairedPoints = 9000;  // three chunks
+constexpr std::uint32_t kRepairedDirections = 64;
 
 class RepairTest : public StoreTest {
  protected:
@@ -59,7 +59,7 @@ class RepairTest : public StoreTest {
 };
 
 TEST_F(RepairTest, ASoundDatabaseStaysAsItIs) {
-  const v1::Job job = complete_job(kPoints, kDirections);
+  const v1::Job job = complete_job(kRepairedPoints, kRepairedDirections);
   store_.reset();
   EXPECT_EQ(repair(), 0);
   open();
@@ -68,7 +68,7 @@ TEST_F(RepairTest, ASoundDatabaseStaysAsItIs) {
 
 // No result with a flipped bit is ever given out; repaired, the same job gives the same field.
 TEST_F(RepairTest, AFlippedBitOfAFieldIsNotServedAndIsComputedAgain) {
-  const v1::Job job = complete_job(kPoints, kDirections);
+  const v1::Job job = complete_job(kRepairedPoints, kRepairedDirections);
   flip("field_chunks", "idx = 1");
   EXPECT_NE(faults().find("all 64 finished directions of 64 must be computed again"), std::string::npos);
   open();
@@ -82,13 +82,13 @@ TEST_F(RepairTest, AFlippedBitOfAFieldIsNotServedAndIsComputedAgain) {
   erode_again();
   derive();
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
-  EXPECT_EQ(field(job.id()), expected_field(kPoints, kDirections));
+  EXPECT_EQ(field(job.id()), expected_field(kRepairedPoints, kRepairedDirections));
   store_.reset();
   EXPECT_EQ(faults(), "");
 }
 
 TEST_F(RepairTest, JobsThatSharedADamagedFieldGetItAgain) {
-  const v1::Job one = complete_job(kPoints, kDirections, "one");
+  const v1::Job one = complete_job(kRepairedPoints, kRepairedDirections, "one");
   const v1::Job two = submit("OFF 1", "two");
   ASSERT_EQ(store_->job(two.id()).state(), v1::JOB_STATE_DONE);
   flip("field_chunks", "idx = 0");
@@ -100,13 +100,13 @@ TEST_F(RepairTest, JobsThatSharedADamagedFieldGetItAgain) {
   while (has_work()) derive();
   EXPECT_EQ(store_->job(one.id()).state(), v1::JOB_STATE_DONE);
   EXPECT_EQ(store_->job(two.id()).state(), v1::JOB_STATE_DONE);
-  EXPECT_EQ(field(two.id()), expected_field(kPoints, kDirections));
+  EXPECT_EQ(field(two.id()), expected_field(kRepairedPoints, kRepairedDirections));
 }
 
 // A report that meets the damage is refused, its job fails with the reason, and others go on.
 TEST_F(RepairTest, AReportIntoADamagedFieldFailsItsJobAlone) {
   const v1::Job job = submit();
-  prepare(kPoints, kDirections);
+  prepare(kRepairedPoints, kRepairedDirections);
   finish_block(lease());
   finish_block(lease());
   store_.reset();
@@ -159,7 +159,7 @@ TEST_F(RepairTest, ADamagedMeshFailsItsJobAndIsMendedByTheSameFile) {
 }
 
 TEST_F(RepairTest, DerivedArtefactsAreMadeAgain) {
-  const v1::Job job = complete_job(kPoints, kDirections);
+  const v1::Job job = complete_job(kRepairedPoints, kRepairedDirections);
   flip("artifact_chunks", "length(data) = 8");
   open();
   v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_SKELETON);
@@ -174,7 +174,7 @@ TEST_F(RepairTest, DerivedArtefactsAreMadeAgain) {
 
 // Clients alone use the lattice: the field is kept, and the lattice made when somebody asks.
 TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
-  const v1::Job job = complete_job(kPoints, kDirections);
+  const v1::Job job = complete_job(kRepairedPoints, kRepairedDirections);
   v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_LATTICE);
   const std::string lattice = read_all(*store_->open_artifact(request).reader);
   flip("artifact_chunks", "artifact_id = (SELECT id FROM artifacts WHERE kind = 'lattice')");
@@ -186,9 +186,9 @@ TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
   EXPECT_FALSE(store_->lease(worker_identity("other", "2"), "", false)) << "of another core version";
   const v1::Lease task = lease();
   ASSERT_EQ(task.kind(), v1::TASK_KIND_PREPARE);
-  PrepareResult wrong = prepare_result(task.token(), kPoints + 1, kDirections);
+  PrepareResult wrong = prepare_result(task.token(), kRepairedPoints + 1, kRepairedDirections);
   EXPECT_STORE_ERROR(store_->complete(wrong.header, wrong.data), kInvalid);
-  const PrepareResult right = prepare_result(task.token(), kPoints, kDirections);
+  const PrepareResult right = prepare_result(task.token(), kRepairedPoints, kRepairedDirections);
   store_->complete(right.header, right.data);
   EXPECT_EQ(read_all(*store_->open_artifact(request, asked.task).reader), lattice);
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
@@ -199,7 +199,7 @@ TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
 // A worker that goes on as if nothing had happened would take for known what is not any more.
 TEST_F(RepairTest, LeasesAndHeldFieldsEndWithARepairAndWithACopyPutBack) {
   submit();
-  prepare(kPoints, kDirections);
+  prepare(kRepairedPoints, kRepairedDirections);
   const v1::Lease before = lease(), late = lease("late");
   clock_.advance(options_.lease_ms + 1);
   store_->expire_leases();

@@ -7,14 +7,14 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::int64_t kDay = std::int64_t{24} * 3600 * 1000;
+constexpr std::int64_t kDayMs = std::int64_t{24} * 3600 * 1000;
 
 TEST(PolicyOptionsTest, NothingIsLimitedAndEverythingKeptUnlessToldSo) {
   const Policy policy = parse_policy({});
   EXPECT_EQ(policy.server.queued_jobs, 0);
   EXPECT_EQ(policy.of("ada").quota.stored_bytes, 0);
   EXPECT_EQ(policy.of("ada").retention.results_age_ms, 0);
-  EXPECT_EQ(policy.grace_ms, 7 * kDay);
+  EXPECT_EQ(policy.grace_ms, 7 * kDayMs);
 }
 
 TEST(PolicyOptionsTest, OwnersReplaceSingleNames) {
@@ -29,9 +29,9 @@ TEST(PolicyOptionsTest, OwnersReplaceSingleNames) {
   EXPECT_EQ(policy.of("ada").quota.queued_jobs, 2000) << "what holds for everyone, wherever it stands";
   EXPECT_EQ(policy.of("bob").quota.stored_bytes, std::int64_t{200} << 30);
   EXPECT_EQ(policy.of("o:d=d").quota.chords, 1'000'000'000'000);
-  EXPECT_EQ(policy.of("bob").retention.results_age_ms, 90 * kDay);
+  EXPECT_EQ(policy.of("bob").retention.results_age_ms, 90 * kDayMs);
   EXPECT_EQ(policy.of("ada").retention.results_age_ms, 0);
-  EXPECT_EQ(policy.of("ada").retention.jobs_age_ms, 2 * kDay);
+  EXPECT_EQ(policy.of("ada").retention.jobs_age_ms, 2 * kDayMs);
   EXPECT_EQ(policy.total_bytes, 1 << 20);
   EXPECT_EQ(policy.grace_ms, 30'000);
 }

@@ -8,7 +8,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kNever{24 * 3600 * 1000};
+constexpr milliseconds kNeverUploaded{24 * 3600 * 1000};
 
 /// A submission under way.
 struct Uploading {
@@ -27,7 +27,7 @@ struct Uploading {
 
 TEST_F(ServiceTest, SlowUploadsKeepNoPlaceThatOthersNeed) {
   options_.limits.uploads = 4;
-  options_.limits.receiving = {.first = kNever, .window = kNever, .trial = milliseconds(0)};
+  options_.limits.receiving = {.first = kNeverUploaded, .window = kNeverUploaded, .trial = milliseconds(0)};
   options_.limits.receiving.least_per_s = std::uint64_t{1} << 40;
   start();
   std::list<Uploading> slow;

@@ -9,12 +9,12 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f";
+constexpr std::string_view kBlanksInLine = " \t\v\f";
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
+  const std::size_t first = text.find_first_not_of(kBlanksInLine);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(kBlanksInLine) - first + 1);
 }
 
 std::vector<std::string_view> fields_of(std::string_view row) {

@@ -140,7 +140,7 @@ TEST(VtpWriter, ASheetIsPolygonsWithBothNormals) {
   EXPECT_EQ(file.arrays.size(), 7u);
 }
 
-std::string written(const ShapeFile& shape) {
+std::string written_vtp(const ShapeFile& shape) {
   std::string bytes;
   write_shape(FileFormat::kVtp, shape, {}, [&](std::string_view piece) { bytes += piece; });
   return bytes;
@@ -160,7 +160,7 @@ TEST(VtpWriter, ColumnsBecomeArraysOfTheirTypes) {
                    {"nx", false, {0, 0}},
                    {"ny", false, {0, 0}},
                    {"nz", false, {1, 1}}};
-  const VtpFile file(written(shape));
+  const VtpFile file(written_vtp(shape));
   EXPECT_EQ(file.numbers<std::uint32_t>("big", "UInt32"), (std::vector<std::uint32_t>{0, 4294967295U}));
   EXPECT_EQ(file.doubles("n&lt;&amp;_&gt;"), (Doubles{-1, 1.5}));
   EXPECT_EQ(file.doubles("v"), (Doubles{1, 3, 5, 2, 4, 6}));
