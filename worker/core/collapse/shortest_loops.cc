@@ -14,7 +14,7 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+constexpr std::uint32_t kNoEdge = 0xFFFFFFFFU;
 
 class Graph {
  public:
@@ -46,24 +46,24 @@ class Graph {
     DisjointSets forest(vertices_.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       if (!forest.unite(edges_[e][0], edges_[e][1])) chords_.push_back(e);
-    way_.assign(vertices_.size(), kNone);
+    way_.assign(vertices_.size(), kNoEdge);
     taken_.assign(edges_.size(), 0);
   }
 
   // Takes an edge of the shortest loop out. @return the loop's vertices; empty when there is none.
   std::vector<Cell> take_shortest() {
     std::vector<Cell> best;
-    std::uint32_t chord = kNone;
+    std::uint32_t chord = kNoEdge;
     for (const std::uint32_t e : chords_) {
       if (taken_[e]) continue;
       throw_if_stopped(context_);
       std::vector<Cell> loop =
-          shortest_through(e, best.empty() ? kNone : static_cast<std::uint32_t>(best.size()));
+          shortest_through(e, best.empty() ? kNoEdge : static_cast<std::uint32_t>(best.size()));
       if (loop.empty()) continue;
       best = std::move(loop);
       chord = e;
     }
-    if (chord != kNone) taken_[chord] = 1;
+    if (chord != kNoEdge) taken_[chord] = 1;
     return best;
   }
 
@@ -76,21 +76,21 @@ class Graph {
     std::vector<std::uint32_t> seen{from};
     way_[from] = edge;
     std::size_t next = 0;
-    for (std::uint32_t steps = 2; steps < most && next < seen.size() && way_[to] == kNone; ++steps) {
+    for (std::uint32_t steps = 2; steps < most && next < seen.size() && way_[to] == kNoEdge; ++steps) {
       for (const std::size_t end = seen.size(); next < end; ++next) {
         for (const std::uint32_t e : at_[seen[next]]) {
           const std::uint32_t there = other_end(e, seen[next]);
-          if (taken_[e] || e == edge || way_[there] != kNone) continue;
+          if (taken_[e] || e == edge || way_[there] != kNoEdge) continue;
           way_[there] = e;
           seen.push_back(there);
         }
       }
     }
-    if (way_[to] == kNone)
+    if (way_[to] == kNoEdge)
       loop.clear();
     else
       for (std::uint32_t at = to; at != from; at = other_end(way_[at], at)) loop.push_back(vertices_[at]);
-    for (const std::uint32_t vertex : seen) way_[vertex] = kNone;
+    for (const std::uint32_t vertex : seen) way_[vertex] = kNoEdge;
     return loop;
   }
 

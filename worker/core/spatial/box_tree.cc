@@ -9,8 +9,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;
-
 double centre_of(const Box& box, std::size_t axis) {
   return box.low[axis] / 2 + box.high[axis] / 2;
 }
@@ -21,7 +19,7 @@ BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(bo
   std::iota(items_.begin(), items_.end(), 0u);
   const auto count = static_cast<std::uint32_t>(items_.size());
   if (count == 0) return;
-  nodes_.resize(halving_nodes(count, kLeaf));
+  nodes_.resize(halving_nodes(count, kLeafItems));
   build(0, 0, count, threads);
 }
 
@@ -33,11 +31,11 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
     max_index = std::max(max_index, items_[i]);
   }
   nodes_[index] = {box, first, count, 0, max_index};
-  if (count <= kLeaf) return;
+  if (count <= kLeafItems) return;
 
   const std::size_t axis = longest_axis(first, count);
   const auto centre = [&](std::uint32_t i) { return centre_of(boxes_[i], axis); };
-  halve_node(nodes_, index, items_, kLeaf, threads, centre, [this](auto... half) { build(half...); });
+  halve_node(nodes_, index, items_, threads, centre, [this](auto... half) { build(half...); });
 }
 
 // Of the centres, not of the box: the faces of boxes within boxes all have their centres in the middle of the

@@ -15,6 +15,8 @@
 
 namespace affskel::core {
 
+inline constexpr std::uint32_t kLeafItems = 4;  ///< at most, of a leaf
+
 /// Calls `visit(position)` for the items of all leaves that are reached, by their position in the order of
 /// the leaves.  A node is reached when `enter(node)` is true for it and for all nodes above it.
 template <class Node, class Enter, class Visit>
@@ -40,13 +42,13 @@ void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit)
 /// and calls `build(index, first, count, threads)` for both halves, at the same time when `threads` > 1.
 template <class Node, class Key, class Build>
 void halve_node(std::vector<Node>& nodes, std::uint32_t index, std::vector<std::uint32_t>& items,
-                std::uint32_t leaf, unsigned threads, Key key, Build build) {
+                unsigned threads, Key key, Build build) {
   const std::uint32_t first = nodes[index].first, count = nodes[index].count, left = count / 2;
   const auto begin = items.begin() + first;
   std::nth_element(begin, begin + left, begin + count, [&](std::uint32_t i, std::uint32_t j) {
     return std::pair(key(i), i) < std::pair(key(j), j);
   });
-  const std::uint32_t right = index + 1 + halving_nodes(left, leaf);
+  const std::uint32_t right = index + 1 + halving_nodes(left, kLeafItems);
   nodes[index].right = right;
   parallel_halves(
       threads, [&](unsigned share) { build(index + 1, first, left, share); },
