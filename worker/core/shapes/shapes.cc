@@ -85,12 +85,12 @@ std::optional<TorusGrid> torus_grid(double rho, std::uint32_t quads) {
 
 /// " (try 6050 or 6060)": the nearest counts for which a grid exists.
 std::string torus_suggestion(double rho, std::uint32_t triangles) {
-  constexpr std::uint32_t kReach = 2000;
+  constexpr std::uint32_t kTries = 2000;
   std::string below, above;
-  for (std::uint32_t d = 2; d <= kReach && below.empty() && triangles >= 18 + d; d += 2) {
+  for (std::uint32_t d = 2; d <= kTries && below.empty() && triangles >= 18 + d; d += 2) {
     if (torus_grid(rho, (triangles - d) / 2)) below = std::to_string(triangles - d);
   }
-  for (std::uint32_t d = 2; d <= kReach && above.empty(); d += 2) {
+  for (std::uint32_t d = 2; d <= kTries && above.empty(); d += 2) {
     if (torus_grid(rho, (triangles + d) / 2)) above = std::to_string(triangles + d);
   }
   if (below.empty() && above.empty()) return "";

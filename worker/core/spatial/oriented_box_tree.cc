@@ -12,7 +12,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;
+constexpr std::uint32_t kBoxedLeaf = 4;
 
 // Three times the centroid.
 Vec3 corner_sum(const Corners& c) {
@@ -26,19 +26,19 @@ OrientedBoxTree::OrientedBoxTree(const UnitTriangles& triangles, std::vector<std
     : triangles_(triangles), members_(std::move(members)) {
   const auto count = static_cast<std::uint32_t>(members_.size());
   if (count == 0) return;
-  nodes_.resize(halving_nodes(count, kLeaf));
+  nodes_.resize(halving_nodes(count, kBoxedLeaf));
   build(0, 0, count, threads);
 }
 
 void OrientedBoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads) {
   const auto begin = members_.begin() + first;
   nodes_[index] = {box_round(first, count), first, count, 0, *std::max_element(begin, begin + count)};
-  if (count <= kLeaf) return;
+  if (count <= kBoxedLeaf) return;
 
   // By their centroids: slivers side by side all reach as far, in boxes much longer than wide.
   const int axis = longest_axis(first, count);
   const auto place = [&](std::uint32_t i) { return corner_sum(triangles_.corners(i))[axis]; };
-  halve_node(nodes_, index, members_, kLeaf, threads, place, [this](auto... half) { build(half...); });
+  halve_node(nodes_, index, members_, kBoxedLeaf, threads, place, [this](auto... half) { build(half...); });
 }
 
 // Along the principal axes of the corners.
