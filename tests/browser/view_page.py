@@ -51,8 +51,7 @@ atexit.register(browsers.running.close)
 
 
 class WithPage(unittest.TestCase):
-    """Every test loads its page anew.  The pages keep nothing in the browser, and starting one takes seconds: tests share
-    it."""
+    """Every test loads its page anew.  Pages keep nothing in the browser, and starting one takes seconds: tests share it."""
     window = dict(width=1200, height=800)
 
     @classmethod
