@@ -51,8 +51,7 @@ atexit.register(browsers.running.close)
 
 
 class WithPage(unittest.TestCase):
-    """Every test loads its page anew.  The pages keep nothing in the browser, and starting one takes seconds: tests share
-    it."""
+    """Loads its page anew for every test, in one browser: pages keep nothing there, and starting it takes seconds."""
     window = dict(width=1200, height=800)
 
     @classmethod

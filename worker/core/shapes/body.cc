@@ -15,13 +15,14 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kMinTriangles = 200, kMaxTriangles = 200000;
+constexpr std::uint32_t kMinBodyTriangles = 200, kMaxBodyTriangles = 200000;
 
 void check(const MakeBodyOptions& options) {
-  if (options.triangles < kMinTriangles || options.triangles > kMaxTriangles || options.triangles % 2 != 0) {
+  if (options.triangles < kMinBodyTriangles || options.triangles > kMaxBodyTriangles ||
+      options.triangles % 2 != 0) {
     throw CoreError(CoreError::Code::kBadInput, "body: the number of triangles must be even and within " +
-                                                    std::to_string(kMinTriangles) + " .. " +
-                                                    std::to_string(kMaxTriangles) + ", not " +
+                                                    std::to_string(kMinBodyTriangles) + " .. " +
+                                                    std::to_string(kMaxBodyTriangles) + ", not " +
                                                     std::to_string(options.triangles));
   }
   if (!(std::isfinite(options.height) && options.height > 0)) {

@@ -16,7 +16,7 @@ namespace affskel::core {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::uint64_t kMaxShapeTriangles = std::uint64_t{1} << 26;
+constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 26;
 
 [[noreturn]] void refuse(const std::string& message) {
   throw CoreError(CoreError::Code::kBadInput, message);
@@ -36,10 +36,10 @@ void require_at_least(const char* shape, const char* name, std::uint32_t value, 
 }
 
 void require_affordable(const char* shape, std::uint64_t triangles) {
-  if (triangles > kMaxShapeTriangles) {
+  if (triangles > kMaxTriangles) {
     throw CoreError(CoreError::Code::kLimit, std::string(shape) + ": " + std::to_string(triangles) +
                                                  " triangles are more than the limit of " +
-                                                 std::to_string(kMaxShapeTriangles));
+                                                 std::to_string(kMaxTriangles));
   }
 }
 
@@ -85,12 +85,12 @@ std::optional<TorusGrid> torus_grid(double rho, std::uint32_t quads) {
 
 /// " (try 6050 or 6060)": the nearest counts for which a grid exists.
 std::string torus_suggestion(double rho, std::uint32_t triangles) {
-  constexpr std::uint32_t kReach = 2000;
+  constexpr std::uint32_t kTries = 2000;
   std::string below, above;
-  for (std::uint32_t d = 2; d <= kReach && below.empty() && triangles >= 18 + d; d += 2) {
+  for (std::uint32_t d = 2; d <= kTries && below.empty() && triangles >= 18 + d; d += 2) {
     if (torus_grid(rho, (triangles - d) / 2)) below = std::to_string(triangles - d);
   }
-  for (std::uint32_t d = 2; d <= kReach && above.empty(); d += 2) {
+  for (std::uint32_t d = 2; d <= kTries && above.empty(); d += 2) {
     if (torus_grid(rho, (triangles + d) / 2)) above = std::to_string(triangles + d);
   }
   if (below.empty() && above.empty()) return "";
@@ -226,7 +226,7 @@ Mesh make_box(double a, double b, double c, std::uint32_t divisions) {
   require_length("box", "the side along z", c);
   require_at_least("box", "the number of divisions", divisions, 1);
   require_affordable("box",
-                     divisions > 100000 ? kMaxShapeTriangles + 1 : std::uint64_t{12} * divisions * divisions);
+                     divisions > 100000 ? kMaxTriangles + 1 : std::uint64_t{12} * divisions * divisions);
   Mesh mesh;
   BoxVertices vertices(a, b, c, divisions, mesh);
   for (std::size_t axis = 0; axis < 3; ++axis) {
