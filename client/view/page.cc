@@ -171,6 +171,7 @@ void add_sheet(Arrays& arrays, const ViewModel& model, const Scale& scale) {
   arrays.add("sheetShares", "f32", shares);
   arrays.add("sheetStrengths", "f32", floats(sheet.strength()));
   arrays.add("sheetSlopes", "f32", floats(sheet.area()));
+  arrays.add("sheetKinds", "i8", std::vector<std::int8_t>(sheet.kind().begin(), sheet.kind().end()));
   arrays.add("sheetNormalsA", "i8", bytes_of(sheet.normal_a()));
   arrays.add("sheetNormalsB", "i8", bytes_of(sheet.normal_b()));
   arrays.add("sheetCorners", "u32",

@@ -26,6 +26,18 @@ const directions = (bytes, p) => {
 export const weighted = (values, { vertices, weights }) =>
   values && values.length ? vertices.reduce((sum, v, i) => sum + weights[i] * values[v], 0) : null;
 
+// What a vertex of `ridge` is: see TriangleMesh.kind of the contract.
+const kKinds = ['ridge surface', 'ridge curve', 'membrane', 'way'];
+
+/**
+ * What a triangle or segment is part of: a membrane or way begins at the ridge's vertices.  '' where it is not known.
+ * @param {ArrayLike<number> | undefined} kinds per vertex
+ * @param {number[]} vertices
+ * @returns {string}
+ */
+export const kindOf = (kinds, vertices) =>
+  kinds && kinds.length ? kKinds[Math.max(...vertices.map((v) => kinds[v]))] : '';
+
 /**
  * Like the operator's significance, the slider drops pieces with a smaller share.
  * @param {ModelFacts} model
@@ -64,8 +76,9 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
       if (!hit) return null;
       const nearest = hit.vertices[hit.weights.indexOf(Math.max(...hit.weights))];
       const sides = [arrays.sheetNormalsA, arrays.sheetNormalsB].filter(Boolean);
+      const kind = kindOf(arrays.sheetKinds, hit.vertices);
       return {
-        what: `skeleton (${operator})`,
+        what: `skeleton (${operator})${kind && `: ${kind}`}`,
         place: hit.place,
         share: weighted(arrays.sheetShares, hit) || 0,
         slope: weighted(arrays.sheetSlopes, hit),

@@ -171,9 +171,11 @@ TEST(Page, TheSheetOfChordsComesBack) {
   for (const double e : {40., 20., 10.}) input.sheet.add_erosion(e);
   for (const double s : {1., 0.75, 0.5}) input.sheet.add_strength(s);
   for (const double a : {6., 7., 8.}) input.sheet.add_area(a);
+  for (const unsigned kind : {0u, 2u, 3u}) input.sheet.add_kind(kind);
   for (const double c : {1., 0., 0., 0., 1., 0., 0., 0., -1.}) input.sheet.add_normal_a(c);
   const std::string page = view_page(page_of(input));
   EXPECT_EQ(array_of<float>(page, "sheetSlopes", "f32"), (std::vector<float>{6, 7, 8}));
+  EXPECT_EQ(array_of<std::int8_t>(page, "sheetKinds", "i8"), (std::vector<std::int8_t>{0, 2, 3}));
   EXPECT_EQ(array_of<float>(page, "sheetStrengths", "f32"), (std::vector<float>{1, 0.75f, 0.5f}));
   EXPECT_EQ(array_of<std::int8_t>(page, "sheetNormalsA", "i8"),
             (std::vector<std::int8_t>{127, 0, 0, 0, 127, 0, 0, 0, -127}));

@@ -98,7 +98,9 @@ TEST_F(ServiceTest, WhoReadsNothingIsEnded) {
   v1::FetchArtifactResponse message;
   while (reader->Read(&message)) {
   }
-  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
+  // The call ends, or with it the connection, by which is heard first.
+  const grpc::StatusCode code = reader->Finish().error_code();
+  EXPECT_TRUE(code == grpc::StatusCode::CANCELLED || code == grpc::StatusCode::UNAVAILABLE) << code;
 }
 
 }  // namespace
