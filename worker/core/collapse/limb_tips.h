@@ -17,6 +17,7 @@ struct LimbTip {
   double reach = 0;            ///< the greatest way along the line from there over the birth of an edge
 };
 
+/// What thinning tells.
 struct LimbTips {
   std::vector<LimbTip> tips;  ///< by the order in which they were found
   CellSet left;  ///< loops, closed surfaces, lines between them: what has no end to be eaten from
@@ -29,8 +30,8 @@ struct LimbTips {
 /// middle of a foot's blunt front, the line says nothing: the limb begins where that ends.  From there on the line
 /// must have an edge whose way from there, and whose life, are `least_reach` times the time of its birth: the limb
 /// is longer than it is wide.  Its tip lies farther out, as long as the distance to the surface does not grow fast.
+/// A function of complex and depths alone.
 /// @param depth per cube: its distance to the surface, spacings.
-/// A function of the complex and the depths alone.
 /// @throws CoreError kCancelled when the context asks to stop.
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
                    ExecutionContext* context = nullptr);

@@ -1,17 +1,25 @@
 #include "core/collapse/shortest_ways.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numbers>
+#include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "core/base/bucket_queue.h"
 
 namespace affskel::core {
+namespace {
+
+// Of a step, by how many axes it goes along; spacings.
+constexpr std::array<float, 4> kLength{0, 1, std::numbers::sqrt2_v<float>, std::numbers::sqrt3_v<float>};
+
+}  // namespace
 
 std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
-                                 std::span<const float> cost, ExecutionContext* context, float longest) {
-  static const std::array<float, 4> kLength{0, 1, std::sqrt(2.0F), std::sqrt(3.0F)};
+                                 std::span<const float> cost, ExecutionContext* context) {
   constexpr float kBuckets = 8;  // per spacing of cost 1
   std::vector<float> way(complex.cubes(), kNoWay);
   BucketQueue<std::pair<float, std::uint32_t>> front;
@@ -29,12 +37,36 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
     if (reached > way[cube]) continue;
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
       const float there = reached + 0.5F * (cost_at(cube) + cost_at(to)) * kLength[steps];
-      if (there >= way[to] || there > longest) return;
+      if (there >= way[to]) return;
       way[to] = there;
       front.push(static_cast<std::size_t>(there * kBuckets), {there, to});
     });
   }
   return way;
+}
+
+bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest,
+             std::span<const char> wanted) {
+  std::unordered_map<std::uint32_t, float> way;
+  using Item = std::pair<float, std::uint32_t>;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
+  for (const auto& member : complex.star(from))
+    if (way.emplace(member.cube, 0.0F).second) front.push({0.0F, member.cube});
+  while (!front.empty()) {
+    const auto [reached, cube] = front.top();
+    front.pop();
+    if (wanted[cube]) return true;
+    if (reached > way[cube]) continue;
+    complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
+      const float there = reached + kLength[steps];
+      if (there > longest) return;
+      const auto [known, fresh] = way.try_emplace(to, there);
+      if (!fresh && there >= known->second) return;
+      known->second = there;
+      front.push({there, to});
+    });
+  }
+  return false;
 }
 
 }  // namespace affskel::core

@@ -21,11 +21,14 @@ inline constexpr float kNoWay = std::numeric_limits<float>::max();
 /// How far every cube lies from the nearest anchor: the cost of the cheapest way over cubes (26 neighbours,
 /// see DualComplex::for_each_step) to one about an anchor, to a share of a spacing (Dial 1969).
 /// @param cost per cube, of a spacing there, > 0; empty: 1 everywhere.
-/// @param longest ways that cost more are not looked for.
 /// @return per cube; kNoWay where no anchor can be reached.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
-                                 std::span<const float> cost, ExecutionContext* context = nullptr,
-                                 float longest = kNoWay);
+                                 std::span<const float> cost, ExecutionContext* context = nullptr);
+
+/// Whether such a way of cost 1 everywhere, no longer than `longest` spacings, leads from a cube about a cell to one
+/// that is wanted (Dijkstra 1959).  Looks at no more than lies within.
+/// @param wanted per cube: not 0.
+bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest, std::span<const char> wanted);
 
 }  // namespace affskel::core

@@ -169,22 +169,13 @@ class Choice {
       for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     for (const LimbTip& tip : evidence_.limbs) {
       const bool reached =
-          taken_.has(tip.vertex) || (is_near(tip.root, constants_.tip_distance * tip.radius, anchored) &&
-                                     is_near(tip.vertex, 1 + tip.width, anchored));
+          taken_.has(tip.vertex) ||
+          (is_near(complex_, tip.root, static_cast<float>(constants_.tip_distance * tip.radius), anchored) &&
+           is_near(complex_, tip.vertex, static_cast<float>(1 + tip.width), anchored));
       if (reached) continue;
       take({tip.vertex, 0});
       ++result_.limbs;
     }
-  }
-
-  // Whether a wanted cube is not farther from a vertex, spacings.
-  bool is_near(Cell vertex, double distance, const std::vector<char>& wanted) const {
-    const Anchor from{vertex, 0};
-    const std::vector<float> way =
-        shortest_ways(complex_, {&from, 1}, {}, context_, static_cast<float>(distance));
-    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
-      if (wanted[cube] && way[cube] != kNoWay) return true;
-    return false;
   }
 
   // For components that have no anchor yet.

@@ -47,7 +47,7 @@ class Placing {
     throw_if_stopped(context);
     draw_rims();
     even_out(rim_neighbours_, fixed_on_rim(), kRimPasses, false, context);
-    even_out(neighbours_, bound_, kFreePasses, true, context);
+    even_out(neighbours_, fixed_of_free(), kFreePasses, true, context);
     even_out(neighbours_, fixed_on_lines(), kLinePasses, false, context);
     take_values();
     make_faces();
@@ -107,8 +107,17 @@ class Placing {
     }
     place_surface();
     place_curves();
-    for (const Anchor& anchor : from_.anchors.anchors)
-      if (DualComplex::dimension(anchor.cell) == 0) bound_[number(anchor.cell)] = 1;
+  }
+
+  // What has a place, and tips.
+  std::vector<char> fixed_of_free() const {
+    std::vector<char> fixed = bound_;
+    for (const Anchor& anchor : from_.anchors.anchors) {
+      if (DualComplex::dimension(anchor.cell) != 0) continue;
+      const std::uint32_t v = number(anchor.cell);
+      if (v < vertices_.size() && vertices_[v] == anchor.cell) fixed[v] = 1;  // else of a fragment
+    }
+    return fixed;
   }
 
   // The vertex of the surface in the cell of a vertex, or null.
@@ -343,7 +352,7 @@ class Placing {
   std::vector<std::array<std::uint32_t, 4>> rings_;     // per square
   std::vector<std::uint8_t> squares_at_edge_;
   Groups<std::uint32_t> neighbours_, rim_neighbours_;
-  std::vector<char> bound_;                         // per vertex: its place is known
+  std::vector<char> bound_;                         // per vertex: its place and values are known
   std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point
   SheetMesh mesh_;
 };

@@ -255,7 +255,11 @@ TEST(RidgeSheet, OfABodyReachesAllItsEnds) {
     const Vec3 at = body.place(v.position);
     x.take(at.x);
     z.take(at.z);
+    EXPECT_GT(v.erosion, 0);
+    EXPECT_GT(v.area, 0);
+    EXPECT_NEAR(norm(v.normal_a), 1, 1e-9);
   }
+  EXPECT_GT(sheet.limbs, 0U);
   EXPECT_LT(x.low - low.x, 0.035 * height);
   EXPECT_LT(high.x - x.high, 0.035 * height);
   EXPECT_LT(z.low - low.z, 0.03 * height);
