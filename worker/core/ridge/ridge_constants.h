@@ -23,7 +23,7 @@ struct RidgeConstants {
   // What counts as ridge: not nearer to the surface than this share of the local depth, nor than so many
   // spacings: in hollows of the surface E is large.  And from this share of the lower bound on, for the line
   // where it ends.
-  double strip = 0.35;  ///< half the least width of a surface in a limb, radii: else it is a curve
+  double strip = 0.25;  ///< half the least width of a surface in a limb, radii: else it is a curve
   double min_radius_share = 0.315;
   double min_radius = 1.5;
   double weak_share = 0.125;
