@@ -1,0 +1,124 @@
+#include "core/curve/curve_skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "core/base/groups.h"
+#include "core/base/require.h"
+#include "core/contour/edge_cells.h"
+#include "core/curve/sheet_lines.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/polylines.h"
+#include "core/solid/solid_membership.h"
+
+namespace affskel::core {
+namespace {
+
+// Each pass is a step to the mean of the neighbours and a longer one back: what is shorter than about ten
+// segments goes, what is longer stays.
+constexpr int kPasses = 80;
+constexpr double kStep = 0.5, kStepBack = -0.52;
+
+// A tip that the ridge reaches lies no farther from it than half its limb's width and so many spacings.
+constexpr double kNearTip = 2;
+
+// Which vertices of the ridge are the ends of limbs.
+std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
+                                double least_reach) {
+  std::vector<char> ends(ridge.vertices.size(), 0);
+  std::vector<DualComplex::Cell> tips;
+  for (const LimbTip& limb : basis.limbs) tips.push_back(limb.vertex);
+  std::sort(tips.begin(), tips.end());
+  const std::vector<CellPlace> cells = cells_of_vertices(lattice, tips);
+  for (const LimbTip& limb : basis.limbs) {
+    if (limb.reach < least_reach) continue;
+    const CellPlace& cell = cells[static_cast<std::size_t>(
+        std::lower_bound(tips.begin(), tips.end(), limb.vertex) - tips.begin())];
+    const Vec3 tip =
+        lattice.spacing * Vec3{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
+                               static_cast<double>(cell[2]) + 0.5};
+    double nearest = (kNearTip + limb.width) * lattice.spacing;
+    std::size_t end = ridge.vertices.size();
+    for (std::size_t v = 0; v < ridge.vertices.size(); ++v) {
+      const double distance = norm(ridge.vertices[v].position - tip);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      end = v;
+    }
+    if (end < ends.size()) ends[end] = 1;
+  }
+  return ends;
+}
+
+Groups<std::uint32_t> neighbours_along(std::size_t vertices, std::span<const Segment> segments) {
+  return {vertices, [&](const auto& put) {
+            for (const auto& [a, b] : segments) {
+              put(a, b);
+              put(b, a);
+            }
+          }};
+}
+
+// Ends stay where they are.
+void make_smooth(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve,
+                 ExecutionContext* context) {
+  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
+  std::vector<Vec3> places, moved;
+  for (const SheetVertex& vertex : curve.vertices) places.push_back(vertex.position);
+  const auto move = [&](double step) {
+    moved = places;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      const auto around = neighbours[v];
+      if (around.size() < 2) continue;
+      Vec3 mean;
+      for (const std::uint32_t to : around)
+        mean = mean + (1 / static_cast<double>(around.size())) * places[to];
+      moved[v] = places[v] + step * (mean - places[v]);
+    }
+    places.swap(moved);
+  };
+  for (int pass = 0; pass < kPasses; ++pass) {
+    throw_if_stopped(context);
+    move(kStep);
+    move(kStepBack);
+  }
+  const SolidMembership membership(solid.mesh);
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    Vec3& at = curve.vertices[v].position;
+    Vec3 way = places[v] - at;
+    for (int halved = 0; halved < 4; ++halved, way = 0.5 * way) {
+      if (!membership.contains(scaled_place(lattice, (1 / lattice.spacing) * (at + way)))) continue;
+      at = at + way;
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
+                             const RidgeSheet& ridge, const CurveOptions& options) {
+  require_within(options.least_reach, 1e-6, 1e6,
+                 "the least length of a limb must lie between 1e-6 and 1e6 radii");
+  const SheetLines lines =
+      sheet_lines(ridge, ends_of_limbs(lattice, basis, ridge, options.least_reach), options.context);
+  CurveSkeleton curve;
+  curve.opened = lines.opened;
+  curve.segments = lines.segments;
+  for (const std::uint32_t v : lines.vertices) {
+    curve.vertices.push_back(ridge.vertices[v]);
+    curve.part.push_back(ridge.part[v]);
+  }
+  make_smooth(solid, lattice, curve, options.context);
+  curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
+  std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
+  for (const Segment& segment : curve.segments)
+    for (const std::uint32_t v : segment) ++degree[v];
+  curve.ends = static_cast<std::uint32_t>(std::count(degree.begin(), degree.end(), 1));
+  return curve;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/contour/sheet_mesh.h"
+#include "core/lattice/lattice.h"
+#include "core/ridge/ridge_sheet.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+struct CurveOptions {
+  /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach.  Below
+  /// RidgeConstants::limb_reach nothing more comes.
+  double least_reach = 1;
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
+};
+
+/// Lines through the limbs of a solid: vertices and segments, no triangle.
+struct CurveSkeleton : SheetMesh {
+  std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
+  std::uint32_t ends = 0;      ///< of one branch alone
+  std::uint32_t opened = 0;    ///< closed surfaces of the ridge, opened: a cavity has no line round it
+};
+
+/// The curve skeleton: the skeleton of `ridge`, collapsed on to the middle of its surfaces (see sheet_lines()),
+/// with a branch to the tip of every limb that is long enough, or to where the surface comes nearest to it.  It
+/// has the pieces and tunnels of that skeleton.  Lines are then made smooth without becoming shorter (Taubin, "A
+/// signal processing approach to fair surface design", 1995), within the solid.  A vertex keeps the values of the
+/// place on the ridge that it comes from, as far as a few spacings away.
+/// @param lattice of this solid.
+/// @param basis of a field of this lattice, and `ridge` its skeleton.
+/// @throws CoreError kBadInput for a reach that is not finite or not above 0; kCancelled when the context asks to
+///   stop.
+CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
+                             const RidgeSheet& ridge, const CurveOptions& options = {});
+
+}  // namespace affskel::core

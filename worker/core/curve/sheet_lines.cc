@@ -1,0 +1,272 @@
+#include "core/curve/sheet_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "core/base/cheapest_ways.h"
+#include "core/base/disjoint_sets.h"
+#include "core/base/groups.h"
+
+namespace affskel::core {
+namespace {
+
+class Collapse {
+ public:
+  Collapse(const SheetMesh& sheet, std::span<const char> ends, ExecutionContext* context)
+      : sheet_(sheet),
+        context_(context),
+        pieces_(sheet.vertices.size()),
+        stays_(ends.begin(), ends.end()),
+        triangles_left_(sheet.triangles.size(), 1) {
+    list_edges();
+    keep_centres();
+  }
+
+  SheetLines run() {
+    while (true) {
+      eat_sheets();
+      if (!open_closed_ones()) break;
+    }
+    for (std::uint32_t v = 0; v < edges_at_.size(); ++v) eat_from(v);
+    drop_centres_on_loops();
+    return lines();
+  }
+
+ private:
+  void list_edges() {
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+      edges_.push_back({std::min(a, b), std::max(a, b)});
+      pieces_.unite(a, b);
+    };
+    for (const Triangle& t : sheet_.triangles)
+      for (std::size_t k = 0; k < 3; ++k) add(t[k], t[(k + 1) % 3]);
+    for (const Segment& s : sheet_.segments) add(s[0], s[1]);
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    edge_left_.assign(edges_.size(), 1);
+    for (const Triangle& t : sheet_.triangles)
+      edges_of_.push_back({number(t[0], t[1]), number(t[1], t[2]), number(t[2], t[0])});
+    triangles_of_ = {edges_.size(), [&](const auto& put) {
+                       for (std::uint32_t t = 0; t < edges_of_.size(); ++t)
+                         for (const std::uint32_t e : edges_of_[t]) put(e, t);
+                     }};
+    edges_round_ = {sheet_.vertices.size(), [&](const auto& put) {
+                      for (std::uint32_t e = 0; e < edges_.size(); ++e)
+                        for (const std::uint32_t v : edges_[e]) put(v, e);
+                    }};
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      cofaces_.push_back(static_cast<std::uint32_t>(triangles_of_[e].size()));
+    for (std::uint32_t v = 0; v < sheet_.vertices.size(); ++v)
+      edges_at_.push_back(static_cast<std::uint32_t>(edges_round_[v].size()));
+  }
+
+  std::uint32_t number(std::uint32_t a, std::uint32_t b) const {
+    const Segment edge{std::min(a, b), std::max(a, b)};
+    return static_cast<std::uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+  }
+
+  // The vertex of the greatest E in each piece that has less than two ends.
+  void keep_centres() {
+    std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> pieces;  // number of ends, centre
+    for (std::uint32_t v = 0; v < stays_.size(); ++v) {
+      const auto [known, fresh] = pieces.try_emplace(pieces_.find(v), 0, v);
+      auto& [count, centre] = known->second;
+      count += stays_[v] != 0;
+      if (sheet_.vertices[v].erosion > sheet_.vertices[centre].erosion) centre = v;
+    }
+    for (const auto& [piece, known] : pieces) {
+      const auto& [count, centre] = known;
+      if (count > 1 || stays_[centre]) continue;
+      stays_[centre] = 1;
+      centres_.push_back(centre);
+    }
+  }
+
+  double length(std::uint32_t a, std::uint32_t b) const {
+    return norm(sheet_.vertices[a].position - sheet_.vertices[b].position);
+  }
+
+  // Per vertex: how far the nearest rim is, along the edges that are left and straight across them.
+  std::vector<double> depths() const {
+    std::vector<std::uint32_t> rim(sheet_.vertices.size(), kNoNode);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (cofaces_[e] == 1)
+        for (const std::uint32_t v : edges_[e]) rim[v] = v;
+    CheapestWays ways(std::move(rim));
+    ways.find([&](std::uint32_t v, const auto& go) {
+      for (const std::uint32_t e : edges_round_[v]) {
+        for (const std::uint32_t t : triangles_of_[e]) {
+          if (!triangles_left_[t]) continue;
+          for (const std::uint32_t to : sheet_.triangles[t]) {
+            if (to != v) go(to, length(v, to), v);
+          }
+          go_across(v, t, go);
+        }
+      }
+    });
+    return std::move(ways.cost);
+  }
+
+  // To the corners of the triangles beyond the edge that lies opposite.
+  template <class Go>
+  void go_across(std::uint32_t v, std::uint32_t t, const Go& go) const {
+    for (const std::uint32_t e : edges_of_[t]) {
+      if (edges_[e][0] == v || edges_[e][1] == v) continue;
+      for (const std::uint32_t beyond : triangles_of_[e]) {
+        if (!triangles_left_[beyond]) continue;
+        for (const std::uint32_t to : sheet_.triangles[beyond])
+          if (to != v && to != edges_[e][0] && to != edges_[e][1]) go(to, length(v, to), v);
+      }
+    }
+  }
+
+  void eat_sheets() {
+    depth_ = depths();
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) offer(e);
+    StopCheck stop(context_);
+    while (!front_.empty()) {
+      stop.did(20);
+      const auto [time, edge] = front_.top();
+      front_.pop();
+      if (cofaces_[edge] != 1 || !edge_left_[edge]) continue;
+      const auto around = triangles_of_[edge];
+      remove_triangle(*std::find_if(around.begin(), around.end(),
+                                    [&](std::uint32_t t) { return triangles_left_[t] != 0; }));
+      remove_edge(edge);
+    }
+  }
+
+  void offer(std::uint32_t edge) {
+    if (cofaces_[edge] != 1 || !edge_left_[edge]) return;
+    for (const std::uint32_t t : triangles_of_[edge]) {
+      if (!triangles_left_[t]) continue;
+      double sum = 0;
+      for (const std::uint32_t v : sheet_.triangles[t]) sum += depth_[v];
+      front_.push({sum, edge});
+    }
+  }
+
+  void remove_triangle(std::uint32_t t) {
+    triangles_left_[t] = 0;
+    for (const std::uint32_t e : edges_of_[t]) {
+      --cofaces_[e];
+      offer(e);
+    }
+  }
+
+  void remove_edge(std::uint32_t edge) {
+    edge_left_[edge] = 0;
+    for (const std::uint32_t v : edges_[edge]) {
+      --edges_at_[v];
+      eat_from(v);
+    }
+  }
+
+  // A line from its end, as far as it has no branch.
+  void eat_from(std::uint32_t v) {
+    while (edges_at_[v] == 1 && !stays_[v]) {
+      const auto around = edges_round_[v];
+      const std::uint32_t edge =
+          *std::find_if(around.begin(), around.end(), [&](std::uint32_t e) { return edge_left_[e] != 0; });
+      if (cofaces_[edge] != 0) return;
+      edge_left_[edge] = 0;
+      edges_at_[v] = 0;
+      gone_.push_back(v);
+      v = edges_[edge][0] == v ? edges_[edge][1] : edges_[edge][0];
+      --edges_at_[v];
+    }
+  }
+
+  // Of what is left, each piece of triangles has none on a rim: it loses the one where E is least.
+  bool open_closed_ones() {
+    DisjointSets together(sheet_.triangles.size());
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      std::uint32_t first = kNoNode;
+      for (const std::uint32_t t : triangles_of_[e]) {
+        if (!triangles_left_[t]) continue;
+        if (first == kNoNode) first = t;
+        together.unite(first, t);
+      }
+    }
+    std::map<std::uint32_t, std::pair<double, std::uint32_t>> least;
+    for (std::uint32_t t = 0; t < triangles_left_.size(); ++t) {
+      if (!triangles_left_[t]) continue;
+      double sum = 0;
+      for (const std::uint32_t v : sheet_.triangles[t]) sum += sheet_.vertices[v].erosion;
+      const std::pair here{sum, t};
+      const auto [known, fresh] = least.try_emplace(together.find(t), here);
+      if (here < known->second) known->second = here;
+    }
+    for (const auto& [piece, found] : least) remove_triangle(found.second);
+    opened_ += static_cast<std::uint32_t>(least.size());
+    return !least.empty();
+  }
+
+  void drop_centres_on_loops() {
+    std::map<std::uint32_t, std::int64_t> euler;  // per piece: of what is left
+    for (const std::uint32_t centre : centres_) euler[pieces_.find(centre)] = 0;
+    const auto count = [&](std::uint32_t v, std::int64_t by) {
+      if (const auto known = euler.find(pieces_.find(v)); known != euler.end()) known->second += by;
+    };
+    const std::vector<char> there = vertices_left();
+    for (std::uint32_t v = 0; v < there.size(); ++v)
+      if (there[v]) count(v, 1);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (edge_left_[e]) count(edges_[e][0], -1);
+    for (const std::uint32_t centre : centres_) {
+      if (euler[pieces_.find(centre)] == 1) continue;
+      stays_[centre] = 0;
+      eat_from(centre);
+    }
+  }
+
+  std::vector<char> vertices_left() const {
+    std::vector<char> there(sheet_.vertices.size(), 1);
+    for (const std::uint32_t v : gone_) there[v] = 0;
+    return there;
+  }
+
+  SheetLines lines() const {
+    SheetLines result;
+    result.opened = opened_;
+    const std::vector<char> there = vertices_left();
+    std::vector<std::uint32_t> number(there.size(), 0);
+    for (std::uint32_t v = 0; v < there.size(); ++v) {
+      if (!there[v]) continue;
+      number[v] = static_cast<std::uint32_t>(result.vertices.size());
+      result.vertices.push_back(v);
+    }
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (edge_left_[e]) result.segments.push_back({number[edges_[e][0]], number[edges_[e][1]]});
+    return result;
+  }
+
+  using Offer = std::pair<double, std::uint32_t>;  // time, edge
+
+  const SheetMesh& sheet_;
+  ExecutionContext* context_;
+  DisjointSets pieces_;  // of vertices
+  std::vector<char> stays_;
+  std::vector<Segment> edges_;                          // smaller vertex first, ascending
+  std::vector<std::array<std::uint32_t, 3>> edges_of_;  // per triangle
+  Groups<std::uint32_t> triangles_of_, edges_round_;    // per edge, per vertex
+  std::vector<char> triangles_left_, edge_left_;
+  std::vector<std::uint32_t> cofaces_, edges_at_;  // that are left, per edge and per vertex
+  std::vector<double> depth_;
+  std::priority_queue<Offer, std::vector<Offer>, std::greater<>> front_;
+  std::vector<std::uint32_t> gone_, centres_;
+  std::uint32_t opened_ = 0;
+};
+
+}  // namespace
+
+SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends, ExecutionContext* context) {
+  return Collapse(sheet, ends, context).run();
+}
+
+}  // namespace affskel::core
