@@ -31,6 +31,7 @@ void add_surface(CommandLine& line) {
       line.add("surface", "Triangulated skeleton: the sheet of ridge or chords, or the alpha shape of points",
                "  affskel-client surface @last -o sheet.vtp\n"
                "  affskel-client surface @last --barrier -o sheet.vtp\n"
+               "  affskel-client surface @last --operator curve -o limbs.vtp\n"
                "  affskel-client surface @last --operator chords --min-barrier 0.05 -o shocks.ply\n"
                "  affskel-client surface @last --operator zucker-hummel --alpha 160000 -o skeleton.obj\n"
                ".vtp, .ply and .obj also hold the curves of ridge",

@@ -62,9 +62,9 @@ core::ShockOperator shock_operator(v1::Operator which) {
 // Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
 // @throws ClientError kUsage for an unknown operator.
 double first_threshold(const v1::SkeletonParams& params, double spacing) {
-  // The threshold of `ridge` is a strength, which the slider does not set: all pieces are shown.
+  // The thresholds of `ridge` and `curve` are not what the slider sets: all pieces are shown.
   constexpr double kAnyPiece = 0.001;
-  if (params.operator_() == v1::OPERATOR_RIDGE) return kAnyPiece;
+  if (params.operator_() == v1::OPERATOR_RIDGE || params.operator_() == v1::OPERATOR_CURVE) return kAnyPiece;
   const bool chords = params.operator_() == v1::OPERATOR_CHORDS;
   const double preset = chords ? core::ChordSheetOptions().significance
                                : core::default_threshold(shock_operator(params.operator_()), spacing);

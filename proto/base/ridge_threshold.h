@@ -7,4 +7,8 @@ namespace affskel::base {
 inline constexpr double kMinRidgeThreshold = 1e-6;
 inline constexpr double kMaxRidgeThreshold = 800;
 
+/// Least lengths of limbs that a curve skeleton can be asked for, in their own radii.
+inline constexpr double kMinCurveThreshold = 0.9;
+inline constexpr double kMaxCurveThreshold = 1000;
+
 }  // namespace affskel::base

@@ -26,10 +26,10 @@ v1::SurfaceParams with_barrier(v1::SurfaceParams params) {
   }
   if (least == 0) params.set_min_barrier(0.0);  // == also catches -0
   if (least > 0) params.set_barrier(true);
-  if (params.barrier() && !gives_sheet(params.skeleton().operator_())) {
+  const v1::Operator which = params.skeleton().operator_();
+  if (params.barrier() && which != v1::OPERATOR_CHORDS && which != v1::OPERATOR_RIDGE) {
     throw std::invalid_argument("barriers are for the sheets of chords and ridge; the operator " +
-                                word(params.skeleton().operator_()) +
-                                " gives points, whose normals have no two sides");
+                                word(which) + " gives points or lines, whose normals have no two sides");
   }
   return params;
 }
@@ -106,6 +106,13 @@ v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
         base::to_text(base::kMinRidgeThreshold) + " and " + base::to_text(base::kMaxRidgeThreshold) +
         ", not " + base::to_text(params.threshold()));
   }
+  if (result.operator_() == v1::OPERATOR_CURVE && params.threshold() != 0 &&
+      !(params.threshold() >= base::kMinCurveThreshold && params.threshold() <= base::kMaxCurveThreshold)) {
+    throw std::invalid_argument(
+        "the threshold of curve is the length of the shortest limb with a branch, in its own radii, between " +
+        base::to_text(base::kMinCurveThreshold) + " and " + base::to_text(base::kMaxCurveThreshold) +
+        ", not " + base::to_text(params.threshold()));
+  }
   // == also catches -0.  Other operators' defaults depend on the spacing: 0 stays.
   if (params.threshold() == 0) {
     result.set_threshold(result.operator_() == v1::OPERATOR_ZUCKER_HUMMEL ? base::kZuckerHummelThreshold
@@ -151,7 +158,7 @@ v1::ErodedParams canonical(const v1::ErodedParams& params) {
 }
 
 bool gives_sheet(v1::Operator which) {
-  return which == v1::OPERATOR_CHORDS || which == v1::OPERATOR_RIDGE;
+  return which == v1::OPERATOR_CHORDS || which == v1::OPERATOR_RIDGE || which == v1::OPERATOR_CURVE;
 }
 
 v1::SkeletonParams divergence_params(const v1::SkeletonParams& params) {

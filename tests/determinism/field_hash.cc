@@ -12,6 +12,7 @@
 
 #include "core/barrier/barriers.h"
 #include "core/chords/chord_sheet.h"
+#include "core/curve/curve_skeleton.h"
 #include "core/erosion/erosion.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -89,7 +90,12 @@ std::uint64_t ridge_hash(const affskel::core::Solid& solid, const affskel::core:
   RidgeSheetOptions options;
   options.basis = &basis;
   Hash hash;
-  add_sheet(ridge_sheet(solid, lattice, field, options), hash);
+  const RidgeSheet ridge = ridge_sheet(solid, lattice, field, options);
+  add_sheet(ridge, hash);
+  const CurveSkeleton curve = curve_skeleton(solid, lattice, basis, ridge);
+  add_sheet(curve, hash);
+  for (const double distance : curve.distance) hash.add(distance);
+  for (const double beyond : curve.beyond) hash.add(beyond);
   return hash.value();
 }
 

@@ -408,6 +408,8 @@ TEST_F(TerminalTest, WhatLeavesTheRidgeIsNamed) {
   says("--threshold 1 --min-barrier 0.1", "a threshold without an operator is for the job's own skeleton");
   says("--operator ridge --threshold 900", "between 1e-06 and 800, not 900");
   says("--operator ridge --threshold 1e-7", "between 1e-06 and 800, not 1e-07");
+  says("--operator curve --threshold 0.5", "between 0.9 and 1000, not 0.5");
+  says("--operator curve --barrier", "barriers are for the sheets of chords and ridge");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "derive/derive.h"
 
 #include "derive/chord_skeleton.h"
+#include "derive/curve_skeleton.h"
 #include "derive/eroded_solid.h"
 #include "derive/operator_skeleton.h"
 #include "derive/ridge_skeleton.h"
@@ -15,6 +16,8 @@ v1::SkeletonPoints skeleton(const FinishedField& field, const v1::SkeletonParams
       return chord_skeleton(field, params);
     case v1::OPERATOR_RIDGE:
       return ridge_skeleton(field, params);
+    case v1::OPERATOR_CURVE:
+      return curve_skeleton(field, params);
     default:
       return operator_skeleton(field, params);
   }
@@ -26,6 +29,8 @@ v1::TriangleMesh surface(const FinishedField& field, const v1::SurfaceParams& pa
       return chord_sheet(field, params);
     case v1::OPERATOR_RIDGE:
       return ridge_sheet(field, params);
+    case v1::OPERATOR_CURVE:
+      return curve_lines(field, params);
     default:
       return operator_surface(field, params);
   }

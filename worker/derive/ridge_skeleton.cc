@@ -1,11 +1,10 @@
 #include "derive/ridge_skeleton.h"
 
-#include <algorithm>
-
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
+#include "derive/ridge_of_field.h"
 #include "derive/sheet_barriers.h"
 
 namespace affskel::worker {
@@ -13,75 +12,17 @@ namespace {
 
 constexpr double kMaxThreshold = 800;  // the contract's, see SkeletonParams
 
-core::RidgeSheetOptions options_for(const FinishedField& field, double threshold) {
-  core::RidgeSheetOptions options;
-  options.context = field.context();
-  if (threshold != 0) {
-    // The two bounds keep their ratio.
-    options.bounds.high *= threshold / options.bounds.low;
-    options.bounds.low = threshold;
-  }
-  return options;
-}
-
-// Of a field, at any threshold.
-class Ridge {
- public:
-  explicit Ridge(const FinishedField& field)
-      : field_(field),
-        in_frame_(field.in_frame()),
-        basis_(core::ridge_basis(field.lattice(), in_frame_, field.threads(), field.context())) {}
-
-  const core::FrameField& in_frame() const { return in_frame_; }
-  const core::RidgeBasis& basis() const { return basis_; }
-
-  core::RidgeSheet sheet(double threshold) const {
-    core::RidgeSheetOptions options = options_for(field_, threshold);
-    options.basis = &basis_;
-    return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
-  }
-
- private:
-  const FinishedField& field_;
-  const core::FrameField in_frame_;
-  const core::RidgeBasis basis_;
-};
-
-constexpr std::size_t kMaxNamed = 8;
-
-void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message) {
-  message.set_x(place.x);
-  message.set_y(place.y);
-  message.set_z(place.z);
-  message.set_size(size);
-}
-
-// Where the skeleton lacks or adds what the lattice does not resolve.
-void name_coarse_places(const FinishedField& field, const core::RidgeBasis& basis,
-                        const core::RidgeSheet& sheet, v1::SkeletonQuality& message) {
-  message.set_unreached_ends(static_cast<std::uint32_t>(sheet.unreached.size()));
-  for (std::size_t n = 0; n < std::min(kMaxNamed, sheet.unreached.size()); ++n)
-    set_place(sheet.unreached[n].place, sheet.unreached[n].distance, *message.add_unreached());
-  const auto solid = static_cast<std::uint64_t>(message.solid_genus());
-  const std::uint64_t more = sheet.lattice.holes - std::min(sheet.lattice.holes, solid);
-  for (std::size_t n = 0; n < std::min<std::size_t>(more, basis.loops.size()); ++n)
-    set_place(field.to_mesh(basis.loops[n].place), basis.loops[n].size * field.lattice().spacing,
-              *message.add_tunnels());
-}
-
-v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, const core::RidgeSheet& sheet,
-                               double threshold, const SheetBarriers& barriers = {}) {
-  const double low = options_for(field, threshold).bounds.low;
+v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& ridge,
+                               const core::RidgeSheet& sheet, double threshold,
+                               const SheetBarriers& barriers = {}) {
+  const double low = ridge_bounds(threshold).low;
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
   options.advice_if_empty = barriers.advice;
   const double next = core::next_threshold(low);
   core::Mesh other;
-  core::RidgeSheet other_sheet;
   if (next <= kMaxThreshold && !barriers.cut) {
-    other_sheet = ridge.sheet(next);
-    other = mesh_of(other_sheet);
-    options.other_segments = other_sheet.segments;
+    other = mesh_of(ridge.sheet(next));
     options.other = &other;
     options.other_threshold = next;
   }
@@ -89,20 +30,14 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const Ridge& ridge, c
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(low);
-  v1::LatticeTopology& lattice = *message.mutable_lattice();
-  lattice.set_components(sheet.lattice.components);
-  lattice.set_holes(sheet.lattice.holes);
-  lattice.set_cavities(sheet.lattice.cavities);
-  message.set_fragments(sheet.fragments);
-  message.set_limbs(sheet.limbs);
-  name_coarse_places(field, ridge.basis(), sheet, message);
+  ridge.tell_of_lattice(sheet, message);
   return message;
 }
 
 }  // namespace
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
-  const Ridge ridge(field);
+  const RidgeOfField ridge(field);
   const core::RidgeSheet sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
   for (const core::SheetVertex& vertex : sheet.vertices) {
@@ -119,7 +54,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
 
 v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
   const double threshold = params.skeleton().threshold();
-  const Ridge ridge(field);
+  const RidgeOfField ridge(field);
   core::RidgeSheet sheet = ridge.sheet(threshold);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;

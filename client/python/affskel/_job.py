@@ -150,15 +150,15 @@ class Job:
     def skeleton(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
                  alpha: Optional[float] = None, barrier: bool = False, min_barrier: Optional[float] = None,
                  timeout: Optional[float] = None) -> Surface:
-        """The skeleton as a triangulated surface, with the curves of "ridge".
+        """The skeleton as a triangulated surface, with the curves of "ridge"; the lines of "curve".
 
         Args:
-            operator: "ridge", "chords", "zucker-hummel", "sobel", "central", "intermediate" or "flux"; None = the
+            operator: "ridge", "curve", "chords", "zucker-hummel", "sobel", "central", "intermediate" or "flux"; None = the
                 job's, but "ridge" for a job with the published skeleton (Zucker and Hummel's above 7), unless
                 `threshold` or `alpha` is given.
             threshold: in the operator's unit; None = the operator's default, without an operator the job's.
             alpha: squared radius of the alpha shape through the points, mesh units squared; None = by the spacing.
-                Not for "ridge" and "chords", which give sheets themselves.
+                Not for "ridge", "chords" and "curve", which have triangles or lines themselves.
             barrier: for "chords" and "ridge", the attribute "barrier": by what share of E the chord grows on the way
                 from one side's direction to the other's; 0: the normals only turn fast, large: they jump.
             min_barrier: leave out triangles with a vertex of a lower barrier; implies `barrier`.

@@ -1,9 +1,7 @@
 #include "core/collapse/shortest_ways.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -11,13 +9,6 @@
 #include "core/base/bucket_queue.h"
 
 namespace affskel::core {
-namespace {
-
-// Of a step, by how many axes it goes along; spacings.
-constexpr std::array<float, 4> kLength{0, 1, std::numbers::sqrt2_v<float>, std::numbers::sqrt3_v<float>};
-
-}  // namespace
-
 std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
                                  std::span<const float> cost, ExecutionContext* context) {
   constexpr float kBuckets = 8;  // per spacing of cost 1
@@ -36,7 +27,7 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
     const auto [reached, cube] = at;
     if (reached > way[cube]) continue;
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
-      const float there = reached + 0.5F * (cost_at(cube) + cost_at(to)) * kLength[steps];
+      const float there = reached + 0.5F * (cost_at(cube) + cost_at(to)) * kStepLength[steps];
       if (there >= way[to]) return;
       way[to] = there;
       front.push(static_cast<std::size_t>(there * kBuckets), {there, to});
@@ -58,7 +49,7 @@ bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest,
     if (wanted[cube]) return true;
     if (reached > way[cube]) continue;
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
-      const float there = reached + kLength[steps];
+      const float there = reached + kStepLength[steps];
       if (there > longest) return;
       const auto [known, fresh] = way.try_emplace(to, there);
       if (!fresh && there >= known->second) return;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,10 @@ struct Anchor {
   DualComplex::Cell cell = 0;  ///< a square, an edge or a vertex
   float weight = 0;            ///< of squares: the lightest one opens the pocket that it bounds
 };
+
+/// Of a step to a neighbouring cube, by how many axes it goes along; spacings.
+inline constexpr std::array<float, 4> kStepLength{0, 1, std::numbers::sqrt2_v<float>,
+                                                  std::numbers::sqrt3_v<float>};
 
 /// No way leads there.
 inline constexpr float kNoWay = std::numeric_limits<float>::max();

@@ -10,17 +10,19 @@
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/sheet_lines.h"
+#include "core/curve/volume_beyond.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 namespace {
 
-// Each pass is a step to the mean of the neighbours and a longer one back: what is shorter than about ten
+// Each pass is a step to the mean of the neighbours and a longer one back: what is shorter than about fifteen
 // segments goes, what is longer stays.
-constexpr int kPasses = 80;
-constexpr double kStep = 0.5, kStepBack = -0.52;
+constexpr int kPasses = 300;
+constexpr double kStep = 0.5, kStepBack = -0.51;
 
 // A tip that the ridge reaches lies no farther from it than half its limb's width and so many spacings.
 constexpr double kNearTip = 2;
@@ -97,6 +99,22 @@ void make_smooth(const Solid& solid, const Lattice& lattice, CurveSkeleton& curv
   }
 }
 
+void measure(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis, CurveSkeleton& curve,
+             ExecutionContext* context) {
+  const DistanceToMesh surface(solid.mesh);
+  std::vector<RealmSeed> seeds;
+  for (const SheetVertex& vertex : curve.vertices) {
+    const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
+    curve.distance.push_back(solid.scale() * surface.nearest(place));
+    seeds.push_back({vertex.point, basis.radius[vertex.point]});
+  }
+  curve.nearest = realms(basis.complex, seeds, context);
+  std::vector<double> weight(curve.vertices.size(), 0);
+  for (const std::uint32_t vertex : curve.nearest)
+    if (vertex != DualComplex::kNone) weight[vertex] += 1 / static_cast<double>(lattice.points);
+  curve.beyond = volume_beyond(curve.segments, weight);
+}
+
 }  // namespace
 
 CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
@@ -113,6 +131,7 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
     curve.part.push_back(ridge.part[v]);
   }
   make_smooth(solid, lattice, curve, options.context);
+  measure(solid, lattice, basis, curve, options.context);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
   std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
   for (const Segment& segment : curve.segments)

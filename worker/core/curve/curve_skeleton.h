@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/collapse/realms.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_sheet.h"
@@ -14,12 +15,16 @@ namespace affskel::core {
 struct CurveOptions {
   /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach.  Below
   /// RidgeConstants::limb_reach nothing more comes.
-  double least_reach = 1;
+  double least_reach = 0.9;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 /// Lines through the limbs of a solid: vertices and segments, no triangle.
 struct CurveSkeleton : SheetMesh {
+  std::vector<double> distance;  ///< per vertex: to the surface of the solid, mesh units
+  std::vector<double> beyond;    ///< per vertex: share of all sample points; see volume_beyond()
+  std::vector<std::uint32_t>
+      nearest;                 ///< per sample point: a vertex, see realms(); kNone where no line leads
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone
   std::uint32_t opened = 0;    ///< closed surfaces of the ridge, opened: a cavity has no line round it

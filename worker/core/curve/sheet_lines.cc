@@ -2,18 +2,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
+#include "core/base/parity_rows.h"
 
 namespace affskel::core {
 namespace {
+
+// Lines lead straight away from the rim: of two triangles as far from it, the farther from where lines begin goes
+// first.
+constexpr double kStraight = 0.1;
 
 class Collapse {
  public:
@@ -32,7 +39,6 @@ class Collapse {
       eat_sheets();
       if (!open_closed_ones()) break;
     }
-    for (std::uint32_t v = 0; v < edges_at_.size(); ++v) eat_from(v);
     drop_centres_on_loops();
     return lines();
   }
@@ -91,47 +97,78 @@ class Collapse {
     return norm(sheet_.vertices[a].position - sheet_.vertices[b].position);
   }
 
-  // Per vertex: how far the nearest rim is, along the edges that are left and straight across them.
-  std::vector<double> depths() const {
-    std::vector<std::uint32_t> rim(sheet_.vertices.size(), kNoNode);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e)
-      if (cofaces_[e] == 1)
-        for (const std::uint32_t v : edges_[e]) rim[v] = v;
-    CheapestWays ways(std::move(rim));
+  // Per vertex: how far the nearest of `from` is, along the sheet.
+  std::vector<double> distances(std::vector<std::uint32_t> from) const {
+    CheapestWays ways(std::move(from));
     ways.find([&](std::uint32_t v, const auto& go) {
-      for (const std::uint32_t e : edges_round_[v]) {
-        for (const std::uint32_t t : triangles_of_[e]) {
-          if (!triangles_left_[t]) continue;
-          for (const std::uint32_t to : sheet_.triangles[t]) {
-            if (to != v) go(to, length(v, to), v);
-          }
-          go_across(v, t, go);
-        }
-      }
+      for_each_step(v, [&](std::uint32_t to) { go(to, length(v, to), v); });
     });
     return std::move(ways.cost);
   }
 
-  // To the corners of the triangles beyond the edge that lies opposite.
-  template <class Go>
-  void go_across(std::uint32_t v, std::uint32_t t, const Go& go) const {
+  // Per vertex: when it is eaten.
+  std::vector<double> times() const {
+    std::vector<std::uint32_t> rim(sheet_.vertices.size(), kNoNode), starts = rim;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (cofaces_[e] == 1)
+        for (const std::uint32_t v : edges_[e]) rim[v] = v;
+    mark_starts_of_lines(starts);
+    std::vector<double> result = distances(std::move(rim));
+    const std::vector<double> way = distances(std::move(starts));
+    for (std::size_t v = 0; v < result.size(); ++v)
+      if (std::isfinite(way[v])) result[v] -= kStraight * way[v];
+    return result;
+  }
+
+  // Ends, and where lines meet sheets.
+  void mark_starts_of_lines(std::vector<std::uint32_t>& starts) const {
+    std::vector<char> on_sheet(starts.size(), 0);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (cofaces_[e] > 0)
+        for (const std::uint32_t v : edges_[e]) on_sheet[v] = 1;
+    const auto mark = [&](std::uint32_t v) {
+      if (on_sheet[v]) starts[v] = v;
+    };
+    for (std::uint32_t v = 0; v < starts.size(); ++v)
+      if (stays_[v]) mark(v);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (edge_left_[e] && cofaces_[e] == 0)
+        for (const std::uint32_t v : edges_[e]) mark(v);
+  }
+
+  // Calls visit(to) for the vertices of the triangles about one, and for those right across their far edges.
+  template <class Visit>
+  void for_each_step(std::uint32_t v, const Visit& visit) const {
+    for (const std::uint32_t e : edges_round_[v]) {
+      for (const std::uint32_t t : triangles_of_[e]) {
+        if (!triangles_left_[t]) continue;
+        for (const std::uint32_t to : sheet_.triangles[t])
+          if (to != v) visit(to);
+        visit_across(v, t, visit);
+      }
+    }
+  }
+
+  template <class Visit>
+  void visit_across(std::uint32_t v, std::uint32_t t, const Visit& visit) const {
     for (const std::uint32_t e : edges_of_[t]) {
       if (edges_[e][0] == v || edges_[e][1] == v) continue;
       for (const std::uint32_t beyond : triangles_of_[e]) {
         if (!triangles_left_[beyond]) continue;
         for (const std::uint32_t to : sheet_.triangles[beyond])
-          if (to != v && to != edges_[e][0] && to != edges_[e][1]) go(to, length(v, to), v);
+          if (to != v && to != edges_[e][0] && to != edges_[e][1]) visit(to);
       }
     }
   }
 
   void eat_sheets() {
-    depth_ = depths();
+    for (std::uint32_t v = 0; v < edges_at_.size(); ++v) eat_from(v);
+    time_ = times();
     for (std::uint32_t e = 0; e < edges_.size(); ++e) offer(e);
     StopCheck stop(context_);
     while (!front_.empty()) {
       stop.did(20);
-      const auto [time, edge] = front_.top();
+      const std::uint32_t edge = std::get<2>(front_.top());
       front_.pop();
       if (cofaces_[edge] != 1 || !edge_left_[edge]) continue;
       const auto around = triangles_of_[edge];
@@ -146,8 +183,8 @@ class Collapse {
     for (const std::uint32_t t : triangles_of_[edge]) {
       if (!triangles_left_[t]) continue;
       double sum = 0;
-      for (const std::uint32_t v : sheet_.triangles[t]) sum += depth_[v];
-      front_.push({sum, edge});
+      for (const std::uint32_t v : sheet_.triangles[t]) sum += time_[v];
+      front_.push({sum, time_[edges_[edge][0]] + time_[edges_[edge][1]], edge});
     }
   }
 
@@ -182,20 +219,31 @@ class Collapse {
     }
   }
 
-  // Of what is left, each piece of triangles has none on a rim: it loses the one where E is least.
+  // What is left has no rim.  Of each piece of triangles one goes that closed surfaces pass through, where E is
+  // least: a membrane that only hangs between them would leave a tunnel.
   bool open_closed_ones() {
-    DisjointSets together(sheet_.triangles.size());
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-      std::uint32_t first = kNoNode;
-      for (const std::uint32_t t : triangles_of_[e]) {
-        if (!triangles_left_[t]) continue;
-        if (first == kNoNode) first = t;
-        together.unite(first, t);
-      }
-    }
+    DisjointSets together(sheet_.triangles.size()), patches = together;
+    for_each_left([&](std::span<const std::uint32_t> round) {
+      for (const std::uint32_t t : round) together.unite(round.front(), t);
+      if (round.size() == 2) patches.unite(round[0], round[1]);
+    });
+    // A set of patches is closed when every edge meets an even number of them; a patch is in no such set when
+    // these conditions add up to that it is not.
+    ParityRows conditions;
+    for_each_left([&](std::span<const std::uint32_t> round) {
+      if (round.size() == 2) return;
+      ParityRow row;
+      for (const std::uint32_t t : round) row = parity_sum(row, {patches.find(t)});
+      conditions.add(std::move(row));
+    });
+    std::map<std::uint32_t, bool> closed;  // by patch
     std::map<std::uint32_t, std::pair<double, std::uint32_t>> least;
     for (std::uint32_t t = 0; t < triangles_left_.size(); ++t) {
       if (!triangles_left_[t]) continue;
+      const std::uint32_t patch = patches.find(t);
+      const auto [known_patch, fresh_patch] = closed.try_emplace(patch, false);
+      if (fresh_patch) known_patch->second = !conditions.contains({patch});
+      if (!known_patch->second) continue;
       double sum = 0;
       for (const std::uint32_t v : sheet_.triangles[t]) sum += sheet_.vertices[v].erosion;
       const std::pair here{sum, t};
@@ -205,6 +253,18 @@ class Collapse {
     for (const auto& [piece, found] : least) remove_triangle(found.second);
     opened_ += static_cast<std::uint32_t>(least.size());
     return !least.empty();
+  }
+
+  // Calls visit(triangles) with those about each edge that are left, if there are any.
+  template <class Visit>
+  void for_each_left(const Visit& visit) const {
+    std::vector<std::uint32_t> round;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      round.clear();
+      for (const std::uint32_t t : triangles_of_[e])
+        if (triangles_left_[t]) round.push_back(t);
+      if (!round.empty()) visit(std::span<const std::uint32_t>(round));
+    }
   }
 
   void drop_centres_on_loops() {
@@ -246,7 +306,8 @@ class Collapse {
     return result;
   }
 
-  using Offer = std::pair<double, std::uint32_t>;  // time, edge
+  // When the triangle goes, which of its edges goes with it first, and that edge.
+  using Offer = std::tuple<double, double, std::uint32_t>;
 
   const SheetMesh& sheet_;
   ExecutionContext* context_;
@@ -257,7 +318,7 @@ class Collapse {
   Groups<std::uint32_t> triangles_of_, edges_round_;    // per edge, per vertex
   std::vector<char> triangles_left_, edge_left_;
   std::vector<std::uint32_t> cofaces_, edges_at_;  // that are left, per edge and per vertex
-  std::vector<double> depth_;
+  std::vector<double> time_;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> front_;
   std::vector<std::uint32_t> gone_, centres_;
   std::uint32_t opened_ = 0;

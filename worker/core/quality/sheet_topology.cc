@@ -1,16 +1,15 @@
-// b0 by union-find over the vertices that triangles and segments use; b2 is the dimension of the closed
+// b0 by union-find over the vertices; b2 is the dimension of the closed
 // surfaces modulo 2. Triangles joined through edges of exactly two are taken as one patch, so that b2 is the
 // number of patches less the rank of the conditions that rims and branches put on them; b1 follows from V - E
 // + F.
 #include "core/quality/sheet_topology.h"
 
 #include <algorithm>
-#include <iterator>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/parity_rows.h"
 #include "core/mesh/edges.h"
 
 namespace affskel::core {
@@ -18,29 +17,6 @@ namespace {
 
 using Segments = std::span<const Segment>;
 using Sides = std::span<const EdgeSide>;
-
-// A set of patches, ascending; sums are modulo 2.
-using PatchSet = std::vector<std::uint32_t>;
-
-PatchSet sum(const PatchSet& a, const PatchSet& b) {
-  PatchSet result;
-  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
-  return result;
-}
-
-std::uint64_t rank(std::vector<PatchSet> rows) {
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  std::map<std::uint32_t, PatchSet> reduced;  // by first member
-  for (PatchSet& row : rows) {
-    while (!row.empty()) {
-      const auto [place, is_new] = reduced.try_emplace(row.front(), row);
-      if (is_new) break;
-      row = sum(row, place->second);
-    }
-  }
-  return reduced.size();
-}
 
 class Sheet {
  public:
@@ -85,17 +61,8 @@ class Sheet {
   }
 
   void count_vertices() {
-    std::vector<bool> used(sheet_.points.size(), false);
-    for (const Triangle& t : sheet_.triangles) {
-      for (const std::uint32_t v : t) used[v] = true;
-    }
-    for (const auto& segment : segments_)
-      for (const std::uint32_t v : segment) used[v] = true;
-    for (std::uint32_t v = 0; v < used.size(); ++v) {
-      if (!used[v]) continue;
-      ++vertices_;
-      result_.betti.components += joined_.find(v) == v;  // joined only to vertices in use
-    }
+    vertices_ = static_cast<std::int64_t>(sheet_.points.size());
+    for (std::uint32_t v = 0; v < sheet_.points.size(); ++v) result_.betti.components += joined_.find(v) == v;
   }
 
   std::uint64_t count_rim_loops() {
@@ -117,17 +84,21 @@ class Sheet {
     });
     std::uint64_t closed = 0;
     for (std::uint32_t t = 0; t < open.size(); ++t) closed += patches_.find(t) == t && !open[t];
-    std::vector<PatchSet> conditions;
+    std::vector<ParityRow> conditions;
     edges_.for_each([&](std::uint32_t, std::uint32_t, Sides sides) {
       if (sides.size() <= 2) return;
-      PatchSet condition;
+      ParityRow condition;
       for (const EdgeSide& side : sides) {
         const std::uint32_t patch = patches_.find(side.triangle());
-        if (!open[patch]) condition = sum(condition, {patch});
+        if (!open[patch]) condition = parity_sum(condition, {patch});
       }
       if (!condition.empty()) conditions.push_back(std::move(condition));
     });
-    return closed - rank(std::move(conditions));
+    std::sort(conditions.begin(), conditions.end());
+    conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
+    ParityRows rows;
+    for (ParityRow& condition : conditions) rows.add(std::move(condition));
+    return closed - rows.rank();
   }
 
   const Mesh& sheet_;

@@ -16,7 +16,7 @@ struct SheetTopology {
   std::uint64_t branch_edges = 0;    ///< edges where more than two triangles meet
 };
 
-/// The topology of a sheet and its curves, from V - E + F = b0 - b1 + b2; b2 counts the voids that it
+/// The topology of a sheet and its curves (a vertex that neither uses is a piece of its own), from V - E + F = b0 - b1 + b2; b2 counts the voids that it
 /// encloses in space. Time O(F log F), and an elimination in the number of patches at branches.
 /// @param sheet triangles distinct, each with three distinct corners; orientation does not matter.
 /// @param segments of curves, two distinct vertices of the sheet each; they may run along its edges.

@@ -73,19 +73,6 @@ void add_distances(const Lattice& lattice, const std::vector<LatticePlace>& plac
   quality.hausdorff_back = 0;
 }
 
-// The vertices that triangles or segments use.
-std::vector<Vec3> used_vertices(const Mesh& mesh, Segments segments) {
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) used[corner] = true;
-  for (const auto& segment : segments)
-    for (const std::uint32_t end : segment) used[end] = true;
-  std::vector<Vec3> vertices;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (used[v]) vertices.push_back(mesh.points[v]);
-  return vertices;
-}
-
 }  // namespace
 
 SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, const OptimalDirections& optimal,
@@ -108,16 +95,14 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
 
 SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const Mesh& sheet,
                               const SheetQualityOptions& options) {
-  const std::vector<Vec3> vertices = used_vertices(sheet, options.segments);
   SkeletonQuality quality =
-      common_part(solid, lattice, options.points != nullptr ? *options.points : vertices);
+      common_part(solid, lattice, options.points != nullptr ? *options.points : sheet.points);
   if (options.other != nullptr) {
-    const std::vector<Vec3> other = used_vertices(*options.other, options.other_segments);
-    quality.hausdorff_there = farthest(vertices, other);
-    quality.hausdorff_back = farthest(other, vertices);
+    quality.hausdorff_there = farthest(sheet.points, options.other->points);
+    quality.hausdorff_back = farthest(options.other->points, sheet.points);
   }
   quality.skeleton = sheet_topology(sheet, options.segments).betti;
-  quality.mean_thickness = vertices.empty() ? 0 : 1;
+  quality.mean_thickness = sheet.points.empty() ? 0 : 1;
   quality.other_threshold = options.other_threshold;
   if (quality.points == 0) quality.advice = options.advice_if_empty;
   return quality;

@@ -55,7 +55,6 @@ struct SheetQualityOptions {
   Segments segments;            ///< of the sheet's curves
   double other_threshold = 0;   ///< that `other` was made with
   const Mesh* other = nullptr;  ///< the sheet at the next higher threshold; none: no Hausdorff distances
-  Segments other_segments;      ///< of its curves
   Advice advice_if_empty;       ///< see empty_sheet_advice
   const std::vector<Vec3>* points = nullptr;  ///< the shocks that the sheet was laid through, likewise in u
 };

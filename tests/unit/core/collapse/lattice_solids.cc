@@ -1,6 +1,5 @@
 #include "core/collapse/lattice_solids.h"
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -59,9 +58,6 @@ CellMesh mesh_of_cells(const DualComplex& complex, const CellSet& cells) {
     if (DualComplex::dimension(cell) == 3) ++result.cubes;
     if (DualComplex::dimension(cell) != 0) return;
     number.emplace(cell, static_cast<std::uint32_t>(number.size()));
-    const auto edges = complex.cofaces(cell);
-    result.lone_vertices +=
-        std::none_of(edges.begin(), edges.end(), [&](Cell edge) { return cells.has(edge); });
   });
   result.mesh.points.resize(number.size());
   cells.for_each([&](Cell cell) {

@@ -24,7 +24,6 @@ struct CellMesh {
   Mesh mesh;  ///< places in no coordinates: they tell nothing
   std::vector<Segment> segments;
   std::uint64_t cubes = 0;          ///< left out
-  std::uint64_t lone_vertices = 0;  ///< of no triangle and segment
 };
 CellMesh mesh_of_cells(const DualComplex& complex, const CellSet& cells);
 

@@ -54,9 +54,9 @@ void expect_topology(const Mesh& sheet, const BettiNumbers& betti, std::uint64_t
 TEST(SheetTopology, OfNothingAndOfATriangle) {
   expect_topology({}, {0, 0, 0}, 0, 0);
   Mesh lone;
-  lone.points.resize(5);  // two of them unused
+  lone.points.resize(5);  // two of them used by nothing: pieces of their own
   lone.triangles = {{1, 2, 4}};
-  expect_topology(lone, {1, 0, 0}, 1, 0);
+  expect_topology(lone, {3, 0, 0}, 1, 0);
 }
 
 TEST(SheetTopology, OfBands) {
@@ -106,13 +106,13 @@ BettiNumbers with_segments(const Mesh& sheet, const std::vector<std::array<std::
 TEST(SheetTopology, CountsCurves) {
   Mesh points;
   points.points.resize(6);
-  EXPECT_EQ(with_segments(points, {{0, 1}, {1, 2}, {4, 3}}), (BettiNumbers{2, 0, 0}));
-  EXPECT_EQ(with_segments(points, {{0, 1}, {1, 2}, {2, 0}, {0, 5}}), (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(with_segments(points, {{0, 1}, {1, 2}, {4, 3}}), (BettiNumbers{3, 0, 0}));
+  EXPECT_EQ(with_segments(points, {{0, 1}, {1, 2}, {2, 0}, {0, 5}}), (BettiNumbers{3, 1, 0}));
   // A handle on a triangle, a curve that hangs on another, and segments along an edge and given twice.
   Mesh two = points;
   two.triangles = {{0, 1, 2}};
   EXPECT_EQ(with_segments(two, {{2, 3}, {3, 4}, {4, 0}, {1, 5}}), (BettiNumbers{1, 1, 0}));
-  EXPECT_EQ(with_segments(two, {{1, 0}, {2, 3}, {3, 2}}), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(with_segments(two, {{1, 0}, {2, 3}, {3, 2}}), (BettiNumbers{3, 0, 0}));
   EXPECT_EQ(sheet_topology(two, std::vector<std::array<std::uint32_t, 2>>{{2, 3}}).boundary_loops, 1U);
   // Two spheres, joined by two curves.
   Mesh balls = joined(make_sphere(1, 20), make_sphere(1, 20));

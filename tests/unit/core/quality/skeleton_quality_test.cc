@@ -153,7 +153,6 @@ TEST(SheetQuality, CountsCurves) {
   const std::vector<std::array<std::uint32_t, 2>> one{{0, 1}};
   options.segments = one;
   options.other = &other;
-  options.other_segments = {};
   const SkeletonQuality alone = sheet_quality(block.normals.solid, block.normals.lattice, curve, options);
   EXPECT_EQ(alone.points, 2U);
   EXPECT_EQ(alone.mean_thickness, 1);

@@ -110,13 +110,22 @@ TEST(ParamsTest, OperatorsOtherThanTheFirstKeepTheirDefaultOpen) {
   EXPECT_NO_THROW(canonical(params)) << "an angle";
   params.set_threshold(801);
   EXPECT_THROW(canonical(params), std::invalid_argument) << "more than is counted";
+  params.set_operator_(v1::OPERATOR_CURVE);
+  for (const double threshold : {0.0, 0.9, 1000.0}) {
+    params.set_threshold(threshold);
+    EXPECT_NO_THROW(canonical(params)) << "radii";
+  }
+  for (const double threshold : {0.89, 1001.0}) {
+    params.set_threshold(threshold);
+    EXPECT_THROW(canonical(params), std::invalid_argument) << threshold;
+  }
   params.set_threshold(0);
   params.set_operator_(static_cast<v1::Operator>(99));
   EXPECT_THROW(canonical(params), std::invalid_argument);
 }
 
 TEST(ParamsTest, SheetsHaveNoAlpha) {
-  for (const v1::Operator which : {v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE}) {
+  for (const v1::Operator which : {v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE, v1::OPERATOR_CURVE}) {
     v1::SurfaceParams params;
     params.mutable_skeleton()->set_operator_(which);
     EXPECT_NO_THROW(canonical(params));
@@ -132,6 +141,10 @@ TEST(ParamsTest, BarriersAreForSheets) {
   points.set_barrier(false);
   points.set_min_barrier(0.1);
   EXPECT_THROW(canonical(points), std::invalid_argument);
+  sheet.set_barrier(true);
+  sheet.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  EXPECT_THROW(canonical(sheet), std::invalid_argument) << "lines have no two sides";
+  sheet.set_barrier(false);
   sheet.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   const std::string plain = cache_key(canonical(sheet));
   sheet.set_min_barrier(-0.0);

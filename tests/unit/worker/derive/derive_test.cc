@@ -47,7 +47,8 @@ class DeriveTest : public ::testing::Test {
 };
 
 TEST_F(DeriveTest, StopsWhereverItIsAsked) {
-  for (const v1::Operator which : {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE}) {
+  for (const v1::Operator which :
+       {v1::OPERATOR_ZUCKER_HUMMEL, v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE, v1::OPERATOR_CURVE}) {
     for (const v1::TaskKind kind : {v1::TASK_KIND_SKELETON, v1::TASK_KIND_SURFACE}) {
       v1::Lease lease = lease_of(kind);
       lease.mutable_skeleton()->set_operator_(which);
@@ -185,6 +186,43 @@ TEST(DeriveRidge, NamesTheEndsThatTheLatticeIsTooCoarseFor) {
   EXPECT_GT(quality.unreached(0).size(), 600);
   EXPECT_LT(quality.unreached(0).size(), 900);
   EXPECT_EQ(quality.tunnels_size(), 0);
+}
+
+// One line round, whose quality tells of the curve and of the lattice.
+TEST(DeriveCurve, OfATorusIsItsCircle) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
+  const PreparedJob prepared(sample_mesh(), params);
+  const std::string field = finished_field(prepared);
+  v1::Lease of_points = lease_of(v1::TASK_KIND_SKELETON);
+  of_points.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  const auto points = parsed<v1::SkeletonPoints>(derive(of_points, prepared, field));
+  const v1::SkeletonQuality& quality = points.quality();
+  EXPECT_EQ(quality.threshold(), 0.9);
+  EXPECT_EQ(quality.components(), 1U);
+  EXPECT_EQ(quality.holes(), 1U);
+  EXPECT_EQ(quality.lattice().holes(), 1U);
+  EXPECT_EQ(quality.branches(), 1U);
+  EXPECT_EQ(quality.ends(), 0U);
+  EXPECT_EQ(quality.opened(), 0U);
+  EXPECT_EQ(quality.inside_share(), 1);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  const v1::TriangleMesh lines = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
+  const int vertices = lines.xyz_size() / 3;
+  ASSERT_EQ(vertices, points.point_size());
+  EXPECT_EQ(lines.corners_size(), 0);
+  EXPECT_EQ(lines.segments_size(), 2 * vertices) << "a loop";
+  ASSERT_EQ(lines.erosion_size(), vertices);
+  ASSERT_EQ(lines.area_size(), vertices);
+  ASSERT_EQ(lines.distance_size(), vertices);
+  ASSERT_EQ(lines.beyond_size(), vertices);
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_LT(std::abs(lines.xyz(3 * v + 2)), 0.1 * prepared.lattice().spacing);
+    EXPECT_GT(lines.distance(v), 2 * prepared.lattice().spacing);
+    EXPECT_LT(lines.beyond(v), 0.1);
+    EXPECT_GT(lines.erosion(v), 0);
+  }
 }
 
 TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {

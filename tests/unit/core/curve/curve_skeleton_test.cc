@@ -1,0 +1,193 @@
+#include "core/curve/curve_skeleton.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/chords/chord_fields.h"
+#include "core/collapse/lattice_solids.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/quality/sheet_topology.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/betti_numbers.h"
+#include "core/solid/solid_membership.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+// Of a solid in a lattice of cubes.
+class Curved {
+ public:
+  Curved(const Mesh& mesh, double h, const std::string& directions)
+      : solid_(mesh, {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}}, directions),
+        basis_(ridge_basis(solid_.lattice, solid_.field)) {
+    RidgeSheetOptions options;
+    options.basis = &basis_;
+    ridge_ = ridge_sheet(solid_.solid, solid_.lattice, solid_.field, options);
+  }
+
+  CurveSkeleton at(double least_reach = CurveOptions().least_reach) const {
+    CurveOptions options;
+    options.least_reach = least_reach;
+    return curve_skeleton(solid_.solid, solid_.lattice, basis_, ridge_, options);
+  }
+  Vec3 place(const SheetVertex& vertex) const { return solid_.place(vertex.position); }
+  const RidgeSheet& ridge() const { return ridge_; }
+  const ErodedSolid& solid() const { return solid_; }
+
+ private:
+  ErodedSolid solid_;
+  RidgeBasis basis_;
+  RidgeSheet ridge_;
+};
+
+BettiNumbers betti(const SheetMesh& curve) {
+  return sheet_topology(mesh_of(curve), curve.segments).betti;
+}
+
+double length_of(const SheetMesh& curve) {
+  double sum = 0;
+  for (const auto& [a, b] : curve.segments)
+    sum += norm(curve.vertices[a].position - curve.vertices[b].position);
+  return sum;
+}
+
+// E is least at the ends, the volume beyond grows along the axis, the distance is that to the wall or the end.
+TEST(CurveSkeleton, OfACylinderIsItsAxis) {
+  const double h = 0.1;
+  const Curved cylinder(make_cylinder(1, 6, 32), h, "triangles+sphere:320");
+  const CurveSkeleton curve = cylinder.at();
+  EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(curve.branches, 1U);
+  EXPECT_EQ(curve.ends, 2U);
+  EXPECT_TRUE(curve.triangles.empty());
+  double low = 6, high = 0;
+  for (std::size_t v = 0; v < curve.vertices.size(); ++v) {
+    const Vec3 at = cylinder.place(curve.vertices[v]);
+    EXPECT_LT(std::hypot(at.x, at.y), 0.5 * h);
+    EXPECT_NEAR(curve.distance[v], std::min({std::cos(std::numbers::pi / 32), at.z, 6 - at.z}), 0.5 * h);
+    const double end = std::min(at.z, 6 - at.z);
+    if (end > 1.2) {
+      EXPECT_NEAR(curve.beyond[v], end / 6, 1.5 * h / 6);
+    }
+    low = std::min(low, at.z);
+    high = std::max(high, at.z);
+  }
+  EXPECT_LT(low, 1);
+  EXPECT_GT(high, 5);
+  EXPECT_NEAR(length_of(curve), high - low, 0.5 * h);
+}
+
+TEST(CurveSkeleton, OfATorusIsACircle) {
+  const double h = 2.0 / 12;
+  const Curved torus(make_torus(3, 1, 1024), h, "triangles");
+  const CurveSkeleton curve = torus.at();
+  EXPECT_EQ(betti(curve), (BettiNumbers{1, 1, 0}));
+  EXPECT_EQ(curve.branches, 1U);
+  EXPECT_EQ(curve.ends, 0U);
+  double mean = 0;
+  for (std::size_t v = 0; v < curve.vertices.size(); ++v) {
+    const Vec3 at = torus.place(curve.vertices[v]);
+    EXPECT_NEAR(at.z, 0, 0.1 * h);
+    mean += std::hypot(at.x, at.y) / static_cast<double>(curve.vertices.size());
+    EXPECT_LT(curve.beyond[v], 0.05);  // a loop is not parted
+  }
+  EXPECT_NEAR(length_of(curve), 2 * std::numbers::pi * mean, 2 * h);
+}
+
+TEST(CurveSkeleton, OfABallIsAPlace) {
+  const Curved ball(make_sphere(1, 320), 0.1, "sphere:320");
+  const CurveSkeleton curve = ball.at();
+  ASSERT_EQ(curve.vertices.size(), 1U);
+  EXPECT_TRUE(curve.segments.empty());
+  EXPECT_LT(norm(ball.place(curve.vertices[0])), 0.15);
+  EXPECT_NEAR(curve.beyond[0], 0.5, 1e-9);
+}
+
+// The closed sheet round a cavity has no line.
+TEST(CurveSkeleton, OfAHollowBallIsOpened) {
+  const Curved ball(hollow_ball(), 0.4, "sphere:80");
+  ASSERT_EQ(ball.ridge().lattice.cavities, 1U);
+  const CurveSkeleton curve = ball.at();
+  EXPECT_EQ(curve.opened, 1U);
+  EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
+}
+
+TEST(CurveSkeleton, HasThePiecesAndTunnelsOfTheRidge) {
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    const Curved solid(random_solid(seed), 0.13, "sphere:80");
+    const CurveSkeleton curve = solid.at();
+    const BettiNumbers found = betti(curve), ridge = solid.ridge().lattice;
+    EXPECT_EQ(found.components + solid.ridge().fragments, ridge.components) << seed;
+    EXPECT_EQ(found.holes, ridge.holes) << seed;
+    const SolidMembership membership(solid.solid().solid.mesh);
+    const Lattice& lattice = solid.solid().lattice;
+    for (const SheetVertex& v : curve.vertices)
+      EXPECT_TRUE(membership.contains(scaled_place(lattice, (1 / lattice.spacing) * v.position), 1e-9));
+    double weight = 0;
+    for (const std::uint32_t vertex : curve.nearest) weight += vertex != DualComplex::kNone;
+    EXPECT_GE(weight, 0.95 * lattice.points);  // the rest are fragments
+  }
+}
+
+// Head, hands and feet at least; of a higher threshold fewer, and no others.
+TEST(CurveSkeleton, OfABodyHasAnEndInEveryLimb) {
+  const Mesh mesh = make_body({.triangles = 1000});
+  Vec3 low = mesh.points[0], high = mesh.points[0];
+  for (const Vec3& p : mesh.points) {
+    low = {std::min(low.x, p.x), 0, std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), 0, std::max(high.z, p.z)};
+  }
+  const double height = high.z - low.z;
+  const Curved body(mesh, height / 150, "triangles");
+  const auto ends_at = [&](double least_reach) {
+    const CurveSkeleton curve = body.at(least_reach);
+    EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
+    std::vector<int> degree(curve.vertices.size(), 0);
+    for (const Segment& segment : curve.segments)
+      for (const std::uint32_t v : segment) ++degree[v];
+    std::vector<Vec3> ends;
+    for (std::size_t v = 0; v < degree.size(); ++v)
+      if (degree[v] == 1) ends.push_back(body.place(curve.vertices[v]));
+    EXPECT_EQ(ends.size(), curve.ends);
+    return ends;
+  };
+  const auto near = [&](const std::vector<Vec3>& ends, double x, double z) {
+    return std::any_of(ends.begin(), ends.end(),
+                       [&](const Vec3& at) { return std::hypot(at.x - x, at.z - z) < 0.1 * height; });
+  };
+  const std::vector<Vec3> all = ends_at(0.9), long_ones = ends_at(4);
+  const double foot = 0.1 * height;
+  for (const std::vector<Vec3>* ends : {&all, &long_ones}) {
+    EXPECT_TRUE(near(*ends, foot, low.z));
+    EXPECT_TRUE(near(*ends, -foot, low.z));
+    EXPECT_TRUE(std::any_of(ends->begin(), ends->end(),
+                            [&](const Vec3& at) { return high.x - at.x < 0.06 * height; }));
+    EXPECT_TRUE(std::any_of(ends->begin(), ends->end(),
+                            [&](const Vec3& at) { return at.x - low.x < 0.06 * height; }));
+  }
+  EXPECT_TRUE(near(all, 0, high.z - 0.08 * height));
+  EXPECT_GE(all.size(), 5U);
+  EXPECT_EQ(long_ones.size(), 4U);
+  for (const Vec3& end : long_ones)
+    EXPECT_TRUE(
+        std::any_of(all.begin(), all.end(), [&](const Vec3& other) { return norm(other - end) < 1e-9; }));
+}
+
+TEST(CurveSkeleton, RefusesALengthThatIsNone) {
+  const Curved box(make_box(4, 2, 1), 0.25, "sphere:80");
+  for (const double reach : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(box.at(reach), CoreError);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/base/vec3.h"
+#include "core/mesh/mesh.h"
+#include "core/spatial/box_tree.h"
+
+namespace affskel::core {
+
+/// The distance from any place to the surface of a mesh.  Keeps a reference to the mesh.  Immutable after
+/// construction; queries from several threads are safe.
+class DistanceToMesh {
+ public:
+  /// O(N log N).  @param mesh of one triangle at least.
+  explicit DistanceToMesh(const Mesh& mesh);
+
+  /// To the nearest point of a triangle, in the mesh's unit.
+  double nearest(const Vec3& place) const;
+
+ private:
+  const Mesh& mesh_;
+  BoxTree tree_;
+};
+
+/// The squared distance from a place to a triangle, its inside and its sides (Ericson, Real-Time Collision
+/// Detection, 2005, 5.1.5).
+double squared_distance(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace affskel::core

@@ -1,0 +1,60 @@
+#include "derive/ridge_of_field.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace affskel::worker {
+namespace {
+
+constexpr std::size_t kMaxNamed = 8;
+
+void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message) {
+  message.set_x(place.x);
+  message.set_y(place.y);
+  message.set_z(place.z);
+  message.set_size(size);
+}
+
+}  // namespace
+
+RidgeOfField::RidgeOfField(const FinishedField& field)
+    : field_(field),
+      in_frame_(field.in_frame()),
+      basis_(core::ridge_basis(field.lattice(), in_frame_, field.threads(), field.context())) {}
+
+core::RidgeSheet RidgeOfField::sheet(double threshold) const {
+  core::RidgeSheetOptions options;
+  options.context = field_.context();
+  options.bounds = ridge_bounds(threshold);
+  options.basis = &basis_;
+  return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
+}
+
+void RidgeOfField::tell_of_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const {
+  v1::LatticeTopology& lattice = *message.mutable_lattice();
+  lattice.set_components(sheet.lattice.components);
+  lattice.set_holes(sheet.lattice.holes);
+  lattice.set_cavities(sheet.lattice.cavities);
+  message.set_fragments(sheet.fragments);
+  message.set_limbs(sheet.limbs);
+  message.set_unreached_ends(static_cast<std::uint32_t>(sheet.unreached.size()));
+  for (std::size_t n = 0; n < std::min(kMaxNamed, sheet.unreached.size()); ++n)
+    set_place(sheet.unreached[n].place, sheet.unreached[n].distance, *message.add_unreached());
+  const auto solid = static_cast<std::uint64_t>(message.solid_genus());
+  const std::uint64_t more = sheet.lattice.holes - std::min(sheet.lattice.holes, solid);
+  for (std::size_t n = 0; n < std::min<std::size_t>(more, basis_.loops.size()); ++n)
+    set_place(field_.to_mesh(basis_.loops[n].place), basis_.loops[n].size * field_.lattice().spacing,
+              *message.add_tunnels());
+}
+
+core::RidgeBounds ridge_bounds(double threshold) {
+  core::RidgeBounds bounds;
+  if (threshold != 0) {
+    // The two keep their ratio.
+    bounds.high *= threshold / bounds.low;
+    bounds.low = threshold;
+  }
+  return bounds;
+}
+
+}  // namespace affskel::worker

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "affskel/v1/types.pb.h"
+#include "core/erosion/frame_field.h"
+#include "core/ridge/ridge_sheet.h"
+#include "derive/finished_field.h"
+
+namespace affskel::worker {
+
+/// The ridge of a field, at any threshold.  Keeps a reference to the field.
+class RidgeOfField {
+ public:
+  explicit RidgeOfField(const FinishedField& field);
+
+  const core::FrameField& in_frame() const { return in_frame_; }
+  const core::RidgeBasis& basis() const { return basis_; }
+
+  /// @param threshold as in SkeletonParams: 0 for the default.
+  core::RidgeSheet sheet(double threshold) const;
+
+  /// What the report of a skeleton on this ridge tells of the lattice: its topology, and where it is too coarse for
+  /// the solid, so that the skeleton lacks or adds something.
+  void tell_of_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const;
+
+ private:
+  const FinishedField& field_;
+  const core::FrameField in_frame_;
+  const core::RidgeBasis basis_;
+};
+
+/// The bounds that a threshold stands for.
+core::RidgeBounds ridge_bounds(double threshold);
+
+}  // namespace affskel::worker
