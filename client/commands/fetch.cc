@@ -39,12 +39,14 @@ void add_fetch(CommandLine& line) {
       "fetch", "Write one artefact of a job",
       "  affskel-client fetch @last field -o body.vti\n"
       "  affskel-client fetch @last skeleton -o body.csv\n"
+      "  affskel-client fetch @last curve -o limbs.json\n"
       "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
       "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
       "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
       "Formats by extension: field and divergence .csv .dat .vti .vts .vtkhdf .hdf;\n"
       "skeleton and eroded points .csv .ply .off .xyz .vtp; mesh, surface and eroded\n"
-      "surface .off .ply .obj .stl .vtp, where the mesh as .off is the submitted bytes.\n"
+      "surface .off .ply .obj .stl .vtp, where the mesh as .off is the submitted bytes;\n"
+      "curve .vtp .obj .ply, as a graph .json .graphml, as trees .swc.\n"
       ".vti and .vts open in every ParaView, .vts also where the lattice is turned.\n"
       "Of an eroded solid this is the one at a tenth of the volume; see erode",
       [options](Context& context) { run_fetch(context, *options); }, check_options);

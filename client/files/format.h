@@ -9,6 +9,7 @@
 
 namespace affskel::client {
 
+using core::curve_formats;
 using core::extension_of;
 using core::field_formats;
 using core::FileFormat;

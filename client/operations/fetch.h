@@ -31,7 +31,7 @@ struct FetchRequest {
 /// An artefact of a job that was written into a file.
 struct Fetched {
   Destination destination;
-  std::string artifact;        ///< "field", "divergence", "skeleton", "surface", "eroded", "mesh"
+  std::string artifact;        ///< "field", "divergence", "skeleton", "surface", "curve", "eroded", "mesh"
   std::string unit;            ///< what is counted: "point", "triangle" or "byte"
   std::uint64_t items = 0;     ///< how many
   v1::Job job;                 ///< as the server sent it along
@@ -43,7 +43,7 @@ struct Fetched {
   Notices notices = {};  ///< that it is empty and why, and what the format does not hold
 };
 
-/// What can be fetched: "field", "divergence", "skeleton", "surface", "eroded", "mesh".
+/// What can be fetched: "field", "divergence", "skeleton", "surface", "curve", "eroded", "mesh".
 std::vector<std::string> artifact_names();
 
 /// The formats of an artefact, as extensions with the dot, each once; the first is a good one to begin with.

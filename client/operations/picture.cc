@@ -25,17 +25,18 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
   return cell;
 }
 
-std::string curves_text(const v1::TriangleMesh& sheet) {
-  if (sheet.segments().empty()) return {};
-  return " and " + base::counted(sheet.segments_size() / 2, "segment") + " of curves";
+std::string sheet_text(const v1::TriangleMesh& sheet) {
+  const std::string curves = base::counted(sheet.segments_size() / 2, "segment") + " of curves";
+  if (sheet.corners().empty() && !sheet.segments().empty()) return curves;
+  const std::string triangles = "sheet of " + base::counted(sheet.corners_size() / 3, "triangle");
+  return sheet.segments().empty() ? triangles : triangles + " and " + curves;
 }
 
 // The skeleton, and by which parameters.
 std::string shown_text(const RenderInput& input, const v1::SkeletonParams& params) {
-  const std::string skeleton =
-      wire::gives_sheet(params.operator_())
-          ? "sheet of " + base::counted(input.sheet.corners_size() / 3, "triangle") + curves_text(input.sheet)
-          : base::counted(input.skeleton.point_size(), "skeleton point");
+  const std::string skeleton = wire::gives_sheet(params.operator_())
+                                   ? sheet_text(input.sheet)
+                                   : base::counted(input.skeleton.point_size(), "skeleton point");
   return skeleton + " (" + skeleton_params_text(params) + ")";
 }
 

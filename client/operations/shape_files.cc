@@ -238,6 +238,25 @@ Fetched fetch_surface(Session& session, const FetchRequest& request) {
   return fetched;
 }
 
+Fetched fetch_curve(Session& session, const FetchRequest& request) {
+  ShapeOutput output(request.destination, curve_formats(), "curve skeleton");
+  v1::FetchArtifactRequest asked = request_for(request.job, v1::ARTIFACT_KIND_SURFACE);
+  v1::SkeletonParams& params = *asked.mutable_surface()->mutable_skeleton();
+  params.set_operator_(v1::OPERATOR_CURVE);
+  v1::ArtifactHeader header;
+  const FetchedSurface curve = parse_surface(fetch_patiently(session, asked, header, "curve skeleton"));
+  output.write(write_curve, curve.shape, header.job(), "curve skeleton", "operator",
+               skeleton_params_text(params), &curve.quality);
+  Fetched fetched{request.destination, "curve", "segment", curve.shape.segments.size(), header.job()};
+  fetched.quality = curve.quality;
+  if (fetched.items == 0) fetched.notices.push_back(empty_surface(&curve.quality));
+  if (output.format() == FileFormat::kSwc && curve.quality.holes() > 0)
+    fetched.notices.push_back(warning(
+        "CUT_LOOPS",
+        ".swc holds trees: " + base::counted(curve.quality.holes(), "loop") + " cut where it closes"));
+  return fetched;
+}
+
 Fetched fetch_eroded(Session& session, const FetchRequest& request) {
   return wants_surface(request) ? fetch_eroded_solid(session, request)
                                 : fetch_eroded_points(session, request);

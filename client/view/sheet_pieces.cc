@@ -65,7 +65,8 @@ SheetPieces sheet_pieces(const v1::TriangleMesh& sheet) {
   std::vector<std::uint32_t> number(weights.size(), 0);
   for (std::size_t p = 0; p < heaviest.size(); ++p) {
     number[heaviest[p]] = static_cast<std::uint32_t>(p);
-    pieces.shares.push_back(whole > 0 ? weights[heaviest[p]] / whole : 0);
+    // Ways have no strength: where there is nothing else, all pieces count alike.
+    pieces.shares.push_back(whole > 0 ? weights[heaviest[p]] / whole : 1);
   }
   for (const std::uint32_t root : roots) pieces.piece.push_back(number[root]);
   return pieces;

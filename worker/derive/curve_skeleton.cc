@@ -16,7 +16,7 @@ class Curves {
  public:
   explicit Curves(const FinishedField& field) : field_(field), ridge_(field), sheet_(ridge_.sheet(0)) {}
 
-  const core::FrameField& in_frame() const { return ridge_.in_frame(); }
+  const RidgeOfField& ridge() const { return ridge_; }
 
   core::CurveSkeleton at(double threshold) const {
     core::CurveOptions options;
@@ -68,14 +68,7 @@ v1::SkeletonPoints curve_skeleton(const FinishedField& field, const v1::Skeleton
   const Curves curves(field);
   const core::CurveSkeleton curve = curves.at(threshold_of(params));
   v1::SkeletonPoints message;
-  for (const core::SheetVertex& vertex : curve.vertices) {
-    message.add_point(vertex.point);
-    append(field.to_mesh(vertex.position), message.mutable_xyz());
-    message.add_erosion(vertex.erosion);
-    append(field.normal(vertex.point), message.mutable_normal());
-    message.add_direction(curves.in_frame().direction[vertex.point]);
-    message.add_divergence(vertex.strength);
-  }
+  curves.ridge().append_points(curve, message);
   *message.mutable_quality() = curves.quality_of(curve, threshold_of(params));
   return message;
 }
@@ -85,16 +78,11 @@ v1::TriangleMesh curve_lines(const FinishedField& field, const v1::SurfaceParams
   const Curves curves(field);
   const core::CurveSkeleton curve = curves.at(threshold);
   v1::TriangleMesh message;
-  for (const core::SheetVertex& vertex : curve.vertices) {
-    append(field.to_mesh(vertex.position), message.mutable_xyz());
-    message.add_erosion(vertex.erosion);
-    message.add_area(vertex.area);
-  }
+  append_vertices(field, curve, message);
   message.mutable_distance()->Add(curve.distance.begin(), curve.distance.end());
+  message.mutable_share()->Add(curve.share.begin(), curve.share.end());
   message.mutable_beyond()->Add(curve.beyond.begin(), curve.beyond.end());
-  for (const core::Segment& segment : curve.segments) {
-    for (const std::uint32_t end : segment) message.add_segments(end);
-  }
+  append_segments(curve, message);
   *message.mutable_quality() = curves.quality_of(curve, threshold);
   return message;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "derive/messages.h"
+
 namespace affskel::worker {
 namespace {
 
@@ -36,7 +38,6 @@ void RidgeOfField::tell_of_lattice(const core::RidgeSheet& sheet, v1::SkeletonQu
   lattice.set_holes(sheet.lattice.holes);
   lattice.set_cavities(sheet.lattice.cavities);
   message.set_fragments(sheet.fragments);
-  message.set_limbs(sheet.limbs);
   message.set_unreached_ends(static_cast<std::uint32_t>(sheet.unreached.size()));
   for (std::size_t n = 0; n < std::min(kMaxNamed, sheet.unreached.size()); ++n)
     set_place(sheet.unreached[n].place, sheet.unreached[n].distance, *message.add_unreached());
@@ -45,6 +46,36 @@ void RidgeOfField::tell_of_lattice(const core::RidgeSheet& sheet, v1::SkeletonQu
   for (std::size_t n = 0; n < std::min<std::size_t>(more, basis_.loops.size()); ++n)
     set_place(field_.to_mesh(basis_.loops[n].place), basis_.loops[n].size * field_.lattice().spacing,
               *message.add_tunnels());
+}
+
+void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {
+  for (const core::SheetVertex& vertex : skeleton.vertices) {
+    message.add_point(vertex.point);
+    append(field_.to_mesh(vertex.position), message.mutable_xyz());
+    message.add_erosion(vertex.erosion);
+    append(field_.normal(vertex.point), message.mutable_normal());
+    message.add_direction(in_frame_.direction[vertex.point]);
+    message.add_divergence(vertex.strength);
+  }
+}
+
+void append_vertices(const FinishedField& field, const core::SheetMesh& skeleton, v1::TriangleMesh& message) {
+  for (const core::SheetVertex& vertex : skeleton.vertices) {
+    append(field.to_mesh(vertex.position), message.mutable_xyz());
+    message.add_erosion(vertex.erosion);
+    message.add_strength(vertex.strength);
+    message.add_ratio(vertex.ratio);
+    message.add_kind(static_cast<std::uint32_t>(vertex.kind));
+    message.add_area(vertex.area);
+    append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
+    append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());
+  }
+}
+
+void append_segments(const core::SheetMesh& skeleton, v1::TriangleMesh& message) {
+  for (const core::Segment& segment : skeleton.segments) {
+    for (const std::uint32_t end : segment) message.add_segments(end);
+  }
 }
 
 core::RidgeBounds ridge_bounds(double threshold) {

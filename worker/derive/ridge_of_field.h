@@ -12,11 +12,13 @@ class RidgeOfField {
  public:
   explicit RidgeOfField(const FinishedField& field);
 
-  const core::FrameField& in_frame() const { return in_frame_; }
   const core::RidgeBasis& basis() const { return basis_; }
 
   /// @param threshold as in SkeletonParams: 0 for the default.
   core::RidgeSheet sheet(double threshold) const;
+
+  /// The vertices of a skeleton on it.
+  void append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const;
 
   /// What the report of a skeleton on this ridge tells of the lattice: its topology, and where it is too coarse for
   /// the solid, so that the skeleton lacks or adds something.
@@ -27,6 +29,11 @@ class RidgeOfField {
   const core::FrameField in_frame_;
   const core::RidgeBasis basis_;
 };
+
+/// The vertices of a skeleton on a ridge with all that they have.
+void append_vertices(const FinishedField& field, const core::SheetMesh& skeleton, v1::TriangleMesh& message);
+
+void append_segments(const core::SheetMesh& skeleton, v1::TriangleMesh& message);
 
 /// The bounds that a threshold stands for.
 core::RidgeBounds ridge_bounds(double threshold);

@@ -31,6 +31,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(low);
   ridge.tell_of_lattice(sheet, message);
+  message.set_limbs(sheet.limbs);
   return message;
 }
 
@@ -40,14 +41,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
   const RidgeOfField ridge(field);
   const core::RidgeSheet sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
-  for (const core::SheetVertex& vertex : sheet.vertices) {
-    message.add_point(vertex.point);
-    append(field.to_mesh(vertex.position), message.mutable_xyz());
-    message.add_erosion(vertex.erosion);
-    append(field.normal(vertex.point), message.mutable_normal());
-    message.add_direction(ridge.in_frame().direction[vertex.point]);
-    message.add_divergence(vertex.strength);
-  }
+  ridge.append_points(sheet, message);
   *message.mutable_quality() = quality_of(field, ridge, sheet, params.threshold());
   return message;
 }
@@ -58,21 +52,10 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   core::RidgeSheet sheet = ridge.sheet(threshold);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
-  for (const core::SheetVertex& vertex : sheet.vertices) {
-    append(field.to_mesh(vertex.position), message.mutable_xyz());
-    message.add_erosion(vertex.erosion);
-    message.add_strength(vertex.strength);
-    message.add_ratio(vertex.ratio);
-    message.add_kind(static_cast<std::uint32_t>(vertex.kind));
-    message.add_area(vertex.area);
-    append(field.normal_to_mesh(vertex.normal_a), message.mutable_normal_a());
-    append(field.normal_to_mesh(vertex.normal_b), message.mutable_normal_b());
-  }
+  append_vertices(field, sheet, message);
   message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
-  for (const core::Segment& segment : sheet.segments) {
-    for (const std::uint32_t end : segment) message.add_segments(end);
-  }
+  append_segments(sheet, message);
   *message.mutable_quality() = quality_of(field, ridge, sheet, threshold, barriers);
   return message;
 }

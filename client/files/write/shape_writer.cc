@@ -120,6 +120,20 @@ void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<
   }
 }
 
+void write_curve(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
+                 const WriteBytes& write) {
+  switch (format) {
+    case FileFormat::kJson:
+      return write_curve_json(shape, comments, write);
+    case FileFormat::kGraphMl:
+      return write_curve_graphml(shape, comments, write);
+    case FileFormat::kSwc:
+      return write_swc(shape, comments, write);
+    default:
+      return write_surface(format, shape, comments, write);
+  }
+}
+
 void write_shape(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                  const WriteBytes& write) {
   if (shape.is_surface()) return write_surface(format, shape, comments, write);

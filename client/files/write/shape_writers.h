@@ -28,4 +28,10 @@ void write_stl(const core::Mesh& mesh, const std::vector<std::string>& comments,
 void write_vtp(const ShapeFile& shape, const std::vector<PointColumn>& columns,
                const std::vector<std::string>& comments, const WriteBytes& write);
 
+void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& comments,
+                      const WriteBytes& write);
+void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>& comments,
+                         const WriteBytes& write);
+void write_swc(const ShapeFile& shape, const std::vector<std::string>& comments, const WriteBytes& write);
+
 }  // namespace affskel::client

@@ -201,8 +201,8 @@ class Surface:
         attributes: arrays by vertex.  Sheets of "chords" and "ridge" have E, strength (0 .. 1; of "ridge" radians per
             depth), area of the optimal sections, normal_a and normal_b (n, 3) of the two sides, that of "ridge" also
             the ratio of its two curvatures and the kind (0 ridge surface, 1 ridge curve, 2 membrane, 3 way); both have the barrier where it was asked for.  Eroded solids have E and
-            area; "curve" has E, area, distance (to the solid's surface) and beyond (the share of the volume that a cut
-            there parts from the rest); alpha shapes have none, the points that they are made of carry them (`Job.skeleton_points`).
+            area; "curve" has E, area, distance (to the solid's surface), share (of the volume, what is nearest to the
+            vertex) and beyond (what a cut there parts from the rest); alpha shapes have none, the points that they are made of carry them (`Job.skeleton_points`).
         quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
         segments: (k, 2) indices of vertices: all of "curve", of "ridge" in the middle of limbs and between its parts;
@@ -299,7 +299,8 @@ def surface_of(message: types.TriangleMesh) -> Surface:
         raise InternalError("the server sent a damaged surface: segments out of range")
     arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "ratio": _doubles(message.ratio),
               "kind": _wholes(message.kind), "barrier": _doubles(message.barrier),
-              "area": _doubles(message.area), "distance": _doubles(message.distance), "beyond": _doubles(message.beyond),
+              "area": _doubles(message.area), "distance": _doubles(message.distance), "share": _doubles(message.share),
+              "beyond": _doubles(message.beyond),
               "normal_a": _doubles(message.normal_a, 3),
               "normal_b": _doubles(message.normal_b, 3)}
     attributes = {name: array for name, array in arrays.items() if len(array)}

@@ -109,10 +109,10 @@ void measure(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis
     seeds.push_back({vertex.point, basis.radius[vertex.point]});
   }
   curve.nearest = realms(basis.complex, seeds, context);
-  std::vector<double> weight(curve.vertices.size(), 0);
+  curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
-    if (vertex != DualComplex::kNone) weight[vertex] += 1 / static_cast<double>(lattice.points);
-  curve.beyond = volume_beyond(curve.segments, weight);
+    if (vertex != DualComplex::kNone) curve.share[vertex] += 1 / static_cast<double>(lattice.points);
+  curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct CurveOptions {
 /// Lines through the limbs of a solid: vertices and segments, no triangle.
 struct CurveSkeleton : SheetMesh {
   std::vector<double> distance;  ///< per vertex: to the surface of the solid, mesh units
+  std::vector<double> share;     ///< per vertex: of all sample points, those nearest to it, see realms()
   std::vector<double> beyond;    ///< per vertex: share of all sample points; see volume_beyond()
   std::vector<std::uint32_t>
       nearest;                 ///< per sample point: a vertex, see realms(); kNone where no line leads

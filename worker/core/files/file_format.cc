@@ -12,6 +12,8 @@ constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat
                                   FileFormat::kVtp};
 constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
                                  FileFormat::kVtp};
+constexpr std::array kCurve = {FileFormat::kVtp,  FileFormat::kObj,     FileFormat::kPly,
+                               FileFormat::kJson, FileFormat::kGraphMl, FileFormat::kSwc};
 
 }  // namespace
 
@@ -27,10 +29,14 @@ std::span<const FileFormat> surface_formats() {
   return kSurface;
 }
 
+std::span<const FileFormat> curve_formats() {
+  return kCurve;
+}
+
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 15> kNames = {".csv", ".dat", ".vti", ".vts", ".vtkhdf",
-                                                       ".hdf", ".ply", ".off", ".xyz", ".obj",
-                                                       ".stl", ".vtp", ".png", ".svg", ".html"};
+  constexpr std::array<std::string_view, 18> kNames = {".csv", ".dat", ".vti",  ".vts",  ".vtkhdf",  ".hdf",
+                                                       ".ply", ".off", ".xyz",  ".obj",  ".stl",     ".vtp",
+                                                       ".png", ".svg", ".html", ".json", ".graphml", ".swc"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -20,13 +20,18 @@ enum class FileFormat {
   kVtp,
   kPng,
   kSvg,
-  kHtml
+  kHtml,
+  kJson,
+  kGraphMl,
+  kSwc
 };
 
 /// What can be written as which formats.
 std::span<const FileFormat> field_formats();     // csv dat vti vts vtkhdf hdf
 std::span<const FileFormat> skeleton_formats();  // csv ply off xyz vtp
 std::span<const FileFormat> surface_formats();   // off ply obj stl vtp
+
+std::span<const FileFormat> curve_formats();  // vtp obj ply json graphml swc
 
 /// With the dot, e.g. ".csv".
 std::string_view extension_of(FileFormat format);

@@ -13,7 +13,7 @@ TEST(Words, AreThoseOfTheCommandLine) {
   EXPECT_EQ(state_words(), (Words{"queued", "running", "done", "failed", "cancelled"}));
   EXPECT_EQ(frame_words(), (Words{"axis", "pca", "obb", "affine"}));
   EXPECT_EQ(operator_words(),
-            (Words{"zucker-hummel", "intermediate", "central", "sobel", "flux", "chords", "ridge"}));
+            (Words{"zucker-hummel", "intermediate", "central", "sobel", "flux", "chords", "ridge", "curve"}));
 }
 
 TEST(Words, LeadBackToTheirValues) {

@@ -60,7 +60,7 @@ TEST(SheetPieces, OfNothingThereAreNone) {
   v1::TriangleMesh sheet;
   EXPECT_TRUE(sheet_pieces(sheet).shares.empty());
   add_square(sheet, 1, 0);
-  EXPECT_EQ(sheet_pieces(sheet).shares, (std::vector<double>{0})) << "no weight at all";
+  EXPECT_EQ(sheet_pieces(sheet).shares, (std::vector<double>{1})) << "no weight at all";
 }
 
 }  // namespace

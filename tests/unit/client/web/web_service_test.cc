@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "client/view/page.h"
+#include "sample_data.h"
 #include "web/web_service_fixture.h"
 
 namespace affskel::client {
@@ -193,6 +194,13 @@ TEST_F(WebServiceTest, SubmitsTheMeshAsItWasSent) {
 
 TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
   sign_in();
+  v1::TriangleMesh curve = sample_sheet();
+  for (int v = 0; v < curve.xyz_size() / 3; ++v) {
+    curve.add_area(2);
+    curve.add_distance(1);
+    curve.add_share(0.1);
+  }
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = curve.SerializeAsString();
   int files = 0;
   const json offered = ask("GET", "/api/session").object();
   for (const json& artifact : offered["artefacts"]) {
@@ -204,7 +212,7 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
       ++files;
     }
   }
-  EXPECT_EQ(files, 6 + 6 + 5 + 5 + 7 + 5);
+  EXPECT_EQ(files, 6 + 6 + 5 + 5 + 6 + 7 + 5);
   EXPECT_EQ(made({{"artefact", "mesh"}, {"format", ".off"}}).body, mesh_);
   EXPECT_EQ(made({{"artefact", "field"}, {"format", ".stl"}}).status, 400);
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);
