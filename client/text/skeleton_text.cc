@@ -62,10 +62,10 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
   if (q.limbs() > 0)
     lines.emplace_back("limbs", std::to_string(q.limbs()) + " beyond the ridge, reached by lines");
   if (q.has_branches())
-    lines.emplace_back("branches", std::to_string(q.branches()) + ", with " +
-                                       base::counted(q.ends(), "end"));
+    lines.emplace_back("branches", std::to_string(q.branches()) + ", with " + base::counted(q.ends(), "end"));
   if (q.opened() > 0)
-    lines.emplace_back("opened", base::counted(q.opened(), "closed surface") + ": a cavity has no line round it");
+    lines.emplace_back("opened",
+                       base::counted(q.opened(), "closed surface") + ": a cavity has no line round it");
   for (const auto& place : q.tunnels())
     lines.emplace_back("tunnel", place_text(place) + ", " + base::rounded(place.size(), kDigits) +
                                      " across: not the solid's, the lattice is too coarse there");

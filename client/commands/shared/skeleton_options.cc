@@ -19,10 +19,11 @@ void add_skeleton_options(CLI::App* command, SkeletonChoice& skeleton, bool show
           ->type_name("OP");
   if (!of_job) name->capture_default_str();
   command
-      ->add_option("--threshold", skeleton.threshold,
-                   std::string("Keep points with |H| above this, of chords what is more significant, of "
-                               "ridge what is stronger, of curve limbs this many of their radii long (default: ") +
-                       (of_job ? "the operator's; without --operator the job's)" : "the operator's)"))
+      ->add_option(
+          "--threshold", skeleton.threshold,
+          std::string("Keep points with |H| above this, of chords what is more significant, of "
+                      "ridge what is stronger, of curve limbs this many of their radii long (default: ") +
+              (of_job ? "the operator's; without --operator the job's)" : "the operator's)"))
       ->check(positive_number())
       ->type_name("T");
 }

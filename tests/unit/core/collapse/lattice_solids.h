@@ -23,7 +23,7 @@ Mesh random_solid(std::uint64_t seed);
 struct CellMesh {
   Mesh mesh;  ///< places in no coordinates: they tell nothing
   std::vector<Segment> segments;
-  std::uint64_t cubes = 0;          ///< left out
+  std::uint64_t cubes = 0;  ///< left out
 };
 CellMesh mesh_of_cells(const DualComplex& complex, const CellSet& cells);
 
