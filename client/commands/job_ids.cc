@@ -16,7 +16,7 @@ namespace affskel::client {
 namespace {
 
 constexpr std::size_t kMaxJobs = 50;
-constexpr std::chrono::milliseconds kPatience{1000};  // of a person who has pressed TAB
+constexpr std::chrono::milliseconds kTabPatience{1000};  // of a person who has pressed TAB
 
 // What is given to reach the server in a line that is still being typed.
 GlobalOptions options_in(const std::string& line) {
@@ -45,7 +45,7 @@ std::optional<ServerChoice> server_in_reach(const GlobalOptions& options, Contex
   std::error_code unseen;
   if (!std::filesystem::exists(paths.home / "affskel.db", unseen)) return std::nullopt;
   EmbeddedOptions start;
-  start.patience = kPatience;
+  start.patience = kTabPatience;
   choice.address = ensure_embedded_server(paths, start, environment, {});
   choice.embedded = false;
   return choice;
@@ -65,7 +65,7 @@ std::string lines_of(const std::vector<v1::Job>& jobs) {
 void run_job_ids(Context& context, const std::string& line) {
   RetryPolicy policy;
   policy.patience = std::chrono::milliseconds(0);
-  policy.call_deadline = kPatience;
+  policy.call_deadline = kTabPatience;
   try {
     const auto choice = server_in_reach(options_in(line), context);
     if (!choice) return;

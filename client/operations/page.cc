@@ -87,8 +87,8 @@ std::vector<float> fetch_divergences(Session& session, const std::string& job,
   return divergences;
 }
 
-void fetch_points(Session& session, const v1::Job& job, const LatticePoints& lattice,
-                  const std::vector<float>& divergences, ViewModel& model) {
+void fetch_view_points(Session& session, const v1::Job& job, const LatticePoints& lattice,
+                       const std::vector<float>& divergences, ViewModel& model) {
   const auto directions =
       fetch_message<v1::Directions>(session, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
   session.fetch(request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
@@ -120,7 +120,7 @@ Notices fetch_skeleton(Session& session, const ViewSubject& subject, const Latti
   } else {
     const auto divergences = fetch_divergences(session, job, subject.params, lattice.count());
     model.selection = select_view_points(divergences, model.threshold, kMaxPoints);
-    fetch_points(session, subject.job, lattice, divergences, model);
+    fetch_view_points(session, subject.job, lattice, divergences, model);
     model.quality = fetch_quality(session, subject.job, subject.params);
     items = static_cast<std::uint64_t>(std::count_if(divergences.begin(), divergences.end(),
                                                      [&](float h) { return double{h} > model.threshold; }));

@@ -16,7 +16,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr int kPictureWidth = 1200;
+constexpr int kMeshPictureWidth = 1200;
 constexpr std::uint64_t kMaxDrawn = 4'000'000;  // triangles
 // Up to so many points the lattice is laid to count them.
 constexpr double kMaxCounted = 4e6;
@@ -52,7 +52,7 @@ std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::s
   input.title = name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".png"));
   base::AtomicFile out(file->path());
-  out.write(encode_png(render_scene(input, {.width = kPictureWidth})));
+  out.write(encode_png(render_scene(input, {.width = kMeshPictureWidth})));
   out.commit();
   return call.keep({std::move(file), "mesh.png", "image/png", true, {}});
 }
