@@ -15,6 +15,7 @@
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/distance_to_mesh.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 namespace {
@@ -31,6 +32,9 @@ constexpr double kNearTip = 2;
 std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
                                 double least_reach) {
   std::vector<char> ends(ridge.vertices.size(), 0);
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
+  const PointIndex index(places);
   std::vector<DualComplex::Cell> tips;
   for (const LimbTip& limb : basis.limbs) tips.push_back(limb.vertex);
   std::sort(tips.begin(), tips.end());
@@ -42,15 +46,8 @@ std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis,
     const Vec3 tip =
         lattice.spacing * Vec3{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
                                static_cast<double>(cell[2]) + 0.5};
-    double nearest = (kNearTip + limb.width) * lattice.spacing;
-    std::size_t end = ridge.vertices.size();
-    for (std::size_t v = 0; v < ridge.vertices.size(); ++v) {
-      const double distance = norm(ridge.vertices[v].position - tip);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      end = v;
-    }
-    if (end < ends.size()) ends[end] = 1;
+    const PointIndex::Found end = index.find(tip);
+    if (end.distance < (kNearTip + limb.width) * lattice.spacing) ends[end.number] = 1;
   }
   return ends;
 }

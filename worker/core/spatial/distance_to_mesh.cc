@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 namespace affskel::core {
 namespace {
@@ -30,6 +30,14 @@ struct Nearer {
   }
 };
 
+std::vector<Vec3> corners_of(const Mesh& mesh) {
+  std::vector<Vec3> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) corners.push_back(mesh.points[corner]);
+  return corners;
+}
+
 }  // namespace
 
 double squared_distance(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -45,10 +53,12 @@ double squared_distance(const Vec3& place, const Vec3& a, const Vec3& b, const V
                    squared_distance_to_side(place, c, a)});
 }
 
-DistanceToMesh::DistanceToMesh(const Mesh& mesh) : mesh_(mesh), tree_(boxes_of(mesh)) {}
+DistanceToMesh::DistanceToMesh(const Mesh& mesh)
+    : mesh_(mesh), tree_(boxes_of(mesh)), corners_(corners_of(mesh)) {}
 
 double DistanceToMesh::nearest(const Vec3& place) const {
-  double least = std::numeric_limits<double>::infinity();
+  const double corner = corners_.nearest(place);
+  double least = corner * corner * (1 + 1e-12);  // for what rounding does to the boxes' distances
   tree_.visit(Nearer{place, least}, [&](std::uint32_t t) {
     const auto& [a, b, c] = mesh_.triangles[t];
     least = std::min(least, squared_distance(place, mesh_.points[a], mesh_.points[b], mesh_.points[c]));

@@ -3,6 +3,7 @@
 #include "core/base/vec3.h"
 #include "core/mesh/mesh.h"
 #include "core/spatial/box_tree.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 
@@ -19,6 +20,7 @@ class DistanceToMesh {
  private:
   const Mesh& mesh_;
   BoxTree tree_;
+  PointIndex corners_;  // what is farther away than the nearest of them need not be looked at
 };
 
 /// The squared distance from a place to a triangle, its inside and its sides (Ericson, Real-Time Collision

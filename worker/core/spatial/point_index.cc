@@ -30,16 +30,19 @@ double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high)
 
 }  // namespace
 
-PointIndex::PointIndex(std::span<const Vec3> points) : points_(points.begin(), points.end()) {
-  if (points_.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw CoreError(CoreError::Code::kLimit, "too many points to index: " + std::to_string(points_.size()));
+PointIndex::PointIndex(std::span<const Vec3> points) {
+  if (points.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw CoreError(CoreError::Code::kLimit, "too many points to index: " + std::to_string(points.size()));
   }
+  points_.reserve(points.size());
+  for (const Vec3& point : points) points_.push_back({point, static_cast<std::uint32_t>(points_.size())});
   if (!points_.empty()) build(0, static_cast<std::uint32_t>(points_.size()));
 }
 
 std::uint32_t PointIndex::build(std::uint32_t first, std::uint32_t count) {
   constexpr std::uint32_t kLeaf = 8;
-  const Box box = box_of(std::span(points_).subspan(first, count));
+  Box box;
+  for (std::uint32_t i = first; i < first + count; ++i) box.include(points_[i].at);
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({box.lowest(), box.highest(), first, count, 0});
   if (count <= kLeaf) return index;
@@ -47,16 +50,17 @@ std::uint32_t PointIndex::build(std::uint32_t first, std::uint32_t count) {
   const int axis = static_cast<int>(box.longest_axis());
   const auto begin = points_.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count,
-                   [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+                   [axis](const Entry& a, const Entry& b) { return a.at[axis] < b.at[axis]; });
   build(first, count / 2);
   const std::uint32_t right = build(first + count / 2, count - count / 2);
   nodes_[index].right = right;
   return index;
 }
 
-double PointIndex::nearest(const Vec3& place) const {
+PointIndex::Found PointIndex::find(const Vec3& place) const {
   double best = std::numeric_limits<double>::infinity();
-  if (nodes_.empty()) return best;
+  std::uint32_t number = 0;
+  if (nodes_.empty()) return {best, number};
   const auto bound = [&](std::uint32_t node) {
     return squared_distance_to_box(place, nodes_[node].low, nodes_[node].high);
   };
@@ -69,7 +73,10 @@ double PointIndex::nearest(const Vec3& place) const {
     const Node& node = nodes_[index];
     if (node.right == 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        best = std::min(best, squared_distance(place, points_[i]));
+        const double here = squared_distance(place, points_[i].at);
+        if (here >= best) continue;
+        best = here;
+        number = points_[i].number;
       }
       continue;
     }
@@ -78,7 +85,7 @@ double PointIndex::nearest(const Vec3& place) const {
     stack[depth++] = far;
     stack[depth++] = near;
   }
-  return std::sqrt(best);
+  return {std::sqrt(best), number};
 }
 
 }  // namespace affskel::core

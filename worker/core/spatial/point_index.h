@@ -17,7 +17,13 @@ class PointIndex {
   explicit PointIndex(std::span<const Vec3> points);
 
   /// Distance from `place` (finite) to the nearest point, in the points' unit; +infinity without points.
-  double nearest(const Vec3& place) const;
+  double nearest(const Vec3& place) const { return find(place).distance; }
+
+  struct Found {
+    double distance;       ///< as nearest()
+    std::uint32_t number;  ///< of the nearest point, or of one of them; undefined without points
+  };
+  Found find(const Vec3& place) const;
 
   std::size_t size() const { return points_.size(); }
 
@@ -31,7 +37,12 @@ class PointIndex {
 
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
 
-  std::vector<Vec3> points_;
+  struct Entry {
+    Vec3 at;
+    std::uint32_t number;
+  };
+
+  std::vector<Entry> points_;
   std::vector<Node> nodes_;
 };
 

@@ -27,6 +27,7 @@ TEST(PointIndexTest, FindsWhatASearchThroughAllFinds) {
     for (int i = 0; i < 300; ++i) {
       const Vec3 place = {2 * anywhere(random), anywhere(random), anywhere(random)};
       EXPECT_EQ(index.nearest(place), search_all(points, place));
+      EXPECT_EQ(norm(points.at(index.find(place).number) - place), index.nearest(place));
     }
     for (const Vec3& p : points) EXPECT_EQ(index.nearest(p), 0);
   }
