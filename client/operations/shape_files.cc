@@ -243,6 +243,8 @@ Fetched fetch_curve(Session& session, const FetchRequest& request) {
   v1::FetchArtifactRequest asked = request_for(request.job, v1::ARTIFACT_KIND_SURFACE);
   v1::SkeletonParams& params = *asked.mutable_surface()->mutable_skeleton();
   params.set_operator_(v1::OPERATOR_CURVE);
+  if (request.skeleton.operator_name == operator_word(v1::OPERATOR_CURVE))
+    params.set_threshold(request.skeleton.threshold);
   v1::ArtifactHeader header;
   const FetchedSurface curve = parse_surface(fetch_patiently(session, asked, header, "curve skeleton"));
   output.write(write_curve, curve.shape, header.job(), "curve skeleton", "operator",
