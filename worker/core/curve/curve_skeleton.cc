@@ -1,9 +1,7 @@
 #include "core/curve/curve_skeleton.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include "core/base/groups.h"
