@@ -15,7 +15,7 @@ using P = ArtifactParams;
 constexpr std::string_view kPoints = "affskel.v1.SkeletonPoints";
 constexpr std::string_view kMesh = "affskel.v1.TriangleMesh";
 
-constexpr std::array<ArtifactKindInfo, 9> kKinds = {{
+constexpr std::array<ArtifactKindInfo, 10> kKinds = {{
     {v1::ARTIFACT_KIND_MESH, P::kNone, v1::TASK_KIND_UNSPECIFIED, ""},
     {v1::ARTIFACT_KIND_LATTICE, P::kNone, v1::TASK_KIND_PREPARE, "affskel.v1.Lattice"},
     {v1::ARTIFACT_KIND_DIRECTIONS, P::kNone, v1::TASK_KIND_PREPARE, "affskel.v1.Directions"},
@@ -25,6 +25,7 @@ constexpr std::array<ArtifactKindInfo, 9> kKinds = {{
     {v1::ARTIFACT_KIND_DIVERGENCE, P::kOperator, v1::TASK_KIND_DIVERGENCE, ""},
     {v1::ARTIFACT_KIND_ERODED_POINTS, P::kEroded, v1::TASK_KIND_ERODED_POINTS, kPoints},
     {v1::ARTIFACT_KIND_ERODED_SURFACE, P::kEroded, v1::TASK_KIND_ERODED_SURFACE, kMesh},
+    {v1::ARTIFACT_KIND_PARTS, P::kCurve, v1::TASK_KIND_PARTS, "affskel.v1.SolidParts"},
 }};
 static_assert(kKinds.size() == v1::ArtifactKind_ARRAYSIZE - 1, "every kind but UNSPECIFIED has a row");
 
@@ -33,11 +34,19 @@ CanonicalParams packed(const Params& params) {
   return {params.SerializeAsString(), cache_key(params)};
 }
 
+v1::SkeletonParams curve_params(const v1::FetchArtifactRequest& request) {
+  v1::SkeletonParams curve = request.skeleton();
+  if (!request.has_skeleton()) curve.set_operator_(v1::OPERATOR_CURVE);
+  if (curve.operator_() != v1::OPERATOR_CURVE)
+    throw std::invalid_argument("parts are those of the operator curve");
+  return canonical(curve);
+}
+
 /// One of the messages with parameters in a request.
 struct Given {
   bool given;
   std::string_view name;
-  std::array<ArtifactParams, 2> for_kinds_with;
+  std::array<ArtifactParams, 3> for_kinds_with;
   std::string_view hint;
 };
 
@@ -93,6 +102,8 @@ CanonicalParams artifact_params(const ArtifactKindInfo& kind, const v1::FetchArt
     }
     case ArtifactParams::kEroded:
       return packed(canonical(request.eroded()));
+    case ArtifactParams::kCurve:
+      return packed(curve_params(request));
   }
   throw std::logic_error("parameters of an unknown kind");
 }
@@ -104,9 +115,9 @@ void check_request(const v1::FetchArtifactRequest& request) {
                                 std::to_string(static_cast<int>(request.kind())));
   }
   const std::array<Given, 3> all = {{
-      {request.has_skeleton(), "skeleton", {P::kSkeleton, P::kOperator}, " (SURFACE has surface.skeleton)"},
-      {request.has_surface(), "surface", {P::kSurface, P::kSurface}, ""},
-      {request.has_eroded(), "eroded", {P::kEroded, P::kEroded}, ""},
+      {request.has_skeleton(), "skeleton", {P::kSkeleton, P::kOperator, P::kCurve}, " (SURFACE has surface.skeleton)"},
+      {request.has_surface(), "surface", {P::kSurface, P::kSurface, P::kSurface}, ""},
+      {request.has_eroded(), "eroded", {P::kEroded, P::kEroded, P::kEroded}, ""},
   }};
   for (const Given& params : all) {
     if (!params.given ||
@@ -125,6 +136,7 @@ bool set_task_params(ArtifactParams params, const std::string& bytes, v1::Lease&
       return bytes.empty();
     case ArtifactParams::kSkeleton:
     case ArtifactParams::kOperator:
+    case ArtifactParams::kCurve:
       return lease.mutable_skeleton()->ParseFromString(bytes);
     case ArtifactParams::kSurface:
       return lease.mutable_surface()->ParseFromString(bytes);

@@ -16,6 +16,7 @@ enum class ArtifactParams {
   kOperator,  ///< v1::SkeletonParams, of which only the operator counts
   kSurface,   ///< v1::SurfaceParams
   kEroded,    ///< v1::ErodedParams
+  kCurve,     ///< v1::SkeletonParams of CURVE
 };
 
 /// What of a job can be fetched.

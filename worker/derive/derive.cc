@@ -5,6 +5,7 @@
 #include "derive/eroded_solid.h"
 #include "derive/operator_skeleton.h"
 #include "derive/ridge_skeleton.h"
+#include "derive/solid_parts.h"
 #include "job/result_bytes.h"
 
 namespace affskel::worker {
@@ -51,6 +52,13 @@ Derived packed(const v1::TriangleMesh& mesh, const std::string& what) {
   return result;
 }
 
+Derived packed(const v1::SolidParts& parts) {
+  Derived result;
+  append_result(result.data, parts, "the parts of the solid (a wider spacing has fewer points)");
+  result.items = static_cast<std::uint64_t>(parts.parts_size());
+  return result;
+}
+
 }  // namespace
 
 Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
@@ -70,6 +78,8 @@ Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view 
                     "the eroded solid (a higher level has fewer points)");
     case v1::TASK_KIND_ERODED_SURFACE:
       return packed(eroded_surface(field, lease.eroded()), "the eroded solid (a higher level is smaller)");
+    case v1::TASK_KIND_PARTS:
+      return packed(solid_parts(field, lease.skeleton()));
     default:
       throw std::logic_error("not a derive task");
   }

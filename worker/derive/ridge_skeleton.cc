@@ -3,6 +3,7 @@
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
 #include "core/shocks/shock_operator.h"
+#include "derive/curve_of_field.h"
 #include "derive/messages.h"
 #include "derive/ridge_of_field.h"
 #include "derive/sheet_barriers.h"
@@ -35,6 +36,16 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
   return message;
 }
 
+// By the default curve, at every threshold.
+void add_parts(const FinishedField& field, const RidgeOfField& ridge, const core::RidgeSheet& sheet,
+               double threshold, v1::TriangleMesh& message) {
+  const core::RidgeSheet whole = threshold == 0 ? core::RidgeSheet() : ridge.sheet(0);
+  const CurveOfField curves(field, ridge, threshold == 0 ? sheet : whole);
+  const core::CurveSkeleton curve = curves.at(0);
+  const std::vector<std::uint32_t> parts = parts_of_points(curve, curves.graph_of(curve));
+  for (const core::SheetVertex& vertex : sheet.vertices) message.add_part(parts[vertex.point]);
+}
+
 }  // namespace
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
@@ -56,6 +67,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
   append_segments(sheet, message);
+  add_parts(field, ridge, sheet, threshold, message);
   *message.mutable_quality() = quality_of(field, ridge, sheet, threshold, barriers);
   return message;
 }

@@ -263,6 +263,7 @@ class LeaseLoop {
       case v1::TASK_KIND_DIVERGENCE:
       case v1::TASK_KIND_ERODED_POINTS:
       case v1::TASK_KIND_ERODED_SURFACE:
+      case v1::TASK_KIND_PARTS:
         return derive(lease, context);
       case v1::TASK_KIND_VERIFY:
         return verify(lease, context);

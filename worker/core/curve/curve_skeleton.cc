@@ -94,6 +94,22 @@ void make_smooth(const Solid& solid, const Lattice& lattice, CurveSkeleton& curv
   }
 }
 
+// Points that no way leads to lie in fragments, which have no skeleton: the nearest vertex takes them.
+void give_the_rest(const Lattice& lattice, CurveSkeleton& curve) {
+  std::vector<std::uint32_t> rest;
+  for (std::uint32_t p = 0; p < curve.nearest.size(); ++p)
+    if (curve.nearest[p] == DualComplex::kNone) rest.push_back(p);
+  if (rest.empty()) return;
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : curve.vertices) places.push_back(vertex.position);
+  const PointIndex index(places);
+  const std::vector<LatticePlace> at = lattice_places(lattice, rest);
+  for (std::size_t n = 0; n < rest.size(); ++n) {
+    const Vec3 place = lattice.spacing * Vec3{double(at[n][0]), double(at[n][1]), double(at[n][2])};
+    curve.nearest[rest[n]] = index.find(place).number;
+  }
+}
+
 void measure(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis, CurveSkeleton& curve,
              ExecutionContext* context) {
   const DistanceToMesh surface(solid.mesh);
@@ -104,9 +120,10 @@ void measure(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis
     seeds.push_back({vertex.point, basis.radius[vertex.point]});
   }
   curve.nearest = realms(basis.complex, seeds, context);
+  give_the_rest(lattice, curve);
   curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
-    if (vertex != DualComplex::kNone) curve.share[vertex] += 1 / static_cast<double>(lattice.points);
+    curve.share[vertex] += 1 / static_cast<double>(lattice.points);
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 

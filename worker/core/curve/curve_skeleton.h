@@ -22,10 +22,10 @@ struct CurveOptions {
 /// Lines through the limbs of a solid: vertices and segments, no triangle.
 struct CurveSkeleton : SheetMesh {
   std::vector<double> distance;  ///< per vertex: to the surface of the solid, mesh units
-  std::vector<double> share;     ///< per vertex: of all sample points, those nearest to it, see realms()
+  std::vector<double> share;     ///< per vertex: of all sample points, those of `nearest`; adds up to 1
   std::vector<double> beyond;    ///< per vertex: share of all sample points; see volume_beyond()
-  std::vector<std::uint32_t>
-      nearest;                 ///< per sample point: a vertex, see realms(); kNone where no line leads
+  /// Per sample point: a vertex, see realms(); of a fragment, where no way leads, the nearest.
+  std::vector<std::uint32_t> nearest;
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone
   std::uint32_t opened = 0;    ///< closed surfaces of the ridge, opened: a cavity has no line round it

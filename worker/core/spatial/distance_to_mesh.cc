@@ -1,6 +1,7 @@
 #include "core/spatial/distance_to_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,11 +12,11 @@ double square(const Vec3& v) {
   return dot(v, v);
 }
 
-double squared_distance_to_side(const Vec3& place, const Vec3& a, const Vec3& b) {
-  const Vec3 side = b - a, way = place - a;
+Vec3 nearest_on_side(const Vec3& place, const Vec3& a, const Vec3& b) {
+  const Vec3 side = b - a;
   const double length = square(side);
-  const double t = length > 0 ? std::clamp(dot(way, side) / length, 0.0, 1.0) : 0;
-  return square(way - t * side);
+  const double t = length > 0 ? std::clamp(dot(place - a, side) / length, 0.0, 1.0) : 0;
+  return a + t * side;
 }
 
 // The boxes that are not farther away than the nearest triangle so far.
@@ -40,30 +41,41 @@ std::vector<Vec3> corners_of(const Mesh& mesh) {
 
 }  // namespace
 
-double squared_distance(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c) {
+Vec3 nearest_place(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = cross(b - a, c - a);
   const double size = square(normal);
   const bool above = size > 0 && dot(cross(b - a, normal), place - a) <= 0 &&
                      dot(cross(c - b, normal), place - b) <= 0 && dot(cross(a - c, normal), place - c) <= 0;
-  if (above) {
-    const double height = dot(normal, place - a);
-    return height * height / size;
-  }
-  return std::min({squared_distance_to_side(place, a, b), squared_distance_to_side(place, b, c),
-                   squared_distance_to_side(place, c, a)});
+  if (above) return place - (dot(normal, place - a) / size) * normal;
+  const std::array<Vec3, 3> sides = {nearest_on_side(place, a, b), nearest_on_side(place, b, c),
+                                     nearest_on_side(place, c, a)};
+  return *std::min_element(sides.begin(), sides.end(), [&](const Vec3& p, const Vec3& q) {
+    return square(p - place) < square(q - place);
+  });
 }
 
 DistanceToMesh::DistanceToMesh(const Mesh& mesh)
     : mesh_(mesh), tree_(boxes_of(mesh)), corners_(corners_of(mesh)) {}
 
 double DistanceToMesh::nearest(const Vec3& place) const {
-  const double corner = corners_.nearest(place);
-  double least = corner * corner * (1 + 1e-12);  // for what rounding does to the boxes' distances
+  return norm(nearest_place(place) - place);
+}
+
+Vec3 DistanceToMesh::nearest_place(const Vec3& place) const {
+  const PointIndex::Found corner = corners_.find(place);
+  double least = corner.distance * corner.distance * (1 + 1e-12);  // for what rounding does to the boxes' distances
+  const auto at = [&](std::uint32_t triangle, std::size_t k) {
+    return mesh_.points[mesh_.triangles[triangle][k]];
+  };
+  Vec3 found = at(corner.number / 3, corner.number % 3);
   tree_.visit(Nearer{place, least}, [&](std::uint32_t t) {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    least = std::min(least, squared_distance(place, mesh_.points[a], mesh_.points[b], mesh_.points[c]));
+    const Vec3 here = core::nearest_place(place, at(t, 0), at(t, 1), at(t, 2));
+    const double distance = square(here - place);
+    if (distance >= least) return;
+    least = distance;
+    found = here;
   });
-  return std::sqrt(least);
+  return found;
 }
 
 }  // namespace affskel::core

@@ -11,11 +11,14 @@ namespace affskel::core {
 /// construction; queries from several threads are safe.
 class DistanceToMesh {
  public:
-  /// O(N log N).  @param mesh of one triangle at least.
+  /// O(N log N).  @param mesh of one triangle at least, of which two corners may be one: a segment.
   explicit DistanceToMesh(const Mesh& mesh);
 
   /// To the nearest point of a triangle, in the mesh's unit.
   double nearest(const Vec3& place) const;
+
+  /// That point.
+  Vec3 nearest_place(const Vec3& place) const;
 
  private:
   const Mesh& mesh_;
@@ -23,8 +26,8 @@ class DistanceToMesh {
   PointIndex corners_;  // what is farther away than the nearest of them need not be looked at
 };
 
-/// The squared distance from a place to a triangle, its inside and its sides (Ericson, Real-Time Collision
-/// Detection, 2005, 5.1.5).
-double squared_distance(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c);
+/// The point of a triangle, its inside and its sides, that is nearest to a place (Ericson, Real-Time Collision
+/// Detection, 2005, 5.1.5).  Two corners may coincide: a segment.
+Vec3 nearest_place(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace affskel::core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/mesh/mesh.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+
+struct ThicknessOptions {
+  double near = 0;        ///< what comes so near to the skeleton has reached it, scaled units, > 0: half a spacing
+  unsigned threads = 1;   ///< >= 1; the result does not depend on it
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
+};
+
+/// How thick the solid is under each triangle: from its centroid along the optimal normal, within the solid, to where
+/// that way comes nearest to the skeleton.  Where it leaves the solid, or passes the skeleton at more than half of the
+/// centroid's distance (in hollows the optimal plane is that of another side), that distance.
+/// @param skeleton scaled coordinates; its curves as triangles of two different corners, one vertex as one of one.
+/// @param inward per triangle of the solid: the optimal normal, unit, or 0 where there is none.
+/// @return per triangle, scaled units.
+/// @throws CoreError kCancelled when the context asks to stop.
+std::vector<double> surface_thickness(const Solid& solid, const Mesh& skeleton, std::span<const Vec3> inward,
+                                      const ThicknessOptions& options);
+
+}  // namespace affskel::core

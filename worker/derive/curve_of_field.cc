@@ -1,0 +1,83 @@
+#include "derive/curve_of_field.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/number_text.h"
+#include "base/ridge_threshold.h"
+#include "core/quality/skeleton_quality.h"
+#include "core/shocks/shock_operator.h"
+#include "derive/messages.h"
+
+namespace affskel::worker {
+namespace {
+
+double threshold_of(double given) {
+  return given == 0 ? base::kMinCurveThreshold : given;
+}
+
+}  // namespace
+
+core::CurveSkeleton CurveOfField::at(double threshold) const {
+  core::CurveOptions options;
+  options.least_reach = threshold_of(threshold);
+  options.context = field_.context();
+  return core::curve_skeleton(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_, options);
+}
+
+v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold) const {
+  core::SheetQualityOptions options;
+  options.segments = curve.segments;
+  const double next = core::next_threshold(threshold_of(threshold));
+  core::Mesh other;
+  if (next <= base::kMaxCurveThreshold) {
+    other = mesh_of(at(next));
+    options.other = &other;
+    options.other_threshold = next;
+  }
+  field_.throw_if_stopped();
+  v1::SkeletonQuality message =
+      quality_message(core::sheet_quality(field_.job().solid(), field_.lattice(), mesh_of(curve), options));
+  message.set_threshold(threshold_of(threshold));
+  ridge_.tell_of_lattice(sheet_, message);
+  message.set_branches(curve.branches);
+  message.set_ends(curve.ends);
+  message.set_opened(curve.opened);
+  if (curve.segments.empty())
+    set_advice({"no limb is " + base::to_text(threshold_of(threshold)) +
+                    " of its own radii long: the curve is the place of the greatest E alone, without a line.",
+                {}},
+               message);
+  return message;
+}
+
+v1::TriangleMesh CurveOfField::message_of(const core::CurveSkeleton& curve, double threshold) const {
+  v1::TriangleMesh message;
+  append_vertices(field_, curve, message);
+  message.mutable_distance()->Add(curve.distance.begin(), curve.distance.end());
+  message.mutable_share()->Add(curve.share.begin(), curve.share.end());
+  message.mutable_beyond()->Add(curve.beyond.begin(), curve.beyond.end());
+  for (const std::uint32_t part : graph_of(curve).part) message.add_part(part + 1);
+  append_segments(curve, message);
+  *message.mutable_quality() = quality_of(curve, threshold);
+  return message;
+}
+
+core::CurveGraph CurveOfField::graph_of(const core::CurveSkeleton& curve) const {
+  std::vector<core::Vec3> places;
+  std::vector<double> radius;
+  for (const core::SheetVertex& vertex : curve.vertices) {
+    places.push_back(field_.to_mesh(vertex.position));
+    radius.push_back(std::sqrt(vertex.area / std::numbers::pi));
+  }
+  return core::curve_graph(places, curve.segments, radius, curve.share);
+}
+
+std::vector<std::uint32_t> parts_of_points(const core::CurveSkeleton& curve, const core::CurveGraph& graph) {
+  std::vector<std::uint32_t> parts;
+  parts.reserve(curve.nearest.size());
+  for (const std::uint32_t vertex : curve.nearest) parts.push_back(graph.part[vertex] + 1);
+  return parts;
+}
+
+}  // namespace affskel::worker

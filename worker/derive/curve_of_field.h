@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "affskel/v1/types.pb.h"
+#include "core/curve/curve_graph.h"
+#include "core/curve/curve_skeleton.h"
+#include "derive/finished_field.h"
+#include "derive/ridge_of_field.h"
+
+namespace affskel::worker {
+
+/// The curve skeleton of a field, at any threshold.  Keeps references to its arguments.
+class CurveOfField {
+ public:
+  /// @param sheet of the ridge, at its default threshold.
+  CurveOfField(const FinishedField& field, const RidgeOfField& ridge, const core::RidgeSheet& sheet)
+      : field_(field), ridge_(ridge), sheet_(sheet) {}
+
+  /// @param threshold as in SkeletonParams: 0 for the default.
+  core::CurveSkeleton at(double threshold) const;
+
+  v1::SkeletonQuality quality_of(const core::CurveSkeleton& curve, double threshold) const;
+
+  /// As SURFACE gives it, with quality and parts.
+  v1::TriangleMesh message_of(const core::CurveSkeleton& curve, double threshold) const;
+
+  /// In mesh coordinates.
+  core::CurveGraph graph_of(const core::CurveSkeleton& curve) const;
+
+ private:
+  const FinishedField& field_;
+  const RidgeOfField& ridge_;
+  const core::RidgeSheet& sheet_;
+};
+
+/// Per sample point: the part of the solid that it lies in, from 1.
+std::vector<std::uint32_t> parts_of_points(const core::CurveSkeleton& curve, const core::CurveGraph& graph);
+
+}  // namespace affskel::worker
