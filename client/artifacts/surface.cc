@@ -75,6 +75,7 @@ FetchedSurface parse_surface(const std::string& bytes) {
   if (!surface.shape.segments.empty() || !message.distance().empty()) add_radius(surface.shape);
   add_columns(surface.shape, {"nx_a", "ny_a", "nz_a"}, message.normal_a());
   add_columns(surface.shape, {"nx_b", "ny_b", "nz_b"}, message.normal_b());
+  add_columns(surface.shape, {"part"}, message.part());
   surface.quality = message.quality();
   surface.volume = message.volume();
   return surface;

@@ -15,11 +15,13 @@ namespace {
 struct FetchOptions {
   std::string job, artifact, output, format;
   SkeletonChoice skeleton;  // of the divergence alone
+  bool parts = false;       // of the field alone
 };
 
 void run_fetch(Context& context, const FetchOptions& options) {
   const Destination destination = destination_of(options.output, options.format, context.console());
-  const FetchRequest request{options.job, options.artifact, destination, options.skeleton};
+  FetchRequest request{options.job, options.artifact, destination, options.skeleton};
+  request.parts = options.parts;
   show_result(context.console(), fetch(context.session(), request));
 }
 
@@ -29,6 +31,8 @@ void check_options(const CLI::App& fetch) {
   if (fetch.count("--operator") > 0 && artifact != "divergence") {
     throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
   }
+  if (fetch.count("--parts") > 0 && artifact != "field")
+    throw CLI::ValidationError("--parts", "is for the field; files of surfaces have parts anyway");
 }
 
 }  // namespace
@@ -40,13 +44,15 @@ void add_fetch(CommandLine& line) {
       "  affskel-client fetch @last field -o body.vti\n"
       "  affskel-client fetch @last skeleton -o body.csv\n"
       "  affskel-client fetch @last curve -o limbs.json\n"
+      "  affskel-client fetch @last thickness -o thickness.ply\n"
       "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
       "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
       "  affskel-client fetch @last skeleton -o - --format csv | wc -l\n"
       "Formats by extension: field and divergence .csv .dat .vti .vts .vtkhdf .hdf;\n"
       "skeleton and eroded points .csv .ply .off .xyz .vtp; mesh, surface and eroded\n"
       "surface .off .ply .obj .stl .vtp, where the mesh as .off is the submitted bytes;\n"
-      "curve .vtp .obj .ply, as a graph .json .graphml, as trees .swc.\n"
+      "curve .vtp .obj .ply, as a graph .json .graphml, as trees .swc; thickness, of\n"
+      "each triangle with the part of the solid that it belongs to, .ply .vtp.\n"
       ".vti and .vts open in every ParaView, .vts also where the lattice is turned.\n"
       "Of an eroded solid this is the one at a tenth of the volume; see erode",
       [options](Context& context) { run_fetch(context, *options); }, check_options);
@@ -61,6 +67,8 @@ void add_fetch(CommandLine& line) {
   command->add_option("--operator", options->skeleton.operator_name, "Of the divergence (default: the job's)")
       ->check(one_of(with_divergence))
       ->type_name("OP");
+  command->add_flag("--parts", options->parts,
+                    "The field with the part of the solid (see measure) that each sample\npoint lies in");
   add_output(command, options->output, "File to write; the format follows the extension; - is stdout");
   add_format(command, options->format);
 }

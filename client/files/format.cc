@@ -10,6 +10,7 @@ namespace affskel::client {
 namespace {
 
 constexpr std::array kPicture = {FileFormat::kPng};
+constexpr std::array kThickness = {FileFormat::kPly, FileFormat::kVtp};
 constexpr std::array kPage = {FileFormat::kHtml};
 
 std::string lower(std::string text) {
@@ -22,6 +23,10 @@ std::string lower(std::string text) {
 
 std::span<const FileFormat> divergence_formats() {
   return field_formats();
+}
+
+std::span<const FileFormat> thickness_formats() {
+  return kThickness;
 }
 
 std::span<const FileFormat> picture_formats() {

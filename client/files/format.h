@@ -18,6 +18,7 @@ using core::surface_formats;
 
 /// More of what can be written as which formats.
 std::span<const FileFormat> divergence_formats();  // as fields
+std::span<const FileFormat> thickness_formats();   // ply, vtp
 std::span<const FileFormat> picture_formats();     // png
 std::span<const FileFormat> page_formats();        // html
 

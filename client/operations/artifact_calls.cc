@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "base/mutex.h"
+#include "client/artifacts/solid_parts.h"
 #include "client/files/read/input_file.h"
 
 namespace affskel::client {
@@ -92,6 +93,14 @@ v1::TriangleMesh fetch_sheet(Session& session, const std::string& job, const v1:
     throw ClientError(ExitCode::kInternal, "the server sent a damaged sheet");
   }
   return sheet;
+}
+
+v1::SolidParts fetch_solid_parts(Session& session, const std::string& job, double threshold,
+                                 v1::ArtifactHeader& header) {
+  v1::FetchArtifactRequest request = request_for(job, v1::ARTIFACT_KIND_PARTS);
+  request.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  request.mutable_skeleton()->set_threshold(threshold);
+  return parse_solid_parts(fetch_patiently(session, request, header, "parts of the solid"));
 }
 
 v1::TriangleMesh fetch_eroded_surface(Session& session, const std::string& job, double level) {

@@ -44,6 +44,12 @@ core::Mesh fetch_mesh(Session& session, const std::string& job);
 /// @throws ClientError kInternal when a corner is out of range or a vertex lacks E or its strength.
 v1::TriangleMesh fetch_sheet(Session& session, const std::string& job, const v1::SkeletonParams& params);
 
+/// The solid parted by the branches of its curve skeleton.  Waits while it is computed.
+/// @param threshold of the curve; 0 = the default.
+/// @throws ClientError as parse_solid_parts.
+v1::SolidParts fetch_solid_parts(Session& session, const std::string& job, double threshold,
+                                 v1::ArtifactHeader& header);
+
 /// The surface of the eroded solid at a level, as a file of it holds it.  Waits while it is computed.
 /// @param level as a share of v0, 0 < level < 1.
 /// @throws ClientError kInternal when a corner is out of range or a vertex lacks E or its slope.

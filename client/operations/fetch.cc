@@ -22,12 +22,13 @@ struct Artifact {
   Fetched (*fetch)(Session& session, const FetchRequest& request);
 };
 
-constexpr std::array<Artifact, 7> kArtifacts = {{
+constexpr std::array<Artifact, 8> kArtifacts = {{
     {"field", field_formats, no_other, fetch_field},
     {"divergence", divergence_formats, no_other, fetch_divergence},
     {"skeleton", skeleton_formats, no_other, fetch_skeleton},
     {"surface", surface_formats, no_other, fetch_surface},
     {"curve", curve_formats, no_other, fetch_curve},
+    {"thickness", thickness_formats, no_other, fetch_thickness},
     {"eroded", surface_formats, skeleton_formats, fetch_eroded},
     {"mesh", surface_formats, no_other, fetch_submitted_mesh},
 }};

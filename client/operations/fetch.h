@@ -24,6 +24,7 @@ struct FetchRequest {
   double alpha = 0;      ///< of a surface of points: squared radius, mesh units squared; 0 = from the spacing
   bool barrier = false;  ///< of a sheet: with the barrier at its vertices
   double min_barrier = 0;        ///< drop what has a vertex of a lower one; implies the barrier
+  bool parts = false;            ///< of a field: with the part of the solid that each sample point lies in
   v1::ErodedParams eroded = {};  ///< no level: the default one
   Form eroded_form = Form::kByExtension;
 };
@@ -31,7 +32,7 @@ struct FetchRequest {
 /// An artefact of a job that was written into a file.
 struct Fetched {
   Destination destination;
-  std::string artifact;        ///< "field", "divergence", "skeleton", "surface", "curve", "eroded", "mesh"
+  std::string artifact;        ///< "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh"
   std::string unit;            ///< what is counted: "point", "triangle" or "byte"
   std::uint64_t items = 0;     ///< how many
   v1::Job job;                 ///< as the server sent it along
@@ -43,7 +44,7 @@ struct Fetched {
   Notices notices = {};  ///< that it is empty and why, and what the format does not hold
 };
 
-/// What can be fetched: "field", "divergence", "skeleton", "surface", "curve", "eroded", "mesh".
+/// What can be fetched: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh".
 std::vector<std::string> artifact_names();
 
 /// The formats of an artefact, as extensions with the dot, each once; the first is a good one to begin with.

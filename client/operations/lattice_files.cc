@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 class FieldSink : public ArtifactSink {
  public:
   FieldSink(FileFormat format, const fs::path& file, const LatticePoints& points,
-            const v1::Directions& directions, const v1::Job& job)
+            const v1::Directions& directions, const v1::Job& job, std::vector<std::uint32_t> parts)
       : file_(file),
-        writer_(format, file_, points, job.prepared().volume(), job_facts(job, "erosion field")),
+        writer_(format, file_, points, job.prepared().volume(), job_facts(job, "erosion field"),
+                std::move(parts)),
         decoder_(points, directions, writer_) {}
   void begin(const v1::ArtifactHeader&) override {}
   void data(std::string_view bytes) override { decoder_.data(bytes); }
@@ -59,6 +60,14 @@ LatticePoints lattice_of(Session& session, const std::string& job) {
   return LatticePoints(fetch_message<v1::Lattice>(session, job, v1::ARTIFACT_KIND_LATTICE, "lattice"));
 }
 
+std::vector<std::uint32_t> parts_of_points(Session& session, const std::string& job, std::uint64_t points) {
+  v1::ArtifactHeader header;
+  const v1::SolidParts parts = fetch_solid_parts(session, job, 0, header);
+  if (static_cast<std::uint64_t>(parts.point_part_size()) != points)
+    throw ClientError(ExitCode::kInternal, "the server sent parts of another number of sample points");
+  return {parts.point_part().begin(), parts.point_part().end()};
+}
+
 // Refuses what cannot place a turned lattice, and says what most programs make of the others.
 Notices grid_notices(FileFormat format, const LatticePoints& points, const Destination& destination) {
   try {
@@ -89,9 +98,11 @@ Fetched fetch_field(Session& session, const FetchRequest& request) {
   Notices notices = grid_notices(format, points, request.destination);
   const auto directions =
       fetch_message<v1::Directions>(session, now.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
+  const std::vector<std::uint32_t> parts =
+      request.parts ? parts_of_points(session, now.id(), points.count()) : std::vector<std::uint32_t>();
   const v1::ArtifactHeader header =
       session.fetch(request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<FieldSink>(format, request.destination.file, points, directions, now);
+        return std::make_unique<FieldSink>(format, request.destination.file, points, directions, now, parts);
       });
   Fetched fetched{request.destination, "field", "point", points.count(), header.job()};
   fetched.notices = std::move(notices);

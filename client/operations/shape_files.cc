@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
+#include "client/artifacts/solid_parts.h"
 #include "client/artifacts/surface.h"
 #include "client/files/read/input_file.h"
 #include "client/files/write/shape_writer.h"
@@ -257,6 +258,18 @@ Fetched fetch_curve(Session& session, const FetchRequest& request) {
         "CUT_LOOPS",
         ".swc holds trees: " + base::counted(curve.quality.holes(), "loop") + " cut where it closes"));
   return fetched;
+}
+
+Fetched fetch_thickness(Session& session, const FetchRequest& request) {
+  ShapeOutput output(request.destination, thickness_formats(), "thickness");
+  v1::ArtifactHeader header;
+  const v1::SolidParts parts = fetch_solid_parts(session, request.job, 0, header);
+  ShapeFile shape = core::shape_of(surface_of(parts));
+  shape.face_columns = {{"thickness", false, {parts.thickness().begin(), parts.thickness().end()}},
+                        {"part", true, {parts.triangle_part().begin(), parts.triangle_part().end()}}};
+  output.write(write_surface, shape, header.job(), "thickness of the solid", "thickness",
+               "from each triangle along its optimal normal to the skeleton of ridge, mesh units");
+  return {request.destination, "thickness", "triangle", shape.mesh().triangles.size(), header.job()};
 }
 
 Fetched fetch_eroded(Session& session, const FetchRequest& request) {

@@ -40,6 +40,10 @@ std::string operator_word(v1::Operator which) {
   return word_or_unknown(which == v1::OPERATOR_UNSPECIFIED ? v1::OPERATOR_ZUCKER_HUMMEL : which);
 }
 
+std::string part_kind_word(v1::PartKind kind) {
+  return word_or_unknown(kind);
+}
+
 std::vector<std::string> state_words() {
   return wire::words(*v1::JobState_descriptor());
 }

@@ -19,6 +19,9 @@ std::string frame_word(v1::Frame frame);
 /// "zucker-hummel", "intermediate", ...; "zucker-hummel" when none is specified, "unknown" for anything else.
 std::string operator_word(v1::Operator which);
 
+/// "limb", "line", "link", "loop" or "point"; "unknown" for anything else.
+std::string part_kind_word(v1::PartKind kind);
+
 /// All words of a kind, in the protocol's order.
 std::vector<std::string> state_words();
 std::vector<std::string> frame_words();

@@ -51,7 +51,7 @@ class GraphMl {
   const WriteBytes& write_;
 };
 
-std::string polyline_text(const ShapeFile& shape, const CurveBranch& branch) {
+std::string polyline_text(const ShapeFile& shape, const core::CurveBranch& branch) {
   std::string text;
   for (const std::uint32_t v : branch.vertices) {
     const core::Vec3& at = shape.mesh().points[v];
@@ -65,7 +65,7 @@ std::string polyline_text(const ShapeFile& shape, const CurveBranch& branch) {
 
 void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& comments,
                       const WriteBytes& write) {
-  const CurveGraph graph = curve_graph(shape);
+  const core::CurveGraph graph = curve_graph(shape);
   ordered_json file{{"about", ordered_json::array()},
                     {"nodes", ordered_json::array()},
                     {"branches", ordered_json::array()}};
@@ -75,10 +75,11 @@ void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& co
     node["degree"] = graph.degree[n];
     file["nodes"].push_back(std::move(node));
   }
-  for (const CurveBranch& branch : graph.branches) {
+  for (const core::CurveBranch& branch : graph.branches) {
     ordered_json line = ordered_json::array();
     for (const std::uint32_t v : branch.vertices) line.push_back(vertex_of(shape, v));
-    file["branches"].push_back({{"nodes", {branch.from, branch.to}},
+    file["branches"].push_back({{"part", file["branches"].size() + 1},
+                                {"nodes", {branch.from, branch.to}},
                                 {"length", branch.length},
                                 {"straight_length", branch.straight_length},
                                 {"volume_share", branch.share},
@@ -92,7 +93,7 @@ void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& co
 
 void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>& comments,
                          const WriteBytes& write) {
-  const CurveGraph graph = curve_graph(shape);
+  const core::CurveGraph graph = curve_graph(shape);
   GraphMl xml(write);
   write(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
@@ -115,7 +116,7 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
     write("    </node>\n");
   }
   for (std::size_t b = 0; b < graph.branches.size(); ++b) {
-    const CurveBranch& branch = graph.branches[b];
+    const core::CurveBranch& branch = graph.branches[b];
     write("    <edge id=\"b" + std::to_string(b) + "\" source=\"n" + std::to_string(branch.from) +
           "\" target=\"n" + std::to_string(branch.to) + "\">\n");
     xml.data("edge", "length", branch.length);

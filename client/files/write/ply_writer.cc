@@ -25,6 +25,8 @@ class PlyWriter {
       if (erosion_ == nullptr || !core::is_ply_display(column.name))
         columns_.push_back({names[i], &column, stored_as(column)});
     }
+    for (const PointColumn& column : shape.face_columns)
+      face_columns_.push_back({column.name, &column, stored_as(column)});
     if (erosion_ == nullptr) return;
     for (const double e : erosion_->values) {
       if (std::isfinite(e)) highest_ = std::max(highest_, e);
@@ -32,14 +34,12 @@ class PlyWriter {
   }
 
   std::string header(bool faces, const std::vector<std::string>& comments) const {
-    constexpr const char* kTypes[] = {"int", "uint", "double"};
     std::string text = "ply\nformat binary_little_endian 1.0\n";
     for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
     text += "element vertex " + std::to_string(shape_.mesh().points.size()) +
             "\nproperty double x\nproperty double y\nproperty double z\n";
     for (const Column& column : columns_) {
-      text += std::string("property ") + kTypes[static_cast<std::size_t>(column.stored)] + " " + column.name +
-              "\n";
+      text += property(column.name, column.stored);
     }
     if (erosion_ != nullptr) {
       text += "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -47,12 +47,20 @@ class PlyWriter {
     if (faces) {
       text += "element face " + std::to_string(shape_.mesh().triangles.size()) +
               "\nproperty list uchar int vertex_indices\n";
+      for (const Column& column : face_columns_) text += property(column.name, column.stored);
     }
     if (!shape_.segments.empty()) {
       text += "element edge " + std::to_string(shape_.segments.size()) +
               "\nproperty int vertex1\nproperty int vertex2\n";
     }
     return text + "end_header\n";
+  }
+
+  void append_face(std::string& row, std::size_t t) const {
+    base::append(row, std::uint8_t{3});
+    for (const std::uint32_t corner : shape_.mesh().triangles[t])
+      base::append(row, static_cast<std::int32_t>(corner));
+    for (const Column& column : face_columns_) append_stored(row, column.of->values[t], column.stored);
   }
 
   void append_vertex(std::string& row, std::size_t i) const {
@@ -68,6 +76,11 @@ class PlyWriter {
   }
 
  private:
+  static std::string property(const std::string& name, Stored stored) {
+    constexpr const char* kTypes[] = {"int", "uint", "double"};
+    return std::string("property ") + kTypes[static_cast<std::size_t>(stored)] + " " + name + "\n";
+  }
+
   struct Column {
     std::string name;
     const PointColumn* of;
@@ -76,7 +89,7 @@ class PlyWriter {
 
   const ShapeFile& shape_;
   const PointColumn* erosion_;  // may be null
-  std::vector<Column> columns_;
+  std::vector<Column> columns_, face_columns_;
   double highest_ = 0;
 };
 
@@ -92,10 +105,9 @@ void write_ply(const ShapeFile& shape, const std::vector<std::string>& names, bo
     writer.append_vertex(row, i);
     write(row);
   }
-  for (const core::Triangle& t : shape.mesh().triangles) {
+  for (std::size_t t = 0; t < shape.mesh().triangles.size(); ++t) {
     row.clear();
-    base::append(row, std::uint8_t{3});
-    for (const std::uint32_t corner : t) base::append(row, static_cast<std::int32_t>(corner));
+    writer.append_face(row, t);
     write(row);
   }
   for (const core::Segment& segment : shape.segments) {

@@ -23,7 +23,7 @@ void write_stl(const core::Mesh& mesh, const std::vector<std::string>& comments,
 /// points alone as one vertex each, coordinates as Float64; arrays inline in base64, little-endian, with 64
 /// bit lengths. Columns become point arrays, whole ones Int32 or UInt32 where all values fit, the others
 /// Float64; three in a row that belong together become one array of three (see array_of_columns).  E is the
-/// active array, by which ParaView colours.  Comments become the strings of the field array "comment".
+/// active array, by which ParaView colours; columns of triangles become cell arrays.  Comments become the strings of the field array "comment".
 /// @param columns the shape's, under their names in the file.
 void write_vtp(const ShapeFile& shape, const std::vector<PointColumn>& columns,
                const std::vector<std::string>& comments, const WriteBytes& write);

@@ -29,6 +29,7 @@ class VtpWriter {
         is_surface_(shape.is_surface()),
         lines_(core::polylines(shape.mesh().points.size(), shape.segments)),
         columns_(columns),
+        face_columns_(shape.face_columns),
         write_(write) {}
 
   void run(const std::vector<std::string>& comments) {
@@ -42,6 +43,7 @@ class VtpWriter {
            "\" NumberOfLines=\"" + std::to_string(lines_.size()) +
            "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(mesh_.triangles.size()) + "\">\n");
     write_columns();
+    write_face_columns();
     write_points();
     if (!lines_.empty()) write_cells("Lines", lines_);
     if (is_surface_) {
@@ -95,6 +97,14 @@ class VtpWriter {
     write_("</PointData>\n");
   }
 
+  // Values of cells; lines would come before triangles, and have none.
+  void write_face_columns() {
+    if (face_columns_.empty() || !lines_.empty()) return;
+    write_("<CellData Scalars=\"" + markup_text(face_columns_.front().name) + "\">\n");
+    for (const PointColumn& column : face_columns_) write_column(column.name, {&column, 1});
+    write_("</CellData>\n");
+  }
+
   void write_column(const std::string& name, std::span<const PointColumn> parts) {
     Stored stored = stored_as(parts[0]);
     for (const PointColumn& part : parts) {
@@ -104,9 +114,9 @@ class VtpWriter {
         std::string("type=\"") + vtk_type(stored) + "\" Name=\"" + markup_text(name) + "\"";
     if (parts.size() > 1) attributes += " NumberOfComponents=\"" + std::to_string(parts.size()) + "\"";
     std::string bytes;
-    bytes.reserve(parts.size() * mesh_.points.size() * bytes_of(stored));
-    for (std::size_t p = 0; p < mesh_.points.size(); ++p) {
-      for (const PointColumn& part : parts) append_stored(bytes, part.values[p], stored);
+    bytes.reserve(parts.size() * parts[0].values.size() * bytes_of(stored));
+    for (std::size_t n = 0; n < parts[0].values.size(); ++n) {
+      for (const PointColumn& part : parts) append_stored(bytes, part.values[n], stored);
     }
     write_array(attributes, bytes);
   }
@@ -142,6 +152,7 @@ class VtpWriter {
   const bool is_surface_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const std::vector<PointColumn>& columns_;
+  const std::vector<PointColumn>& face_columns_;
   const WriteBytes& write_;
 };
 

@@ -1,17 +1,20 @@
 #include "core/files/field_file.h"
 
 #include <array>
+#include <span>
 
 namespace affskel::core {
 namespace {
 
 constexpr std::size_t kErosion = 0, kShare = 1;  // components
 
-std::vector<LatticeColumn> field_columns() {
-  return {{"E", {"E"}},
-          {"E_share", {"E_share"}, GridType::kFloat64, 0, false},
-          {"normal", {"nx", "ny", "nz"}},
-          {"direction", {"direction"}, GridType::kInt32, -1}};
+std::vector<LatticeColumn> field_columns(bool parts) {
+  std::vector<LatticeColumn> columns = {{"E", {"E"}},
+                                        {"E_share", {"E_share"}, GridType::kFloat64, 0, false},
+                                        {"normal", {"nx", "ny", "nz"}},
+                                        {"direction", {"direction"}, GridType::kInt32, -1}};
+  if (parts) columns.push_back({"part", {"part"}, GridType::kInt32, 0});
+  return columns;
 }
 
 bool is_text(FileFormat format) {
@@ -21,8 +24,11 @@ bool is_text(FileFormat format) {
 }  // namespace
 
 FieldFile::FieldFile(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice, double volume,
-                     const FileFacts& facts)
-    : table_(format, file, lattice, field_columns(), facts), axes_(lattice.axes), volume_(volume) {
+                     const FileFacts& facts, bool parts)
+    : table_(format, file, lattice, field_columns(parts), facts),
+      axes_(lattice.axes),
+      volume_(volume),
+      parts_(parts) {
   if (is_text(format)) return;
   outside_.emplace(lattice.dims, [this](const PlaceAround& at, double erosion) {
     table_.put_outside(at, kErosion, erosion);
@@ -35,8 +41,14 @@ void FieldFile::put(const LatticePlace& at, const FieldSample& sample) {
   const Vec3 slopes = sample.area * Vec3{dot(n, axes_[0]), dot(n, axes_[1]), dot(n, axes_[2])};
   if (outside_)
     outside_->put(at, sample.erosion, slopes);  // first: the table then writes what is before the point
-  table_.put(at, std::array{sample.erosion, sample.erosion / volume_, n.x, n.y, n.z,
-                            static_cast<double>(sample.direction)});
+  const std::array values{sample.erosion,
+                          sample.erosion / volume_,
+                          n.x,
+                          n.y,
+                          n.z,
+                          static_cast<double>(sample.direction),
+                          static_cast<double>(sample.part)};
+  table_.put(at, std::span(values).first(values.size() - (parts_ ? 0 : 1)));
 }
 
 void FieldFile::finish() {

@@ -10,7 +10,7 @@
 
 namespace affskel::core {
 
-/// One number per point beside its coordinates: E, H, part of a normal, ...
+/// One number per point beside its coordinates, or per triangle: E, H, part of a normal, ...
 struct PointColumn {
   std::string name;
   bool whole = false;  ///< meant for whole numbers, such as an index
@@ -23,6 +23,7 @@ struct ShapeFile {
   OffMesh off;  ///< without triangles and segments: points alone; the lines only where the format has them
   std::vector<Segment> segments;     ///< of curves
   std::vector<PointColumn> columns;  ///< one value per point each
+  std::vector<PointColumn> face_columns;  ///< one value per triangle each; kept by .ply and .vtp alone, not read
   std::vector<std::uint32_t> quads;  ///< while it is read: first triangles of the faces with four corners
 
   const Mesh& mesh() const { return off.mesh; }

@@ -1,0 +1,55 @@
+#include "client/artifacts/solid_parts.h"
+
+#include <algorithm>
+
+#include "client/base/error.h"
+
+namespace affskel::client {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds)
+    throw ClientError(ExitCode::kInternal, std::string("the server sent damaged parts of the solid: ") + what);
+}
+
+bool all_between(const google::protobuf::RepeatedField<std::uint32_t>& values, std::uint32_t low,
+                 std::uint32_t high) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](std::uint32_t value) { return value >= low && value <= high; });
+}
+
+}  // namespace
+
+v1::SolidParts parse_solid_parts(const std::string& bytes) {
+  v1::SolidParts message;
+  require(message.ParseFromString(bytes), "unreadable");
+  const auto parts = static_cast<std::uint32_t>(message.parts_size());
+  const auto& surface = message.surface();
+  const int triangles = surface.corners_size() / 3;
+  require(surface.xyz_size() % 3 == 0 && surface.corners_size() % 3 == 0 && triangles > 0, "odd numbers");
+  require(all_between(surface.corners(), 0, static_cast<std::uint32_t>(surface.xyz_size() / 3) - 1),
+          "a corner out of range");
+  require(message.triangle_part_size() == triangles && message.thickness_size() == triangles,
+          "a triangle without its values");
+  require(all_between(message.triangle_part(), 1, parts) && all_between(message.point_part(), 1, parts),
+          "a part out of range");
+  require(message.greatest_place_size() == 3, "the greatest E without its place");
+  const auto vertices = static_cast<std::uint32_t>(message.curve().xyz_size() / 3);
+  for (const v1::SolidPart& part : message.parts()) {
+    require(part.from_size() == 3 && part.to_size() == 3, "a part without its ends");
+    require(vertices > 0 && all_between(part.vertices(), 0, vertices - 1), "a vertex out of range");
+  }
+  return message;
+}
+
+core::Mesh surface_of(const v1::SolidParts& parts) {
+  const v1::TriangleMesh& surface = parts.surface();
+  core::Mesh mesh;
+  for (int v = 0; v < surface.xyz_size(); v += 3)
+    mesh.points.push_back({surface.xyz(v), surface.xyz(v + 1), surface.xyz(v + 2)});
+  for (int t = 0; t < surface.corners_size(); t += 3)
+    mesh.triangles.push_back({surface.corners(t), surface.corners(t + 1), surface.corners(t + 2)});
+  return mesh;
+}
+
+}  // namespace affskel::client
