@@ -9,7 +9,8 @@ namespace {
 
 void require(bool holds, const char* what) {
   if (!holds)
-    throw ClientError(ExitCode::kInternal, std::string("the server sent damaged parts of the solid: ") + what);
+    throw ClientError(ExitCode::kInternal,
+                      std::string("the server sent damaged parts of the solid: ") + what);
 }
 
 bool all_between(const google::protobuf::RepeatedField<std::uint32_t>& values, std::uint32_t low,

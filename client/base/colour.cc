@@ -27,6 +27,20 @@ Rgb viridis(float t) {
   return mix(colour(kTable[low]), colour(kTable[low + 1]), place - float(low));
 }
 
+Rgb part_colour(std::uint32_t part) {
+  static constexpr std::array<std::array<int, 3>, 9> kTable = {{{221, 204, 119},
+                                                                {136, 204, 238},
+                                                                {204, 102, 119},
+                                                                {17, 119, 51},
+                                                                {170, 68, 153},
+                                                                {68, 170, 153},
+                                                                {136, 34, 85},
+                                                                {153, 153, 51},
+                                                                {51, 34, 136}}};
+  const auto& [r, g, b] = kTable[(part + kTable.size() - 1) % kTable.size()];
+  return {float(r) / 255, float(g) / 255, float(b) / 255};
+}
+
 float colour_position(double erosion, double highest) {
   return highest > 0 ? static_cast<float>(std::cbrt(std::max(0.0, erosion) / highest)) : 0.0f;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace affskel::client {
 
 /// Colour with components in 0 .. 1, as displayed (sRGB values, blended as they are).
@@ -21,6 +23,10 @@ inline Rgb mix(Rgb a, Rgb b, float t) {
 
 /// Perceptually uniform colours from dark violet (0) over green to yellow (1); t is clamped.
 Rgb viridis(float t);
+
+/// Colours that are told from each other, also by colour-blind people (the nine "muted" ones of Tol, "Colour schemes",
+/// 2021), over again from the tenth on.  @param part from 1.
+Rgb part_colour(std::uint32_t part);
 
 /// Where E stands on the scale of colours, 0 .. 1.  E varies over orders of magnitude, like a volume: its
 /// cube root is like a length.  @param highest E at 1.

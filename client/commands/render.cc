@@ -19,7 +19,7 @@ namespace {
 struct RenderCommandOptions {
   std::string job, output;
   PictureOptions picture;  // skeleton not given: see shown_skeleton()
-  std::string up, background = "white";
+  std::string up, background = "white", colour = "E";
   std::vector<std::string> cameras;  // empty: the usual ones
   bool no_mesh = false;
 };
@@ -27,6 +27,9 @@ struct RenderCommandOptions {
 PictureOptions picture_of(const RenderCommandOptions& options) {
   PictureOptions picture = options.picture;
   picture.up = chosen_up(options.up);
+  picture.colour = options.colour == "part"        ? PictureColour::kPart
+                   : options.colour == "thickness" ? PictureColour::kThickness
+                                                   : PictureColour::kErosion;
   picture.render.background = parse_background(options.background);
   picture.render.mesh = !options.no_mesh;
   if (!options.cameras.empty()) picture.render.cameras.clear();
@@ -64,6 +67,13 @@ void add_looks(CLI::App* command, RenderCommandOptions& options) {
                    "Draw the eroded solid at this share of v0, too: 0.05 or 5%")
       ->transform(proper_share())
       ->type_name("F");
+  command
+      ->add_option("--colour", options.colour,
+                   "What colours tell: E on the skeleton, the body's part (see measure) or its\n"
+                   "thickness (see fetch)")
+      ->check(one_of({"E", "part", "thickness"}))
+      ->capture_default_str()
+      ->type_name("");
   command->add_flag("--no-mesh", options.no_mesh, "Leave out the body's surface");
   command->add_option("--background", options.background, "white, black, dark, #RGB or #RRGGBB")
       ->capture_default_str()
@@ -74,16 +84,25 @@ void add_looks(CLI::App* command, RenderCommandOptions& options) {
       ->type_name("W");
 }
 
+void check_options(const CLI::App& render) {
+  if (render.get_option("--colour")->as<std::string>() == "E") return;
+  for (const char* name : {"--operator", "--threshold", "--no-mesh"})
+    if (render.count(name) > 0)
+      throw CLI::ValidationError("--colour", std::string("paints the body and does not go with ") + name);
+}
+
 }  // namespace
 
 void add_render(CommandLine& line) {
   const auto options = std::make_shared<RenderCommandOptions>();
-  CLI::App* command = line.add("render", "Picture of the body with its skeleton",
-                               "  affskel-client render @last -o body.png --width 2400\n"
-                               "  affskel-client render @last --camera 30,20 --level 5% -o eroded.png\n"
-                               "  affskel-client render @last --operator zucker-hummel -o points.png\n"
-                               "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
-                               [options](Context& context) { run_render(context, *options); });
+  CLI::App* command = line.add(
+      "render", "Picture of the body with its skeleton",
+      "  affskel-client render @last -o body.png --width 2400\n"
+      "  affskel-client render @last --camera 30,20 --level 5% -o eroded.png\n"
+      "  affskel-client render @last --operator zucker-hummel -o points.png\n"
+      "  affskel-client render @last --colour part -o parts.png\n"
+      "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
+      [options](Context& context) { run_render(context, *options); }, check_options);
   add_job(command, options->job);
   add_skeleton_options(command, options->picture.skeleton, true);
   add_looks(command, *options);

@@ -32,11 +32,12 @@ struct FetchRequest {
 /// An artefact of a job that was written into a file.
 struct Fetched {
   Destination destination;
-  std::string artifact;        ///< "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh"
-  std::string unit;            ///< what is counted: "point", "triangle" or "byte"
-  std::uint64_t items = 0;     ///< how many
-  v1::Job job;                 ///< as the server sent it along
-  std::uint64_t segments = 0;  ///< of the curves of a surface
+  std::string
+      artifact;      ///< "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh"
+  std::string unit;  ///< what is counted: "point", "triangle" or "byte"
+  std::uint64_t items = 0;                          ///< how many
+  v1::Job job;                                      ///< as the server sent it along
+  std::uint64_t segments = 0;                       ///< of the curves of a surface
   std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet
   /// Of an eroded solid, mesh units cubed: what the surface encloses, or of points their share of the sample
   /// points times v0.

@@ -12,8 +12,8 @@ Measures measure(Session& session, const std::string& job, double threshold) {
   measures.job = header.job();
   for (const v1::SolidPart& part : measures.solid.parts()) measures.curve_length += part.length();
   const v1::TriangleMesh& curve = measures.solid.curve();
-  measures.notices = skeleton_notices(static_cast<std::uint64_t>(curve.segments_size() / 2), curve.quality(),
-                                      measures.job);
+  measures.notices =
+      skeleton_notices(static_cast<std::uint64_t>(curve.segments_size() / 2), curve.quality(), measures.job);
   return measures;
 }
 

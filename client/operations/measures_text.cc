@@ -68,7 +68,8 @@ std::string aligned(std::string text, std::size_t width) {
 }
 
 std::string place_text(const google::protobuf::RepeatedField<double>& at) {
-  return "(" + base::rounded(at[0], 4) + ", " + base::rounded(at[1], 4) + ", " + base::rounded(at[2], 4) + ")";
+  return "(" + base::rounded(at[0], 4) + ", " + base::rounded(at[1], 4) + ", " + base::rounded(at[2], 4) +
+         ")";
 }
 
 std::string angle_text(const v1::SolidPart& part) {
@@ -79,9 +80,10 @@ std::string row_text(int number, const v1::SolidPart& part) {
   const std::string kind = part_kind_word(part.kind());
   std::string text = aligned(std::to_string(number), 5) + "  " + kind +
                      aligned(base::rounded(100 * part.volume_share(), 3), 16 - kind.size());
-  for (const double value : {part.volume(), part.surface_area()}) text += aligned(base::rounded(value, 4), 12);
-  for (const double value :
-       {part.length(), part.straight_length(), part.mean_radius(), part.least_radius(), part.greatest_radius()})
+  for (const double value : {part.volume(), part.surface_area()})
+    text += aligned(base::rounded(value, 4), 12);
+  for (const double value : {part.length(), part.straight_length(), part.mean_radius(), part.least_radius(),
+                             part.greatest_radius()})
     text += aligned(base::rounded(value, 4), 10);
   return text + aligned(angle_text(part), 7) + "  " + place_text(part.to()) + "\n";
 }
@@ -97,15 +99,15 @@ std::string measures_text(const Measures& m) {
   std::string text =
       key_line("volume", base::rounded(m.job.prepared().volume(), 7)) +
       key_line("surface_area", base::rounded(solid.surface_area(), 7)) +
-      key_line("greatest_E", base::rounded(solid.greatest_erosion(), 7) + " at " +
-                                 place_text(solid.greatest_place())) +
+      key_line("greatest_E",
+               base::rounded(solid.greatest_erosion(), 7) + " at " + place_text(solid.greatest_place())) +
       key_line("sheet_area", base::rounded(solid.sheet_area(), 5)) +
       key_line("curve_length", base::rounded(m.curve_length, 5)) +
       key_line("pieces", beside(curve.components(), curve.solid_components())) +
       key_line("tunnels", beside(curve.holes(), static_cast<std::uint64_t>(curve.solid_genus()))) +
       key_line("voids", std::to_string(curve.solid_cavities())) +
       key_line("parts", std::to_string(solid.parts_size())) +
-      "\n part  kind     volume %      volume        area    length  straight    radius     least  greatest  angle"
+      "\n part  kind    volume %      volume        area    length  straight    radius     least  greatest  angle"
       "  ends at\n";
   for (int n = 0; n < solid.parts_size(); ++n) text += row_text(n + 1, solid.parts(n));
   return text;

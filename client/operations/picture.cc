@@ -1,17 +1,23 @@
 #include "client/operations/picture.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
+#include "client/artifacts/solid_parts.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
+#include "client/text/words.h"
 #include "wire/params.h"
 
 namespace affskel::client {
 namespace {
+
+constexpr float kPartOpacity = 0.72f;  // the curve shines through
+constexpr int kMaxRows = 16;           // of the legend
 
 // The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
 std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
@@ -78,20 +84,65 @@ Notices fetch_eroded(Session& session, const v1::Job& job, double level, RenderI
   return eroded_notices(input.eroded);
 }
 
+PaintedBody by_part(const v1::SolidParts& solid) {
+  PaintedBody body;
+  body.mesh = surface_of(solid);
+  body.opacity = kPartOpacity;
+  for (const std::uint32_t part : solid.triangle_part()) body.colours.push_back(part_colour(part));
+  body.title = "Parts, % of the volume";
+  const int shown = std::min(solid.parts_size(), kMaxRows);
+  for (int p = 0; p < shown; ++p) {
+    body.rows.push_back({part_colour(static_cast<std::uint32_t>(p) + 1),
+                         std::to_string(p + 1) + " " + part_kind_word(solid.parts(p).kind()) + "  " +
+                             base::rounded(100 * solid.parts(p).volume_share(), 3)});
+  }
+  if (shown < solid.parts_size())
+    body.title += ", " + std::to_string(shown) + " of " + std::to_string(solid.parts_size());
+  return body;
+}
+
+PaintedBody by_thickness(const v1::SolidParts& solid) {
+  PaintedBody body;
+  body.mesh = surface_of(solid);
+  const double highest = *std::max_element(solid.thickness().begin(), solid.thickness().end());
+  for (const double thickness : solid.thickness())
+    body.colours.push_back(viridis(static_cast<float>(thickness / highest)));
+  body.scale = {"Thickness, mesh units", "From the surface to the skeleton", highest, false};
+  return body;
+}
+
+// @returns what is shown, in words.
+std::string paint(Session& session, const v1::Job& job, PictureColour colour, RenderInput& input) {
+  v1::ArtifactHeader header;
+  const v1::SolidParts solid = fetch_solid_parts(session, job.id(), 0, header);
+  if (colour == PictureColour::kPart) {
+    input.painted = by_part(solid);
+    input.sheet = solid.curve();
+    return base::counted(static_cast<std::uint64_t>(solid.parts_size()), "part");
+  }
+  input.painted = by_thickness(solid);
+  return "thickness";
+}
+
 }  // namespace
 
 Picture make_picture(Session& session, const v1::Job& job, const PictureOptions& options) {
   v1::SkeletonParams params = shown_skeleton(options.skeleton, job);
   RenderInput input;
   Notices notices;
-  const double applied = fetch_skeleton(session, job, params, !options.skeleton.given(), input, notices);
-  if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
+  std::string shown;
+  if (options.colour == PictureColour::kErosion) {
+    const double applied = fetch_skeleton(session, job, params, !options.skeleton.given(), input, notices);
+    if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
+    shown = shown_text(input, params);
+  } else {
+    shown = paint(session, job, options.colour, input);
+  }
   if (options.level > 0) append(notices, fetch_eroded(session, job, options.level, input));
   input.mesh = fetch_mesh(session, job.id());
   input.up = options.up.value_or(up_axis(input.mesh));
   input.cell = lattice_cell(job.prepared());
   input.volume = job.prepared().volume();
-  const std::string shown = shown_text(input, params);
   input.title = title_of(input, job, shown);
   return {encode_png(render_scene(input, options.render)), shown, std::move(notices)};
 }

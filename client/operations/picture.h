@@ -11,8 +11,13 @@
 
 namespace affskel::client {
 
+/// What the colours of a picture tell: E on the skeleton, or of the body the part that each triangle belongs to, or how
+/// thick it is there.
+enum class PictureColour { kErosion, kPart, kThickness };
+
 /// What a picture is to show.
 struct PictureOptions {
+  PictureColour colour = PictureColour::kErosion;
   SkeletonChoice skeleton;
   double level = 0;          ///< of the eroded solid that is drawn, as a share of v0; 0 = none
   std::optional<UpAxis> up;  ///< absent: see up_axis
@@ -26,7 +31,7 @@ struct Picture {
 };
 
 /// The picture of a finished job: the body with its skeleton as points, of `chords` and `ridge` with its
-/// sheet.
+/// sheet; of parts with the curve skeleton.
 Picture make_picture(Session& session, const v1::Job& job, const PictureOptions& options);
 
 }  // namespace affskel::client

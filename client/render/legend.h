@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "client/render/image.h"
 #include "client/render/raster.h"
@@ -17,12 +18,29 @@ bool is_dark(Rgb background);
 
 Ink ink_on(Rgb background);
 
-/// Beside the views of a picture: the scale bar, what the eroded solid is, the scale of colours.
+/// What viridis stands for.
+struct ColourScale {
+  std::string title, note;
+  double highest = 0;  ///< of the last colour, as it is labelled; 0: there is no scale
+  bool cubic = false;  ///< the colour follows the cube root
+};
+
+/// That of E. @param volume v0, of which E is labelled as a share; 0: E itself is.
+ColourScale erosion_scale(double highest, double volume);
+
+/// What single colours stand for.
+struct ColourRow {
+  Rgb colour;
+  std::string text;
+};
+
+/// Beside the views of a picture: the scale bar, what the eroded solid is, the scale of colours or their list.
 struct Legend {
-  double text = 10;    ///< height of a capital letter, pixels
-  double highest = 0;  ///< E of the last colour, mesh units cubed; 0: no scale of colours
-  double volume = 0;   ///< v0, of which E is labelled as a share; 0: E itself is
-  std::string level;   ///< of the eroded solid; empty: none is drawn
+  double text = 10;  ///< height of a capital letter, pixels
+  ColourScale scale;
+  std::string title;            ///< of the rows
+  std::vector<ColourRow> rows;  ///< may be empty
+  std::string level;            ///< of the eroded solid; empty: none is drawn
   Ink ink;
 
   double width() const;   ///< pixels

@@ -240,6 +240,27 @@ void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normal
   }
 }
 
+void Panel::draw_shell(const core::Mesh& mesh, const std::vector<Vec3>& normals,
+                       const std::vector<Rgb>& colours, float opacity) {
+  shell_.resize(samples_.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<Projected, 3> p{};
+    for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[mesh.triangles[t][c]]);
+    const std::array<ScreenPoint, 3> corners = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
+    const Vec3* n = &normals[3 * t];
+    for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
+      const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
+      ShellSample& sample = shell_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+      if (sample.opacity > 0 && depth <= sample.depth) return;
+      const Vec3 normal = unit((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
+      const double light = lambert(core::dot(normal, view_.right), core::dot(normal, view_.up),
+                                   std::fabs(core::dot(normal, view_.toward)));
+      const auto shade = static_cast<float>(kSheetShade + (1 - kSheetShade) * light);
+      sample = {depth, shade * colours[t], opacity};
+    });
+  }
+}
+
 Image Panel::resolve(Rgb background) const {
   Image image(columns_ / kSamples, rows_ / kSamples);
   constexpr float kShare = 1.0f / (kSamples * kSamples);
@@ -249,7 +270,12 @@ Image Panel::resolve(Rgb background) const {
       for (int s = 0; s < kSamples * kSamples; ++s) {
         const Sample& sample = at(x * kSamples + s % kSamples, y * kSamples + s / kSamples);
         const Rgb behind = sample.covered ? sample.solid : sample.back.over(background);
-        sum = sum + sample.front.over(behind);
+        Rgb seen = sample.front.over(behind);
+        if (!shell_.empty()) {
+          const ShellSample& shell = shell_[static_cast<std::size_t>(&sample - samples_.data())];
+          seen = mix(seen, shell.colour, shell.opacity);
+        }
+        sum = sum + seen;
       }
       image.at(x, y) = kShare * sum;
     }

@@ -61,6 +61,11 @@ class Panel {
   void draw_surface(const core::Mesh& mesh, const std::vector<core::Vec3>& normals,
                     const Glass& glass = kGlassOnLight);
 
+  /// The surface that the viewer sees, depth-buffered, in front of all else.
+  /// @param normals as of draw_surface. @param colours one per triangle. @param opacity 0 .. 1.
+  void draw_shell(const core::Mesh& mesh, const std::vector<core::Vec3>& normals,
+                  const std::vector<Rgb>& colours, float opacity);
+
   /// The finished picture.
   Image resolve(Rgb background = kWhite) const;
 
@@ -77,6 +82,12 @@ class Panel {
     Rgb solid;    // its colour
     bool covered = false;
     Layers front, back;
+  };
+
+  struct ShellSample {
+    float depth = 0;
+    Rgb colour;
+    float opacity = 0;  // 0: no shell
   };
 
   struct Projected {
@@ -106,6 +117,7 @@ class Panel {
   core::Vec3 centre_;
   double scale_;  // samples per mesh unit
   std::vector<Sample> samples_;
+  std::vector<ShellSample> shell_;  // as many, or none
 };
 
 /// Normals per triangle and corner: the area-weighted mean over the triangles around the vertex that bend

@@ -21,6 +21,7 @@ constexpr double kPartOfCell = 0.42;  // half the size of a point's ball: balls 
 constexpr int kMinWidth = 200, kMaxWidth = 8000;
 constexpr std::size_t kMaxCameras = 6;
 constexpr double kTallest = 1.25;  // the views' height by the picture's width: a slim body stays on a screen
+constexpr Rgb kInBody{0.05f, 0.05f, 0.05f};  // a skeleton that shines through a painted body
 constexpr Rgb kDark{0.08f, 0.09f, 0.12f};
 
 // One view, and how large the body is in it.
@@ -70,8 +71,11 @@ Layout lay_out(const std::vector<Shown>& views, int width, double highest, const
   layout.head = static_cast<int>(4 * layout.text);
   layout.label = 2.4 * layout.text;
   legend.text = layout.text;
-  legend.highest = highest;
-  legend.volume = input.volume;
+  legend.scale = input.painted ? input.painted->scale : erosion_scale(highest, input.volume);
+  if (input.painted) {
+    legend.title = input.painted->title;
+    legend.rows = input.painted->rows;
+  }
   legend.level = input.eroded.corners().empty() ? "" : input.level;
   std::vector<Block> blocks;
   for (const Shown& shown : views)
@@ -125,11 +129,10 @@ core::Mesh mesh_of(const v1::TriangleMesh& surface) {
   return mesh;
 }
 
-// @param curve_width pixels.
-void draw_sheet(const v1::TriangleMesh& sheet, double highest, double curve_width, Panel& panel) {
+// @param curve_width pixels. @param colours per vertex.
+void draw_sheet(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, double curve_width,
+                Panel& panel) {
   const core::Mesh mesh = mesh_of(sheet);
-  std::vector<Rgb> colours;
-  for (const double e : sheet.erosion()) colours.push_back(viridis(colour_position(e, highest)));
   panel.draw_sheet(mesh, colours);
   std::vector<core::Segment> segments;
   for (int i = 0; i < sheet.segments_size(); i += 2)
@@ -137,12 +140,22 @@ void draw_sheet(const v1::TriangleMesh& sheet, double highest, double curve_widt
   panel.draw_curves(mesh.points, segments, colours, curve_width);
 }
 
+std::vector<Rgb> colours_of(const RenderInput& input, double highest) {
+  if (input.painted) return std::vector<Rgb>(static_cast<std::size_t>(input.sheet.erosion_size()), kInBody);
+  std::vector<Rgb> colours;
+  for (const double e : input.sheet.erosion()) colours.push_back(viridis(colour_position(e, highest)));
+  return colours;
+}
+
 void draw_solids(const RenderInput& input, const RenderOptions& options, Panel& panel) {
   if (!input.eroded.corners().empty()) {
     const core::Mesh eroded = mesh_of(input.eroded);
     panel.draw_surface(eroded, corner_normals(eroded), kErodedGlass);
   }
-  if (options.mesh) {
+  if (input.painted) {
+    panel.draw_shell(input.painted->mesh, corner_normals(input.painted->mesh), input.painted->colours,
+                     input.painted->opacity);
+  } else if (options.mesh) {
     panel.draw_surface(input.mesh, corner_normals(input.mesh),
                        is_dark(options.background) ? kGlassOnDark : kGlassOnLight);
   }
@@ -156,7 +169,7 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   Panel panel(width, height, shown.view, shown.centre, layout.scale());
   const double highest = highest_of(input);
   draw_points(input, layout, highest, panel);
-  draw_sheet(input.sheet, highest, std::max(2.0, layout.text / 5), panel);
+  draw_sheet(input.sheet, colours_of(input, highest), std::max(2.0, layout.text / 5), panel);
   draw_solids(input, options, panel);
   const ScreenPoint at = layout.place(which);
   paste(image, panel.resolve(options.background), static_cast<int>(at.x),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "client/base/up_axis.h"
 #include "client/render/camera.h"
 #include "client/render/image.h"
+#include "client/render/legend.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::client {
@@ -19,9 +21,20 @@ struct RenderOptions {
   Rgb background = kWhite;
 };
 
+/// The body, its front opaque or nearly so, in colours of its own.
+struct PaintedBody {
+  core::Mesh mesh;
+  std::vector<Rgb> colours;  ///< per triangle
+  float opacity = 1;         ///< what lies behind it shines through the rest
+  ColourScale scale;         ///< of these colours, or
+  std::string title;         ///< of rows
+  std::vector<ColourRow> rows;
+};
+
 /// What is on the picture.
 struct RenderInput {
-  core::Mesh mesh;              ///< the body, drawn translucent
+  core::Mesh mesh;                     ///< the body, drawn translucent
+  std::optional<PaintedBody> painted;  ///< drawn instead; the skeleton then in one colour
   v1::SkeletonPoints skeleton;  ///< drawn as balls, stretched like the cells, coloured by E; may be empty
   v1::TriangleMesh
       sheet;  ///< of `chords` or `ridge`, drawn as a surface, with curves, coloured by E; may be empty

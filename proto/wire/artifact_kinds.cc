@@ -115,7 +115,10 @@ void check_request(const v1::FetchArtifactRequest& request) {
                                 std::to_string(static_cast<int>(request.kind())));
   }
   const std::array<Given, 3> all = {{
-      {request.has_skeleton(), "skeleton", {P::kSkeleton, P::kOperator, P::kCurve}, " (SURFACE has surface.skeleton)"},
+      {request.has_skeleton(),
+       "skeleton",
+       {P::kSkeleton, P::kOperator, P::kCurve},
+       " (SURFACE has surface.skeleton)"},
       {request.has_surface(), "surface", {P::kSurface, P::kSurface, P::kSurface}, ""},
       {request.has_eroded(), "eroded", {P::kEroded, P::kEroded, P::kEroded}, ""},
   }};

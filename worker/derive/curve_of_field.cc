@@ -70,7 +70,7 @@ core::CurveGraph CurveOfField::graph_of(const core::CurveSkeleton& curve) const 
     places.push_back(field_.to_mesh(vertex.position));
     radius.push_back(std::sqrt(vertex.area / std::numbers::pi));
   }
-  return core::curve_graph(places, curve.segments, radius, curve.share);
+  return core::curve_graph(places, curve.segments, radius, curve.distance, curve.share);
 }
 
 std::vector<std::uint32_t> parts_of_points(const core::CurveSkeleton& curve, const core::CurveGraph& graph) {

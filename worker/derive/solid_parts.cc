@@ -86,7 +86,8 @@ class Parts {
     std::vector<core::Vec3> places;
     for (std::uint32_t v = 0; v < curve_.vertices.size(); ++v) places.push_back(place_of(v));
     const core::PointIndex index(places);
-    for (const core::Vec3& point : solid_.mesh.points) append(to_mesh(point), message_.mutable_surface()->mutable_xyz());
+    for (const core::Vec3& point : solid_.mesh.points)
+      append(to_mesh(point), message_.mutable_surface()->mutable_xyz());
     append_corners(solid_.mesh, *message_.mutable_surface());
     for (std::size_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = solid_.mesh.triangles[t];

@@ -8,7 +8,7 @@
 namespace affskel::client {
 
 /// A curve skeleton as a graph of lines: its branches are the solid's parts, but for vertices without a line.
-/// @param shape with segments and the columns radius and share.
+/// @param shape with segments and the columns radius, distance and share.
 /// @throws ClientError kInternal when it lacks one.
 core::CurveGraph curve_graph(const ShapeFile& shape);
 

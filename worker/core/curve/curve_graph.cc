@@ -1,12 +1,12 @@
 #include "core/curve/curve_graph.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "core/base/groups.h"
 #include "core/base/plain_math.h"
 #include "core/base/unit.h"
 #include "core/mesh/polylines.h"
@@ -18,11 +18,16 @@ namespace {
 // nearer, lines bend into each other.
 constexpr double kStretch = 4;
 
+// Of the extent of some branches: what is nearer to each other has no order along that axis.
+constexpr double kCloseTogether = 0.1;
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
 class Graph {
  public:
   Graph(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> radius,
-        std::span<const double> share)
-      : places_(places), radius_(radius), share_(share), ends_(places.size(), 0) {
+        std::span<const double> ball, std::span<const double> share)
+      : places_(places), radius_(radius), ball_(ball), share_(share), ends_(places.size(), 0) {
     for (auto& line : polylines(places.size(), segments)) add(std::move(line));
     std::vector<char> used(places.size(), 0);
     for (const CurveBranch& branch : graph_.branches)
@@ -36,7 +41,15 @@ class Graph {
     put_in_order();
     list_nodes();
     for (CurveBranch& branch : graph_.branches) measure(branch);
-    for (std::size_t b = 0; b < graph_.branches.size(); ++b) measure_angle(b);
+    const auto count = static_cast<std::uint32_t>(graph_.branches.size());
+    at_vertex_ = {places_.size(), [&](const auto& put) {
+                    for (std::uint32_t b = 0; b < count; ++b)
+                      for (const std::uint32_t v :
+                           {graph_.branches[b].vertices.front(), graph_.branches[b].vertices.back()})
+                        put(v, b);
+                  }};
+    for (std::uint32_t b = 0; b < count; ++b) turn_link(b);
+    for (std::uint32_t b = 0; b < count; ++b) measure_angle(b);
     return std::move(graph_);
   }
 
@@ -55,27 +68,50 @@ class Graph {
     return n > 0 && n + 1 < branch.vertices.size();
   }
 
-  // Those within a branch are its own; then those at its ends, to the heaviest by these.
   void give_vertices() {
     std::vector<double> within(graph_.branches.size(), 0);
-    graph_.part.assign(places_.size(), 0);
-    std::vector<std::uint32_t> heaviest(places_.size(), std::numeric_limits<std::uint32_t>::max());
-    for (std::uint32_t b = 0; b < within.size(); ++b) {
-      const CurveBranch& branch = graph_.branches[b];
-      for (std::size_t n = 0; n < branch.vertices.size(); ++n)
-        if (is_within(branch, n)) within[b] += share_[branch.vertices[n]];
-    }
-    for (std::uint32_t b = 0; b < within.size(); ++b) {
-      const CurveBranch& branch = graph_.branches[b];
-      for (std::size_t n = 0; n < branch.vertices.size(); ++n) {
-        std::uint32_t& owner = heaviest[branch.vertices[n]];
-        if (is_within(branch, n) || owner == std::numeric_limits<std::uint32_t>::max() ||
-            within[b] > within[owner])
-          owner = b;
+    graph_.part.assign(places_.size(), kNone);
+    for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
+      if (!inner) return;
+      within[b] += share_[v];
+      graph_.part[v] = b;
+    });
+    for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
+      if (inner) return;
+      std::uint32_t& owner = graph_.part[v];
+      if (owner == kNone || within[b] > within[owner]) owner = b;
+    });
+    give_joints();
+    for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
+  }
+
+  template <class Visit>
+  void for_each_vertex(const Visit& visit) const {
+    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
+      for (std::size_t n = 0; n < graph_.branches[b].vertices.size(); ++n)
+        visit(b, graph_.branches[b].vertices[n], is_within(graph_.branches[b], n));
+  }
+
+  // What lies in the ball about a joint goes to its branch, from a place in two balls to the one that it is deeper in.
+  void give_joints() {
+    std::vector<double> depth(places_.size(), 1);
+    std::vector<std::uint32_t> part = graph_.part;
+    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b) {
+      const auto& vertices = graph_.branches[b].vertices;
+      for (const bool from_last : {false, true}) {
+        const std::uint32_t joint = from_last ? vertices.back() : vertices.front();
+        if (graph_.part[joint] == b) continue;
+        for (std::size_t n = 1; n + 1 < vertices.size(); ++n) {
+          const std::uint32_t v = vertices[from_last ? vertices.size() - 1 - n : n];
+          const double way = norm(places_[v] - places_[joint]);
+          if (!(way < ball_[joint])) break;
+          if (way >= depth[v] * ball_[joint]) continue;
+          depth[v] = way / ball_[joint];
+          part[v] = graph_.part[joint];
+        }
       }
     }
-    graph_.part = std::move(heaviest);
-    for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
+    graph_.part = std::move(part);
   }
 
   Vec3 mean_place(const CurveBranch& branch) const {
@@ -94,7 +130,8 @@ class Graph {
                      [&](std::uint32_t a, std::uint32_t b) { return share(a) > share(b); });
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
       end = begin + 1;
-      while (end < order.size() && share(order[end]) >= CurveGraph::kAboutEqual * share(order[end - 1])) ++end;
+      while (end < order.size() && share(order[end]) >= CurveGraph::kAboutEqual * share(order[end - 1]))
+        ++end;
       sort_along(std::span(order).subspan(begin, end - begin), means);
     }
     std::vector<CurveBranch> sorted;
@@ -107,18 +144,28 @@ class Graph {
     for (std::uint32_t& part : graph_.part) part = number[part];
   }
 
+  // Along the axis in which they are farthest apart; what is close together there, along its own.
   static void sort_along(std::span<std::uint32_t> branches, const std::vector<Vec3>& means) {
-    std::array<double, 3> extent{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] = std::minmax_element(
-          branches.begin(), branches.end(),
-          [&](std::uint32_t a, std::uint32_t b) { return means[a][axis] < means[b][axis]; });
-      extent[static_cast<std::size_t>(axis)] = means[*high][axis] - means[*low][axis];
+    int axis = 0;
+    double extent = 0;
+    for (int a = 0; a < 3; ++a) {
+      const auto [low, high] =
+          std::minmax_element(branches.begin(), branches.end(),
+                              [&](std::uint32_t p, std::uint32_t q) { return means[p][a] < means[q][a]; });
+      if (means[*high][a] - means[*low][a] <= extent) continue;
+      extent = means[*high][a] - means[*low][a];
+      axis = a;
     }
-    const int axis =
-        static_cast<int>(std::max_element(extent.begin(), extent.end()) - extent.begin());
     std::stable_sort(branches.begin(), branches.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return means[a][axis] < means[b][axis]; });
+                     [&](std::uint32_t p, std::uint32_t q) { return means[p][axis] < means[q][axis]; });
+    for (std::size_t begin = 0, end = 0; begin < branches.size(); begin = end) {
+      end = begin + 1;
+      while (end < branches.size() &&
+             means[branches[end]][axis] - means[branches[end - 1]][axis] < kCloseTogether * extent)
+        ++end;
+      if (end - begin > 1 && end - begin < branches.size())
+        sort_along(branches.subspan(begin, end - begin), means);
+    }
   }
 
   void list_nodes() {
@@ -186,31 +233,45 @@ class Graph {
     return unit(place_along(branch, from_last, end) - place_along(branch, from_last, begin));
   }
 
-  void measure_angle(std::size_t which) {
+  // The first other branch at an end.
+  std::uint32_t beside(std::uint32_t which, std::uint32_t vertex) const {
+    const auto at = at_vertex_[vertex];
+    const auto other = std::find_if(at.begin(), at.end(), [&](std::uint32_t b) { return b != which; });
+    return other == at.end() ? kNone : *other;
+  }
+
+  // From the heavier of its two joints.
+  void turn_link(std::uint32_t which) {
+    CurveBranch& branch = graph_.branches[which];
+    if (branch.kind != BranchKind::kLink) return;
+    if (beside(which, branch.vertices.back()) >= beside(which, branch.vertices.front())) return;
+    std::reverse(branch.vertices.begin(), branch.vertices.end());
+    std::swap(branch.from, branch.to);
+  }
+
+  void measure_angle(std::uint32_t which) {
     CurveBranch& branch = graph_.branches[which];
     branch.angle = std::numeric_limits<double>::quiet_NaN();
-    if (branch.kind == BranchKind::kPoint || branch.kind == BranchKind::kLine) return;
-    for (std::size_t b = 0; b < graph_.branches.size(); ++b) {
-      const CurveBranch& other = graph_.branches[b];
-      if (b == which || other.kind == BranchKind::kPoint) continue;
-      if (other.from != branch.from && other.to != branch.from) continue;
-      const Vec3 way = direction(branch, false), on = direction(other, other.from != branch.from);
-      branch.angle = 180 / std::numbers::pi * plain_angle(norm(cross(way, on)), dot(way, on));
-      return;
-    }
+    const std::uint32_t other = beside(which, branch.vertices.front());
+    if (other == kNone) return;
+    const CurveBranch& on = graph_.branches[other];
+    const Vec3 way = direction(branch, false), rest = direction(on, on.from != branch.from);
+    branch.angle = 180 / std::numbers::pi * plain_angle(norm(cross(way, rest)), dot(way, rest));
   }
 
   std::span<const Vec3> places_;
-  std::span<const double> radius_, share_;
+  std::span<const double> radius_, ball_, share_;
   std::vector<std::uint32_t> ends_;  // of branches, per vertex
+  Groups<std::uint32_t> at_vertex_;  // branches that begin or end there, in their order
   CurveGraph graph_;
 };
 
 }  // namespace
 
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
-                       std::span<const double> radius, std::span<const double> share) {
-  return Graph(places, segments, radius, share).run();
+                       std::span<const double> radius, std::span<const double> ball,
+                       std::span<const double> share) {
+  return Graph(places, segments, radius, ball, share).run();
 }
 
 }  // namespace affskel::core

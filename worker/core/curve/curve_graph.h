@@ -15,13 +15,15 @@ enum class BranchKind : std::uint8_t { kLimb, kLine, kLink, kLoop, kPoint };
 /// A line between two nodes.
 struct CurveBranch {
   BranchKind kind = BranchKind::kLimb;
-  std::uint32_t from = 0, to = 0;  ///< nodes; the same for a loop and a point.  A limb's free end is `to`
-  std::vector<std::uint32_t> vertices;  ///< from one to the other
-  double length = 0;                    ///< along the line
-  double straight_length = 0;           ///< from node to node
-  double share = 0;                     ///< of its vertices, see CurveGraph::part
+  /// Nodes; the same for a loop and a point.  A limb's free end is `to`, of a link's ends `from` where it meets
+  /// the branch that comes first.
+  std::uint32_t from = 0, to = 0;
+  std::vector<std::uint32_t> vertices;                            ///< from one to the other
+  double length = 0;                                              ///< along the line
+  double straight_length = 0;                                     ///< from node to node
+  double share = 0;                                               ///< of its vertices, see CurveGraph::part
   double mean_radius = 0, least_radius = 0, greatest_radius = 0;  ///< mean along the line
-  /// Degrees, at `from`, to the heaviest other branch there: 180 goes straight on; NaN without another.
+  /// Degrees, at `from`, to the first other branch there: 180 goes straight on; NaN without another.
   double angle = 0;
 };
 
@@ -32,17 +34,21 @@ struct CurveGraph {
   std::vector<std::uint32_t> nodes;
   std::vector<std::uint32_t> degree;  ///< per node: ends of branches there
   /// The greatest share first.  Shares that are about equal, each at least kAboutEqual of the one before, are in
-  /// the order of their mean places along the axis in which these are farthest apart: the two arms of a body do not
-  /// change places with noise, nor in its affine image.
+  /// the order of their mean places, along the axis in which these are farthest apart: the two arms of a body do not
+  /// change places with noise.
   std::vector<CurveBranch> branches;
-  std::vector<std::uint32_t> part;  ///< per vertex: its branch; of a vertex where some meet, the heaviest
+  /// Per vertex: its branch; where some meet, the heaviest, which also takes what lies in the largest ball about the
+  /// joint: a limb begins where it leaves the trunk.
+  std::vector<std::uint32_t> part;
 
-  static constexpr double kAboutEqual = 0.85;
+  static constexpr double kAboutEqual = 0.95;
 };
 
 /// A point is a branch of its own, of one vertex.
-/// @param places, radius, share per vertex; segments as for polylines().
+/// @param places, radius, ball, share per vertex: radius of the section, distance to the surface, of the volume;
+///   segments as for polylines().
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
-                       std::span<const double> radius, std::span<const double> share);
+                       std::span<const double> radius, std::span<const double> ball,
+                       std::span<const double> share);
 
 }  // namespace affskel::core

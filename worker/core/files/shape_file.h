@@ -23,7 +23,8 @@ struct ShapeFile {
   OffMesh off;  ///< without triangles and segments: points alone; the lines only where the format has them
   std::vector<Segment> segments;     ///< of curves
   std::vector<PointColumn> columns;  ///< one value per point each
-  std::vector<PointColumn> face_columns;  ///< one value per triangle each; kept by .ply and .vtp alone, not read
+  std::vector<PointColumn>
+      face_columns;                  ///< one value per triangle each; kept by .ply and .vtp alone, not read
   std::vector<std::uint32_t> quads;  ///< while it is read: first triangles of the faces with four corners
 
   const Mesh& mesh() const { return off.mesh; }

@@ -39,7 +39,7 @@ TEST(DistanceToMesh, OfATriangleIsThatOfItsNearestPoint) {
         least = std::min(least, norm(at - place));
       }
     }
-    const double found = std::sqrt(squared_distance(place, a, b, c));
+    const double found = norm(nearest_place(place, a, b, c) - place);
     EXPECT_LE(found, least + 1e-12);
     EXPECT_NEAR(found, least, 0.01);
   }
@@ -65,7 +65,8 @@ TEST(DistanceToMesh, IsTheLeastOfAllTriangles) {
     const Vec3 place = random.next(5);
     double least = HUGE_VAL;
     for (const auto& [a, b, c] : torus.triangles)
-      least = std::min(least, squared_distance(place, torus.points[a], torus.points[b], torus.points[c]));
+      least = std::min(least,
+                       norm(nearest_place(place, torus.points[a], torus.points[b], torus.points[c]) - place));
     EXPECT_EQ(distance.nearest(place), std::sqrt(least));
   }
 }
