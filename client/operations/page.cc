@@ -9,6 +9,7 @@
 #include "base/coding.h"
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
+#include "client/artifacts/solid_parts.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
 #include "client/text/words.h"
@@ -59,12 +60,17 @@ core::ShockOperator shock_operator(v1::Operator which) {
                                           " of the protocol, which this version does not know; name another");
 }
 
+// The solid is parted by the curve of its ridge.
+bool has_parts(v1::Operator which) {
+  return which == v1::OPERATOR_RIDGE || which == v1::OPERATOR_CURVE;
+}
+
 // Where the slider of |H|, or of the share of a piece of the sheet, stands at first.
 // @throws ClientError kUsage for an unknown operator.
 double first_threshold(const v1::SkeletonParams& params, double spacing) {
   // The thresholds of `ridge` and `curve` are not what the slider sets: all pieces are shown.
   constexpr double kAnyPiece = 0.001;
-  if (params.operator_() == v1::OPERATOR_RIDGE || params.operator_() == v1::OPERATOR_CURVE) return kAnyPiece;
+  if (has_parts(params.operator_())) return kAnyPiece;
   const bool chords = params.operator_() == v1::OPERATOR_CHORDS;
   const double preset = chords ? core::ChordSheetOptions().significance
                                : core::default_threshold(shock_operator(params.operator_()), spacing);
@@ -138,7 +144,13 @@ ViewModel fetch_model(Session& session, const ViewSubject& subject, Notices& not
       fetch_message<v1::Lattice>(session, subject.job.id(), v1::ARTIFACT_KIND_LATTICE, "lattice"));
   model.grid = view_grid(lattice);
   append(notices, fetch_skeleton(session, subject, lattice, model));
-  model.mesh = fetch_mesh(session, subject.job.id());
+  if (has_parts(subject.params.operator_())) {
+    v1::ArtifactHeader header;
+    model.parts = fetch_solid_parts(session, subject.job.id(), 0, header);
+    model.mesh = surface_of(model.parts);
+  } else {
+    model.mesh = fetch_mesh(session, subject.job.id());
+  }
   return model;
 }
 

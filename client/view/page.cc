@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "client/base/colour.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/base/scale_words.h"
@@ -183,6 +184,26 @@ void add_sheet(Arrays& arrays, const ViewModel& model, const Scale& scale) {
   arrays.add("sheetPieceShares", "f32", std::vector<float>(pieces.shares.begin(), pieces.shares.end()));
 }
 
+// What of the body each triangle is.
+ordered_json add_parts(Arrays& arrays, const v1::SolidParts& solid) {
+  ordered_json parts = ordered_json::array();
+  if (solid.parts().empty()) return parts;
+  arrays.add("meshParts", "u16",
+             std::vector<std::uint16_t>(solid.triangle_part().begin(), solid.triangle_part().end()));
+  arrays.add("meshThickness", "f32", floats(solid.thickness()));
+  for (int p = 0; p < solid.parts_size(); ++p) {
+    const v1::SolidPart& part = solid.parts(p);
+    const Rgb colour = part_colour(static_cast<std::uint32_t>(p) + 1);
+    parts.push_back({{"kind", part_kind_word(part.kind())},
+                     {"share", part.volume_share()},
+                     {"volume", part.volume()},
+                     {"length", part.length()},
+                     {"radius", part.mean_radius()},
+                     {"colour", {colour.r, colour.g, colour.b}}});
+  }
+  return parts;
+}
+
 // The steps of the lattice, page units; those of the grid may be several at once.
 ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
   ordered_json cell = ordered_json::array();
@@ -246,6 +267,7 @@ ordered_json add_model(Arrays& arrays, const ViewModel& model, double unit) {
   facts["meshGrid"] = add_mesh(arrays, model.mesh, box, scale);
   facts["pointGrid"] = add_points(arrays, model, scale);
   if (model.sheet_is_skeleton) add_sheet(arrays, model, scale);
+  facts["parts"] = add_parts(arrays, model.parts);
   facts["eroded"] = add_eroded(arrays, model, box);
   facts["arrays"] = arrays.directory();
   return facts;
@@ -315,9 +337,8 @@ std::string policy_hash(std::string_view text) {
 }  // namespace
 
 std::string view_page_policy() {
-  const std::string style = std::string(page_overlay_style()) + std::string(page_style());
   return "default-src 'none'; script-src " + policy_hash(page_script()) + "; style-src " +
-         policy_hash(style) +
+         policy_hash(page_style()) +
          "; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'; sandbox "
          "allow-scripts allow-downloads";
 }
@@ -351,7 +372,6 @@ std::string view_page(const ViewInput& input) {
                     block = core::base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
                                 {"version", wire::kVersion},
-                                {"overlay", page_overlay_style()},
                                 {"style", page_style()},
                                 {"script", page_script()},
                                 {"facts", data},

@@ -21,6 +21,7 @@ struct ViewModel {
   std::vector<ViewPoint> points;   ///< by descending |H|; none where the sheet is the skeleton
   bool sheet_is_skeleton = false;  ///< operator `chords` or `ridge`: there is no |H|
   v1::TriangleMesh sheet;  ///< then: with E and strength; triangles, and segments of curves, possibly none
+  v1::SolidParts parts;    ///< of the mesh's triangles; or none
   v1::SkeletonQuality quality;           ///< of the skeleton; empty when the server told none
   std::vector<v1::TriangleMesh> eroded;  ///< per level of the page: the surface that `erode` makes
 };

@@ -4,7 +4,6 @@
 
 AFFSKEL_EMBED(page_template, AFFSKEL_PAGE_TEMPLATE);
 AFFSKEL_EMBED(page_style, AFFSKEL_PAGE_STYLE);
-AFFSKEL_EMBED(page_overlay_style, AFFSKEL_PAGE_OVERLAY_STYLE);
 AFFSKEL_EMBED(page_script, AFFSKEL_PAGE_SCRIPT);
 
 namespace affskel::client {
@@ -15,10 +14,6 @@ std::string_view page_template() {
 
 std::string_view page_style() {
   return {affskel_page_style, affskel_page_style_end};
-}
-
-std::string_view page_overlay_style() {
-  return {affskel_page_overlay_style, affskel_page_overlay_style_end};
 }
 
 std::string_view page_script() {

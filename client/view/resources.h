@@ -5,9 +5,8 @@
 namespace affskel::client {
 
 /// Files of client/view/web, compiled in.
-std::string_view page_template();       ///< page.html, with its {{marks}}
-std::string_view page_style();          ///< style.css
-std::string_view page_overlay_style();  ///< overlay.css, of what lies over the canvas; before style.css
-std::string_view page_script();         ///< main.js and what it imports, with three.js and its licence
+std::string_view page_template();  ///< page.html, with its {{marks}}
+std::string_view page_style();     ///< style.css and what it imports
+std::string_view page_script();    ///< main.js and what it imports, with three.js and its licence
 
 }  // namespace affskel::client

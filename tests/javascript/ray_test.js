@@ -11,7 +11,7 @@ const down = (x, y) => ({ origin: { x, y, z: 3 }, along: { x: 0, y: 0, z: -1 } }
 
 test('the nearest triangle is met, with the weights of its corners', () => {
   const hit = firstHit(kPositions, kCorners, 6, down(1, 2), never);
-  assert.deepEqual(hit, { depth: 2, place: [1, 2, 1], vertices: [3, 4, 5], weights: [0.25, 0.25, 0.5] });
+  assert.deepEqual(hit, { depth: 2, place: [1, 2, 1], triangle: 1, vertices: [3, 4, 5], weights: [0.25, 0.25, 0.5] });
 });
 
 test('the order of the triangles is none of its matter', () => {

@@ -15,9 +15,11 @@ import { firstHit } from './ray.js';
 const kCreaseCosine = 0.643; // of 50 degrees: sharper edges stay sharp
 
 const kVertexShader = `
-  varying vec3 vNormal;
+  attribute vec3 tint;
+  varying vec3 vNormal, vTint;
   ${kClipVertex}
   void main() {
+    vTint = tint;
     vNormal = normalMatrix * normal;
     vPlace = position;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
@@ -25,8 +27,8 @@ const kVertexShader = `
 
 const kFragmentShader = `
   uniform vec3 dark, light;
-  uniform float clear, rim, fade, solid;
-  varying vec3 vNormal;
+  uniform float clear, rim, fade, solid, tinted;
+  varying vec3 vNormal, vTint;
   ${kClipFragment}
   void main() {
     if (clipped()) discard;
@@ -34,7 +36,8 @@ const kFragmentShader = `
     if (n.z < 0.0) n = -n;
     float lit = clamp(dot(n, vec3(-0.42, 0.55, 0.72)), 0.0, 1.0);
     float glass = fade * (clear + rim * pow(1.0 - n.z, 2.5));
-    gl_FragColor = vec4(mix(dark, light, lit), mix(glass, 1.0, solid));
+    vec3 colour = mix(mix(dark, light, lit), (0.6 + 0.4 * lit) * vTint, tinted);
+    gl_FragColor = vec4(colour, mix(glass, 1.0, solid));
   }`;
 
 // Twice the area times the normal, per triangle.
@@ -99,6 +102,8 @@ export class Glass {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
     geometry.setAttribute('normal', new BufferAttribute(cornerNormals(points, corners), 3));
+    geometry.setAttribute('tint', new BufferAttribute(new Float32Array(3 * corners.length), 3));
+    this.geometry = geometry;
     this.uniforms = {
       dark: { value: new Color() },
       light: { value: new Color() },
@@ -106,6 +111,7 @@ export class Glass {
       rim: { value: 0 },
       fade: { value: 1 },
       solid: { value: 0 },
+      tinted: { value: 0 },
       clip: clip.uniform,
     };
     this.object = new Group();
@@ -131,6 +137,18 @@ export class Glass {
     this.uniforms.light.value.setRGB(...light);
     this.uniforms.clear.value = clear;
     this.uniforms.rim.value = rim;
+  }
+
+  /**
+   * Gives every triangle a colour of its own, red, green and blue, 0 .. 1; null: none.
+   * @param {((triangle: number) => ArrayLike<number>) | null} colourOf
+   */
+  tint(colourOf) {
+    this.uniforms.tinted.value = colourOf ? 1 : 0;
+    if (!colourOf) return;
+    const { tint } = this.geometry.attributes;
+    for (let c = 0; c < this.corners.length; ++c) tint.array.set(colourOf(Math.floor(c / 3)), 3 * c);
+    tint.needsUpdate = true;
   }
 
   // glass: 1 = as usual, less = fainter; solid: from glass (0) to opaque (1).

@@ -27,6 +27,7 @@ export function writeLink(state) {
   link.set('level', short(state.level));
   link.set('show', state.shown.join(','));
   if (state.opacity !== null) link.set('opacity', short(state.opacity));
+  if (state.body) link.set('body', state.body);
   if (state.clip) link.set('clip', state.clip);
   return link.toString().replace(/%2C/g, ',');
 }
@@ -56,6 +57,8 @@ export function readLink(text) {
   if (shown !== null) state.shown = shown.split(',');
   const opacity = number(link.get('opacity'));
   if (opacity !== null) state.opacity = opacity;
+  const body = link.get('body');
+  if (body === 'part' || body === 'thickness') state.body = body;
   const clip = /^([xyz])([<>])(-?[0-9.e-]+)$/.exec(link.get('clip') || '');
   const at = clip && number(clip[3]);
   if (clip && at !== null) state.clip = { axis: clip[1], beyond: clip[2], at };

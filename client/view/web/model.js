@@ -1,11 +1,13 @@
 // One body of the page with its skeleton and eroded solids: the layers that are drawn, and what the pointer
 // finds on them.
 import { Group } from 'three';
+import { viridis } from './colours.js';
 import { erodedPositions, meshPositions, pointPositions } from './decode.js';
 import { Glass } from './glass.js';
 import { makeSkeleton, weighted } from './skeleton.js';
 import { TickedBox } from './ticked_box.js';
 
+const kOthers = [0.62, 0.64, 0.67]; // of parts that do not stand out
 const kFaint = 0.45; // of the body, when an eroded solid is shown in it
 const kUsual = 20; // per cent on the slider of the body's opacity: the usual glass
 
@@ -61,6 +63,30 @@ export class Model {
   }
 
   /**
+   * What the body's colours tell: "part", "thickness", or nothing.  chosen: a part that stands out, from 1; 0: all
+   * do.
+   * @param {string} what
+   * @param {number} chosen
+   */
+  colourBody(what, chosen) {
+    const { parts, arrays } = this.facts;
+    if (parts.length === 0 || what === '') return this.glass.tint(null);
+    if (what === 'thickness') {
+      const highest = this.thickest();
+      return this.glass.tint((t) => viridis(arrays.meshThickness[t] / highest).map((c) => c / 255));
+    }
+    return this.glass.tint((t) => {
+      const part = arrays.meshParts[t];
+      return chosen === 0 || chosen === part ? parts[part - 1].colour : kOthers;
+    });
+  }
+
+  /** @returns {number} the greatest thickness, mesh units */
+  thickest() {
+    return this.facts.arrays.meshThickness.reduce((most, value) => Math.max(most, value), 0);
+  }
+
+  /**
    * opacity: of the body, per cent.
    * @param {number} opacity
    */
@@ -85,8 +111,18 @@ export class Model {
     return body ? this.onBody(body) : null;
   }
 
-  onBody({ place }) {
-    return { what: 'surface of the body', place, share: 0, directions: [] };
+  onBody({ place, triangle }) {
+    const { parts, arrays } = this.facts;
+    if (parts.length === 0) return { what: 'surface of the body', place, share: 0, directions: [] };
+    const part = arrays.meshParts[triangle];
+    return {
+      what: `part ${part}, a ${parts[part - 1].kind}`,
+      place,
+      share: 0,
+      part: parts[part - 1],
+      thickness: arrays.meshThickness[triangle],
+      directions: [],
+    };
   }
 
   onEroded(hit) {

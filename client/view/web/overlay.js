@@ -66,17 +66,39 @@ export function paintLegend(element, lift) {
 }
 
 /**
- * Labels in per cent of v0, at equal distances of the cube root, as the colours are.
+ * valueAt: of a place on the scale, 0 .. 1.
  * @param {Element} element
+ * @param {{ title: string, note: string, valueAt: (tick: number) => number }} scale
+ */
+export function labelLegend(element, { title, note, valueAt }) {
+  partOf(element, '.heading').textContent = title;
+  partOf(element, '.note').textContent = note;
+  const numbers = partOf(element, '.numbers');
+  numbers.replaceChildren(
+    ...kTicks.map((tick) =>
+      Object.assign(numbers.ownerDocument.createElement('span'), {
+        textContent: tick === 0 ? '0' : rounded(valueAt(tick), 2),
+      }),
+    ),
+  );
+}
+
+/**
+ * Labels in per cent of v0, at equal distances of the cube root, as the colours are.
  * @param {{ highestShare: number, scaleTitle: string, scaleNote: string }} page
  */
-export function labelLegend(element, { highestShare, scaleTitle, scaleNote }) {
-  partOf(element, '.heading').textContent = scaleTitle;
-  partOf(element, '.note').textContent = scaleNote;
-  const numbers = partOf(element, '.numbers');
-  for (const tick of kTicks) {
-    const label = numbers.ownerDocument.createElement('span');
-    label.textContent = tick === 0 ? '0' : rounded(100 * shareAt(tick, highestShare), 2);
-    numbers.append(label);
-  }
-}
+export const erosionScale = ({ highestShare, scaleTitle, scaleNote }) => ({
+  title: scaleTitle,
+  note: scaleNote,
+  valueAt: (tick) => 100 * shareAt(tick, highestShare),
+});
+
+/**
+ * Of the body's thickness, evenly.
+ * @param {number} thickest
+ */
+export const thicknessScale = (thickest) => ({
+  title: 'Thickness, mesh units',
+  note: 'From the surface to the skeleton',
+  valueAt: (tick) => tick * thickest,
+});

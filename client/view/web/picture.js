@@ -94,3 +94,20 @@ export function pictureOf(main, canvas, ratio, lift) {
   }
   return drawing.sheet;
 }
+
+/**
+ * Hands it to the user as a PNG file.
+ * @param {HTMLCanvasElement} picture
+ * @param {string} name
+ */
+export function savePicture(picture, name) {
+  picture.toBlob((blob) => {
+    if (!blob) return; // too large for this browser
+    const link = Object.assign(document.createElement('a'), {
+      href: URL.createObjectURL(blob),
+      download: `${name.replace(/[\\/:*?"<>|]/g, '_')}.png`,
+    });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  });
+}

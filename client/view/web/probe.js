@@ -8,6 +8,17 @@ const kGap = 14; // pixels from the pointer
 const known = (name, value) => (value === null || value === undefined ? [] : [[name, rounded(value, 4)]]);
 const vector = (v, digits) => `(${v.map((c) => coordinate(Number(c.toPrecision(digits)))).join(', ')})`;
 
+const erosionValues = (share, volume) => [
+  ['E', `${rounded(share * volume, 4)}`],
+  ['share of v0', `${rounded(100 * share, 4)} %`],
+];
+
+const partValues = ({ share, length, radius }) => [
+  ['volume', `${rounded(100 * share, 3)} %`],
+  ['length', rounded(length, 4)],
+  ['mean radius', rounded(radius, 4)],
+];
+
 /**
  * Name and text of all that is known of a place: see Model.at.
  * @param {ProbedModel} model
@@ -16,13 +27,10 @@ const vector = (v, digits) => `(${v.map((c) => coordinate(Number(c.toPrecision(d
  */
 export function valuesOf(model, found) {
   const { volume } = model.facts;
-  const e = found.share * volume;
-  const values = [
-    ['E', `${rounded(e, 4)}`],
-    ['share of v0', `${rounded(100 * found.share, 4)} %`],
-  ];
+  const values = found.part ? partValues(found.part) : erosionValues(found.share, volume);
   values.push(...known('slope |∇E|', found.slope));
   values.push(...known('strength', found.strength));
+  values.push(...known('thickness here', found.thickness));
   values.push(...known('|H|', found.divergence));
   values.push(['place', vector(model.coordinates(found.place), 6)]);
   found.directions.forEach((d, i) => {

@@ -3,7 +3,8 @@
 /**
  * positions: 3 per vertex; corners: 3 per triangle, of which the first `count` numbers count; ray: origin and
  * unit direction `along`; skips(x, y, z): whether a place is not there.  Returns null, or of the first triangle
- * that is met its three `vertices`, the `weights` of these, and the `place`.
+ * that is met its number, its three `vertices`, the `weights` of these, and
+ * the `place`.
  * @param {ArrayLike<number>} positions
  * @param {ArrayLike<number>} corners
  * @param {number} count
@@ -31,7 +32,13 @@ export function firstHit(positions, corners, count, { origin, along }, skips) {
     if (hit && depth >= hit.depth) continue;
     const place = [origin.x + depth * along.x, origin.y + depth * along.y, origin.z + depth * along.z];
     if (skips(place[0], place[1], place[2])) continue;
-    hit = { depth, place, vertices: [a / 3, b / 3, c / 3], weights: [1 - wb - wc, wb, wc] };
+    hit = {
+      depth,
+      place,
+      triangle: t / 3,
+      vertices: [a / 3, b / 3, c / 3],
+      weights: [1 - wb - wc, wb, wc],
+    };
   }
   return hit;
 }

@@ -28,8 +28,17 @@ interface ModelFacts {
   pieces: [string, string][];
   meshGrid: Grid;
   pointGrid: Grid;
+  parts: Part[]; // of the body's triangles, see meshParts; or none
   eroded: { volume: number; triangles: number }[];
   arrays: Record<string, any>; // typed arrays
+}
+interface Part {
+  kind: string;
+  share: number; // of the volume
+  volume: number;
+  length: number;
+  radius: number;
+  colour: Triple; // 0 .. 1
 }
 interface Page {
   up: string;
@@ -72,6 +81,7 @@ interface Hit {
   place: number[];
   vertices: number[];
   weights: number[];
+  triangle: number;
 }
 // What the pointer is on.
 interface Found {
@@ -80,6 +90,8 @@ interface Found {
   share: number;
   slope?: number | null;
   strength?: number | null;
+  part?: Part | null;
+  thickness?: number | null;
   divergence?: number | null;
   directions: number[][];
 }
@@ -113,6 +125,7 @@ interface Seen {
   level: number;
   shown: string[];
   opacity: number | null;
+  body: string;
   clip: string;
 }
 // What a link says of it; without a view or a camera where it says nothing of it.
@@ -126,6 +139,7 @@ interface LinkState {
   level?: number;
   shown?: string[];
   opacity?: number;
+  body?: string;
   clip?: { axis: string; beyond: string; at: number };
 }
 

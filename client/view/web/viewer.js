@@ -1,13 +1,15 @@
 // Models, camera and controls together.
 import { Color } from 'three';
+import { Body } from './body.js';
 import { Clip } from './clip.js';
+import { Clipping } from './clipping.js';
 import { themeColours } from './colours.js';
 import { Link, readLink, writeLink } from './link.js';
 import { Model } from './model.js';
 import { rounded, whole } from './numbers.js';
-import { drawCross, drawScaleBar, labelLegend, paintLegend } from './overlay.js';
+import { drawCross, drawScaleBar, paintLegend } from './overlay.js';
 import { sectionFor, showFacts, showWarnings } from './panel.js';
-import { pictureOf } from './picture.js';
+import { pictureOf, savePicture } from './picture.js';
 import { Probe, valuesOf } from './probe.js';
 import { Slider, Stops } from './slider.js';
 import { Stage } from './stage.js';
@@ -44,6 +46,9 @@ export class Viewer {
     this.models.forEach((model, i) => this.stage.scenes[i].add(...Object.values(model.layers)));
     this.wireSliders();
     this.wireLook();
+    this.body = new Body(page, this.models, (opacity) =>
+      opacity === null ? this.stage.changeScene() : this.setOpacity(opacity),
+    );
     this.showPanel();
     this.wireButtons();
     this.setTheme(window.matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
@@ -144,7 +149,6 @@ export class Viewer {
         `This page holds the ${whole(few.pointsHere)} sample points with |H| above ` +
         `${rounded(few.lowestThreshold)}, of ${whole(few.points)}.`;
     }
-    labelLegend(element('legend'), page);
   }
 
   // One threshold for all models whose skeletons are of one operator.
@@ -206,8 +210,11 @@ export class Viewer {
 
   wireLook() {
     element('opacity').addEventListener('input', () => this.setOpacity(element('opacity').valueAsNumber));
-    element('clip-place').addEventListener('input', () => this.applyClip());
-    for (const id of ['clip-axis', 'clip-flip']) element(id).addEventListener('change', () => this.applyClip());
+    this.clipping = new Clipping(this.clip, {
+      half: (axis) => this.stage.halfBox.getComponent(axis),
+      coordinate: (axis, at) => this.models[0].coordinates([at, at, at])[axis],
+      changed: () => this.stage.changeScene(),
+    });
     for (const name of kLayers) {
       const check = element(`show-${name}`);
       check.addEventListener('change', () => this.toggle(name, check.checked));
@@ -218,24 +225,6 @@ export class Viewer {
     element('opacity').value = value;
     element('opacity-value').textContent = `${element('opacity').valueAsNumber} %`;
     for (const model of this.models) model.fade(element('opacity').valueAsNumber);
-    this.stage.changeScene();
-  }
-
-  // The place of the plane goes from one end of the largest box to the other.
-  clipPlane() {
-    const axis = ['x', 'y', 'z'].indexOf(element('clip-axis').value);
-    const half = axis < 0 ? 0 : this.stage.halfBox.getComponent(axis);
-    return { axis, at: element('clip-place').valueAsNumber * half, beyond: element('clip-flip').checked ? -1 : 1 };
-  }
-
-  applyClip() {
-    const { axis, at, beyond } = this.clipPlane();
-    this.clip.set(axis, at, beyond);
-    for (const id of ['clip-place', 'clip-flip']) element(id).disabled = axis < 0;
-    const [model] = this.models;
-    const coordinate = axis < 0 ? 0 : model.coordinates([at, at, at])[axis];
-    element('clip-value').textContent =
-      axis < 0 ? '' : `${'xyz'[axis]} ${beyond > 0 ? '≤' : '≥'} ${rounded(coordinate, 4)}`;
     this.stage.changeScene();
   }
 
@@ -280,8 +269,9 @@ export class Viewer {
   reset() {
     for (const { slider, group } of this.thresholds) slider.set(Math.max(...group.map((m) => m.skeleton.first)));
     if (this.level) this.level.put(this.page.firstLevel);
-    this.setClip({ axis: '', beyond: '<', at: 0 });
+    this.clipping.set({ axis: '', beyond: '<', at: 0 });
     element('opacity').value = kUsualOpacity;
+    this.body.show('');
     for (const name of kLayers) this.toggle(name, name !== 'eroded' || this.page.showLevel);
     this.applySliders();
     this.stage.show('start');
@@ -292,24 +282,16 @@ export class Viewer {
     this.applyLevel();
   }
 
-  // at: from -1 to 1, the share of the box.
-  setClip({ axis, beyond, at }) {
-    element('clip-axis').value = axis;
-    element('clip-flip').checked = beyond === '>';
-    element('clip-place').value = at;
-    this.applyClip();
-  }
-
   // What a link keeps.
   seen() {
-    const { axis } = this.clipPlane();
     return {
       ...this.stage.looking(),
       thresholds: this.thresholds.map(({ slider }) => slider.value),
       level: this.level ? this.level.values[this.level.place] : 0,
       shown: kLayers.filter((name) => element(`show-${name}`).checked),
       opacity: element('opacity').valueAsNumber,
-      clip: axis < 0 ? '' : `${'xyz'[axis]}${element('clip-flip').checked ? '>' : '<'}${element('clip-place').value}`,
+      body: this.body.chosen,
+      clip: this.clipping.text(),
     };
   }
 
@@ -325,8 +307,9 @@ export class Viewer {
     this.applySliders();
     const { shown } = seen;
     if (shown) kLayers.forEach((name) => this.toggle(name, shown.includes(name)));
+    this.body.show(seen.body || '');
     if ('opacity' in seen) this.setOpacity(seen.opacity);
-    if (seen.clip) this.setClip(seen.clip);
+    if (seen.clip) this.clipping.set(seen.clip);
     if (seen.view) this.stage.show(seen.view);
     else if ('azimuth' in seen) this.stage.look(seen.azimuth, seen.elevation, seen.target, seen.zoom);
   }
@@ -363,15 +346,7 @@ export class Viewer {
   }
 
   save() {
-    this.picture().toBlob((blob) => {
-      if (!blob) return; // too large for this browser
-      const link = Object.assign(document.createElement('a'), {
-        href: URL.createObjectURL(blob),
-        download: `${this.page.models.map(({ name }) => name).join(' and ').replace(/[\\/:*?"<>|]/g, '_')}.png`,
-      });
-      link.click();
-      URL.revokeObjectURL(link.href);
-    });
+    savePicture(this.picture(), this.page.models.map(({ name }) => name).join(' and '));
   }
 
   // For tests.
@@ -390,6 +365,7 @@ export class Viewer {
       pointsHere: model.facts.pointsHere,
       looking: this.stage.looking(),
       opacity: model.opacity,
+      body: this.body.chosen,
       resolution: this.stage.resolution,
       every: this.stage.every,
       panes: this.stage.panes(),
