@@ -36,6 +36,10 @@ v1::SolidParts parse_solid_parts(const std::string& bytes) {
           "a part out of range");
   require(message.greatest_place_size() == 3, "the greatest E without its place");
   const auto vertices = static_cast<std::uint32_t>(message.curve().xyz_size() / 3);
+  require(message.curve().xyz_size() % 3 == 0 && message.curve().segments_size() % 2 == 0 &&
+              message.curve().erosion_size() == message.curve().xyz_size() / 3 &&
+              (vertices == 0 || all_between(message.curve().segments(), 0, vertices - 1)),
+          "its curve");
   for (const v1::SolidPart& part : message.parts()) {
     require(part.from_size() == 3 && part.to_size() == 3, "a part without its ends");
     require(vertices > 0 && all_between(part.vertices(), 0, vertices - 1), "a vertex out of range");

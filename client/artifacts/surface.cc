@@ -72,7 +72,11 @@ FetchedSurface parse_surface(const std::string& bytes) {
   add_columns(surface.shape, {"distance"}, message.distance());
   add_columns(surface.shape, {"share"}, message.share());
   add_columns(surface.shape, {"beyond"}, message.beyond());
-  if (!surface.shape.segments.empty() || !message.distance().empty()) add_radius(surface.shape);
+  if (!message.radius().empty()) {
+    add_columns(surface.shape, {"radius"}, message.radius());
+  } else if (!surface.shape.segments.empty()) {
+    add_radius(surface.shape);
+  }
   add_columns(surface.shape, {"nx_a", "ny_a", "nz_a"}, message.normal_a());
   add_columns(surface.shape, {"nx_b", "ny_b", "nz_b"}, message.normal_b());
   add_columns(surface.shape, {"part"}, message.part());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <vector>
 
 #include "wire/params.h"
 #include "wire/words.h"
@@ -51,13 +52,14 @@ struct Given {
 };
 
 std::string kinds_with(const Given& params) {
-  std::string names;
+  std::vector<std::string> names;
   for (const ArtifactKindInfo& row : kKinds) {
     if (std::ranges::find(params.for_kinds_with, row.params) == params.for_kinds_with.end()) continue;
-    const std::string name = v1::ArtifactKind_Name(row.kind).substr(std::string("ARTIFACT_KIND_").size());
-    names += (names.empty() ? "" : " and ") + name;
+    names.push_back(v1::ArtifactKind_Name(row.kind).substr(std::string("ARTIFACT_KIND_").size()));
   }
-  return names;
+  std::string text = names.front();
+  for (std::size_t n = 1; n < names.size(); ++n) text += (n + 1 < names.size() ? ", " : " and ") + names[n];
+  return text;
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "derive/curve_of_field.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "base/number_text.h"
 #include "base/ridge_threshold.h"
+#include "core/curve/limb_radii.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
@@ -57,20 +55,26 @@ v1::TriangleMesh CurveOfField::message_of(const core::CurveSkeleton& curve, doub
   message.mutable_distance()->Add(curve.distance.begin(), curve.distance.end());
   message.mutable_share()->Add(curve.share.begin(), curve.share.end());
   message.mutable_beyond()->Add(curve.beyond.begin(), curve.beyond.end());
+  for (const double radius : radii_of(curve)) message.add_radius(radius);
   for (const std::uint32_t part : graph_of(curve).part) message.add_part(part + 1);
   append_segments(curve, message);
   *message.mutable_quality() = quality_of(curve, threshold);
   return message;
 }
 
-core::CurveGraph CurveOfField::graph_of(const core::CurveSkeleton& curve) const {
+std::vector<core::Vec3> CurveOfField::places_of(const core::CurveSkeleton& curve) const {
   std::vector<core::Vec3> places;
-  std::vector<double> radius;
-  for (const core::SheetVertex& vertex : curve.vertices) {
-    places.push_back(field_.to_mesh(vertex.position));
-    radius.push_back(std::sqrt(vertex.area / std::numbers::pi));
-  }
-  return core::curve_graph(places, curve.segments, radius, curve.distance, curve.share);
+  for (const core::SheetVertex& vertex : curve.vertices) places.push_back(field_.to_mesh(vertex.position));
+  return places;
+}
+
+std::vector<double> CurveOfField::radii_of(const core::CurveSkeleton& curve) const {
+  const std::vector<core::Vec3> places = places_of(curve);
+  return core::limb_radii({places, curve.segments, curve.share, curve.distance, field_.job().solid().volume});
+}
+
+core::CurveGraph CurveOfField::graph_of(const core::CurveSkeleton& curve) const {
+  return core::curve_graph(places_of(curve), curve.segments, radii_of(curve), curve.distance, curve.share);
 }
 
 std::vector<std::uint32_t> parts_of_points(const core::CurveSkeleton& curve, const core::CurveGraph& graph) {

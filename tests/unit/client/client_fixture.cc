@@ -45,6 +45,7 @@ ClientTest::ClientTest() : server_(service_) {
   eroded.clear_divergence();
   service_.artifacts[v1::ARTIFACT_KIND_ERODED_POINTS] = eroded.SerializeAsString();
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE] = sample_divergence();
+  service_.artifacts[v1::ARTIFACT_KIND_PARTS] = sample_parts().SerializeAsString();
   mesh_ = core::write_off(core::make_box(2000, 2000, 2000));
   service_.artifacts[v1::ARTIFACT_KIND_MESH] = mesh_;
   tests::write_file(dir_ / "cube.off", mesh_);

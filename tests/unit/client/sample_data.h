@@ -5,6 +5,7 @@
 #include <string>
 
 #include "affskel/v1/types.pb.h"
+#include "core/shapes/shapes.h"
 
 namespace affskel::client {
 
@@ -96,6 +97,62 @@ inline v1::TriangleMesh sample_sheet() {
   for (const double v : {3., 4., 5.}) sheet.add_erosion(v);
   for (const double v : {0.5, 0.6, 0.7}) sheet.add_strength(v);
   return sheet;
+}
+
+/// A cube of 2000 with a fork as its curve: a thick line of 4 along x, from its end thin ones of 3 and 5.  Five sample
+/// points in three parts; twelve triangles, four in each.
+inline v1::SolidParts sample_parts() {
+  v1::SolidParts solid;
+  v1::TriangleMesh& curve = *solid.mutable_curve();
+  for (const double c : {0., 0., 0., 4., 0., 0., 4., 3., 0., 7., -4., 0.}) curve.add_xyz(c);
+  for (const std::uint32_t v : {0U, 1U, 1U, 2U, 1U, 3U}) curve.add_segments(v);
+  for (const double e : {1., 9., 2., 3.}) curve.add_erosion(e);
+  for (const double s : {1., 1., 1., 1.}) curve.add_strength(s);
+  for (const double a : {12., 12., 3., 3.}) curve.add_area(a);
+  for (const double d : {1., 2., 1., 1.}) curve.add_distance(d);
+  for (const double s : {0.4, 0.3, 0.1, 0.2}) curve.add_share(s);
+  for (const double s : {0.2, 0.45, 0.05, 0.1}) curve.add_beyond(s);
+  for (const std::uint32_t p : {1U, 1U, 3U, 2U}) curve.add_part(p);
+  v1::SkeletonQuality& quality = *curve.mutable_quality();
+  quality.set_points(4);
+  quality.set_components(1);
+  quality.set_solid_components(1);
+  quality.set_branches(3);
+  quality.set_ends(3);
+  const auto add = [&](double share, double length, std::array<double, 3> to, double angle) {
+    v1::SolidPart& part = *solid.add_parts();
+    part.set_kind(v1::PART_KIND_LIMB);
+    for (const double c : {4., 0., 0.}) part.add_from(c);
+    for (const double c : to) part.add_to(c);
+    part.set_length(length);
+    part.set_straight_length(length);
+    part.set_volume(8e9 * share);
+    part.set_volume_share(share);
+    part.set_surface_area(8e6);
+    part.set_mean_radius(2);
+    part.set_least_radius(1);
+    part.set_greatest_radius(3);
+    if (angle > 0) part.set_angle(angle);
+    part.add_vertices(1);
+  };
+  add(0.7, 4, {0, 0, 0}, 0);
+  add(0.2, 5, {7, -4, 0}, 127);
+  add(0.1, 3, {4, 3, 0}, 90);
+  for (const std::uint32_t p : {1U, 1U, 2U, 3U, 1U}) solid.add_point_part(p);
+  v1::TriangleMesh& surface = *solid.mutable_surface();
+  const core::Mesh cube = core::make_box(2000, 2000, 2000);
+  for (const core::Vec3& point : cube.points)
+    for (int c = 0; c < 3; ++c) surface.add_xyz(point[c]);
+  for (std::uint32_t t = 0; t < cube.triangles.size(); ++t) {
+    for (const std::uint32_t v : cube.triangles[t]) surface.add_corners(v);
+    solid.add_triangle_part(1 + t / 4);
+    solid.add_thickness(100 + t);
+  }
+  solid.set_surface_area(2.4e7);
+  solid.set_sheet_area(7);
+  solid.set_greatest_erosion(9);
+  for (const double c : {4., 0., 0.}) solid.add_greatest_place(c);
+  return solid;
 }
 
 }  // namespace affskel::client

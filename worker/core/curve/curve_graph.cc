@@ -199,18 +199,31 @@ class Graph {
     if (first_free && !last_free) std::reverse(vertices.begin(), vertices.end());
     branch.from = node(vertices.front());
     branch.to = node(vertices.back());
-    branch.least_radius = branch.greatest_radius = radius_[vertices.front()];
-    double sum = 0;
-    for (std::size_t n = 1; n < vertices.size(); ++n) {
-      const std::uint32_t a = vertices[n - 1], b = vertices[n];
-      const double length = norm(places_[b] - places_[a]);
-      branch.length += length;
-      sum += 0.5 * length * (radius_[a] + radius_[b]);
-      branch.least_radius = std::min(branch.least_radius, radius_[b]);
-      branch.greatest_radius = std::max(branch.greatest_radius, radius_[b]);
-    }
-    branch.mean_radius = branch.length > 0 ? sum / branch.length : branch.least_radius;
+    for (std::size_t n = 1; n < vertices.size(); ++n)
+      branch.length += norm(places_[vertices[n]] - places_[vertices[n - 1]]);
     branch.straight_length = norm(places_[vertices.back()] - places_[vertices.front()]);
+    measure_radius(branch);
+  }
+
+  void measure_radius(CurveBranch& branch) const {
+    const auto& vertices = branch.vertices;
+    const auto number = static_cast<std::uint32_t>(&branch - graph_.branches.data());
+    const bool has_own = std::any_of(vertices.begin(), vertices.end(),
+                                     [&](std::uint32_t v) { return graph_.part[v] == number; });
+    double sum = 0, length = 0;
+    branch.least_radius = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < vertices.size(); ++n) {
+      const std::uint32_t v = vertices[n];
+      if (has_own && graph_.part[v] != number) continue;
+      double around = vertices.size() == 1 ? 1 : 0;
+      if (n > 0) around += norm(places_[v] - places_[vertices[n - 1]]);
+      if (n + 1 < vertices.size()) around += norm(places_[v] - places_[vertices[n + 1]]);
+      sum += around * radius_[v];
+      length += around;
+      branch.least_radius = std::min(branch.least_radius, radius_[v]);
+      branch.greatest_radius = std::max(branch.greatest_radius, radius_[v]);
+    }
+    branch.mean_radius = length > 0 ? sum / length : branch.least_radius;
   }
 
   // The place so far along a branch, from its first vertex or from its last.

@@ -18,11 +18,12 @@ struct CurveBranch {
   /// Nodes; the same for a loop and a point.  A limb's free end is `to`, of a link's ends `from` where it meets
   /// the branch that comes first.
   std::uint32_t from = 0, to = 0;
-  std::vector<std::uint32_t> vertices;                            ///< from one to the other
-  double length = 0;                                              ///< along the line
-  double straight_length = 0;                                     ///< from node to node
-  double share = 0;                                               ///< of its vertices, see CurveGraph::part
-  double mean_radius = 0, least_radius = 0, greatest_radius = 0;  ///< mean along the line
+  std::vector<std::uint32_t> vertices;  ///< from one to the other
+  double length = 0;                    ///< along the line
+  double straight_length = 0;           ///< from node to node
+  double share = 0;                     ///< of its vertices, see CurveGraph::part
+  /// Of its own vertices, see CurveGraph::part, or of all where it has none; the mean along the line.
+  double mean_radius = 0, least_radius = 0, greatest_radius = 0;
   /// Degrees, at `from`, to the first other branch there: 180 goes straight on; NaN without another.
   double angle = 0;
 };
@@ -45,7 +46,7 @@ struct CurveGraph {
 };
 
 /// A point is a branch of its own, of one vertex.
-/// @param places, radius, ball, share per vertex: radius of the section, distance to the surface, of the volume;
+/// @param places, radius, ball, share per vertex: see limb_radii(), distance to the surface, of the volume;
 ///   segments as for polylines().
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
                        std::span<const double> radius, std::span<const double> ball,

@@ -134,8 +134,9 @@ TEST(CurveSkeleton, HasThePiecesAndTunnelsOfTheRidge) {
     for (const SheetVertex& v : curve.vertices)
       EXPECT_TRUE(membership.contains(scaled_place(lattice, (1 / lattice.spacing) * v.position), 1e-9));
     double weight = 0;
-    for (const std::uint32_t vertex : curve.nearest) weight += vertex != DualComplex::kNone;
-    EXPECT_GE(weight, 0.95 * lattice.points);  // the rest are fragments
+    for (const std::uint32_t vertex : curve.nearest) ASSERT_LT(vertex, curve.vertices.size());
+    for (const double share : curve.share) weight += share;
+    EXPECT_NEAR(weight, 1, 1e-9);
   }
 }
 

@@ -58,7 +58,8 @@ TEST(ArtifactKinds, ParametersOfAnotherKindAreRefused) {
     request.set_kind(row.kind);
     EXPECT_EQ(refused(request), "");
     request.mutable_skeleton();
-    const bool skeleton = row.params == ArtifactParams::kSkeleton || row.params == ArtifactParams::kOperator;
+    const bool skeleton = row.params == ArtifactParams::kSkeleton ||
+                          row.params == ArtifactParams::kOperator || row.params == ArtifactParams::kCurve;
     EXPECT_EQ(refused(request).empty(), skeleton) << row.name();
     request.clear_skeleton();
     request.mutable_surface();
@@ -73,8 +74,29 @@ TEST(ArtifactKinds, ParametersOfAnotherKindAreRefused) {
   request.mutable_skeleton();
   EXPECT_EQ(
       refused(request),
-      "the parameters 'skeleton' are for SKELETON and DIVERGENCE (SURFACE has surface.skeleton), not for"
+      "the parameters 'skeleton' are for SKELETON, DIVERGENCE and PARTS (SURFACE has surface.skeleton), not for"
       " ARTIFACT_KIND_SURFACE");
+}
+
+// Of the job's own skeleton they are no function.
+TEST(ArtifactKinds, PartsAreThoseOfTheCurve) {
+  v1::SkeletonParams own;
+  own.set_operator_(v1::OPERATOR_FLUX);
+  own.set_threshold(0.5);
+  const ArtifactKindInfo& parts = *find_artifact_kind(v1::ARTIFACT_KIND_PARTS);
+  v1::FetchArtifactRequest request;
+  request.set_kind(v1::ARTIFACT_KIND_PARTS);
+  const CanonicalParams absent = artifact_params(parts, request, own);
+  request.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  EXPECT_EQ(artifact_params(parts, request, own).key, absent.key);
+  request.mutable_skeleton()->set_threshold(3);
+  EXPECT_NE(artifact_params(parts, request, own).key, absent.key);
+  v1::Lease lease;
+  ASSERT_TRUE(set_task_params(parts.params, artifact_params(parts, request, own).bytes, lease));
+  EXPECT_EQ(lease.skeleton().operator_(), v1::OPERATOR_CURVE);
+  EXPECT_EQ(lease.skeleton().threshold(), 3);
+  request.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  EXPECT_THROW(artifact_params(parts, request, own), std::invalid_argument);
 }
 
 TEST(ArtifactKinds, WhatIsAbsentIsTheJobsOwn) {

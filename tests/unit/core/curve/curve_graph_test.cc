@@ -1,0 +1,186 @@
+#include "core/curve/curve_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace affskel::core {
+namespace {
+
+// Lines from a place outwards, in steps of 1.
+class Lines {
+ public:
+  std::uint32_t begin(const Vec3& at) { return add(at); }
+
+  // @returns the last vertex.
+  std::uint32_t go(std::uint32_t from, const Vec3& step, int steps) {
+    for (int n = 0; n < steps; ++n) {
+      const std::uint32_t to = add(places[from] + step);
+      segments.push_back({from, to});
+      from = to;
+    }
+    return from;
+  }
+
+  CurveGraph graph() const {
+    return curve_graph(places, segments, std::vector<double>(places.size(), radius),
+                       std::vector<double>(places.size(), ball), share.empty() ? even() : share);
+  }
+
+  std::vector<double> even() const {
+    return std::vector<double>(places.size(), 1 / static_cast<double>(places.size()));
+  }
+
+  std::vector<Vec3> places;
+  std::vector<Segment> segments;
+  std::vector<double> share;
+  double radius = 0.1, ball = 0;
+
+ private:
+  std::uint32_t add(const Vec3& at) {
+    places.push_back(at);
+    return static_cast<std::uint32_t>(places.size() - 1);
+  }
+};
+
+// A trunk up the z axis; from its top two arms of 8 along +-x, from its foot one leg of 3.
+Lines body() {
+  Lines lines;
+  const std::uint32_t foot = lines.begin({0, 0, 0});
+  const std::uint32_t top = lines.go(foot, {0, 0, 1}, 20);
+  lines.go(top, {1, 0, 0}, 8);
+  lines.go(top, {-1, 0, 0}, 8);
+  lines.go(top, {0, 0, 1}, 2);
+  lines.go(foot, {0, 0.6, -0.8}, 3);
+  lines.go(foot, {0, -0.6, -0.8}, 4);
+  return lines;
+}
+
+TEST(CurveGraph, HasTheHeaviestBranchFirst) {
+  const CurveGraph graph = body().graph();
+  ASSERT_EQ(graph.branches.size(), 6U);
+  EXPECT_EQ(graph.nodes.size(), 7U);
+  EXPECT_EQ(graph.branches[0].kind, BranchKind::kLink);
+  EXPECT_EQ(graph.branches[0].length, 20);
+  for (const CurveBranch& branch : graph.branches) EXPECT_NEAR(branch.straight_length, branch.length, 1e-12);
+  double sum = 0;
+  for (const CurveBranch& branch : graph.branches) sum += branch.share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  for (std::size_t b = 1; b < 6; ++b) {
+    EXPECT_EQ(graph.branches[b].kind, BranchKind::kLimb);
+    EXPECT_EQ(graph.degree[graph.branches[b].to], 1U) << "a limb ends at its tip";
+    EXPECT_LE(graph.branches[b].share, graph.branches[b - 1].share * (1 + 1e-12));
+  }
+}
+
+// The two arms weigh nearly the same: noise in the shares does not make them change places, and neither does the order
+// in which they are found.
+TEST(CurveGraph, BranchesAboutEqualAreInTheOrderOfTheirPlaces) {
+  for (int trial = 0; trial < 8; ++trial) {
+    Lines lines = body();
+    lines.share = lines.even();
+    for (std::size_t v = 0; v < lines.places.size(); ++v)
+      if (lines.places[v].x != 0) lines.share[v] *= (lines.places[v].x < 0) == (trial % 2 == 0) ? 1.01 : 0.99;
+    if (trial >= 4) std::reverse(lines.segments.begin(), lines.segments.end());
+    const CurveGraph graph = lines.graph();
+    EXPECT_EQ(lines.places[graph.branches[1].vertices.back()], (Vec3{-8, 0, 20}));
+    EXPECT_EQ(lines.places[graph.branches[2].vertices.back()], (Vec3{8, 0, 20}));
+  }
+}
+
+TEST(CurveGraph, TheTrunkTakesWhatLiesInTheBallAboutAJoint) {
+  Lines lines = body();
+  lines.ball = 2.5;
+  const CurveGraph graph = lines.graph();
+  for (std::size_t v = 0; v < lines.places.size(); ++v) {
+    const Vec3& at = lines.places[v];
+    if (at.y != 0) continue;  // at the foot, see below
+    const double out = std::max(std::abs(at.x), at.z - 20);
+    EXPECT_EQ(graph.part[v] == 0, out < 2.5 && at.z != 22) << at.x << " " << at.z;
+  }
+  // A line that lies within, whole, keeps its end alone.
+  const auto neck = std::find_if(graph.branches.begin(), graph.branches.end(),
+                                 [](const CurveBranch& branch) { return branch.length == 2; });
+  ASSERT_NE(neck, graph.branches.end());
+  EXPECT_NEAR(neck->share, 1 / static_cast<double>(lines.places.size()), 1e-12);
+  double sum = 0;
+  for (const CurveBranch& branch : graph.branches) sum += branch.share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(CurveGraph, AnglesAreToTheFirstOtherBranch) {
+  const CurveGraph graph = body().graph();
+  EXPECT_NEAR(graph.branches[1].angle, 90, 1e-9);
+  EXPECT_NEAR(graph.branches[2].angle, 90, 1e-9);
+  for (const std::size_t leg : {3U, 4U})
+    EXPECT_NEAR(graph.branches[leg].angle, 180 - 36.86989764584402, 1e-9);  // a slope of 3 in 4
+  EXPECT_NEAR(graph.branches[5].angle, 180, 1e-9) << "the neck goes straight on";
+}
+
+// Near a joint lines bend into each other; the angle is that of what follows.
+TEST(CurveGraph, AnglesAreThoseBeyondTheJoint) {
+  Lines lines;
+  const std::uint32_t foot = lines.begin({0, 0, 0});
+  const std::uint32_t joint = lines.go(foot, {0, 0, 1}, 20);
+  lines.go(joint, {0, 0, 1}, 10);
+  const std::uint32_t bent = lines.go(joint, {0, 0, 1}, 1);  // beside the trunk, then out
+  lines.go(lines.go(bent, {0.6, 0, 0.8}, 1), {1, 0, 0}, 6);
+  lines.radius = 2;
+  const CurveGraph graph = lines.graph();
+  const auto arm = std::find_if(graph.branches.begin(), graph.branches.end(),
+                                [](const CurveBranch& branch) { return branch.length == 8; });
+  ASSERT_NE(arm, graph.branches.end());
+  EXPECT_NEAR(arm->angle, 90, 1e-6);
+}
+
+TEST(CurveGraph, OfALoopAndOfAPlace) {
+  Lines lines;
+  lines.places = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}};
+  lines.segments = {{0, 1}, {1, 2}, {2, 0}};
+  lines.share = {0.2, 0.2, 0.2, 0.4};
+  const CurveGraph graph = lines.graph();
+  ASSERT_EQ(graph.branches.size(), 2U);
+  EXPECT_EQ(graph.branches[0].kind, BranchKind::kLoop);
+  EXPECT_EQ(graph.branches[0].from, graph.branches[0].to);
+  EXPECT_NEAR(graph.branches[0].share, 0.6, 1e-12);
+  EXPECT_EQ(graph.branches[0].straight_length, 0);
+  EXPECT_EQ(graph.branches[1].kind, BranchKind::kPoint);
+  EXPECT_EQ(graph.branches[1].vertices, (std::vector<std::uint32_t>{3}));
+  EXPECT_EQ(graph.branches[1].length, 0);
+  EXPECT_EQ(graph.branches[1].mean_radius, 0.1);
+  for (const CurveBranch& branch : graph.branches) EXPECT_TRUE(std::isnan(branch.angle));
+  EXPECT_EQ(graph.part, (std::vector<std::uint32_t>{0, 0, 0, 1}));
+  EXPECT_EQ(graph.degree, (std::vector<std::uint32_t>{2, 0}));
+}
+
+TEST(CurveGraph, ALineHasTwoFreeEndsAndALinkBeginsAtTheHeavierJoint) {
+  Lines line;
+  line.go(line.begin({0, 0, 0}), {1, 0, 0}, 3);
+  EXPECT_EQ(line.graph().branches.at(0).kind, BranchKind::kLine);
+  // A trunk of 20, a link of 5 from its top to a fork of three.
+  for (const bool turned : {false, true}) {
+    Lines lines;
+    const std::uint32_t foot = lines.begin({0, 0, 0});
+    const std::uint32_t top = lines.go(foot, {0, 0, 1}, 20);
+    lines.go(top, {1, 0, 0}, 9);
+    const std::uint32_t fork = lines.go(top, {0, 1, 0}, 5);
+    for (const double x : {-1., 1.}) lines.go(fork, {x, 0, 0}, 2);
+    if (turned) std::reverse(lines.segments.begin(), lines.segments.end());
+    const CurveGraph graph = lines.graph();
+    const auto link =
+        std::find_if(graph.branches.begin(), graph.branches.end(),
+                     [](const CurveBranch& branch) { return branch.kind == BranchKind::kLink; });
+    ASSERT_NE(link, graph.branches.end());
+    EXPECT_EQ(graph.nodes[link->from], top);
+    EXPECT_EQ(link->vertices.front(), top);
+    EXPECT_EQ(link->vertices.back(), fork);
+    EXPECT_NEAR(link->angle, 90, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,109 @@
+#include "core/surface/surface_thickness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/base/unit.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
+#include "core/stopping_context.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+std::vector<Vec3> inward_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals;
+  for (const auto& [a, b, c] : mesh.triangles)
+    normals.push_back(unit(cross(mesh.points[c] - mesh.points[a], mesh.points[b] - mesh.points[a])));
+  return normals;
+}
+
+Vec3 in_solid(const Solid& solid, const Vec3& place) {
+  return (1 / solid.scale()) * (place - solid.centre);
+}
+
+// In mesh units.
+std::vector<double> thickness(const Solid& solid, Mesh skeleton, const std::vector<Vec3>& inward,
+                              ThicknessOptions options = {}) {
+  for (Vec3& point : skeleton.points) point = in_solid(solid, point);
+  if (options.near == 0) options.near = 0.02 / solid.scale();
+  std::vector<double> result = surface_thickness(solid, skeleton, inward, options);
+  for (double& value : result) value *= solid.scale();
+  return result;
+}
+
+// The middle rectangle of a plate 8 x 8 x 2; under its rims the way misses it.
+TEST(SurfaceThickness, OfAPlateIsHalfOfIt) {
+  const Solid plate = make_solid(make_box(8, 8, 2, 8));
+  const Mesh middle{{{1, 1, 1}, {7, 1, 1}, {7, 7, 1}, {1, 7, 1}}, {{0, 1, 2}, {0, 2, 3}}};
+  const std::vector<Vec3> inward = inward_normals(plate.mesh);
+  const std::vector<double> found = thickness(plate, middle, inward);
+  int faces = 0;
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    const auto& [a, b, c] = plate.mesh.triangles[t];
+    const Vec3 at = plate.centre + (plate.scale() / 3) *
+                                       (plate.mesh.points[a] + (plate.mesh.points[b] + plate.mesh.points[c]));
+    if (std::abs(inward[t].z) < 0.5 || std::max(std::abs(at.x - 4), std::abs(at.y - 4)) > 3) continue;
+    EXPECT_NEAR(found[t], 1, 1e-9);
+    ++faces;
+  }
+  EXPECT_GE(faces, 100);
+}
+
+// An axis as triangles of two corners; normals that are up to 20 degrees off pass it, and end beside it.
+TEST(SurfaceThickness, OfACylinderIsItsRadius) {
+  const Solid cylinder = make_solid(make_cylinder(1, 10, 64));
+  const Mesh axis{{{0, 0, 1}, {0, 0, 9}}, {{0, 1, 1}}};
+  for (const double tilt : {0.0, 20.0}) {
+    std::vector<Vec3> inward = inward_normals(cylinder.mesh);
+    const double angle = tilt * std::numbers::pi / 180;
+    for (Vec3& n : inward) {
+      const Vec3 across = unit(cross({0, 0, 1}, n));
+      n = std::cos(angle) * n + std::sin(angle) * across;
+    }
+    const std::vector<double> found = thickness(cylinder, axis, inward);
+    for (std::size_t t = 0; t < found.size(); ++t) {
+      if (std::abs(inward[t].z) > 0.5) continue;
+      EXPECT_NEAR(found[t], std::cos(angle), 0.03) << tilt;  // the foot of the axis on the way
+    }
+  }
+}
+
+// A way that leads out of the solid, or nowhere, tells nothing: then it is the distance.
+TEST(SurfaceThickness, OutwardWaysGiveTheDistance) {
+  const Solid ball = make_solid(make_sphere(2, 320));
+  const Mesh centre{{{0, 0, 0}}, {{0, 0, 0}}};
+  std::vector<Vec3> outward = inward_normals(ball.mesh);
+  const std::vector<double> within = thickness(ball, centre, outward);
+  for (Vec3& n : outward) n = -1.0 * n;
+  const std::vector<double> without = thickness(ball, centre, outward);
+  const std::vector<double> none = thickness(ball, centre, std::vector<Vec3>(outward.size()));
+  for (std::size_t t = 0; t < within.size(); ++t) {
+    EXPECT_NEAR(within[t], 2, 0.06);
+    EXPECT_NEAR(without[t], within[t], 1e-3);
+    EXPECT_EQ(none[t], without[t]);
+  }
+}
+
+TEST(SurfaceThickness, DoesNotDependOnThreadsAndStops) {
+  const Solid torus = make_solid(make_torus(3, 1, 4000));
+  const Mesh centre{{{3, 0, 0}, {-3, 0, 0}, {0, 3, 0}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
+  const std::vector<Vec3> inward = inward_normals(torus.mesh);
+  ThicknessOptions options;
+  const std::vector<double> one = thickness(torus, centre, inward, options);
+  options.threads = 3;
+  EXPECT_EQ(thickness(torus, centre, inward, options), one);
+  options.threads = 1;
+  expect_stops_wherever_it_is_asked(5, [&](ExecutionContext* context) {
+    options.context = context;
+    thickness(torus, centre, inward, options);
+  });
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+struct LimbRadiiInput {
+  std::span<const Vec3> places;       ///< per vertex
+  std::span<const Segment> segments;  ///< as for polylines()
+  std::span<const double> share;      ///< per vertex: of the volume, what is nearest to it
+  std::span<const double>
+      ball;  ///< per vertex: distance to the surface; a free end reaches so far beyond itself
+  double volume = 0;
+};
+
+/// How thick the solid is about the lines of its curve skeleton: the radius of the tube that has, over a few vertices on
+/// either side, the volume that is nearest to them.  The optimal section tells no thickness: all planes through a place
+/// on the axis of a tube cut off as much, however they are tilted.
+/// @return per vertex; 0 for one without a line.
+std::vector<double> limb_radii(const LimbRadiiInput& input);
+
+}  // namespace affskel::core
