@@ -119,6 +119,28 @@ ViewModel curve_model() {
   return input;
 }
 
+// The curve's cube in two parts: what of its surface lies below the middle, and what above, which is twice as thick.
+ViewModel parts_model() {
+  ViewModel input = curve_model();
+  input.job.set_name("parts");
+  input.mesh = affskel::core::make_box(kEdge, kEdge, kEdge, 2);
+  for (const auto& [a, b, c] : input.mesh.triangles) {
+    const auto& points = input.mesh.points;
+    const bool upper = points[a].z + points[b].z + points[c].z > 1.5 * kEdge;
+    input.parts.add_triangle_part(upper ? 2 : 1);
+    input.parts.add_thickness(upper ? 1 : 0.5);
+  }
+  for (const double share : {0.75, 0.25}) {
+    affskel::v1::SolidPart& part = *input.parts.add_parts();
+    part.set_kind(share > 0.5 ? affskel::v1::PART_KIND_LINK : affskel::v1::PART_KIND_LIMB);
+    part.set_volume_share(share);
+    part.set_volume(share * kVolume);
+    part.set_length(8 * share);
+    part.set_mean_radius(share);
+  }
+  return input;
+}
+
 ViewModel stretched_model() {
   ViewModel input = cube(32);
   input.job.set_name("stretched");
@@ -217,6 +239,7 @@ ViewModel many_model() {
 const std::map<std::string, std::function<ViewInput()>> kPages = {
     {"sheet", [] { return page_of(sheet_model()); }},
     {"curve", [] { return page_of(curve_model()); }},
+    {"parts", [] { return page_of(parts_model()); }},
     {"stretched", [] { return page_of(stretched_model()); }},
     {"eroded", eroded_page},
     {"two", two_page},
@@ -227,7 +250,7 @@ const std::map<std::string, std::function<ViewInput()>> kPages = {
 int main(int argc, char** argv) {
   const auto page = argc == 3 ? kPages.find(argv[1]) : kPages.end();
   if (page == kPages.end()) {
-    std::cerr << "usage: affskel_made_up_page sheet|curve|stretched|eroded|two|many FILE\n";
+    std::cerr << "usage: affskel_made_up_page sheet|curve|parts|stretched|eroded|two|many FILE\n";
     return 2;
   }
   try {

@@ -12,7 +12,7 @@ from view_page import WithPage, tick_numbers  # first: it skips
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
-from browser import colours
+from browser import Page, colours
 
 
 class MadeUpPage(WithPage):
@@ -120,6 +120,75 @@ class Curve(MadeUpPage):
             # Six sides round a circle of 0.3 spacings of 0.5.
             self.assertGreater(len(drawn), 0.25 * unit, x)
             self.assertLess(len(drawn), 0.35 * unit, x)
+
+
+class Parts(MadeUpPage):
+    """A cube whose upper half is another part than the lower one, and twice as thick: see made_up_page.cc."""
+
+    KIND = "parts"
+
+    def setUp(self):
+        super().setUp()
+        self.page.click("view-front")
+
+    def halves(self):
+        """The colours of both halves."""
+        picture = self.page.canvas_picture()
+        column = picture.width // 2
+        return [picture.getpixel((column, int(picture.height / 2 + up))) for up in (-60, 60)]
+
+    def test_the_mesh_is_coloured_by_part(self):
+        self.assertFalse(self.page.element("parts").is_displayed())
+        self.page.choose("body-colour", "part")
+        self.page.slide("opacity", 100)
+        upper, lower = self.halves()
+        # Light blue and sand, see part_colour.
+        self.assertGreater(upper[2], upper[0])
+        self.assertGreater(lower[0], lower[2])
+        rows = [row.text for row in self.page.element("parts").find_elements("tag name", "tr")]
+        self.assertEqual(rows, ["part volume length radius", "1 link 75 % 6 0.75", "2 limb 25 % 2 0.25"])
+
+    def test_a_row_lights_its_part(self):
+        self.page.choose("body-colour", "part")
+        self.page.slide("opacity", 100)
+        before = self.halves()
+        row = self.page.element("parts").find_elements("tag name", "tr")[2]
+        ActionChains(self.driver).move_to_element(row).perform()
+        upper, lower = self.halves()
+        self.assertEqual(upper, before[0])
+        self.assertLess(max(lower) - min(lower), 20, "grey")
+        self.leave()
+        self.assertEqual(self.halves(), before)
+
+    def test_thickness_has_a_scale_of_its_own(self):
+        self.page.choose("body-colour", "thickness")
+        legend = self.page.element("legend")
+        self.assertIn("Thickness", legend.text)
+        self.assertIn("0.75", legend.text)
+        self.assertFalse(self.page.element("parts").is_displayed())
+        upper, lower = self.halves()
+        self.assertGreater(upper[0], upper[2], "yellow")
+        self.assertGreater(lower[2], lower[0], "the middle of viridis")
+        self.page.click("reset")
+        self.assertIn("Erosion level", legend.text)
+        self.assertEqual(self.page.state()["opacity"], 20)
+
+    def test_tells_of_the_part_under_the_pointer(self):
+        self.page.choose("body-colour", "thickness")
+        size = self.page.element("canvas").size
+        x, y = size["width"] / 2, size["height"] / 2
+        upper = self.page.script("return affskel.valuesAt(arguments[0], arguments[1])", x, y - 60)
+        self.assertEqual(upper["what"], "part 2, a limb")
+        self.assertEqual(upper["volume"], "25 %")
+        self.assertEqual(upper["thickness here"], "1")
+        self.assertEqual(self.page.script("return affskel.valuesAt(arguments[0], arguments[1])", x, y + 60)["length"], "6")
+
+    def test_a_link_keeps_the_choice(self):
+        self.page.choose("body-colour", "thickness")
+        address = self.page.wait(lambda s: "body=thickness" in self.driver.current_url) and self.driver.current_url
+        page = Page(self.driver, self.page.file, "#" + address.split("#")[1])
+        self.assertEqual(page.state()["body"], "thickness")
+        self.assertEqual(page.state()["opacity"], 100)
 
 
 class Stretched(MadeUpPage):

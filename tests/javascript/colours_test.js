@@ -10,7 +10,7 @@ import {
   themeColours,
   viridis,
 } from '../../client/view/web/colours.js';
-import { labelLegend } from '../../client/view/web/overlay.js';
+import { erosionScale, labelLegend, thicknessScale } from '../../client/view/web/overlay.js';
 
 // van der Walt and Smith's first, middle and last colour; the middle one lies between two samples.
 const kFirst = [68, 1, 84];
@@ -52,17 +52,21 @@ test('a dark theme and a light one', () => {
   assert.equal(themeColours('light').lift, 0);
 });
 
-test('the legend tells per cent of v0 at equal distances of the cube root', () => {
+// The labels of a legend, and what stands above and below them.
+function labelled(scale) {
   const labels = [];
   const ownerDocument = { createElement: () => ({}) };
-  const parts = {
-    '.heading': {},
-    '.note': {},
-    '.numbers': { ownerDocument, append: ({ textContent }) => labels.push(textContent) },
-  };
-  const page = { highestShare: 0.064, scaleTitle: 'E', scaleNote: 'per cent' };
-  labelLegend({ querySelector: (selector) => parts[selector] }, page);
-  assert.deepEqual(labels, ['0', '0.1', '0.8', '2.7', '6.4']);
-  assert.equal(parts['.heading'].textContent, 'E');
-  assert.equal(parts['.note'].textContent, 'per cent');
+  const replaceChildren = (...spans) => labels.splice(0, Infinity, ...spans.map(({ textContent }) => textContent));
+  const parts = { '.heading': {}, '.note': {}, '.numbers': { ownerDocument, replaceChildren } };
+  labelLegend({ querySelector: (selector) => parts[selector] }, scale);
+  return { labels, heading: parts['.heading'].textContent, note: parts['.note'].textContent };
+}
+
+test('the legend tells per cent of v0 at equal distances of the cube root', () => {
+  const legend = labelled(erosionScale({ highestShare: 0.064, scaleTitle: 'E', scaleNote: 'per cent' }));
+  assert.deepEqual(legend, { labels: ['0', '0.1', '0.8', '2.7', '6.4'], heading: 'E', note: 'per cent' });
+});
+
+test('the legend tells thickness evenly', () => {
+  assert.deepEqual(labelled(thicknessScale(80)).labels, ['0', '20', '40', '60', '80']);
 });

@@ -10,7 +10,8 @@ export class Clipping {
    * half(axis): half of the longest box along it, page units; coordinate(axis, at): in mesh units; changed(): the
    * scene.
    * @param {import('./clip.js').Clip} clip
-   * @param {{ half: (axis: number) => number, coordinate: (axis: number, at: number) => number, changed: () => void }} scene
+   * @param {{ half: (axis: number) => number, coordinate: (axis: number, at: number) => number,
+   *   changed: () => void }} scene
    */
   constructor(clip, scene) {
     this.clip = clip;

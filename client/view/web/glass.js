@@ -102,8 +102,8 @@ export class Glass {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
     geometry.setAttribute('normal', new BufferAttribute(cornerNormals(points, corners), 3));
-    geometry.setAttribute('tint', new BufferAttribute(new Float32Array(3 * corners.length), 3));
-    this.geometry = geometry;
+    this.tints = new BufferAttribute(new Float32Array(3 * corners.length), 3);
+    geometry.setAttribute('tint', this.tints);
     this.uniforms = {
       dark: { value: new Color() },
       light: { value: new Color() },
@@ -146,9 +146,8 @@ export class Glass {
   tint(colourOf) {
     this.uniforms.tinted.value = colourOf ? 1 : 0;
     if (!colourOf) return;
-    const { tint } = this.geometry.attributes;
-    for (let c = 0; c < this.corners.length; ++c) tint.array.set(colourOf(Math.floor(c / 3)), 3 * c);
-    tint.needsUpdate = true;
+    for (let c = 0; c < this.corners.length; ++c) this.tints.array.set(colourOf(Math.floor(c / 3)), 3 * c);
+    this.tints.needsUpdate = true;
   }
 
   // glass: 1 = as usual, less = fainter; solid: from glass (0) to opaque (1).

@@ -60,7 +60,9 @@ declare module 'three' {
   }
   export class BufferAttribute {
     constructor(array: ArrayLike<number>, itemSize: number, normalized?: boolean);
+    array: Float32Array;
     count: number;
+    needsUpdate: boolean;
   }
   export class BufferGeometry {
     setAttribute(name: string, attribute: BufferAttribute): this;

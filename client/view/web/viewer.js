@@ -46,6 +46,11 @@ export class Viewer {
     this.models.forEach((model, i) => this.stage.scenes[i].add(...Object.values(model.layers)));
     this.wireSliders();
     this.wireLook();
+    this.clipping = new Clipping(this.clip, {
+      half: (axis) => this.stage.halfBox.getComponent(axis),
+      coordinate: (axis, at) => this.models[0].coordinates([at, at, at])[axis],
+      changed: () => this.stage.changeScene(),
+    });
     this.body = new Body(page, this.models, (opacity) =>
       opacity === null ? this.stage.changeScene() : this.setOpacity(opacity),
     );
@@ -210,11 +215,6 @@ export class Viewer {
 
   wireLook() {
     element('opacity').addEventListener('input', () => this.setOpacity(element('opacity').valueAsNumber));
-    this.clipping = new Clipping(this.clip, {
-      half: (axis) => this.stage.halfBox.getComponent(axis),
-      coordinate: (axis, at) => this.models[0].coordinates([at, at, at])[axis],
-      changed: () => this.stage.changeScene(),
-    });
     for (const name of kLayers) {
       const check = element(`show-${name}`);
       check.addEventListener('change', () => this.toggle(name, check.checked));
