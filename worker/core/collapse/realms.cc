@@ -1,5 +1,6 @@
 #include "core/collapse/realms.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/base/bucket_queue.h"
@@ -9,28 +10,28 @@ namespace affskel::core {
 
 std::vector<std::uint32_t> realms(const DualComplex& complex, std::span<const RealmSeed> seeds,
                                   ExecutionContext* context) {
-  constexpr float kBuckets = 64;  // per radius
+  constexpr float kBuckets = 8;  // per step
   struct Step {
-    float way = 0;  // radii
+    float way = 0;  // steps, from the smallest ball
     std::uint32_t cube = 0, seed = 0;
   };
   std::vector<float> way(complex.cubes(), kNoWay);
   std::vector<std::uint32_t> realm(complex.cubes(), DualComplex::kNone);
+  float greatest = 0;
+  for (const RealmSeed& seed : seeds) greatest = std::max(greatest, seed.radius);
   BucketQueue<Step> front;
-  for (std::uint32_t n = 0; n < seeds.size(); ++n) {
-    if (way[seeds[n].cube] == 0) continue;
-    way[seeds[n].cube] = 0;
-    front.push(0, {0, seeds[n].cube, n});
-  }
+  const auto reach = [&](std::uint32_t cube, float there, std::uint32_t seed) {
+    if (there >= way[cube]) return;
+    way[cube] = there;
+    front.push(static_cast<std::size_t>(there * kBuckets), {there, cube, seed});
+  };
+  for (std::uint32_t n = 0; n < seeds.size(); ++n) reach(seeds[n].cube, greatest - seeds[n].radius, n);
   StopCheck stop(context);
   for (Step at; front.pop(at); stop.did(100)) {
     if (realm[at.cube] != DualComplex::kNone) continue;
     realm[at.cube] = at.seed;
     complex.for_each_step(at.cube, [&](std::uint32_t to, std::uint32_t steps) {
-      const float there = at.way + kStepLength[steps] / seeds[at.seed].radius;
-      if (there >= way[to]) return;
-      way[to] = there;
-      front.push(static_cast<std::size_t>(there * kBuckets), {there, to, at.seed});
+      reach(to, at.way + kStepLength[steps], at.seed);
     });
   }
   return realm;

@@ -12,12 +12,12 @@ namespace affskel::core {
 /// A cube that a realm begins in.
 struct RealmSeed {
   std::uint32_t cube = 0;
-  float radius = 1;  ///< > 0: ways from it count by this length
+  float radius = 0;  ///< steps, >= 0: of a ball about it, from which ways count
 };
 
-/// Parts the cubes among seeds: each belongs to the seed with the shortest way to it over cubes (26 neighbours, see
-/// DualComplex::for_each_step) for its radius, so that a thick limb keeps what a thin one beside it comes nearer
-/// to.  Every realm hangs together (Dial 1969, by eighths of a radius at the least).
+/// Parts the cubes among seeds: each belongs to the seed whose ball it is nearest to, by ways over cubes (26 neighbours,
+/// see DualComplex::for_each_step), so that a thick limb keeps what a thin one beside it comes nearer to.  Every realm
+/// hangs together (Dial 1969, by eighths of a step).
 /// @return per cube: the number of its seed; kNone of DualComplex where no seed can be reached.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<std::uint32_t> realms(const DualComplex& complex, std::span<const RealmSeed> seeds,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
+#include "core/base/cheapest_ways.h"
 #include "core/base/groups.h"
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
@@ -110,16 +112,39 @@ void give_the_rest(const Lattice& lattice, CurveSkeleton& curve) {
   }
 }
 
-void measure(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis, CurveSkeleton& curve,
-             ExecutionContext* context) {
-  const DistanceToMesh surface(solid.mesh);
+// Per vertex of the ridge: that of the curve which is nearest along it.
+std::vector<std::uint32_t> nearest_on_curve(const RidgeSheet& ridge, std::span<const std::uint32_t> lines) {
+  std::vector<std::uint32_t> sources(ridge.vertices.size(), kNoNode);
+  for (std::uint32_t v = 0; v < lines.size(); ++v) sources[lines[v]] = v;
+  std::vector<Segment> edges = ridge.segments;
+  for (const auto& [a, b, c] : ridge.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+  const Groups<std::uint32_t> neighbours = neighbours_along(ridge.vertices.size(), edges);
+  CheapestWays ways(std::move(sources));
+  ways.find([&](std::uint32_t v, const auto& go) {
+    for (const std::uint32_t to : neighbours[v])
+      go(to, norm(ridge.vertices[to].position - ridge.vertices[v].position), v);
+  });
+  return std::move(ways.source);
+}
+
+// A sample point belongs to where the part of the ridge that it is nearest to is collapsed to.
+void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<const std::uint32_t> lines,
+                 CurveSkeleton& curve, ExecutionContext* context) {
   std::vector<RealmSeed> seeds;
+  for (const SheetVertex& vertex : ridge.vertices)
+    seeds.push_back({vertex.point, basis.radius[vertex.point]});
+  const std::vector<std::uint32_t> on_curve = nearest_on_curve(ridge, lines);
+  curve.nearest = realms(basis.complex, seeds, context);
+  for (std::uint32_t& nearest : curve.nearest)
+    if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
+}
+
+void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
+  const DistanceToMesh surface(solid.mesh);
   for (const SheetVertex& vertex : curve.vertices) {
     const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
     curve.distance.push_back(solid.scale() * surface.nearest(place));
-    seeds.push_back({vertex.point, basis.radius[vertex.point]});
   }
-  curve.nearest = realms(basis.complex, seeds, context);
   give_the_rest(lattice, curve);
   curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
@@ -143,7 +168,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
     curve.part.push_back(ridge.part[v]);
   }
   make_smooth(solid, lattice, curve, options.context);
-  measure(solid, lattice, basis, curve, options.context);
+  give_points(basis, ridge, lines.vertices, curve, options.context);
+  measure(solid, lattice, curve);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
   std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
   for (const Segment& segment : curve.segments)

@@ -15,15 +15,23 @@
 namespace affskel::core {
 namespace {
 
-// On a line of cubes the border lies where the ways are in the ratio of the radii.
-TEST(Realms, PartAWayByTheRadii) {
+// On a line of cubes the border lies in the middle between the balls.
+TEST(Realms, PartAWayBetweenTheBalls) {
   const LatticeSolid rod(make_box(101, 1, 1), 1);
   const DualComplex complex(rod.lattice);
   const auto last = complex.cubes() - 1;
-  const std::array<RealmSeed, 2> seeds{RealmSeed{0, 3}, RealmSeed{last, 1}};
+  const std::array<RealmSeed, 2> seeds{RealmSeed{0, 21}, RealmSeed{last, 1}};
   std::array<double, 2> size{};
   for (const std::uint32_t seed : realms(complex, seeds)) ++size.at(seed);
-  EXPECT_NEAR(size[0] / size[1], 3, 0.15);
+  EXPECT_NEAR(size[0] - size[1], 20, 1);
+}
+
+// A seed within another's ball has nothing.
+TEST(Realms, OfASeedInALargerBallAreEmpty) {
+  const LatticeSolid rod(make_box(51, 1, 1), 1);
+  const DualComplex complex(rod.lattice);
+  const std::array<RealmSeed, 2> seeds{RealmSeed{10, 2}, RealmSeed{14, 9}};
+  for (const std::uint32_t seed : realms(complex, seeds)) EXPECT_EQ(seed, 1U);
 }
 
 // With equal radii the nearest seed has a cube, to what buckets tell apart; realms hang together.
