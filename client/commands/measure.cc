@@ -68,7 +68,7 @@ void add_measure(CommandLine& line) {
                "  affskel-client measure @last --threshold 3        # long limbs alone\n"
                "A part is a branch of the curve with what of the solid is nearest to it, the\n"
                "largest first: limbs end freely, links join limbs, loops close.  Lengths are in\n"
-               "the units of the mesh; radii of circles as large as the optimal sections",
+               "the units of the mesh, angles 180 where a part goes straight on from the one it hangs on",
                [options](Context& context) { run_measure(context, *options); });
   add_job(command, options->job);
   command
