@@ -74,7 +74,7 @@ FetchedSurface parse_surface(const std::string& bytes) {
   add_columns(surface.shape, {"beyond"}, message.beyond());
   if (!message.radius().empty()) {
     add_columns(surface.shape, {"radius"}, message.radius());
-  } else if (!surface.shape.segments.empty()) {
+  } else if (!surface.shape.segments.empty() || !message.distance().empty()) {
     add_radius(surface.shape);
   }
   add_columns(surface.shape, {"nx_a", "ny_a", "nz_a"}, message.normal_a());

@@ -37,7 +37,7 @@ CanonicalParams packed(const Params& params) {
 
 v1::SkeletonParams curve_params(const v1::FetchArtifactRequest& request) {
   v1::SkeletonParams curve = request.skeleton();
-  if (!request.has_skeleton()) curve.set_operator_(v1::OPERATOR_CURVE);
+  if (curve.operator_() == v1::OPERATOR_UNSPECIFIED) curve.set_operator_(v1::OPERATOR_CURVE);
   if (curve.operator_() != v1::OPERATOR_CURVE)
     throw std::invalid_argument("parts are those of the operator curve");
   return canonical(curve);

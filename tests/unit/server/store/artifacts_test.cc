@@ -183,7 +183,7 @@ TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
       bool right = false;
       if (word == "skeleton") {
         wrong.mutable_skeleton()->set_threshold(3);
-        right = name.ends_with("SKELETON") || name.ends_with("DIVERGENCE");
+        right = name.ends_with("SKELETON") || name.ends_with("DIVERGENCE") || name.ends_with("PARTS");
       } else if (word == "surface") {
         wrong.mutable_surface()->set_alpha(3);
         right = name == "ARTIFACT_KIND_SURFACE";
