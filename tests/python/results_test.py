@@ -135,6 +135,59 @@ class AgainstTheFiles(unittest.TestCase):
                 assert_same(surface.vertices, np.column_stack([vertices[name] for name in "xyz"]))
                 self.assertEqual(len(segments) > 0, not options, "the ridge has curves")
 
+    def test_measures_are_those_of_the_command_line(self):
+        for job, threshold in ((body, None), (body, 3), (sheared, None)):
+            options = [] if threshold is None else ["--threshold", threshold]
+            directory.client("measure", job.id, *options, "-o", directory / "limbs.json")
+            file = json.loads((directory / "limbs.json").read_text())
+            measures = job.measures(threshold)
+            table = measures.table()
+            self.assertEqual([part["kind"] for part in file["parts"]], list(table["kind"]))
+            for name, column in (("length_units", "length"), ("volume_units3", "volume"), ("angle_degrees", "angle"),
+                                 ("surface_area_units2", "surface_area"), ("mean_radius_units", "mean_radius"),
+                                 ("to_x", "to_x"), ("from_z", "from_z")):
+                expected = [np.nan if part[name] is None else part[name] for part in file["parts"]]
+                np.testing.assert_array_equal(table[column], expected, name)
+            whole = measures.whole
+            self.assertAlmostEqual(whole["volume"] / file["whole"]["volume_units3"], 1, 12)
+            self.assertAlmostEqual(measures.numbers["surface_area"].sum() / whole["surface_area"], 1, 12)
+            self.assertEqual(whole["greatest_E"], file["whole"]["greatest_E_units3"])
+
+    def test_parts_are_those_of_the_files(self):
+        measures = body.measures()
+        directory.client("fetch", body.id, "field", "--parts", "-o", directory / "field.csv")
+        assert_same(measures.point_part, np.array(directory.rows("field.csv")["part"], np.int64))
+        field = body.field()
+        self.assertEqual(field.E.max(), measures.whole["greatest_E"])
+        # As many sample points as its share of the volume.
+        shares = np.bincount(measures.point_part, minlength=len(measures) + 1)[1:] / len(field)
+        np.testing.assert_allclose(shares, measures.numbers["volume_share"], rtol=0, atol=1e-9)
+        self.assertEqual(len(measures.triangle_part), len(measures.surface))
+        self.assertTrue((measures.thickness > 0).all())
+        sheet = body.skeleton("ridge")
+        self.assertEqual(set(sheet.attributes["part"]) - set(range(1, len(measures) + 1)), set())
+        # A body has two legs, and each hangs on where the trunk ends.
+        legs = np.flatnonzero(measures.ends[:, 2] < np.ptp(field.points[:, 2]) / 8)
+        self.assertEqual(len(legs), 2)
+        for leg in legs:
+            self.assertAlmostEqual(measures.numbers["volume_share"][leg], .16, delta=.04)
+            np.testing.assert_array_equal(measures.curve.vertices[measures.branches[leg][-1]], measures.ends[leg])
+
+    def test_measures_are_a_graph_of_networkx(self):
+        measures = body.measures()
+        try:
+            import networkx
+        except ImportError:
+            self.skipTest("no python3-networkx")
+        graph = measures.graph()
+        self.assertTrue(networkx.is_connected(graph))
+        self.assertEqual(graph.number_of_edges(), len(measures))
+        self.assertEqual({data["part"] for _, _, data in graph.edges(data=True)}, set(range(1, len(measures) + 1)))
+        for start, end, data in graph.edges(data=True):
+            ends = {tuple(data["polyline"][0]), tuple(data["polyline"][-1])}
+            self.assertEqual(ends, {graph.nodes[start]["place"], graph.nodes[end]["place"]})
+            self.assertGreaterEqual(data["length"], data["straight_length"] * (1 - 1e-12))
+
     def test_the_jobs_own_operator_holds_unless_another_is_named(self):
         assert_same(sheared.skeleton().vertices, sheared.skeleton("chords").vertices)
         few, many = sheared.skeleton(threshold=.2), sheared.skeleton(threshold=1e-9)

@@ -5,6 +5,7 @@
     field = job.field()                        # points, E, normals, slope, direction: NumPy arrays
     sheet = job.skeleton(operator="chords")    # vertices, faces, attributes
     solid = job.eroded(fraction=.05)           # the solid where E is at least 5 % of the volume
+    limbs = job.measures()                     # lengths, volumes, radii of its parts; .table(), .graph(), .thickness
     job.view()                                 # in a notebook: the body and its skeleton to turn
 
 The functions of this module use one client, made by the first call with the server that affskel-client would take; a
@@ -24,13 +25,14 @@ from ._errors import (AffskelError, AffskelWarning, BadInputError, BadMeshError,
                       JobFailedError, JobTooLargeError, LimitError, NotAllowedError, NotFoundError, TimedOutError,
                       UnreachableError, UsageError)
 from ._job import Job
+from ._measures import Measures
 from ._meshes import MeshLike
 from ._status import Note, Status
 from ._view import View
 
 __all__ = [
     "AffskelError", "AffskelWarning", "BadInputError", "BadMeshError", "Client", "Field", "InternalError", "Job",
-    "JobCancelledError", "JobFailedError", "JobTooLargeError", "Lattice", "LimitError", "NotAllowedError",
+    "JobCancelledError", "JobFailedError", "JobTooLargeError", "Lattice", "LimitError", "Measures", "NotAllowedError",
     "NotFoundError", "Note", "Points", "Status", "Surface", "TimedOutError", "UnreachableError", "UsageError", "View",
     "job", "jobs", "server_info", "submit",
 ]

@@ -200,9 +200,11 @@ class Surface:
         faces: (m, 3) indices of vertices.
         attributes: arrays by vertex.  Sheets of "chords" and "ridge" have E, strength (0 .. 1; of "ridge" radians per
             depth), area of the optimal sections, normal_a and normal_b (n, 3) of the two sides, that of "ridge" also
-            the ratio of its two curvatures and the kind (0 ridge surface, 1 ridge curve, 2 membrane, 3 way); both have the barrier where it was asked for.  Eroded solids have E and
-            area; "curve" has E, area, distance (to the solid's surface), share (of the volume, what is nearest to the
-            vertex) and beyond (what a cut there parts from the rest); alpha shapes have none, the points that they are made of carry them (`Job.skeleton_points`).
+            the ratio of its two curvatures, the kind (0 ridge surface, 1 ridge curve, 2 membrane, 3 way) and the part of
+            the solid (see Measures); both have the barrier where it was asked for.  "curve" has what "ridge" has and
+            distance (to the solid's surface), share (of the volume, what is nearest to the vertex), beyond (what a cut
+            there parts from the rest) and radius (of the limb).  Eroded solids have E and area; alpha shapes have none,
+            the points that they are made of carry them (`Job.skeleton_points`).
         quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
         segments: (k, 2) indices of vertices: all of "curve", of "ridge" in the middle of limbs and between its parts;
@@ -300,9 +302,9 @@ def surface_of(message: types.TriangleMesh) -> Surface:
     arrays = {"E": _doubles(message.erosion), "strength": _doubles(message.strength), "ratio": _doubles(message.ratio),
               "kind": _wholes(message.kind), "barrier": _doubles(message.barrier),
               "area": _doubles(message.area), "distance": _doubles(message.distance), "share": _doubles(message.share),
-              "beyond": _doubles(message.beyond),
+              "beyond": _doubles(message.beyond), "radius": _doubles(message.radius),
               "normal_a": _doubles(message.normal_a, 3),
-              "normal_b": _doubles(message.normal_b, 3)}
+              "normal_b": _doubles(message.normal_b, 3), "part": _wholes(message.part)}
     attributes = {name: array for name, array in arrays.items() if len(array)}
     if any(len(array) != len(vertices) for array in attributes.values()):
         raise InternalError("the server sent a damaged surface: a vertex without its attributes")

@@ -9,6 +9,7 @@ import numpy as np
 from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of,
                       surface_of)
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
+from ._measures import Measures, measures_of
 from ._messages import plain, value_of_word
 from ._programs import page
 from ._progress import ProgressBar
@@ -218,6 +219,19 @@ class Job:
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.point), message.quality)
         return points_of(message)
+
+    def measures(self, threshold: Optional[float] = None, *, timeout: Optional[float] = None) -> Measures:
+        """The solid in its limbs: lengths, volumes, radii, angles, and which part each triangle and sample point is of.
+
+        Args:
+            threshold: the length of the shortest limb with a branch, in its own radii; None = 0.9.
+
+        Example:
+            >>> pandas.DataFrame(job.measures().table())
+        """
+        request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_PARTS,
+                                               skeleton=skeleton_params("curve", threshold))
+        return measures_of(types.SolidParts.FromString(self._fetched(request, timeout)))
 
     def mesh(self, *, timeout: Optional[float] = None) -> bytes:
         """The OFF text that was submitted, unchanged."""

@@ -1,0 +1,115 @@
+"""The solid in parts and numbers."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Dict, List, Mapping, Sequence
+
+import numpy as np
+
+from ._arrays import Floats, Ints, Surface, Table, surface_of
+from ._errors import InternalError
+from ._messages import word
+from .v1 import types_pb2 as types
+
+# Columns of a table, and what the contract calls them.
+NUMBERS = ("length", "straight_length", "volume", "volume_share", "surface_area", "mean_radius", "least_radius",
+           "greatest_radius", "angle")
+
+
+@dataclass(frozen=True, eq=False)
+class Measures:
+    """The solid, parted by the branches of its curve skeleton.  p parts, m triangles, R sample points.
+
+    Parts count from 1: row 0 of every array is part 1, the one with the greatest volume; volumes that are about equal
+    are in the order of their places.  Volumes and areas add up to the solid's.
+
+    Attributes:
+        kinds: of each part: "limb" (one end is free), "line" (both), "link" (none), "loop" (it closes), "point".
+        numbers: (p,) each: length and straight_length of the branch, volume, volume_share, surface_area, mean_radius,
+            least_radius, greatest_radius, angle (degrees, to the first other branch at `starts`: 180 goes straight on;
+            NaN without one).
+        starts, ends: (p, 3) where each branch hangs on, and its other end, of a limb the free one.
+        branches: of each part the indices of its vertices in `curve`, from start to end.
+        curve: the curve skeleton, see Surface: its attribute "part" is each vertex's.
+        surface: the solid's, as it was computed; no attributes.
+        triangle_part, thickness: (m,) per triangle of it: its part, and the way along its optimal normal to the skeleton
+            of "ridge".
+        point_part: (R,) per sample point, in the order of `Job.field`.
+        whole: of the solid: volume, surface_area, curve_length, sheet_area (of the skeleton of "ridge"), greatest_E and
+            greatest_E_place.
+    """
+
+    kinds: Sequence[str]
+    numbers: Mapping[str, Floats]
+    starts: Floats
+    ends: Floats
+    branches: Sequence[Ints]
+    curve: Surface
+    surface: Surface
+    triangle_part: Ints
+    thickness: Floats
+    point_part: Ints
+    whole: Mapping[str, Any]
+
+    def __len__(self) -> int:
+        return len(self.kinds)
+
+    def __repr__(self) -> str:
+        return f"<affskel.Measures of {len(self)} parts>"
+
+    def table(self) -> Table:
+        """A row for each part, for `pandas.DataFrame(measures.table())`."""
+        columns: Table = {"part": np.arange(1, len(self) + 1), "kind": np.array(self.kinds, dtype=object)}
+        columns.update(self.numbers)
+        for name, places in (("from", self.starts), ("to", self.ends)):
+            columns.update({f"{name}_{axis}": places[:, a] for a, axis in enumerate("xyz")})
+        return columns
+
+    def graph(self) -> Any:
+        """A networkx.MultiGraph: nodes are vertices of `curve` where branches end or meet, with place, E and radius; edges
+        are parts, with the numbers of `table` and the `polyline` (k, 3).  A part without a line is a node alone."""
+        import networkx
+        graph = networkx.MultiGraph()
+        places = self.curve.vertices
+        for row, branch in enumerate(self.branches):
+            for vertex in (int(branch[0]), int(branch[-1])):
+                graph.add_node(vertex, place=tuple(places[vertex]),
+                               **{name: float(self.curve.attributes[name][vertex]) for name in ("E", "radius")})
+            if len(branch) > 1:
+                graph.add_edge(int(branch[0]), int(branch[-1]), part=row + 1, kind=self.kinds[row], polyline=places[branch],
+                               **{name: float(values[row]) for name, values in self.numbers.items()})
+        return graph
+
+
+def _places(parts: Sequence[types.SolidPart], name: str) -> Floats:
+    rows = [list(getattr(part, name)) for part in parts]
+    if any(len(row) != 3 for row in rows):
+        raise InternalError("the server sent damaged parts of the solid: a part without its ends")
+    return np.array(rows, np.float64).reshape(-1, 3)
+
+
+def _whole(message: types.SolidParts, numbers: Mapping[str, Floats]) -> Dict[str, Any]:
+    return {"volume": float(numbers["volume"].sum()), "surface_area": message.surface_area,
+            "curve_length": float(numbers["length"].sum()), "sheet_area": message.sheet_area,
+            "greatest_E": message.greatest_erosion, "greatest_E_place": tuple(message.greatest_place)}
+
+
+def measures_of(message: types.SolidParts) -> Measures:
+    """Raises InternalError when the message contradicts itself."""
+    parts = message.parts
+    numbers = {name: np.array([getattr(part, name) for part in parts], np.float64) for name in NUMBERS}
+    numbers["angle"][[not part.HasField("angle") for part in parts]] = np.nan
+    curve, surface = surface_of(message.curve), surface_of(message.surface)
+    branches: List[Ints] = [np.array(part.vertices, np.int64) for part in parts]
+    triangle_part, point_part = np.array(message.triangle_part, np.int64), np.array(message.point_part, np.int64)
+    thickness = np.array(message.thickness, np.float64)
+    if len(triangle_part) != len(surface) or len(thickness) != len(surface):
+        raise InternalError("the server sent damaged parts of the solid: a triangle without its values")
+    for given in (triangle_part, point_part):
+        if len(given) and not 1 <= given.min() <= given.max() <= len(parts):
+            raise InternalError("the server sent damaged parts of the solid: a part out of range")
+    if any(len(branch) == 0 or branch.max() >= len(curve.vertices) for branch in branches):
+        raise InternalError("the server sent damaged parts of the solid: a vertex out of range")
+    kinds = [word(types.PartKind, part.kind) for part in parts]
+    return Measures(kinds, numbers, _places(parts, "from"), _places(parts, "to"), branches, curve, surface,
+                    triangle_part, thickness, point_part, _whole(message, numbers))
