@@ -8,6 +8,7 @@
 #include "client/artifacts/solid_parts.h"
 #include "client/artifacts/surface.h"
 #include "client/files/read/input_file.h"
+#include "client/files/write/glb_writer.h"
 #include "client/files/write/shape_writer.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/artifact_files.h"
@@ -49,6 +50,14 @@ class ShapeOutput {
   // @param job, what of the comments. @param key, how the parameters that made it.
   void write(WriteShape writer, const ShapeFile& shape, const v1::Job& job, const std::string& what,
              const std::string& key, const std::string& how, const v1::SkeletonQuality* quality = nullptr) {
+    write_by([&](const std::vector<std::string>& comments,
+                 const WriteBytes& write) { writer(format_, shape, comments, write); },
+             job, what, key, how, quality);
+  }
+
+  template <class Writer>
+  void write_by(const Writer& writer, const v1::Job& job, const std::string& what, const std::string& key,
+                const std::string& how, const v1::SkeletonQuality* quality) {
     core::FileFacts facts = job_facts(job, what);
     facts.push_back({key, how});
     std::vector<std::string> comments = comment_lines(facts);
@@ -56,7 +65,7 @@ class ShapeOutput {
       for (const auto& [name, value] : quality_lines(*quality))
         comments.push_back("quality " + name + ": " + value);
     }
-    write_into(file_, [&](const WriteBytes& write) { writer(format_, shape, comments, write); });
+    write_into(file_, [&](const WriteBytes& write) { writer(comments, write); });
     file_.commit();
   }
 
@@ -239,13 +248,52 @@ Fetched fetch_surface(Session& session, const FetchRequest& request) {
   return fetched;
 }
 
-Fetched fetch_curve(Session& session, const FetchRequest& request) {
-  ShapeOutput output(request.destination, curve_formats(), "curve skeleton");
-  v1::FetchArtifactRequest asked = request_for(request.job, v1::ARTIFACT_KIND_SURFACE);
-  v1::SkeletonParams& params = *asked.mutable_surface()->mutable_skeleton();
+namespace {
+
+LimbedSurface limbed_surface(const v1::SolidParts& solid) {
+  LimbedSurface limbed;
+  limbed.surface = surface_of(solid);
+  for (const std::uint32_t part : solid.triangle_part()) limbed.triangle_part.push_back(part - 1);
+  const auto& xyz = solid.curve().xyz();
+  for (int v = 0; v < xyz.size(); v += 3) limbed.places.push_back({xyz[v], xyz[v + 1], xyz[v + 2]});
+  for (const v1::SolidPart& part : solid.parts()) {
+    limbed.branches.emplace_back(part.vertices().begin(), part.vertices().end());
+    limbed.radius.push_back(part.mean_radius());
+  }
+  return limbed;
+}
+
+v1::SkeletonParams curve_params(const FetchRequest& request) {
+  v1::SkeletonParams params;
   params.set_operator_(v1::OPERATOR_CURVE);
   if (request.skeleton.operator_name == operator_word(v1::OPERATOR_CURVE))
     params.set_threshold(request.skeleton.threshold);
+  return params;
+}
+
+// The curve as joints, with the surface that they move.
+Fetched fetch_armature(Session& session, const FetchRequest& request, ShapeOutput& output) {
+  v1::ArtifactHeader header;
+  const v1::SolidParts solid =
+      fetch_solid_parts(session, request.job, curve_params(request).threshold(), header);
+  const LimbedSurface limbed = limbed_surface(solid);
+  output.write_by([&](const std::vector<std::string>& comments,
+                      const WriteBytes& write) { write_glb(limbed, comments, write); },
+                  header.job(), "curve skeleton, as joints of the solid", "operator",
+                  skeleton_params_text(curve_params(request)), &solid.curve().quality());
+  Fetched fetched{request.destination, "curve", "triangle", limbed.surface.triangles.size(), header.job()};
+  fetched.quality = solid.curve().quality();
+  return fetched;
+}
+
+}  // namespace
+
+Fetched fetch_curve(Session& session, const FetchRequest& request) {
+  ShapeOutput output(request.destination, curve_formats(), "curve skeleton");
+  if (output.format() == FileFormat::kGlb) return fetch_armature(session, request, output);
+  v1::FetchArtifactRequest asked = request_for(request.job, v1::ARTIFACT_KIND_SURFACE);
+  const v1::SkeletonParams params = curve_params(request);
+  *asked.mutable_surface()->mutable_skeleton() = params;
   v1::ArtifactHeader header;
   const FetchedSurface curve = parse_surface(fetch_patiently(session, asked, header, "curve skeleton"));
   output.write(write_curve, curve.shape, header.job(), "curve skeleton", "operator",

@@ -28,4 +28,33 @@ for job in (Job(DIRECTORY, "axis"), Job(DIRECTORY, "affine")):
         colours = {tuple(round(part, 3) for part in corner.color) for corner in mesh.vertex_colors.active.data}
         assert len(colours) > 10, (kind, len(colours))
         print(f"{job.frame} {kind}: {len(mesh.polygons)} faces, {len(colours)} colours")
+
+# The armature stands in the mesh, and moves it.
+for job in (Job(DIRECTORY, "axis"), Job(DIRECTORY, "affine")):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Blender 3.4 of Debian 12 cannot guess the shading with Debian's NumPy.
+    bpy.ops.import_scene.gltf(filepath=job.path("curve.glb"), import_shading="FLAT")
+    armature, = (one for one in bpy.data.objects if one.type == "ARMATURE")
+    body, = (one for one in bpy.data.objects if one.type == "MESH" and one.parent == armature)
+
+    def places():
+        bpy.context.view_layer.update()
+        moved = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        return [moved.matrix_world @ vertex.co for vertex in moved.to_mesh().vertices]
+
+    assert len(body.data.polygons) == job.triangles, len(body.data.polygons)
+    rest = places()
+    low, high = (tuple(side(place[axis] for place in rest) for axis in range(3)) for side in (min, max))
+    assert high[2] - low[2] > 2 * (high[1] - low[1]), "upright"
+    for bone in armature.data.bones:
+        head = armature.matrix_world @ bone.head_local
+        assert all(low[axis] <= head[axis] <= high[axis] for axis in range(3)), (bone.name, head)
+    # A bone of the second part, which is a leg, takes its triangles along and leaves the rest.
+    bone = armature.pose.bones["part 2.0"]
+    bone.rotation_mode = "XYZ"
+    bone.rotation_euler = (0.5, 0, 0)
+    moved = [place for place, now in zip(rest, places()) if (place - now).length > 1e-3 * (high[2] - low[2])]
+    assert len(rest) / 20 < len(moved) < len(rest) / 2, (len(moved), len(rest))
+    assert max(place[2] for place in moved) < (low[2] + 2 * high[2]) / 3, "the head stays"
+    print(f"{job.frame}: {len(armature.data.bones)} bones")
 print("all kinds of files opened")

@@ -42,6 +42,8 @@ def write_all(frame):
     for extension in ("vtp", "ply", "csv"):
         fetch("skeleton", "skeleton." + extension)
         write("erode", "eroded_points." + extension, "--fraction", LEVEL, "--as", "points")
+    fetch("curve", "curve.glb")
+    fetch("thickness", "thickness.vtp")
     for extension in ("vtp", "ply", "stl", "obj", "off"):
         fetch("mesh", "mesh." + extension)
         write("surface", "alpha." + extension, "--operator", "zucker-hummel")

@@ -11,7 +11,7 @@ export const kArtefacts = {
   divergence: ['Divergence', 'H, which the threshold is applied to'],
   skeleton: ['Skeleton', 'its points'],
   surface: ['Surface', 'the skeleton as triangles; its curves in .ply, .obj and .vtp alone'],
-  curve: ['Curve', 'a line through each limb; .json and .graphml: a graph, .swc: trees'],
+  curve: ['Curve', 'a line through each limb; .json and .graphml: a graph, .swc: trees, .glb: joints of the mesh'],
   eroded: ['Eroded solid', 'where E is at least a share of the volume'],
   mesh: ['Mesh', 'the file as it was submitted'],
 };

@@ -12,8 +12,8 @@ constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat
                                   FileFormat::kVtp};
 constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
                                  FileFormat::kVtp};
-constexpr std::array kCurve = {FileFormat::kVtp,  FileFormat::kObj,     FileFormat::kPly,
-                               FileFormat::kJson, FileFormat::kGraphMl, FileFormat::kSwc};
+constexpr std::array kCurve = {FileFormat::kVtp,     FileFormat::kObj, FileFormat::kPly, FileFormat::kJson,
+                               FileFormat::kGraphMl, FileFormat::kSwc, FileFormat::kGlb};
 
 }  // namespace
 
@@ -34,9 +34,9 @@ std::span<const FileFormat> curve_formats() {
 }
 
 std::string_view extension_of(FileFormat format) {
-  constexpr std::array<std::string_view, 18> kNames = {".csv", ".dat", ".vti",  ".vts",  ".vtkhdf",  ".hdf",
-                                                       ".ply", ".off", ".xyz",  ".obj",  ".stl",     ".vtp",
-                                                       ".png", ".svg", ".html", ".json", ".graphml", ".swc"};
+  constexpr std::array<std::string_view, 19> kNames = {
+      ".csv", ".dat", ".vti", ".vts", ".vtkhdf", ".hdf",  ".ply",     ".off", ".xyz", ".obj",
+      ".stl", ".vtp", ".png", ".svg", ".html",   ".json", ".graphml", ".swc", ".glb"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

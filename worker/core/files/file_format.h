@@ -23,7 +23,8 @@ enum class FileFormat {
   kHtml,
   kJson,
   kGraphMl,
-  kSwc
+  kSwc,
+  kGlb
 };
 
 /// What can be written as which formats.
@@ -31,7 +32,7 @@ std::span<const FileFormat> field_formats();     // csv dat vti vts vtkhdf hdf
 std::span<const FileFormat> skeleton_formats();  // csv ply off xyz vtp
 std::span<const FileFormat> surface_formats();   // off ply obj stl vtp
 
-std::span<const FileFormat> curve_formats();  // vtp obj ply json graphml swc
+std::span<const FileFormat> curve_formats();  // vtp obj ply json graphml swc glb
 
 /// With the dot, e.g. ".csv".
 std::string_view extension_of(FileFormat format);

@@ -119,6 +119,9 @@ TEST_F(MeasureTest, FetchWritesTheCurveAsAGraph) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.err.find("1 loop cut"), std::string::npos) << outcome.err;
   EXPECT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.csv"}).exit_code, 2);
+  ASSERT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.glb"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_PARTS);
+  EXPECT_TRUE(tests::read_file(dir_ / "curve.glb").starts_with("glTF"));
 }
 
 TEST_F(MeasureTest, TheFieldHasPartsWhereTheyAreAskedFor) {
