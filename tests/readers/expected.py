@@ -14,7 +14,7 @@ POINT_ARRAYS = {
     "alpha": {"E", "area"},
     "eroded": {"E", "area"},
     "sheet": {"E", "area", "strength", "normal_a", "normal_b"},
-    "ridge": {"E", "area", "strength", "ratio", "normal_a", "normal_b"},
+    "ridge": {"E", "area", "strength", "ratio", "kind", "part", "normal_a", "normal_b"},
 }
 RADIUS_OF_CURVES = {"radius"}  # of their sections; beside these where ridge gives curves, too
 POINTS_ALONE = ("skeleton", "eroded_points")

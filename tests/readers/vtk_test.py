@@ -155,6 +155,17 @@ def check_poly_data(job, kind, arrays):
     return data
 
 
+def check_thickness(job):
+    data = opened(job.path("thickness.vtp"))
+    cells = data.GetCellData()
+    thickness, part = (vtk_to_numpy(cells.GetArray(name)) for name in ("thickness", "part"))
+    assert len(thickness) == len(part) == data.GetNumberOfPolys() == job.triangles
+    # Nowhere as thick as the body is deep; a body has two arms, two legs and a head.
+    sizes = numpy.diff(numpy.array(data.GetBounds()).reshape(3, 2)).ravel()
+    assert (thickness > 0).all() and thickness.max() < sizes.min(), (thickness.max(), sizes)
+    assert part.min() == 1 and part.max() >= 5, part.max()
+
+
 def check_same_shape(job, kind, data):
     # STL has no place for curves.
     extensions = (".ply",) if kind in POINTS_ALONE else (".ply", ".obj", ".stl")
@@ -190,6 +201,7 @@ for one in (Job(DIRECTORY, "axis"), Job(DIRECTORY, "affine")):
         check_divergence(one, grid)
     for shape, wanted in POINT_ARRAYS.items():
         check_same_shape(one, shape, check_poly_data(one, shape, wanted))
+    check_thickness(one)
 assert Job(DIRECTORY, "affine").grids(("vti",)) == []
 check_ball()
 print("all kinds of files opened")
