@@ -44,9 +44,9 @@ void keep_bends(std::span<const Vec3> line, std::size_t first, std::size_t last,
   keep_bends(line, bend, last, tolerance, kept);
 }
 
-class Builder {
+class ArmatureBuilder {
  public:
-  explicit Builder(const LimbedSurface& solid)
+  explicit ArmatureBuilder(const LimbedSurface& solid)
       : solid_(solid),
         done_(solid.branches.size(), 0),
         joint_at_(solid.places.size(), Joint::kNone),
@@ -179,7 +179,7 @@ class Builder {
 }  // namespace
 
 Armature make_armature(const LimbedSurface& solid) {
-  return Builder(solid).run();
+  return ArmatureBuilder(solid).run();
 }
 
 }  // namespace affskel::client

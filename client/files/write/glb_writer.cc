@@ -22,7 +22,7 @@ constexpr int kVertices = 34962, kIndices = 34963;            // what a view of 
 constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
 
 // The arrays, each at a multiple of 4 bytes, and what describes them.
-class Arrays {
+class GlbArrays {
  public:
   // @returns the number of its accessor.
   std::size_t add(const std::string& bytes, std::size_t count, int component, const char* type, int target) {
@@ -154,7 +154,7 @@ class GlbWriter {
   const LimbedSurface& solid_;
   const Armature armature_;
   Vec3 low_, high_, centre_;
-  Arrays arrays_;
+  GlbArrays arrays_;
   ordered_json file_;
 };
 

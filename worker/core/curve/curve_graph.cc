@@ -21,12 +21,12 @@ constexpr double kStretch = 4;
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoBranch = std::numeric_limits<std::uint32_t>::max();
 
-class Graph {
+class GraphOfCurve {
  public:
-  Graph(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> radius,
-        std::span<const double> ball, std::span<const double> share)
+  GraphOfCurve(std::span<const Vec3> places, std::span<const Segment> segments,
+               std::span<const double> radius, std::span<const double> ball, std::span<const double> share)
       : places_(places), radius_(radius), ball_(ball), share_(share), ends_(places.size(), 0) {
     for (auto& line : polylines(places.size(), segments)) add(std::move(line));
     std::vector<char> used(places.size(), 0);
@@ -70,7 +70,7 @@ class Graph {
 
   void give_vertices() {
     std::vector<double> within(graph_.branches.size(), 0);
-    graph_.part.assign(places_.size(), kNone);
+    graph_.part.assign(places_.size(), kNoBranch);
     for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
       if (!inner) return;
       within[b] += share_[v];
@@ -79,7 +79,7 @@ class Graph {
     for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
       if (inner) return;
       std::uint32_t& owner = graph_.part[v];
-      if (owner == kNone || within[b] > within[owner]) owner = b;
+      if (owner == kNoBranch || within[b] > within[owner]) owner = b;
     });
     give_joints();
     for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
@@ -250,7 +250,7 @@ class Graph {
   std::uint32_t beside(std::uint32_t which, std::uint32_t vertex) const {
     const auto at = at_vertex_[vertex];
     const auto other = std::find_if(at.begin(), at.end(), [&](std::uint32_t b) { return b != which; });
-    return other == at.end() ? kNone : *other;
+    return other == at.end() ? kNoBranch : *other;
   }
 
   // From the heavier of its two joints.
@@ -266,7 +266,7 @@ class Graph {
     CurveBranch& branch = graph_.branches[which];
     branch.angle = std::numeric_limits<double>::quiet_NaN();
     const std::uint32_t other = beside(which, branch.vertices.front());
-    if (other == kNone) return;
+    if (other == kNoBranch) return;
     const CurveBranch& on = graph_.branches[other];
     const Vec3 way = direction(branch, false), rest = direction(on, on.from != branch.from);
     branch.angle = 180 / std::numbers::pi * plain_angle(norm(cross(way, rest)), dot(way, rest));
@@ -284,7 +284,7 @@ class Graph {
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
                        std::span<const double> radius, std::span<const double> ball,
                        std::span<const double> share) {
-  return Graph(places, segments, radius, ball, share).run();
+  return GraphOfCurve(places, segments, radius, ball, share).run();
 }
 
 }  // namespace affskel::core
