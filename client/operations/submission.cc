@@ -1,7 +1,12 @@
 #include "client/operations/submission.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
+#include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/text/summary_text.h"
 #include "client/text/words.h"
@@ -61,9 +66,35 @@ void check_size(const v1::ServerInfo& server, const InputFile& input) {
   }
 }
 
+// "1.3 x 0.37 x 1.8 units, a person in metres".
+std::string size_text(const core::Vec3& size, double longest) {
+  std::string text = base::rounded(size.x, 3) + " x " + base::rounded(size.y, 3) + " x " +
+                     base::rounded(size.z, 3) + " units";
+  constexpr std::array<std::pair<double, const char*>, 3> kUnits = {
+      {{1, "metres"}, {100, "centimetres"}, {1000, "millimetres"}}};
+  for (const auto& [unit, name] : kUnits)
+    if (longest >= 0.5 * unit && longest <= 2.5 * unit) text += std::string(", a person in ") + name;
+  return text;
+}
+
+// A lattice of a few points has no skeleton: mostly the spacing is meant in another unit than the mesh has.
+void require_some_points(const core::Solid& solid, const InputFile& input, double spacing) {
+  const core::Vec3 size = solid.bbox_max - solid.bbox_min;
+  const double longest = std::max({size.x, size.y, size.z});
+  if (spacing <= 0.5 * longest) return;
+  const double good = std::cbrt(solid.volume / 1e5);
+  throw ClientError(ExitCode::kBadInput,
+                    "the spacing " + base::to_text(spacing) +
+                        " leaves no room for sample points: the mesh measures " + size_text(size, longest) +
+                        "; a spacing of " + base::rounded(good, 2) +
+                        " gives 100000 points, as without --spacing",
+                    input.path);
+}
+
 }  // namespace
 
 void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission) {
+  require_some_points(solid, input, submission.spacing);
   try {
     core::LatticeOptions lattice;
     lattice.spacing = submission.spacing;

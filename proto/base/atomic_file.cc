@@ -105,12 +105,13 @@ void AtomicFile::make_temporary(const fs::path& directory) {
   // Not after the target: its name may be as long as names can be.
   std::string name = (directory / ".affskel.XXXXXX").string();
   fd_ = mkostemp(name.data(), O_CLOEXEC);
+  if (fd_ < 0 && errno == ENOENT) fail("cannot write, there is no folder " + directory.string());
   if (fd_ < 0) fail("cannot write");
   path_ = name;
   guard_temporary_file(name);
 }
 
-void AtomicFile::fail(const char* action) const {
+void AtomicFile::fail(const std::string& action) const {
   throw FileError(errno, action, target_);
 }
 

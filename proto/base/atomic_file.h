@@ -40,7 +40,7 @@ class AtomicFile {
   void flush();
   void rename_temporary();
   void copy_to_stream();
-  [[noreturn]] void fail(const char* action) const;
+  [[noreturn]] void fail(const std::string& action) const;
 
   std::filesystem::path target_;
   std::filesystem::path path_;

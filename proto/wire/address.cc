@@ -48,6 +48,7 @@ Address parse_address(std::string_view text) {
     }
     return address;
   }
+  if (text.find("://") != std::string_view::npos) throw bad_address(text, "that is a URL");
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) throw bad_address(text, "no port");
   std::string_view host = text.substr(0, colon);

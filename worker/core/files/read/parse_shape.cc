@@ -8,6 +8,7 @@
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/files/file_format.h"
+#include "core/files/read/other_kinds.h"
 #include "core/files/read/shape_parsers.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
@@ -78,6 +79,7 @@ std::string_view first_word(std::string_view bytes) {
 }  // namespace
 
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
+  refuse_other_kinds(bytes);
   ShapeFile file = parser_for(extension, bytes)(bytes);
   turn_doubled_diagonals(file.quads, file.off.mesh.triangles);
   check_finite(file);
@@ -85,6 +87,7 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
 }
 
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes) {
+  refuse_other_kinds(bytes);
   const FileFormat format = mesh_format(extension, bytes);
   if (format == FileFormat::kOff) return {format, read_off(bytes)};
   ShapeFile shape = parse_shape(extension, bytes);
