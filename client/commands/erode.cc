@@ -22,8 +22,8 @@ void run_erode(Context& context, const ErodeOptions& options) {
   FetchRequest request{options.job, "eroded", destination};
   if (options.fraction > 0) request.eroded.set_fraction(options.fraction);
   if (options.volume > 0) request.eroded.set_volume(options.volume);
-  if (options.form == "points") request.eroded_form = FetchRequest::Form::kPoints;
-  if (options.form == "surface") request.eroded_form = FetchRequest::Form::kSurface;
+  if (options.form == "points") request.form = FetchRequest::Form::kPoints;
+  if (options.form == "surface") request.form = FetchRequest::Form::kSurface;
   show_result(context.console(), fetch(context.session(), request));
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 struct RenderCommandOptions {
   std::string job, output;
-  PictureOptions picture;  // skeleton not given: see shown_skeleton()
+  PictureOptions picture;
   std::string up, background = "white", colour = "E";
   std::vector<std::string> cameras;  // empty: the usual ones
   bool no_mesh = false;
@@ -104,7 +104,7 @@ void add_render(CommandLine& line) {
       "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
       [options](Context& context) { run_render(context, *options); }, check_options);
   add_job(command, options->job);
-  add_skeleton_options(command, options->picture.skeleton, true);
+  add_skeleton_options(command, options->picture.skeleton);
   add_looks(command, *options);
   add_output(command, options->output, "PNG file to write, or -");
 }

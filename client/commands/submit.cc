@@ -38,23 +38,36 @@ std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const f
                                    const fs::path& name) {
   const std::string stem = (directory / name).string();
   std::vector<Fetched> files;
-  for (const auto& [artifact, ending] :
-       {std::pair<std::string, std::string>{"field",
-                                            ".field" + std::string(extension_of(open_field_format(job)))},
-        {"skeleton", ".skeleton.ply"},
-        {"surface", ".surface.ply"}}) {
-    files.push_back(fetch(context.session(), {job.id(), artifact, {stem + ending}}));
+  const auto keep = [&](FetchRequest request) {
+    files.push_back(fetch(context.session(), request));
     show_written(context.console(), files.back());
-  }
+  };
+  keep({job.id(), "field", {stem + ".field" + std::string(extension_of(open_field_format(job)))}});
+  for (const char* extension : {".vtp", ".ply"})
+    keep({job.id(), "skeleton", {stem + ".skeleton" + extension}});
   return files;
+}
+
+// The field's path, and those of the skeleton in an array.
+nlohmann::ordered_json paths_of(const std::vector<Fetched>& files) {
+  nlohmann::ordered_json paths;
+  for (const Fetched& file : files) {
+    const std::string path = file.destination.file.string();
+    if (file.artifact == "field") {
+      paths["field"] = path;
+    } else {
+      paths[file.artifact].push_back(path);
+    }
+  }
+  return paths;
 }
 
 // What a worker would refuse, before anything is sent.  Returns what was said of the mesh.
 Notices check_mesh(const InputFile& input, const Submission& submission, Console& console) {
   const core::Solid solid = check_solid(input, submission.repair);
+  check_submission(solid, input, submission);
   Notices notices = solid_notices(solid, input);
   say(console, notices);
-  check_submission(solid, input, submission);
   return notices;
 }
 
@@ -75,8 +88,8 @@ void run_submit(Context& context, const SubmitOptions& options) {
   nlohmann::ordered_json document = to_json(job);
   document["existed"] = submitted.existed;
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
-    for (const Fetched& file : fetch_results(context, job, options.output_dir, fs::path(input.path).stem()))
-      document["files"][file.artifact] = file.destination.file.string();
+    document["files"] =
+        paths_of(fetch_results(context, job, options.output_dir, fs::path(input.path).stem()));
   }
   console.document(document);
   if (wait) show_end(context, job, said);
@@ -86,8 +99,8 @@ void add_following_options(CLI::App* command, SubmitOptions& o) {
   command->add_flag("-w,--wait", o.wait, "Follow the job to its end");
   command
       ->add_option("-o,--output-dir", o.output_dir,
-                   "Wait, then write STEM.field.vti (.vts where the lattice is turned),\nSTEM.skeleton.ply "
-                   "and STEM.surface.ply here")
+                   "Wait, then write STEM.field.vti (.vts where the lattice is turned),\nSTEM.skeleton.vtp "
+                   "and STEM.skeleton.ply here")
       ->type_name("DIR");
 }
 

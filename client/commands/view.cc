@@ -22,7 +22,7 @@ namespace {
 struct ViewCommandOptions {
   std::vector<std::string> jobs;  // one or two
   std::string output, up;
-  std::vector<std::string> operators;  // none, one for all or one for each; not given: see shown_skeleton()
+  std::vector<std::string> operators;  // none, one for all or one for each
   std::vector<double> thresholds;      // the same
   double level = 0;                    // a share of v0
 };
@@ -41,7 +41,7 @@ std::vector<ViewSubject> subjects_of(Context& context, const ViewCommandOptions&
   for (std::size_t i = 0; i < count; ++i) {
     ViewSubject subject{finished_job(context.session(), given_for(options.jobs, i)), {}};
     const SkeletonChoice skeleton{given_for(options.operators, i), given_for(options.thresholds, i)};
-    subject.params = shown_skeleton(skeleton, subject.job);
+    subject.params = skeleton_params(skeleton, subject.job);
     subjects.push_back(std::move(subject));
   }
   return subjects;
@@ -79,9 +79,10 @@ void run_view(Context& context, const ViewCommandOptions& options) {
 
 void add_skeletons(CLI::App* command, ViewCommandOptions& options) {
   command
-      ->add_option("--operator", options.operators,
-                   "How shocks are found (default: ridge; the job's, if that is not the\ndefault one); given "
-                   "twice, for the one and the other of two")
+      ->add_option(
+          "--operator", options.operators,
+          "How the skeleton is found (default: the job's operator); given twice, for\nthe one and the "
+          "other of two")
       ->allow_extra_args(false)
       ->expected(1, 2)
       ->check(one_of(operator_words()))

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::array kPicture = {FileFormat::kPng};
 constexpr std::array kThickness = {FileFormat::kPly, FileFormat::kVtp};
+constexpr std::array kSkeleton = {FileFormat::kVtp, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
+                                  FileFormat::kOff, FileFormat::kCsv, FileFormat::kXyz};
 constexpr std::array kPage = {FileFormat::kHtml};
 
 std::string lower(std::string text) {
@@ -27,6 +29,10 @@ std::span<const FileFormat> divergence_formats() {
 
 std::span<const FileFormat> thickness_formats() {
   return kThickness;
+}
+
+std::span<const FileFormat> skeleton_file_formats() {
+  return kSkeleton;
 }
 
 std::span<const FileFormat> picture_formats() {

@@ -17,10 +17,11 @@ using core::skeleton_formats;
 using core::surface_formats;
 
 /// More of what can be written as which formats.
-std::span<const FileFormat> divergence_formats();  // as fields
-std::span<const FileFormat> thickness_formats();   // ply, vtp
-std::span<const FileFormat> picture_formats();     // png
-std::span<const FileFormat> page_formats();        // html
+std::span<const FileFormat> divergence_formats();     // as fields
+std::span<const FileFormat> thickness_formats();      // ply, vtp
+std::span<const FileFormat> skeleton_file_formats();  // surface_formats and skeleton_formats, best first
+std::span<const FileFormat> picture_formats();        // png
+std::span<const FileFormat> page_formats();           // html
 
 /// The file's extension with the dot, in lower case; empty without one.
 std::string lower_extension(const std::filesystem::path& file);

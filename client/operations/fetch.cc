@@ -25,7 +25,7 @@ struct Artifact {
 constexpr std::array<Artifact, 8> kArtifacts = {{
     {"field", field_formats, no_other, fetch_field},
     {"divergence", divergence_formats, no_other, fetch_divergence},
-    {"skeleton", skeleton_formats, no_other, fetch_skeleton},
+    {"skeleton", skeleton_file_formats, no_other, fetch_skeleton},
     {"surface", surface_formats, no_other, fetch_surface},
     {"curve", curve_formats, no_other, fetch_curve},
     {"thickness", thickness_formats, no_other, fetch_thickness},

@@ -15,18 +15,20 @@ namespace affskel::client {
 
 /// Which artefact of a job is wanted, with the parameters of those that have some, and where it goes.
 struct FetchRequest {
-  enum class Form { kByExtension, kPoints, kSurface };
+  enum class Form { kByExtension, kPoints, kSurface };  // kSurface: a complex, with curves
 
   std::string job;
   std::string artifact;  ///< one of artifact_names()
   Destination destination;
-  SkeletonChoice skeleton = {};  ///< of skeleton, divergence and surface
+  SkeletonChoice skeleton = {};  ///< of skeleton, surface, curve and divergence
   double alpha = 0;      ///< of a surface of points: squared radius, mesh units squared; 0 = from the spacing
   bool barrier = false;  ///< of a sheet: with the barrier at its vertices
   double min_barrier = 0;        ///< drop what has a vertex of a lower one; implies the barrier
   bool parts = false;            ///< of a field: with the part of the solid that each sample point lies in
   v1::ErodedParams eroded = {};  ///< no level: the default one
-  Form eroded_form = Form::kByExtension;
+  /// Of a skeleton and an eroded solid.  By the extension: of a published operator points, of a sheet these where
+  /// the format holds nothing else.
+  Form form = Form::kByExtension;
 };
 
 /// An artefact of a job that was written into a file.
@@ -37,7 +39,7 @@ struct Fetched {
   std::string unit;  ///< what is counted: "point", "triangle" or "byte"
   std::uint64_t items = 0;                          ///< how many
   v1::Job job;                                      ///< as the server sent it along
-  std::uint64_t segments = 0;                       ///< of the curves of a surface
+  std::optional<std::uint64_t> segments = {};       ///< of curves, of a skeleton with triangles
   std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet
   /// Of an eroded solid, mesh units cubed: what the surface encloses, or of points their share of the sample
   /// points times v0.

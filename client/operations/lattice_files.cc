@@ -11,6 +11,7 @@
 #include "client/text/job_facts.h"
 #include "client/text/words.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -110,15 +111,16 @@ Fetched fetch_field(Session& session, const FetchRequest& request) {
 }
 
 Fetched fetch_divergence(Session& session, const FetchRequest& request) {
-  const ChosenSkeleton chosen = choose_skeleton(session, request.job, request.skeleton);
   const FileFormat format = choose_format(request.destination, divergence_formats(), "divergence");
-  const v1::Job now = session.get_job(chosen.job);
+  const v1::Job now = session.get_job(request.job);
   v1::FetchArtifactRequest asked = request_for(now.id(), v1::ARTIFACT_KIND_DIVERGENCE);
-  if (chosen.params) *asked.mutable_skeleton() = *chosen.params;
+  v1::Operator which = wire::usual_divergence(now.skeleton().operator_());
+  if (!request.skeleton.operator_name.empty()) which = operator_named(request.skeleton.operator_name);
+  asked.mutable_skeleton()->set_operator_(which);
   const LatticePoints points = lattice_of(session, now.id());
   Notices notices = grid_notices(format, points, request.destination);
   core::FileFacts facts = job_facts(now, "divergence of the optimal normals");
-  facts.push_back({"operator", operator_word(chosen.params.value_or(now.skeleton()).operator_())});
+  facts.push_back({"operator", operator_word(which)});
   const v1::ArtifactHeader header = fetch_patiently(
       session, asked,
       [&]() -> std::unique_ptr<ArtifactSink> {

@@ -52,24 +52,22 @@ std::string title_of(const RenderInput& input, const v1::Job& job, const std::st
          base::rounded(job.prepared().spacing(), 4) + ", " + shown;
 }
 
-// @param own whether the parameters are the job's, whose skeleton is stored.
-v1::SkeletonPoints fetch_points(Session& session, const v1::Job& job, const v1::SkeletonParams& params,
-                                bool own) {
+v1::SkeletonPoints fetch_points(Session& session, const v1::Job& job, const v1::SkeletonParams& params) {
   v1::FetchArtifactRequest request = request_for(job.id(), v1::ARTIFACT_KIND_SKELETON);
-  if (!own) *request.mutable_skeleton() = params;
+  *request.mutable_skeleton() = params;
   v1::ArtifactHeader header;
   return parse_skeleton(fetch_patiently(session, request, header, "skeleton"));
 }
 
 // The skeleton as its operator gives it: points, or the sheet of chords.
 // Returns the threshold that was applied, 0 when the server does not say.
-double fetch_skeleton(Session& session, const v1::Job& job, const v1::SkeletonParams& params, bool own,
+double fetch_skeleton(Session& session, const v1::Job& job, const v1::SkeletonParams& params,
                       RenderInput& input, Notices& notices) {
   const bool sheet = wire::gives_sheet(params.operator_());
   if (sheet) {
     input.sheet = fetch_sheet(session, job.id(), params);
   } else {
-    input.skeleton = fetch_points(session, job, params, own);
+    input.skeleton = fetch_points(session, job, params);
   }
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
   const int items =
@@ -127,12 +125,12 @@ std::string paint(Session& session, const v1::Job& job, PictureColour colour, Re
 }  // namespace
 
 Picture make_picture(Session& session, const v1::Job& job, const PictureOptions& options) {
-  v1::SkeletonParams params = shown_skeleton(options.skeleton, job);
+  v1::SkeletonParams params = skeleton_params(options.skeleton, job);
   RenderInput input;
   Notices notices;
   std::string shown;
   if (options.colour == PictureColour::kErosion) {
-    const double applied = fetch_skeleton(session, job, params, !options.skeleton.given(), input, notices);
+    const double applied = fetch_skeleton(session, job, params, input, notices);
     if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
     shown = shown_text(input, params);
   } else {

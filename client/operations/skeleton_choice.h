@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "affskel/v1/types.pb.h"
@@ -12,7 +11,6 @@ namespace affskel::client {
 struct SkeletonChoice {
   std::string operator_name;  ///< empty = the job's
   double threshold = 0;       ///< 0 = the operator's default
-  bool given() const { return !operator_name.empty() || threshold > 0; }
 };
 
 /// The message for the operator's name. @throws ClientError kUsage for an unknown one.
@@ -23,21 +21,13 @@ v1::SkeletonParams skeleton_params(const SkeletonChoice& choice);
 /// names an operator.
 v1::SkeletonParams skeleton_params(const SkeletonChoice& choice, const v1::Job& job);
 
-/// The same for surfaces, pictures and pages.  For an empty choice a job with the published skeleton (Zucker
-/// and Hummel's points above the published threshold) is shown by its ridge: a sheet without the gaps that
-/// the points have, and steadier under noise (see the experiments' report).
-v1::SkeletonParams shown_skeleton(const SkeletonChoice& choice, const v1::Job& job);
-
-/// The job that a request is about, and its skeleton's parameters when they are not the job's own.
+/// The job that a request is about, and its skeleton's parameters.
 struct ChosenSkeleton {
   std::string job;
-  std::optional<v1::SkeletonParams> params;
+  v1::SkeletonParams params;
 };
 
 /// Asks the server only where the meaning of the choice depends on the job.
 ChosenSkeleton choose_skeleton(Session& session, const std::string& job, const SkeletonChoice& choice);
-
-/// The same for surfaces: always with parameters.
-ChosenSkeleton choose_shown_skeleton(Session& session, const std::string& job, const SkeletonChoice& choice);
 
 }  // namespace affskel::client

@@ -5,6 +5,7 @@
 
 #include "base/number_text.h"
 #include "client/text/time_text.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
@@ -58,7 +59,9 @@ std::string summary_text(const v1::Job& job) {
   if (took_field_over(job)) text += ", its field being there already";
   text += ": " + base::counted(job.prepared().points(), "point") + ", " +
           base::counted(job.directions_total(), "direction") + ", skeleton of " +
-          base::counted(job.skeleton_points(), "point");
+          (wire::gives_sheet(job.skeleton().operator_())
+               ? base::counted(job.skeleton_points(), "vertex", "vertices")
+               : base::counted(job.skeleton_points(), "point"));
   if (!job.has_quality() || job.skeleton_points() == 0) return text;
   return text + " in " + base::counted(job.quality().components(), "piece") +
          (is_torn(job.quality()) ? " (the solid: " + std::to_string(job.quality().solid_components()) + ")"

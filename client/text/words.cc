@@ -1,6 +1,7 @@
 #include "client/text/words.h"
 
 #include "client/base/error.h"
+#include "wire/params.h"
 #include "wire/words.h"
 
 namespace affskel::client {
@@ -37,7 +38,7 @@ std::string frame_word(v1::Frame frame) {
 }
 
 std::string operator_word(v1::Operator which) {
-  return word_or_unknown(which == v1::OPERATOR_UNSPECIFIED ? v1::OPERATOR_ZUCKER_HUMMEL : which);
+  return word_or_unknown(which == v1::OPERATOR_UNSPECIFIED ? wire::kDefaultOperator : which);
 }
 
 std::string part_kind_word(v1::PartKind kind) {

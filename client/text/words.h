@@ -16,7 +16,7 @@ std::string state_word(v1::JobState state);
 std::string stage_word(v1::JobStage stage);
 /// "axis", "pca", "obb" or "affine"; "axis" when none is specified, "unknown" for anything else.
 std::string frame_word(v1::Frame frame);
-/// "zucker-hummel", "intermediate", ...; "zucker-hummel" when none is specified, "unknown" for anything else.
+/// "zucker-hummel", "intermediate", ...; the default one when none is specified, "unknown" for anything else.
 std::string operator_word(v1::Operator which);
 
 /// "limb", "line", "link", "loop" or "point"; "unknown" for anything else.

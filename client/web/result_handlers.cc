@@ -105,7 +105,7 @@ Made make_view(Session& server, const nlohmann::json& body, const std::string& j
                const std::filesystem::path& path) {
   const SkeletonChoice skeleton = skeleton_member(body);
   Made made{finished_job(server, job), {}};
-  Page page = make_page(server, {{made.job, shown_skeleton(skeleton, made.job)}});
+  Page page = make_page(server, {{made.job, skeleton_params(skeleton, made.job)}});
   write_whole(path, page.html);
   made.notices = std::move(page.notices);
   return made;

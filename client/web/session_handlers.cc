@@ -65,8 +65,10 @@ http::Response come_again(SignInBrake::Clock::duration time) {
 
 ordered_json offered_artifacts() {
   ordered_json artifacts = ordered_json::array();
-  for (const std::string& name : artifact_names())
+  for (const std::string& name : artifact_names()) {
+    if (name == "surface") continue;  // the skeleton, for scripts
     artifacts.push_back({{"name", name}, {"formats", artifact_extensions(name)}});
+  }
   return artifacts;
 }
 

@@ -43,6 +43,12 @@ v1::SkeletonParams curve_params(const v1::FetchArtifactRequest& request) {
   return canonical(curve);
 }
 
+v1::SkeletonParams usual_divergence(const v1::SkeletonParams& job_skeleton) {
+  v1::SkeletonParams usual;
+  usual.set_operator_(wire::usual_divergence(job_skeleton.operator_()));
+  return usual;
+}
+
 /// One of the messages with parameters in a request.
 struct Given {
   bool given;
@@ -96,7 +102,9 @@ CanonicalParams artifact_params(const ArtifactKindInfo& kind, const v1::FetchArt
     case ArtifactParams::kSkeleton:
       return packed(skeleton);
     case ArtifactParams::kOperator:
-      return packed(divergence_params(skeleton));
+      return packed(divergence_params(request.skeleton().operator_() == v1::OPERATOR_UNSPECIFIED
+                                          ? usual_divergence(job_skeleton)
+                                          : skeleton));
     case ArtifactParams::kSurface: {
       v1::SurfaceParams surface = request.surface();
       if (!surface.has_skeleton()) *surface.mutable_skeleton() = job_skeleton;

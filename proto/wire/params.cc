@@ -84,7 +84,7 @@ v1::ErosionParams canonical(const v1::ErosionParams& params) {
 
 v1::SkeletonParams canonical(const v1::SkeletonParams& params) {
   v1::SkeletonParams result = params;
-  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) result.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  if (params.operator_() == v1::OPERATOR_UNSPECIFIED) result.set_operator_(kDefaultOperator);
   if (!v1::Operator_IsValid(result.operator_()))
     throw std::invalid_argument("unknown skeleton operator: " +
                                 std::to_string(static_cast<int>(result.operator_())));
@@ -159,6 +159,10 @@ v1::ErodedParams canonical(const v1::ErodedParams& params) {
 
 bool gives_sheet(v1::Operator which) {
   return which == v1::OPERATOR_CHORDS || which == v1::OPERATOR_RIDGE || which == v1::OPERATOR_CURVE;
+}
+
+v1::Operator usual_divergence(v1::Operator of_job) {
+  return gives_sheet(of_job) ? v1::OPERATOR_ZUCKER_HUMMEL : of_job;
 }
 
 v1::SkeletonParams divergence_params(const v1::SkeletonParams& params) {

@@ -89,7 +89,7 @@ TEST_F(TerminalTest, WarningsAndASummaryStandWhereTheCommandEnds) {
   }
   EXPECT_GE(count_of(waited.text, "\033[33mwarning:\033[0m "), 2u) << waited.text;
   const std::regex summary(
-      "done in [0-9]+\\.[0-9]{3} s: [0-9]+ points, 12 directions, skeleton of [0-9]+ points?");
+      "done in [0-9]+\\.[0-9]{3} s: [0-9]+ points, 12 directions, skeleton of [0-9]+ vertices in 1 piece");
   EXPECT_TRUE(std::regex_search(waited.text, summary)) << waited.text;
 
   // What is proposed can be typed as it stands.
@@ -118,7 +118,7 @@ TEST_F(TerminalTest, WarningsAndASummaryStandWhereTheCommandEnds) {
 
 TEST_F(TerminalTest, ASkeletonInMorePiecesThanTheSolidIsToldAtTheEnd) {
   ASSERT_EQ(run("c make body --triangles 300 -o body.off").exit_code, 0);
-  const Shown shown = run("c submit body.off --points 8000 --threshold 14 --wait");
+  const Shown shown = run("c submit body.off --points 8000 --operator zucker-hummel --threshold 14 --wait");
   const auto status = nlohmann::json::parse(lab_.client({"--json", "status", "@last"}).out);
   const int pieces = status.at("quality").at("components");
   ASSERT_GT(pieces, 1) << "the test needs a skeleton that is torn";
@@ -404,8 +404,8 @@ TEST_F(TerminalTest, WhatLeavesTheRidgeIsNamed) {
     EXPECT_EQ(shown.exit_code, 2) << options << shown.text;
     EXPECT_NE(shown.text.find(text), std::string::npos) << options << "\n" << shown.text;
   };
-  says("--alpha 500 --barrier", "alpha without an operator is for the job's own skeleton");
-  says("--threshold 1 --min-barrier 0.1", "a threshold without an operator is for the job's own skeleton");
+  says("--alpha 500", "alpha is for point skeletons; the sheet of ridge has triangles of its own");
+  says("--operator zucker-hummel --barrier", "the operator zucker-hummel gives points or lines");
   says("--operator ridge --threshold 900", "between 1e-06 and 800, not 900");
   says("--operator ridge --threshold 1e-7", "between 1e-06 and 800, not 1e-07");
   says("--operator curve --threshold 0.5", "between 0.9 and 1000, not 0.5");

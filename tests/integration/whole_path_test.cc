@@ -44,7 +44,7 @@ TEST_F(EmbeddedTest, MeshInSkeletonOut) {
   ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
   EXPECT_EQ(lines(submitted.out), 1U);
   const std::string id = first_line(submitted.out);
-  for (const char* name : {"body.field.vti", "body.skeleton.ply", "body.surface.ply"}) {
+  for (const char* name : {"body.field.vti", "body.skeleton.vtp", "body.skeleton.ply"}) {
     EXPECT_TRUE(std::filesystem::exists(lab_.path("out") + "/" + name)) << name;
   }
 
@@ -64,12 +64,19 @@ TEST_F(EmbeddedTest, MeshInSkeletonOut) {
   EXPECT_TRUE(lab_.read("field.csv") == lab_.read("plain.csv"));
   EXPECT_EQ(lines(lab_.read("field.csv")), points + 1);
 
-  // A lower threshold keeps more points, a hopeless one none, with a warning.
-  ASSERT_EQ(client({"fetch", id, "skeleton", "-o", lab_.path("s7.csv")}).exit_code, 0);
-  ASSERT_EQ(client({"skeleton", id, "--threshold", "6", "-o", lab_.path("s6.csv")}).exit_code, 0);
+  // The vertices of the job's own skeleton.
+  ASSERT_EQ(client({"fetch", id, "skeleton", "-o", lab_.path("own.csv")}).exit_code, 0);
+  EXPECT_EQ(lines(lab_.read("own.csv")), status.at("skeleton_points").get<std::size_t>() + 1);
+
+  // Of points, a lower threshold keeps more, a hopeless one none, with a warning.
+  const auto published = [&](const std::string& threshold, const std::string& file) {
+    return client(
+        {"skeleton", id, "--operator", "zucker-hummel", "--threshold", threshold, "-o", lab_.path(file)});
+  };
+  ASSERT_EQ(published("7", "s7.csv").exit_code, 0);
+  ASSERT_EQ(published("6", "s6.csv").exit_code, 0);
   EXPECT_GT(lines(lab_.read("s6.csv")), lines(lab_.read("s7.csv")));
-  EXPECT_EQ(lines(lab_.read("s7.csv")), status.at("skeleton_points").get<std::size_t>() + 1);
-  const Output empty = client({"skeleton", id, "--threshold", "1000", "-o", lab_.path("none.csv")});
+  const Output empty = published("1000", "none.csv");
   EXPECT_EQ(empty.exit_code, 0);
   EXPECT_NE(empty.err.find("threshold"), std::string::npos) << empty.err;
 

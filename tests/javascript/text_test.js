@@ -42,7 +42,8 @@ test('what a job is doing, or why it does not', () => {
   assert.equal(tell({ state: 'queued', waiting_reason: 'the quota' }), 'waits: the quota');
   assert.equal(tell({ state: 'queued' }), 'waits for a worker');
   assert.equal(tell({ state: 'running', stage: 'erode' }), 'at sea');
-  assert.equal(tell({ state: 'done', skeleton_points: 1 }), '1 skeleton point (the crest)');
+  assert.equal(tell({ state: 'done', skeleton_points: 9, quality: { components: 1 } }), 'skeleton in 1 piece (the crest)');
+  assert.equal(tell({ state: 'done', skeleton_points: 0, quality: { components: 0 } }), 'the skeleton is empty (the crest)');
   assert.match(tell({ state: 'done', removed_ms: 5 }), /retention/);
   assert.match(tell({ state: 'cancelled', cancel_requested: true }), /resume goes on/);
 });

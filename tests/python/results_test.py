@@ -41,13 +41,16 @@ SHOWN = ("quality", "red", "green", "blue", "radius")
 
 
 def read_ply(file):
-    """Vertices by property, triangles, and segments, of a binary PLY of affskel-client."""
+    """Vertices by property, triangles, and segments, of a binary PLY of affskel-client: the last faces, each with its
+    second end twice."""
     header, _, rest = file.read_bytes().partition(b"end_header\n")
-    elements = {}
+    elements, curves = {}, 0
     for words in (line.split() for line in header.decode().split("\n")):
         if words[:1] == ["element"]:
             count, properties = int(words[2]), []
             elements[words[1]] = (count, properties)
+        elif words[:2] == ["comment", "curves"]:
+            curves = int(words[2])
         elif words[:1] == ["property"]:
             properties.extend([("corners", "u1"), (words[-1], "<i4", 3)] if words[1] == "list"
                               else [(words[2], KINDS[words[1]])])
@@ -56,10 +59,10 @@ def read_ply(file):
         arrays[name] = np.frombuffer(rest, np.dtype(properties), count)
         rest = rest[arrays[name].nbytes:]
     assert not rest and (arrays["face"]["corners"] == 3).all()
-    segments = np.zeros((0, 2), np.int64)
-    if "edge" in arrays:
-        segments = np.column_stack([arrays["edge"]["vertex1"], arrays["edge"]["vertex2"]])
-    return arrays["vertex"], arrays["face"]["vertex_indices"], segments
+    faces = arrays["face"]["vertex_indices"]
+    segments = faces[len(faces) - curves:]
+    assert (segments[:, 1] == segments[:, 2]).all()
+    return arrays["vertex"], faces[:len(faces) - curves], segments[:, :2]
 
 
 def columns_of(vertices):
@@ -89,7 +92,8 @@ class AgainstTheFiles(unittest.TestCase):
             self.assertEqual(job.status().volume, field.volume)
 
     def test_skeleton_points_are_those_of_the_csv(self):
-        for job, options in ((body, {}), (body, dict(threshold=9)), (body, dict(operator="sobel")),
+        for job, options in ((body, {}), (body, dict(threshold=9)), (body, dict(operator="zucker-hummel")),
+                             (body, dict(operator="sobel", threshold=20)),
                              (body, dict(operator="chords", threshold=.01)), (sheared, {})):
             with self.subTest(options):
                 arguments = [part for name, value in options.items() for part in (f"--{name}", value)]
@@ -124,7 +128,9 @@ class AgainstTheFiles(unittest.TestCase):
         self.assertGreater(len(cut), 0)
 
     def test_other_surfaces_are_those_of_the_ply(self):
-        for options in ({}, dict(operator="sobel", threshold=20), dict(threshold=9, alpha=1e6), dict(alpha=2e5)):
+        published = dict(operator="zucker-hummel")
+        for options in ({}, dict(operator="sobel", threshold=20), dict(published, threshold=9, alpha=1e6),
+                        dict(published, alpha=2e5)):
             with self.subTest(options):
                 arguments = [part for name, value in options.items() for part in (f"--{name}", value)]
                 directory.client("surface", body.id, *arguments, "-o", directory / "surface.ply")
@@ -195,7 +201,7 @@ class AgainstTheFiles(unittest.TestCase):
         self.assertIn("strength", few.attributes)
 
     def test_the_divergence_is_what_the_threshold_is_applied_to(self):
-        divergence, points = body.divergence(), body.skeleton_points()
+        divergence, points = body.divergence(), body.skeleton_points("zucker-hummel")
         kept = np.abs(divergence) > 7
         assert_same(divergence[kept], points.H)
         assert_same(body.field().points[kept], points.points)
@@ -269,7 +275,7 @@ class ClosedForms(unittest.TestCase):
             with self.assertWarnsRegex(affskel.AffskelWarning, "no sample point reaches the level"):
                 self.assertEqual(len(empty()), 0)
         with self.assertWarnsRegex(affskel.AffskelWarning, "skeleton of job .* is empty: "):
-            self.assertEqual(len(body.skeleton_points(threshold=1e6)), 0)
+            self.assertEqual(len(body.skeleton_points("zucker-hummel", threshold=1e6)), 0)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             body.skeleton()

@@ -40,15 +40,15 @@ def write_all(frame):
         fetch("field", "field." + extension)
         fetch("divergence", "divergence." + extension)
     for extension in ("vtp", "ply", "csv"):
-        fetch("skeleton", "skeleton." + extension)
+        write("skeleton", "skeleton." + extension, "--operator", "zucker-hummel")
         write("erode", "eroded_points." + extension, "--fraction", LEVEL, "--as", "points")
     fetch("curve", "curve.glb")
     fetch("thickness", "thickness.vtp")
     for extension in ("vtp", "ply", "stl", "obj", "off"):
         fetch("mesh", "mesh." + extension)
-        write("surface", "alpha." + extension, "--operator", "zucker-hummel")
-        write("surface", "ridge." + extension, "--operator", "ridge")
-        write("surface", "sheet." + extension, "--operator", "chords")
+        write("skeleton", "alpha." + extension, "--operator", "zucker-hummel", "--as", "complex")
+        write("skeleton", "ridge." + extension)
+        write("skeleton", "sheet." + extension, "--operator", "chords")
         eroded = write("erode", "eroded." + extension, "--fraction", LEVEL, "--as", "surface")
     with open(os.path.join(folder, "facts.json"), "w", encoding="utf-8") as facts:
         json.dump({"job": job, "eroded": eroded}, facts)

@@ -8,15 +8,14 @@
 
 namespace affskel::client {
 
-void add_skeleton_options(CLI::App* command, SkeletonChoice& skeleton, bool shown) {
+void add_skeleton_options(CLI::App* command, SkeletonChoice& skeleton) {
   const bool of_job = skeleton.operator_name.empty();
-  const char* preset = shown    ? " (default: ridge; the job's, if that is not the default one)"
-                       : of_job ? " (default: the job's operator)"
-                                : "";
-  CLI::Option* name =
-      command->add_option("--operator", skeleton.operator_name, std::string("How shocks are found") + preset)
-          ->check(one_of(operator_words()))
-          ->type_name("OP");
+  CLI::Option* name = command
+                          ->add_option("--operator", skeleton.operator_name,
+                                       std::string("How the skeleton is found") +
+                                           (of_job ? " (default: the job's operator)" : ""))
+                          ->check(one_of(operator_words()))
+                          ->type_name("OP");
   if (!of_job) name->capture_default_str();
   command
       ->add_option(

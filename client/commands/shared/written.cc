@@ -21,7 +21,7 @@ nlohmann::ordered_json json_of(const Fetched& fetched) {
                                      {"artefact", fetched.artifact},
                                      {"file", fetched.destination.file.string()},
                                      {fetched.unit + "s", fetched.items}};
-  if (fetched.artifact == "surface") document["segments"] = fetched.segments;
+  if (fetched.segments) document["segments"] = *fetched.segments;
   if (fetched.volume) document["volume"] = *fetched.volume;
   if (fetched.quality) document["quality"] = to_json(*fetched.quality);
   return document;
@@ -36,11 +36,12 @@ void show_result(Console& console, const Fetched& fetched) {
 }
 
 void show_written(Console& console, const Fetched& fetched) {
-  console.note(
-      "wrote " + fetched.destination.name() + " (" + fetched.artifact + ", " +
-      base::counted(fetched.items, fetched.unit) +
-      (fetched.segments > 0 ? ", " + base::counted(fetched.segments, "segment") + " of curves" : "") +
-      volume_text(fetched) + ")");
+  console.note("wrote " + fetched.destination.name() + " (" + fetched.artifact + ", " +
+               base::counted(fetched.items, fetched.unit) +
+               (fetched.segments.value_or(0) > 0
+                    ? ", " + base::counted(*fetched.segments, "segment") + " of curves"
+                    : "") +
+               volume_text(fetched) + ")");
 }
 
 }  // namespace affskel::client

@@ -1,5 +1,7 @@
-// PLY (Turk 1994), binary: coordinates as double, columns by their types, faces as lists of vertex_indices,
-// curves as edges of vertex1 and vertex2.
+// PLY (Turk 1994), binary: coordinates as double, columns by their types, faces as lists of vertex_indices.
+// Lines alone are edges of vertex1 and vertex2.  Curves beside faces are faces a, b, b, the last ones, which a
+// comment counts: meshio ends its program at any element but vertex and face, MeshLab, Open3D and VTK pass
+// over edges beside faces, Blender shows an edge for the one and the other.
 // Where there is a column E, vertices also have it as programs for people know it: E as `quality`, in single
 // precision, and colours by the scale of the pictures, up to the largest E of the file.
 #include <algorithm>
@@ -36,24 +38,31 @@ class PlyWriter {
   std::string header(bool faces, const std::vector<std::string>& comments) const {
     std::string text = "ply\nformat binary_little_endian 1.0\n";
     for (const std::string& comment : comments) text += "comment " + one_line(comment) + "\n";
+    if (curve_faces() > 0)
+      text += std::string(core::kPlyCurves) + std::to_string(curve_faces()) +
+              " (the last faces: edges, with their second end twice)\n";
     text += "element vertex " + std::to_string(shape_.mesh().points.size()) +
             "\nproperty double x\nproperty double y\nproperty double z\n";
-    for (const Column& column : columns_) {
-      text += property(column.name, column.stored);
-    }
+    for (const Column& column : columns_) text += property(column.name, column.stored);
     if (erosion_ != nullptr) {
       text += "property float quality\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
     }
     if (faces) {
-      text += "element face " + std::to_string(shape_.mesh().triangles.size()) +
+      text += "element face " + std::to_string(shape_.mesh().triangles.size() + curve_faces()) +
               "\nproperty list uchar int vertex_indices\n";
       for (const Column& column : face_columns_) text += property(column.name, column.stored);
     }
-    if (!shape_.segments.empty()) {
+    if (!shape_.segments.empty() && curve_faces() == 0) {
       text += "element edge " + std::to_string(shape_.segments.size()) +
               "\nproperty int vertex1\nproperty int vertex2\n";
     }
     return text + "end_header\n";
+  }
+
+  void append_curve(std::string& row, const core::Segment& segment) const {
+    if (curve_faces() > 0) base::append(row, std::uint8_t{3});
+    for (const std::uint32_t end : segment) base::append(row, static_cast<std::int32_t>(end));
+    if (curve_faces() > 0) base::append(row, static_cast<std::int32_t>(segment[1]));
   }
 
   void append_face(std::string& row, std::size_t t) const {
@@ -76,6 +85,10 @@ class PlyWriter {
   }
 
  private:
+  std::size_t curve_faces() const {
+    return shape_.mesh().triangles.empty() || !face_columns_.empty() ? 0 : shape_.segments.size();
+  }
+
   static std::string property(const std::string& name, Stored stored) {
     constexpr const char* kTypes[] = {"int", "uint", "double"};
     return std::string("property ") + kTypes[static_cast<std::size_t>(stored)] + " " + name + "\n";
@@ -112,7 +125,7 @@ void write_ply(const ShapeFile& shape, const std::vector<std::string>& names, bo
   }
   for (const core::Segment& segment : shape.segments) {
     row.clear();
-    for (const std::uint32_t end : segment) base::append(row, static_cast<std::int32_t>(end));
+    writer.append_curve(row, segment);
     write(row);
   }
 }

@@ -39,8 +39,8 @@ void write_points(FileFormat format, const ShapeFile& shape, const std::vector<s
 /// Writes a surface, be it empty, in one of surface_formats(), and its curves where it holds_curves(): .off
 /// and .obj as text that reads back exactly, .ply binary with double coordinates and the columns of the
 /// vertices (and what shows E, see PLY's writer), .vtp with the same as arrays, .stl binary (single
-/// precision, which is all that STL has).  Slivers that single precision makes flat are written as they are;
-/// the surface stays closed.
+/// precision, which is all that STL has).  Triangles with two equal corners in it are left out, other slivers
+/// that it makes flat are written as they are; the surface stays closed.
 /// @param comments lines for formats that have comments (PLY, OBJ, VTP, OFF), without line breaks; of these
 /// "job ID" and "mesh_sha256 HASH", the latter's first half, also find room in the 80 bytes of STL's header.
 /// @throws ClientError kLimit when the mesh has more elements than the format can count, and for .stl when a

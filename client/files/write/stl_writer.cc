@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "base/coding.h"
@@ -22,22 +24,41 @@ std::string stl_header(const std::vector<std::string>& comments) {
   return text;
 }
 
+using StlCorner = std::array<float, 3>;
+
+StlCorner stl_corner(const core::Vec3& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+// Of these nothing is left, and what they joined still joins: readers merge equal corners.
+bool has_equal_corners(const std::array<StlCorner, 3>& corners) {
+  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+}
+
+std::array<StlCorner, 3> corners_of(const core::Mesh& mesh, const core::Triangle& t) {
+  return {stl_corner(mesh.points[t[0]]), stl_corner(mesh.points[t[1]]), stl_corner(mesh.points[t[2]])};
+}
+
 }  // namespace
 
 void write_stl(const core::Mesh& mesh, const std::vector<std::string>& comments, const WriteBytes& write) {
   check_fits_stl(mesh);
   std::string text = stl_header(comments);
-  base::append(text, static_cast<std::uint32_t>(mesh.triangles.size()));
+  const auto flat = std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const core::Triangle& t) {
+    return has_equal_corners(corners_of(mesh, t));
+  });
+  base::append(text, static_cast<std::uint32_t>(mesh.triangles.size() - static_cast<std::size_t>(flat)));
   write(text);
   for (const core::Triangle& t : mesh.triangles) {
     const core::Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
     core::Vec3 normal = core::cross(b - a, c - a);
     const double length = core::norm(normal);
     if (length > 0) normal = (1 / length) * normal;
+    const std::array<StlCorner, 3> corners = corners_of(mesh, t);
+    if (has_equal_corners(corners)) continue;
     text.clear();
-    for (const core::Vec3& v : {normal, a, b, c}) {
-      for (int k = 0; k < 3; ++k) base::append(text, static_cast<float>(v[k]));
-    }
+    for (const StlCorner& v : {stl_corner(normal), corners[0], corners[1], corners[2]})
+      for (const float coordinate : v) base::append(text, coordinate);
     base::append(text, std::uint16_t{0});
     write(text);
   }

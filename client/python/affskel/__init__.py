@@ -65,7 +65,7 @@ def _default_client() -> Client:
 
 
 def submit(mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
-           directions: str = "triangles", frame: str = "axis", operator: str = "zucker-hummel",
+           directions: str = "triangles", frame: str = "axis", operator: str = "ridge",
            threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
            repair: str = "auto") -> Job:
     """See Client.submit."""

@@ -72,7 +72,7 @@ class Client:
         self._session.close()
 
     def submit(self, mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
-               directions: str = "triangles", frame: str = "axis", operator: str = "zucker-hummel",
+               directions: str = "triangles", frame: str = "axis", operator: str = "ridge",
                threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
                repair: str = "auto") -> Job:
         """Submits a mesh.  The same mesh and parameters give the same job, computed once.

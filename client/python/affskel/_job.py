@@ -20,9 +20,6 @@ from .v1 import client_service_pb2 as service
 from .v1 import types_pb2 as types
 
 
-PUBLISHED = 7  # the threshold of Zucker and Hummel's operator in Zografos (2003)
-
-
 def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> types.SkeletonParams:
     """None = the server's default operator, the operator's default threshold."""
     params = types.SkeletonParams()
@@ -155,8 +152,7 @@ class Job:
 
         Args:
             operator: "ridge", "curve", "chords", "zucker-hummel", "sobel", "central", "intermediate" or "flux"; None = the
-                job's, but "ridge" for a job with the published skeleton (Zucker and Hummel's above 7), unless
-                `threshold` or `alpha` is given.
+                job's.
             threshold: in the operator's unit; None = the operator's default, without an operator the job's.
             alpha: squared radius of the alpha shape through the points, mesh units squared; None = by the spacing.
                 Not for "ridge", "chords" and "curve", which have triangles or lines themselves.
@@ -166,11 +162,8 @@ class Job:
         """
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SURFACE)
         chosen = self._chosen(operator, threshold)
-        if chosen is None:
-            chosen = self._session.get_job(self.id).skeleton
-            if alpha is None and chosen.operator == types.OPERATOR_ZUCKER_HUMMEL and chosen.threshold in (0, PUBLISHED):
-                chosen = skeleton_params("ridge", None)
-        request.surface.skeleton.CopyFrom(chosen)
+        if chosen is not None:
+            request.surface.skeleton.CopyFrom(chosen)
         request.surface.alpha = alpha or 0.0
         request.surface.barrier = barrier or min_barrier is not None
         request.surface.min_barrier = min_barrier or 0.0
@@ -181,7 +174,8 @@ class Job:
 
     def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
                         timeout: Optional[float] = None) -> Points:
-        """The points that the operator calls shocks, with E, normals and H; arguments as for `skeleton`."""
+        """The points of a published operator, with E, normals and H, or the vertices of a sheet; arguments as for
+        `skeleton`."""
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SKELETON)
         chosen = self._chosen(operator, threshold)
         if chosen is not None:
@@ -192,7 +186,11 @@ class Job:
         return points
 
     def divergence(self, operator: Optional[str] = None, *, timeout: Optional[float] = None) -> Floats:
-        """(R,) the operator's H at every sample point, of which the threshold keeps some; not for "chords"."""
+        """(R,) the operator's H at every sample point, of which the threshold keeps some.
+
+        Args:
+            operator: one of the published ones; None = the job's, or "zucker-hummel" where the job's gives a sheet.
+        """
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_DIVERGENCE)
         chosen = self._chosen(operator, None)
         if chosen is not None:

@@ -20,7 +20,7 @@ export class Downloads {
     this.operator = h(
       'select',
       { id: 'download-operator' },
-      h('option', { value: '' }, 'the usual: the job’s; surfaces by the ridge'),
+      h('option', { value: '' }, 'the job’s operator'),
       Object.entries(session.words.operators).map(([word, text]) => h('option', { value: word }, text)),
     );
     this.threshold = h('input', { id: 'download-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });

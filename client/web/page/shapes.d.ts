@@ -42,7 +42,7 @@ interface Job {
   params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null };
   skeleton: { operator: string | null };
   prepared?: { triangles: number; points: number; spacing: number; volume: number; solids: number; notes?: Note[] };
-  quality?: { advice?: string };
+  quality?: { advice?: string; components: number };
   error?: { message: string; line: number };
   directions_done: number;
   directions_total: number;

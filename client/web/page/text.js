@@ -9,8 +9,7 @@ import { session } from './session.js';
 export const kArtefacts = {
   field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
   divergence: ['Divergence', 'H, which the threshold is applied to'],
-  skeleton: ['Skeleton', 'its points'],
-  surface: ['Surface', 'the skeleton as triangles; its curves in .ply, .obj and .vtp alone'],
+  skeleton: ['Skeleton', 'sheets and curves; .stl and .off have no place for curves, .csv and .xyz hold the vertices'],
   curve: ['Curve', 'a line through each limb; .json and .graphml: a graph, .swc: trees, .glb: joints of the mesh'],
   eroded: ['Eroded solid', 'where E is at least a share of the volume'],
   mesh: ['Mesh', 'the file as it was submitted'],
@@ -76,6 +75,12 @@ export const isRemoved = (job) => job.state === 'done' && job.removed_ms > 0;
  */
 export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
 
+/** @param {Job} job */
+function skeleton(job) {
+  if (job.skeleton_points === 0) return 'the skeleton is empty';
+  return job.quality ? `skeleton in ${counted(job.quality.components, 'piece')}` : 'skeleton';
+}
+
 /**
  * What a job is doing, or why it does not.
  * @param {Job} job
@@ -91,8 +96,7 @@ export function activity(job) {
   if (job.state === 'queued') return 'waits for a worker';
   if (job.state === 'running') return wording('stages', job.stage);
   if (isRemoved(job)) return 'its results were removed by the server’s retention; resume computes them again';
-  // Of the job's own operator; the picture may show another's, and says so.
-  if (job.state === 'done') return `${counted(job.skeleton_points, 'skeleton point')} (${operatorOf(job)})`;
+  if (job.state === 'done') return `${skeleton(job)} (${operatorOf(job)})`;
   return 'progress is kept; resume goes on from here';
 }
 

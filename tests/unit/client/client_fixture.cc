@@ -19,6 +19,7 @@ v1::Job sample_job(v1::JobState state) {
   job.set_stage(state == v1::JOB_STATE_DONE ? v1::JOB_STAGE_COMPLETE : v1::JOB_STAGE_ERODE);
   job.set_directions_done(state == v1::JOB_STATE_DONE ? 12 : 5);
   job.set_directions_total(12);
+  job.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
   job.mutable_prepared()->set_points(5);
   job.mutable_prepared()->set_directions(2);
   job.mutable_prepared()->set_volume(8e9);

@@ -144,7 +144,7 @@ TEST(CommandLine, KeepsTheOrderOfAffineSteps) {
 }
 
 SkeletonChoice parsed_skeleton(const std::vector<std::string>& reversed_arguments,
-                                SkeletonChoice skeleton = {}) {
+                               SkeletonChoice skeleton = {}) {
   CLI::App app;
   add_skeleton_options(&app, skeleton);
   app.parse(std::vector<std::string>(reversed_arguments));
@@ -152,9 +152,10 @@ SkeletonChoice parsed_skeleton(const std::vector<std::string>& reversed_argument
 }
 
 TEST(CommandLine, KnowsWhetherSkeletonOptionsWereGiven) {
-  EXPECT_FALSE(parsed_skeleton({}).given());
-  EXPECT_TRUE(parsed_skeleton({"zucker-hummel", "--operator"}).given());
-  EXPECT_TRUE(parsed_skeleton({"3", "--threshold"}).given());
+  EXPECT_EQ(parsed_skeleton({}).operator_name, "");
+  EXPECT_EQ(parsed_skeleton({}).threshold, 0);
+  EXPECT_EQ(parsed_skeleton({"zucker-hummel", "--operator"}).operator_name, "zucker-hummel");
+  EXPECT_EQ(parsed_skeleton({"3", "--threshold"}).threshold, 3);
   EXPECT_EQ(parsed_skeleton({"3", "--threshold"}).operator_name, "");
   for (const char* command : {"skeleton", "surface", "view", "render"}) {
     Parsed parsed({command, "@last", "-o", "s.ply", "--threshold", "3"});
@@ -162,7 +163,7 @@ TEST(CommandLine, KnowsWhetherSkeletonOptionsWereGiven) {
     EXPECT_FALSE(parsed.given("--operator")) << command;
     EXPECT_EQ(parsed.value<double>("--threshold"), 3) << command;
   }
-  EXPECT_EQ(Parsed({"submit", "a.off", "--threshold", "3"}).value("--operator"), "zucker-hummel");
+  EXPECT_EQ(Parsed({"submit", "a.off", "--threshold", "3"}).value("--operator"), "ridge");
 }
 
 // Every command and subcommand of the tree.

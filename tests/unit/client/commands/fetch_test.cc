@@ -86,7 +86,8 @@ TEST_F(ClientTest, APlaceThatCannotBeWrittenIsKnownBeforeTheWorkIsDone) {
            {"render", "@last", "-o", "/nowhere/s.png"}}) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.err.find("cannot write: No such file"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot write, there is no folder /nowhere: No such file"), std::string::npos)
+        << outcome.err;
   }
   EXPECT_TRUE(service_.fetches.empty());
 }
@@ -124,7 +125,8 @@ TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   const std::string text = tests::read_file(dir_ / "H.csv");
   EXPECT_EQ(text.substr(0, 8), "x,y,z,H\n");
   EXPECT_NE(text.find(",-7.25\n"), std::string::npos) << text;
-  EXPECT_FALSE(service_.fetches.back().has_skeleton()) << "the job's own operator";
+  EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL)
+      << "of a job with a sheet";
   EXPECT_EQ(run({"fetch", "@last", "divergence", "--operator", "sobel", "-o", dir_ / "H.dat"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.vtkhdf"}).exit_code, 0);

@@ -58,7 +58,7 @@ TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
   const std::string plain = dir_ / "p.png", other = dir_ / "q.png";
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_SOBEL);
   ASSERT_EQ(run({"render", "@last", "-o", plain, "--width", "300"}).exit_code, 0);
-  EXPECT_FALSE(service_.fetches.front().has_skeleton()) << "the job's own, which is stored";
+  EXPECT_EQ(service_.fetches.front().skeleton().operator_(), v1::OPERATOR_SOBEL) << "the job's own";
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
   service_.fetches.clear();
   ASSERT_EQ(run({"render", "@last", "--threshold", "3", "-o", other}).exit_code, 0);
@@ -78,28 +78,26 @@ TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
   EXPECT_EQ(run({"render", "@last", "--operator", "chords", "-o", other}).exit_code, 70) << "a damaged sheet";
 }
 
-TEST_F(ClientTest, ThePublishedSkeletonIsShownByItsRidge) {
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"render", "@last", "-o", dir_ / "p.png", "--width", "300"},
-        {"view", "@last", "-o", dir_ / "p.html"},
-        {"surface", "@last", "-o", dir_ / "p.ply"},
-        {"fetch", "@last", "surface", "-o", dir_ / "p.ply"}}) {
-    service_.fetches.clear();
-    ASSERT_EQ(run(command).exit_code, 0) << command[0];
-    const auto& asked = service_.fetches;
-    EXPECT_TRUE(std::any_of(asked.begin(), asked.end(), [](const v1::FetchArtifactRequest& request) {
-      return request.kind() == v1::ARTIFACT_KIND_SURFACE &&
-             request.surface().skeleton().operator_() == v1::OPERATOR_RIDGE;
-    })) << command[0];
+TEST_F(ClientTest, AllShowTheSkeletonOfTheJob) {
+  for (const v1::Operator which : {v1::OPERATOR_RIDGE, v1::OPERATOR_FLUX}) {
+    service_.job.mutable_skeleton()->set_operator_(which);
+    const v1::ArtifactKind kind =
+        which == v1::OPERATOR_RIDGE ? v1::ARTIFACT_KIND_SURFACE : v1::ARTIFACT_KIND_SKELETON;
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"render", "@last", "-o", dir_ / "p.png", "--width", "300"},
+          {"view", "@last", "-o", dir_ / "p.html"},
+          {"skeleton", "@last", "-o", dir_ / "p.ply"},
+          {"fetch", "@last", "skeleton", "-o", dir_ / "p.vtp"}}) {
+      service_.fetches.clear();
+      ASSERT_EQ(run(command).exit_code, 0) << command[0];
+      const auto& asked = service_.fetches;
+      EXPECT_TRUE(std::any_of(asked.begin(), asked.end(), [&](const v1::FetchArtifactRequest& request) {
+        const v1::SkeletonParams& params =
+            request.has_surface() ? request.surface().skeleton() : request.skeleton();
+        return params.operator_() == which && (command[0] == "view" || request.kind() == kind);
+      })) << command[0];
+    }
   }
-  // A threshold is one of the job's operator, an alpha shape one of its points, another operator wanted.
-  run({"surface", "@last", "--threshold", "6", "-o", dir_ / "p.ply"});
-  EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
-  run({"surface", "@last", "--alpha", "6", "-o", dir_ / "p.ply"});
-  EXPECT_FALSE(service_.fetches.back().surface().has_skeleton());
-  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_FLUX);
-  run({"surface", "@last", "-o", dir_ / "p.ply"});
-  EXPECT_EQ(service_.fetches.back().surface().skeleton().operator_(), v1::OPERATOR_FLUX);
 }
 
 TEST_F(ClientTest, RenderOfAnEmptySheetSaysWhy) {

@@ -35,7 +35,19 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_EQ(header.params().frame(), v1::FRAME_AFFINE);
   EXPECT_FALSE(header.params().repair());
   EXPECT_EQ(header.skeleton().threshold(), 5);
-  EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
+  EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_RIDGE);
+}
+
+// A cube of 2000 units, with a spacing in another unit: told before anything is sent, and before its directions.
+TEST_F(ClientTest, SubmitRefusesASpacingThatLeavesNoPoints) {
+  const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "1001"}, "unix:/nowhere/s");
+  EXPECT_EQ(outcome.exit_code, 3);
+  for (const char* part :
+       {"cube.off: the spacing 1001 leaves no room", "2000 x 2000 x 2000 units, a person in millimetres",
+        "a spacing of 43 gives 100000 points"})
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << "\n" << outcome.err;
+  EXPECT_EQ(outcome.err.find("directions"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--spacing", "1000"}, "unix:/nowhere/s").exit_code, 5);
 }
 
 // Nothing is sent: there is no server.
@@ -149,7 +161,9 @@ TEST_F(ClientTest, SubmitIntoADirectoryWritesAllThree) {
   EXPECT_EQ(document.at("files").at("field"), dir_ / "OUT/deep/cube.field.vti");
   EXPECT_TRUE(std::filesystem::exists(dir_ / "OUT/deep/cube.field.vti"));
   EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.skeleton.ply").substr(0, 4), "ply\n");
-  EXPECT_EQ(tests::read_file(dir_ / "OUT/deep/cube.surface.ply").substr(0, 4), "ply\n");
+  EXPECT_NE(tests::read_file(dir_ / "OUT/deep/cube.skeleton.vtp").find("PolyData"), std::string::npos);
+  EXPECT_EQ(document.at("files").at("skeleton"),
+            json({dir_ / "OUT/deep/cube.skeleton.vtp", dir_ / "OUT/deep/cube.skeleton.ply"}));
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(dir_ / "OUT/deep")) ++files;
   EXPECT_EQ(files, 3u);
@@ -247,8 +261,7 @@ TEST_F(ClientTest, StatusTellsEveryFieldAsJson) {
   EXPECT_EQ(job.at("counters").at("reports"), 3);
   EXPECT_EQ(job.at("counters").at("leases_lost"), 0);
   EXPECT_EQ(job.at("prepared").at("volume"), 8e9);
-  EXPECT_EQ(job.size(), 25u) << "all fields but the absent messages params, skeleton, error; got "
-                             << outcome.out;
+  EXPECT_EQ(job.size(), 26u) << "all fields but the absent messages params, error; got " << outcome.out;
 }
 
 TEST_F(ClientTest, StatusIsKeyValueLines) {

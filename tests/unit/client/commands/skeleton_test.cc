@@ -16,14 +16,37 @@ using nlohmann::json;
 
 TEST_F(ClientTest, SkeletonAndSurfaceSendTheirParameters) {
   EXPECT_EQ(run({"skeleton", "@last", "--threshold", "3.5", "-o", dir_ / "s.ply"}).exit_code, 0);
-  EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 3.5);
-  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.ply"}).exit_code, 0);
-  EXPECT_FALSE(service_.fetches.back().has_skeleton());
+  EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 3.5);
+  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "s.csv"}).exit_code, 0);
+  EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_RIDGE) << "the job's";
   EXPECT_EQ(run({"surface", "@last", "--alpha", "120000", "-o", dir_ / "s.off"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().surface().alpha(), 120000);
-  EXPECT_FALSE(service_.fetches.back().surface().has_skeleton());
   EXPECT_EQ(run({"surface", "@last", "--threshold", "2", "-o", dir_ / "s.off"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().surface().skeleton().threshold(), 2);
+}
+
+// Which artefact is asked for, by operator, form and extension.
+TEST_F(ClientTest, ASkeletonIsAComplexWhereItMayBe) {
+  constexpr auto kComplex = v1::ARTIFACT_KIND_SURFACE, kPoints = v1::ARTIFACT_KIND_SKELETON;
+  const auto asked = [&](const std::vector<std::string>& options, const std::string& extension) {
+    std::vector<std::string> command = {"skeleton", "@last", "-o", dir_ / ("s" + extension)};
+    command.insert(command.end(), options.begin(), options.end());
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return service_.fetches.back().kind();
+  };
+  for (const char* extension : {".vtp", ".ply", ".obj", ".stl", ".off"}) {
+    EXPECT_EQ(asked({}, extension), kComplex) << extension;
+    EXPECT_EQ(asked({"--as", "complex", "--operator", "sobel"}, extension), kComplex) << extension;
+  }
+  for (const char* extension : {".csv", ".xyz"}) EXPECT_EQ(asked({}, extension), kPoints) << extension;
+  EXPECT_EQ(asked({"--as", "points"}, ".ply"), kPoints);
+  EXPECT_EQ(asked({"--operator", "sobel"}, ".vtp"), kPoints);
+  EXPECT_EQ(asked({"--operator", "sobel"}, ".stl"), kComplex) << "which holds nothing else";
+  EXPECT_EQ(asked({"--operator", "sobel", "--alpha", "4"}, ".ply"), kComplex);
+  EXPECT_EQ(run({"skeleton", "@last", "--as", "complex", "-o", dir_ / "s.csv"}).exit_code, 2);
+  EXPECT_EQ(run({"skeleton", "@last", "--as", "points", "-o", dir_ / "s.stl"}).exit_code, 2);
+  EXPECT_EQ(run({"skeleton", "@last", "--as", "points", "--barrier", "-o", dir_ / "s.ply"}).exit_code, 2);
 }
 
 TEST_F(ClientTest, SurfaceAsksForBarriers) {
@@ -43,7 +66,8 @@ TEST_F(ClientTest, SurfaceAsksForBarriers) {
 TEST_F(ClientTest, AThresholdAloneIsForTheJobsOperator) {
   service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   service_.job.mutable_skeleton()->set_threshold(0.02);
-  ASSERT_EQ(run({"skeleton", "@last", "--threshold", "0.1", "-o", dir_ / "s.ply"}).exit_code, 0);
+  ASSERT_EQ(
+      run({"skeleton", "@last", "--threshold", "0.1", "--as", "points", "-o", dir_ / "s.ply"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_CHORDS);
   EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 0.1);
   EXPECT_EQ(service_.fetches.back().job(), service_.job.id()) << "@last may be another job by then";
@@ -58,7 +82,7 @@ TEST_F(ClientTest, AnOperatorAloneHasItsDefaultThreshold) {
   service_.job.mutable_skeleton()->set_threshold(0.02);
   for (const auto& [name, which] :
        {std::pair("sobel", v1::OPERATOR_SOBEL), std::pair("chords", v1::OPERATOR_CHORDS)}) {
-    ASSERT_EQ(run({"skeleton", "@last", "--operator", name, "-o", dir_ / "s.ply"}).exit_code, 0);
+    ASSERT_EQ(run({"skeleton", "@last", "--operator", name, "-o", dir_ / "s.csv"}).exit_code, 0);
     EXPECT_EQ(service_.fetches.back().skeleton().operator_(), which);
     EXPECT_EQ(service_.fetches.back().skeleton().threshold(), 0) << "the operator's default";
   }
@@ -78,6 +102,11 @@ TEST_F(ClientTest, CurvesAreToldAndMissedWhereTheyHaveNoPlace) {
   const ShapeFile shape = read_shape(dir_ / "p.vtp");
   EXPECT_EQ(shape.segments, (std::vector<core::Segment>{{2, 3}}));
   EXPECT_DOUBLE_EQ(shape.column("radius")->values[3], 10);
+  for (const char* name : {"p.ply", "p.obj"}) {
+    ASSERT_EQ(run({"skeleton", "@last", "-o", dir_ / name}).exit_code, 0);
+    EXPECT_EQ(read_shape(dir_ / name).segments, (std::vector<core::Segment>{{2, 3}})) << name;
+    EXPECT_EQ(read_shape(dir_ / name).mesh().triangles.size(), 1u) << name;
+  }
   const Outcome stl = run({"surface", "@last", "-o", dir_ / "p.stl"});
   EXPECT_NE(stl.err.find("without the curves (1 segment)"), std::string::npos) << stl.err;
   EXPECT_EQ(stl.err.find("segment of curves"), std::string::npos) << stl.err;
@@ -108,14 +137,15 @@ TEST_F(ClientTest, QualityIsToldEverywhere) {
   skeleton.mutable_quality()->set_inside_share(1);
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
   *service_.job.mutable_quality() = skeleton.quality();
-  EXPECT_EQ(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.ply"}).exit_code, 0);
+  EXPECT_EQ(run({"skeleton", "@last", "--as", "points", "-o", dir_ / "s.ply"}).exit_code, 0);
   EXPECT_NE(tests::read_file(dir_ / "s.ply").find("comment quality betti: 1, 0, 0"), std::string::npos);
   EXPECT_NE(run({"status", "@last"}).out.find("skeleton_inside:      100 %"), std::string::npos);
   EXPECT_EQ(json::parse(run({"--json", "status", "@last"}).out).at("quality").at("components"), 1);
   skeleton.mutable_quality()->set_advice("take more directions");
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
-  EXPECT_NE(run({"fetch", "@last", "skeleton", "-o", dir_ / "s.ply"}).err.find("take more directions"),
-            std::string::npos);
+  EXPECT_NE(
+      run({"skeleton", "@last", "--as", "points", "-o", dir_ / "s.ply"}).err.find("take more directions"),
+      std::string::npos);
 }
 
 TEST_F(ClientTest, EmptyResultsAreToldWithTheirAdvice) {
@@ -125,12 +155,13 @@ TEST_F(ClientTest, EmptyResultsAreToldWithTheirAdvice) {
   setting.set_name("min_barrier");
   setting.set_value("0.2");
   service_.artifacts[v1::ARTIFACT_KIND_SKELETON] = skeleton.SerializeAsString();
-  const Outcome points = run({"--json", "skeleton", "@last", "--threshold", "99", "-o", dir_ / "s.ply"});
+  const Outcome points = run({"--json", "skeleton", "@last", "--threshold", "99", "-o", dir_ / "s.csv"});
   EXPECT_EQ(points.exit_code, 0) << points.err;
   EXPECT_EQ(json::parse(points.out).at("points"), 0);
   EXPECT_EQ(json::parse(points.out).at("quality").at("advice"), "take more directions.");
   EXPECT_EQ(json::parse(points.out).at("quality").at("to_try").at(0).at("value"), "0.2");
-  EXPECT_NE(points.err.find("take more directions. Try --min-barrier 0.2\n"), std::string::npos) << points.err;
+  EXPECT_NE(points.err.find("take more directions. Try --min-barrier 0.2\n"), std::string::npos)
+      << points.err;
 
   v1::TriangleMesh sheet;
   sheet.mutable_quality()->set_advice("take a smaller significance");

@@ -128,7 +128,7 @@ TEST_F(ViewTest, ShowsTwoJobsOrTwoSkeletonsOfOne) {
 TEST_F(ViewTest, AnEmptySkeletonIsAWarning) {
   const std::string warning = "warning: the skeleton is empty";
   EXPECT_EQ(run({"-o", dir_ / "p.html"}).err.find(warning), std::string::npos);
-  const Outcome done = run({"--threshold", "100", "-o", dir_ / "p.html"});
+  const Outcome done = run({"--operator", "zucker-hummel", "--threshold", "100", "-o", dir_ / "p.html"});
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_NE(done.err.find(warning), std::string::npos);
 }

@@ -79,10 +79,10 @@ TEST_F(OperationsTest, EmptyThingsAreWarnedOfInPlainWords) {
 TEST_F(OperationsTest, TheExtensionOrTheFormChoosesWhatIsFetchedOfAnErodedSolid) {
   FetchRequest request{"@last", "eroded", {dir_ / "e.ply"}};
   EXPECT_EQ(fetch(session_, request).unit, "triangle");
-  request.eroded_form = FetchRequest::Form::kPoints;
+  request.form = FetchRequest::Form::kPoints;
   EXPECT_EQ(fetch(session_, request).unit, "point");
   request.destination = {dir_ / "e.xyz"};
-  request.eroded_form = FetchRequest::Form::kByExtension;
+  request.form = FetchRequest::Form::kByExtension;
   EXPECT_EQ(fetch(session_, request).unit, "point");
 }
 

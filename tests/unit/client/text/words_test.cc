@@ -24,7 +24,7 @@ TEST(Words, LeadBackToTheirValues) {
 
 TEST(Words, OnlyWhatIsNotSpecifiedIsTheDefault) {
   EXPECT_EQ(frame_word(v1::FRAME_UNSPECIFIED), "axis");
-  EXPECT_EQ(operator_word(v1::OPERATOR_UNSPECIFIED), "zucker-hummel");
+  EXPECT_EQ(operator_word(v1::OPERATOR_UNSPECIFIED), "ridge");
   EXPECT_EQ(state_word(v1::JOB_STATE_UNSPECIFIED), "unknown");
   EXPECT_EQ(state_word(static_cast<v1::JobState>(99)), "unknown");
   EXPECT_EQ(stage_word(static_cast<v1::JobStage>(99)), "unknown");

@@ -212,7 +212,7 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
       ++files;
     }
   }
-  EXPECT_EQ(files, 6 + 6 + 5 + 5 + 7 + 2 + 7 + 5);
+  EXPECT_EQ(files, 6 + 6 + 7 + 7 + 2 + 7 + 5);
   EXPECT_EQ(made({{"artefact", "mesh"}, {"format", ".off"}}).body, mesh_);
   EXPECT_EQ(made({{"artefact", "field"}, {"format", ".stl"}}).status, 400);
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);
@@ -222,7 +222,7 @@ TEST_F(WebServiceTest, WordsTheContractForThePage) {
   sign_in();
   const json session = ask("GET", "/api/session").object();
   EXPECT_EQ(session["words"]["operators"]["flux"], "average outward flux");
-  EXPECT_EQ(session["usual"], json({{"operator", "zucker-hummel"}, {"frame", "axis"}}));
+  EXPECT_EQ(session["usual"], json({{"operator", "ridge"}, {"frame", "axis"}}));
 }
 
 TEST_F(WebServiceTest, PassesParametersOn) {

@@ -76,8 +76,11 @@ TEST(ParamsTest, FramesAreNamedInKeysUnlessTheyAreTheMeshs) {
 
 TEST(ParamsTest, SkeletonDefaultsAreFilledIn) {
   const v1::SkeletonParams filled = canonical(v1::SkeletonParams());
-  EXPECT_EQ(filled.operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
-  EXPECT_EQ(filled.threshold(), base::kZuckerHummelThreshold);
+  EXPECT_EQ(filled.operator_(), v1::OPERATOR_RIDGE);
+  EXPECT_EQ(filled.threshold(), 0) << "its default depends on more";
+  v1::SkeletonParams published;
+  published.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
+  EXPECT_EQ(canonical(published).threshold(), base::kZuckerHummelThreshold);
   v1::SkeletonParams negative_zero;
   negative_zero.set_threshold(-0.0);
   EXPECT_EQ(cache_key(canonical(negative_zero)), cache_key(filled));
@@ -136,6 +139,7 @@ TEST(ParamsTest, SheetsHaveNoAlpha) {
 
 TEST(ParamsTest, BarriersAreForSheets) {
   v1::SurfaceParams points, sheet;
+  points.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
   points.set_barrier(true);
   EXPECT_THROW(canonical(points), std::invalid_argument);
   points.set_barrier(false);
@@ -166,6 +170,7 @@ TEST(ParamsTest, BarriersAreForSheets) {
 
 TEST(ParamsTest, DivergenceDependsOnTheOperatorAlone) {
   v1::SkeletonParams params;
+  params.set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
   const v1::SkeletonParams first = divergence_params(canonical(params));
   params.set_threshold(3);
   EXPECT_EQ(cache_key(divergence_params(canonical(params))), cache_key(first));
@@ -176,6 +181,9 @@ TEST(ParamsTest, DivergenceDependsOnTheOperatorAlone) {
   params.set_threshold(0.5);
   params.set_operator_(v1::OPERATOR_CHORDS);
   EXPECT_THROW(divergence_params(canonical(params)), std::invalid_argument);
+  EXPECT_EQ(usual_divergence(v1::OPERATOR_SOBEL), v1::OPERATOR_SOBEL);
+  for (const v1::Operator sheet : {v1::OPERATOR_RIDGE, v1::OPERATOR_CHORDS, v1::OPERATOR_CURVE})
+    EXPECT_EQ(usual_divergence(sheet), v1::OPERATOR_ZUCKER_HUMMEL) << "the published one";
 }
 
 TEST(ParamsTest, ErodedLevelsAreSharesOrVolumes) {

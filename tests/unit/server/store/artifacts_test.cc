@@ -42,7 +42,7 @@ TEST_F(ArtifactTest, DefaultSkeletonIsStored) {
   const v1::Job job = complete_job(10, 20);
   EXPECT_EQ(read_all(*store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_SKELETON)).reader),
             "skeleton");
-  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 7)).reader), "skeleton");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 0)).reader), "skeleton");
 }
 
 TEST_F(ArtifactTest, OtherSkeletonIsMadeOnceAndKept) {
@@ -163,9 +163,8 @@ TEST_F(ArtifactTest, RefusesWrongRequests) {
   v1::FetchArtifactRequest surface = artifact_request(job.id(), v1::ARTIFACT_KIND_SURFACE);
   surface.mutable_surface()->set_alpha(-1);
   EXPECT_STORE_ERROR(store_->open_artifact(surface), kInvalid);
-  surface.mutable_surface()->set_alpha(0);
-  surface.mutable_surface()->set_barrier(true);
-  EXPECT_NE(refusal(surface).find("zucker-hummel gives points"), std::string::npos) << "the job's operator";
+  surface.mutable_surface()->set_alpha(1);
+  EXPECT_NE(refusal(surface).find("the sheet of ridge"), std::string::npos) << "the job's operator";
   v1::FetchArtifactRequest eroded = artifact_request(job.id(), v1::ARTIFACT_KIND_ERODED_POINTS);
   eroded.mutable_eroded()->set_fraction(2);
   EXPECT_STORE_ERROR(store_->open_artifact(eroded), kInvalid);
@@ -185,7 +184,7 @@ TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
         wrong.mutable_skeleton()->set_threshold(3);
         right = name.ends_with("SKELETON") || name.ends_with("DIVERGENCE") || name.ends_with("PARTS");
       } else if (word == "surface") {
-        wrong.mutable_surface()->set_alpha(3);
+        wrong.mutable_surface()->set_barrier(true);
         right = name == "ARTIFACT_KIND_SURFACE";
       } else {
         wrong.mutable_eroded()->set_fraction(0.5);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
@@ -33,7 +34,11 @@ class HeaderReader {
       fail("not a PLY file: must begin with 'ply'");
     bool has_format = false;
     while (next()) {
-      if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
+      if (words_.empty() || words_[0] == "obj_info") continue;
+      if (words_[0] == "comment") {
+        read_comment();
+        continue;
+      }
       if (words_[0] == "end_header") {
         if (!has_format) fail("the header names no format");
         header_.body = rest_;
@@ -57,6 +62,15 @@ class HeaderReader {
  private:
   [[noreturn]] void fail(const std::string& message) const {
     fail_at(std::max<std::uint64_t>(header_.lines, 1), message);
+  }
+
+  // Of all comments one means something, see kPlyCurves.
+  void read_comment() {
+    if (words_.size() < 3 || words_[1] != "curves") return;
+    const std::string_view count = words_[2];
+    std::uint64_t faces = 0;
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), faces);
+    if (error == std::errc() && end == count.data() + count.size()) header_.curve_faces = faces;
   }
 
   // The body may be binary, so rows are taken one by one, up to end_header.

@@ -33,6 +33,7 @@ enum class PlyEncoding { kText, kLittle, kBig };
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kText;
   std::vector<PlyElement> elements;
+  std::uint64_t curve_faces = 0;  ///< of the faces the last ones, see kPlyCurves
   std::uint64_t lines = 0;
   std::string_view body;  ///< what follows the header
 };

@@ -255,7 +255,7 @@ class PlyReader {
       values_.begin(element.name, i);
       for (const PlyProperty& p : element.properties) {
         if (is_corners(p)) {
-          add_face(next_corners(p));
+          add_face_or_curve(next_corners(p), header_.curve_faces >= element.count - i);
         } else if (p.list) {
           next_list(p);
         } else {
@@ -281,6 +281,14 @@ class PlyReader {
       }
       values_.end();
       add_polyline(file_, corners_, values_.place(), values_.line());
+    }
+  }
+
+  void add_face_or_curve(const std::vector<std::int64_t>& corners, bool may_be_curve) {
+    if (may_be_curve && corners.size() == 3 && corners[1] == corners[2]) {
+      add_polyline(file_, {corners[0], corners[1]}, values_.place(), values_.line());
+    } else {
+      add_face(corners);
     }
   }
 

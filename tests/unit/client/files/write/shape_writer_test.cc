@@ -109,6 +109,11 @@ TEST(MeshWriter, ACurveIsOneLine) {
   };
   EXPECT_NE(text(FileFormat::kObj).find("\nl 1 2 3 4\n"), std::string::npos);
   EXPECT_NE(text(FileFormat::kVtp).find("NumberOfLines=\"1\""), std::string::npos);
+  const std::size_t triangles = shape.mesh().triangles.size();
+  const std::string ply = text(FileFormat::kPly);
+  EXPECT_NE(ply.find("\nelement face " + std::to_string(triangles + 3) + "\n"), std::string::npos);
+  EXPECT_EQ(ply.find("element edge"), std::string::npos) << "at which meshio ends its program";
+  shape.off.mesh.triangles.clear();
   EXPECT_NE(text(FileFormat::kPly).find("element edge 3\nproperty int vertex1\nproperty int vertex2\n"),
             std::string::npos);
 }
@@ -167,6 +172,16 @@ TEST(MeshWriter, OffHasItsCommentsBehindItsFirstWord) {
   const std::string off = written(FileFormat::kOff, sample_mesh(), {"job 0", "a\nb"});
   EXPECT_EQ(off, "OFF\n# job 0\n# a b\n" + plain.substr(4));
   EXPECT_EQ(core::read_off(off).mesh.points, sample_mesh().points);
+}
+
+// The middle one of three triangles is thinner than single precision tells.
+TEST(MeshWriter, StlHasNoTriangleOfTwoCorners) {
+  core::Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1 + 1e-9, 0, 0}, {0, 1, 0}, {2, 1, 0}};
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 4, 3}};
+  const std::string stl = written(FileFormat::kStl, mesh);
+  ASSERT_EQ(stl.size(), 84u + 2 * 50);
+  EXPECT_EQ(stl[80], 2);
 }
 
 // The exit code and the cause of writing as .stl, into a file.
