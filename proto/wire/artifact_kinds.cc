@@ -93,6 +93,10 @@ const ArtifactKindInfo* find_derived_kind(v1::TaskKind task) {
   return row == kKinds.end() ? nullptr : &*row;
 }
 
+const ArtifactKindInfo& own_skeleton_kind(v1::Operator of_job) {
+  return *find_artifact_kind(gives_sheet(of_job) ? v1::ARTIFACT_KIND_SURFACE : v1::ARTIFACT_KIND_SKELETON);
+}
+
 CanonicalParams artifact_params(const ArtifactKindInfo& kind, const v1::FetchArtifactRequest& request,
                                 const v1::SkeletonParams& job_skeleton) {
   const v1::SkeletonParams skeleton = request.has_skeleton() ? canonical(request.skeleton()) : job_skeleton;

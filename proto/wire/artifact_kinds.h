@@ -44,6 +44,9 @@ const ArtifactKindInfo* find_artifact_kind(v1::ArtifactKind kind);
 /// The row of the derived kind that a task makes; null for PREPARE, ERODE and unknown ones.
 const ArtifactKindInfo* find_derived_kind(v1::TaskKind task);
 
+/// The artefact that a job's own skeleton is: SURFACE for an operator that gives a sheet or lines, else SKELETON.
+const ArtifactKindInfo& own_skeleton_kind(v1::Operator of_job);
+
 /// Parameters of a derived artefact in canonical form.
 struct CanonicalParams {
   std::string bytes;  ///< the serialized message

@@ -56,7 +56,12 @@ constexpr const char* kProgress[] = {
     " WHERE a.kind NOT IN ('lattice', 'directions') AND e.finished = 0 AND e.dropped = 0",
 };
 
-// Jobs against their erosions: tasks.cc, settle_job().
+// Of job j, see own_skeleton(): a sheet's surface, with the alpha that sheets have, or its points, as earlier versions
+// stored it.
+#define OWN_SKELETON \
+  "VALUES ('skeleton', j.skeleton_key), ('surface', j.skeleton_key || ' alpha=0000000000000000')"
+
+// Jobs against their erosions: settle_job().
 constexpr const char* kJobs[] = {
     "SELECT 'job ' || j.id, 'is in stage ' || j.stage || ', its erosion is ' || CASE"
     " WHEN e.finished THEN 'finished' WHEN e.core_version IS NULL THEN 'not prepared'"
@@ -67,12 +72,14 @@ constexpr const char* kJobs[] = {
 
     "SELECT 'job ' || j.id, 'is done, but its skeleton is missing' FROM jobs j WHERE j.state = 'done'"
     " AND j.removed_ms = 0 AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id"
-    " AND kind = 'skeleton'"
-    " AND params_key = j.skeleton_key)",
+    " AND (kind, params_key) IN (" OWN_SKELETON "))",
 
     "SELECT 'job ' || j.id, 'tells of ' || j.skeleton_points || ' skeleton points, its skeleton has '"
-    " || a.items FROM jobs j JOIN artifacts a ON a.erosion_id = j.erosion_id AND a.kind = 'skeleton'"
-    " AND a.params_key = j.skeleton_key WHERE j.state = 'done' AND j.skeleton_points <> a.items",
+    " || a.items FROM jobs j JOIN artifacts a ON a.erosion_id = j.erosion_id"
+    " AND (a.kind, a.params_key) IN (" OWN_SKELETON
+    ") WHERE j.state = 'done' AND j.skeleton_points <> a.items"
+    " AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id"
+    " AND (kind, params_key) IN (" OWN_SKELETON ") AND items = j.skeleton_points)",
 
     "SELECT 'job ' || id, 'is ' || state || ', but still to be cancelled' FROM jobs"
     " WHERE cancel_requested = 1 AND state NOT IN ('queued', 'running')",
@@ -85,8 +92,8 @@ constexpr const char* kTasks[] = {
     " WHERE job_id = j.id AND kind = 'prepare' AND state IN ('pending', 'leased'))",
 
     "SELECT 'job ' || j.id, 'is in stage derive, but no task is left to make its skeleton' FROM jobs j"
-    " WHERE j.stage = 'derive' AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = 'skeleton'"
-    " AND on_request = 0 AND params_key = j.skeleton_key AND state IN ('pending', 'leased'))",
+    " WHERE j.stage = 'derive' AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id"
+    " AND (kind, params_key) IN (" OWN_SKELETON ") AND on_request = 0 AND state IN ('pending', 'leased'))",
 
     "SELECT 'job ' || j.id, 'its blocks do not cover positions 0 to ' ||"
     " coalesce(e.directions, '(none yet)') || ' once' FROM jobs j"

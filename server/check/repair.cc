@@ -10,7 +10,9 @@
 #include "database/migrate.h"
 #include "store/clock.h"
 #include "store/job_life.h"
+#include "store/own_skeleton.h"
 #include "store/restart.h"
+#include "store/rows.h"
 #include "store/tx.h"
 
 namespace affskel::server {
@@ -104,9 +106,8 @@ class Repairer {
   void repair_artifact(const PieceFault& fault) {
     write([&](Tx& tx) {
       tx.db.run("DELETE FROM artifacts WHERE id = ?", fault.artifact);
-      if (fault.name != "skeleton") return;
       for (const std::string& job : jobs_with_skeleton(tx.db, fault)) {
-        tx.db.run("DELETE FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0", job);
+        tx.db.run("DELETE FROM tasks WHERE job_id = ? AND kind = ? AND on_request = 0", job, fault.name);
         queue_again(tx, job, "derive");
         settle_job(tx, job);
       }
@@ -115,11 +116,12 @@ class Repairer {
   }
 
   static std::vector<std::string> jobs_with_skeleton(Database& db, const PieceFault& fault) {
-    Statement row =
-        db.query("SELECT id FROM jobs WHERE erosion_id = ? AND skeleton_key = ? AND state = 'done'",
-                 fault.erosion_id, fault.params_key);
+    Statement row = db.query("SELECT id FROM jobs WHERE erosion_id = ? AND state = 'done'", fault.erosion_id);
     std::vector<std::string> jobs;
-    while (row.step()) jobs.push_back(row.text(0));
+    while (row.step()) {
+      const auto& [kind, params] = own_skeleton(get_job(db, row.text(0)));
+      if (kind.name() == fault.name && params.key == fault.params_key) jobs.push_back(row.text(0));
+    }
     return jobs;
   }
 

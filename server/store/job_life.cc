@@ -13,6 +13,7 @@
 #include "store/blobs.h"
 #include "store/field.h"
 #include "store/job_events.h"
+#include "store/own_skeleton.h"
 #include "store/rows.h"
 #include "store/task_rows.h"
 #include "wire/words.h"
@@ -64,14 +65,15 @@ bool finish_erosion(Tx& tx, JobRow& job) {
   return true;
 }
 
-/// The default skeleton is stored, or a task for it is there.  True when the job is done.
+/// The job's own skeleton is stored, or a task for it is there.  True when the job is done.
 bool finish_derive(Tx& tx, const JobRow& job) {
+  const auto& [kind, params] = own_skeleton(job);
   const std::optional<std::int64_t> skeleton =
-      find_artifact(tx.db, {job.erosion_id, "skeleton", job.skeleton_key});
+      find_artifact(tx.db, {job.erosion_id, kind.name(), params.key});
   if (!skeleton) {
-    if (!tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0",
-                       job.id)) {
-      add_derive_task(tx, job.id, v1::TASK_KIND_SKELETON, job.skeleton, job.skeleton_key, false);
+    if (!tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = ? AND on_request = 0", job.id,
+                       wire::word(kind.task))) {
+      add_derive_task(tx, job.id, kind.task, params.bytes, params.key, false);
     }
     return false;
   }
@@ -82,7 +84,8 @@ bool finish_derive(Tx& tx, const JobRow& job) {
       tx.wall_ms, *skeleton, job.id);
   // A skeleton that another job of the same field has brought meanwhile need not be made again.
   tx.db.run(
-      "DELETE FROM tasks WHERE job_id = ? AND kind = 'skeleton' AND on_request = 0 AND state = 'pending'",
+      "DELETE FROM tasks WHERE job_id = ? AND kind IN ('skeleton', 'surface') AND on_request = 0"
+      " AND state = 'pending'",
       job.id);
   record_end(tx, job, v1::JOB_STATE_DONE, "");
   return true;

@@ -48,7 +48,8 @@ Derived packed(const v1::SkeletonPoints& points, const std::string& what) {
 Derived packed(const v1::TriangleMesh& mesh, const std::string& what) {
   Derived result;
   append_result(result.data, mesh, what);
-  result.items = static_cast<std::uint64_t>(mesh.corners_size() / 3 + mesh.segments_size() / 2);
+  result.items = static_cast<std::uint64_t>(mesh.xyz_size() / 3);
+  if (mesh.has_quality()) result.quality = mesh.quality();
   return result;
 }
 

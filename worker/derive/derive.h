@@ -13,7 +13,7 @@ namespace affskel::worker {
 /// What a derive task hands in.
 struct Derived {
   std::string data;         ///< the artefact, see ArtifactKind
-  std::uint64_t items = 0;  ///< points, or triangles of a surface
+  std::uint64_t items = 0;  ///< points, or vertices of a surface
   std::optional<v1::SkeletonQuality> quality;
 };
 

@@ -16,6 +16,7 @@ v1::SubmitJobHeader submit_header(const std::string& mesh, const std::string& na
   header.set_priority(5);
   header.mutable_params()->mutable_sampling()->set_spacing(0.25);
   header.mutable_params()->set_repair(true);
+  header.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
   header.set_mesh_sha256(wire::sha256_hex(mesh));
   header.set_mesh_bytes(mesh.size());
   return header;
@@ -34,6 +35,7 @@ v1::FetchArtifactRequest mesh_request(const std::string& job) {
 
 v1::FetchArtifactRequest skeleton_request(const std::string& job, double threshold) {
   v1::FetchArtifactRequest request = artifact_request(job, v1::ARTIFACT_KIND_SKELETON);
+  request.mutable_skeleton()->set_operator_(v1::OPERATOR_ZUCKER_HUMMEL);
   request.mutable_skeleton()->set_threshold(threshold);
   return request;
 }

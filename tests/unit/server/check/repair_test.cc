@@ -172,6 +172,25 @@ TEST_F(RepairTest, DerivedArtefactsAreMadeAgain) {
   EXPECT_EQ(read_all(*store_->open_artifact(request).reader), "skeleton");
 }
 
+TEST_F(RepairTest, AJobsOwnSheetIsMadeAgain) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const std::string id = store_->submit(header, "OFF 1").job.id();
+  erode(kRepairedPoints, kRepairedDirections);
+  derive("a sheet!");
+  store_.reset();
+  EXPECT_EQ(faults(), "");
+  flip("artifact_chunks", "length(data) = 8");
+  EXPECT_EQ(repair(), 1);
+  EXPECT_EQ(faults(), "");
+  open();
+  EXPECT_EQ(store_->job(id).state(), v1::JOB_STATE_QUEUED) << "it is not done without its skeleton";
+  derive("a sheet!");
+  EXPECT_EQ(store_->job(id).state(), v1::JOB_STATE_DONE);
+  EXPECT_EQ(read_all(*store_->open_artifact(artifact_request(id, v1::ARTIFACT_KIND_SURFACE)).reader),
+            "a sheet!");
+}
+
 // Clients alone use the lattice: the field is kept, and the lattice made when somebody asks.
 TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
   const v1::Job job = complete_job(kRepairedPoints, kRepairedDirections);

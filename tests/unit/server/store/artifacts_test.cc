@@ -42,7 +42,29 @@ TEST_F(ArtifactTest, DefaultSkeletonIsStored) {
   const v1::Job job = complete_job(10, 20);
   EXPECT_EQ(read_all(*store_->open_artifact(artifact_request(job.id(), v1::ARTIFACT_KIND_SKELETON)).reader),
             "skeleton");
-  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 0)).reader), "skeleton");
+  EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 7)).reader), "skeleton");
+}
+
+// Its sheet, with which all show it; its vertices as points are made for who asks.
+TEST_F(ArtifactTest, AJobWithASheetIsDoneWithItsSurface) {
+  v1::SubmitJobHeader header = submit_header("OFF 1");
+  header.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const std::string id = store_->submit(header, "OFF 1").job.id();
+  erode(10, 20);
+  const v1::Lease task = lease();
+  EXPECT_EQ(task.kind(), v1::TASK_KIND_SURFACE);
+  EXPECT_EQ(task.surface().skeleton().operator_(), v1::OPERATOR_RIDGE);
+  v1::CompleteTaskHeader done = derive_header(task.token(), "sheet", 3);
+  done.mutable_quality()->set_components(1);
+  store_->complete(done, "sheet");
+  const v1::Job job = store_->job(id);
+  EXPECT_EQ(job.state(), v1::JOB_STATE_DONE);
+  EXPECT_EQ(job.skeleton_points(), 3U);
+  EXPECT_EQ(job.quality().components(), 1U);
+  EXPECT_EQ(read_all(*store_->open_artifact(artifact_request(id, v1::ARTIFACT_KIND_SURFACE)).reader),
+            "sheet");
+  EXPECT_EQ(store_->open_artifact(artifact_request(id, v1::ARTIFACT_KIND_SKELETON)).reader, nullptr);
+  EXPECT_EQ(lease().kind(), v1::TASK_KIND_SKELETON);
 }
 
 TEST_F(ArtifactTest, OtherSkeletonIsMadeOnceAndKept) {
@@ -163,8 +185,9 @@ TEST_F(ArtifactTest, RefusesWrongRequests) {
   v1::FetchArtifactRequest surface = artifact_request(job.id(), v1::ARTIFACT_KIND_SURFACE);
   surface.mutable_surface()->set_alpha(-1);
   EXPECT_STORE_ERROR(store_->open_artifact(surface), kInvalid);
-  surface.mutable_surface()->set_alpha(1);
-  EXPECT_NE(refusal(surface).find("the sheet of ridge"), std::string::npos) << "the job's operator";
+  surface.mutable_surface()->set_alpha(0);
+  surface.mutable_surface()->set_barrier(true);
+  EXPECT_NE(refusal(surface).find("zucker-hummel gives points"), std::string::npos) << "the job's operator";
   v1::FetchArtifactRequest eroded = artifact_request(job.id(), v1::ARTIFACT_KIND_ERODED_POINTS);
   eroded.mutable_eroded()->set_fraction(2);
   EXPECT_STORE_ERROR(store_->open_artifact(eroded), kInvalid);
@@ -184,7 +207,7 @@ TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
         wrong.mutable_skeleton()->set_threshold(3);
         right = name.ends_with("SKELETON") || name.ends_with("DIVERGENCE") || name.ends_with("PARTS");
       } else if (word == "surface") {
-        wrong.mutable_surface()->set_barrier(true);
+        wrong.mutable_surface()->set_alpha(3);
         right = name == "ARTIFACT_KIND_SURFACE";
       } else {
         wrong.mutable_eroded()->set_fraction(0.5);

@@ -21,9 +21,19 @@ TEST_F(SubmitTest, StoresMeshAndJob) {
   EXPECT_EQ(job.stage(), v1::JOB_STAGE_PREPARE);
   EXPECT_EQ(job.mesh_bytes(), mesh.size());
   EXPECT_EQ(job.params().directions(), "triangles");
-  EXPECT_EQ(job.skeleton().operator_(), v1::OPERATOR_RIDGE);
+  EXPECT_EQ(job.skeleton().operator_(), v1::OPERATOR_ZUCKER_HUMMEL);
   v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_MESH);
   EXPECT_EQ(read_all(*store_->open_artifact(request).reader), mesh);
+}
+
+TEST_F(SubmitTest, AJobWithoutAnOperatorHasTheRidges) {
+  const std::string mesh = "OFF 1";
+  v1::SubmitJobHeader header = submit_header(mesh);
+  header.clear_skeleton();
+  const v1::Job job = store_->submit(header, mesh).job;
+  EXPECT_EQ(job.skeleton().operator_(), v1::OPERATOR_RIDGE);
+  header.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  EXPECT_EQ(store_->submit(header, mesh).job.id(), job.id());
 }
 
 TEST_F(SubmitTest, RefusesWrongHeaders) {
@@ -120,7 +130,7 @@ TEST_F(SubmitTest, SameSubmissionIsTheSameJob) {
   EXPECT_FALSE(first.existed);
   v1::SubmitJobHeader spelled_otherwise = submit_header(mesh);
   spelled_otherwise.mutable_params()->set_directions("triangles");
-  spelled_otherwise.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  spelled_otherwise.mutable_skeleton()->set_threshold(7);
   spelled_otherwise.set_priority(8);
   const Store::Submitted second = store_->submit(spelled_otherwise, mesh);
   EXPECT_TRUE(second.existed);
