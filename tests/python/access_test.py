@@ -131,7 +131,7 @@ class Access(unittest.TestCase):
         self.assertIn("<canvas", job.view().page)
         self.directory.client("make", "box", "--size", "1,1,1", "-o", self.directory / "box.stl")
         self.assertEqual(client.submit(self.directory / "box.stl", spacing=.1).wait().status().owner, "ada")
-        self.assertEqual({status.owner for status in client.jobs()}, {"ada"})
+        self.assertEqual({job.seen.owner for job in client.jobs()}, {"ada"})
         self.assertEqual(os.environ.get("AFFSKEL_SERVER", ""), "")
 
 

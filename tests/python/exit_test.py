@@ -16,7 +16,7 @@ from lab import Directory, Server
 
 CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
         "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n").encode()
-OPEN_CUBE = CUBE.replace(b"8 6 0", b"8 5 0", 1).replace(b"4 3 0 4 7\n", b"")
+NO_NUMBER = b"OFF\n1 0 0\n0 0 zero\n"
 
 HANGS = 60  # seconds after which a process is taken for one that never ends
 AT_ONCE = 1  # second from the last word of a program to its end
@@ -28,7 +28,7 @@ import os, signal, sys, threading, time, affskel
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a test in the background ignores it
 def told():
     print("told", time.monotonic(), flush=True)
-CUBE, OPEN_CUBE, IDLE, BUSY, WAITING, CANCELLED = {values}
+CUBE, NO_NUMBER, IDLE, BUSY, WAITING, CANCELLED = {values}
 idle = affskel.Client(IDLE)
 busy = affskel.Client(BUSY)
 """
@@ -42,7 +42,7 @@ ERRORS = {
     "NotAllowedError": "idle.job(WAITING).delete()",
     "LimitError": "idle.submit(CUBE, spacing=.3)",
     "JobCancelledError": "idle.job(CANCELLED).wait()",
-    "BadMeshError": "busy.submit(OPEN_CUBE, spacing=.1).wait()",
+    "BadMeshError": "busy.submit(NO_NUMBER, spacing=.1).wait()",
     "JobTooLargeError": "busy.submit(CUBE, spacing=.05).wait()",
     "JobFailedError": "(_ for _ in idle.job(WAITING).progress()).throw(affskel.JobFailedError('made up'))",
     "InternalError": "idle.job(WAITING).view()",
@@ -100,7 +100,7 @@ class Ends(unittest.TestCase):
             cancelled = client.submit(CUBE, spacing=.2)
             cancelled.cancel()
             waiting = client.submit(CUBE, spacing=.1)
-        cls.prelude = PRELUDE.format(values=(CUBE, OPEN_CUBE, cls.idle.address, cls.busy.address, waiting.id,
+        cls.prelude = PRELUDE.format(values=(CUBE, NO_NUMBER, cls.idle.address, cls.busy.address, waiting.id,
                                              cancelled.id))
         cls.environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
 

@@ -56,6 +56,11 @@ class Directory:
         return subprocess.run([CLIENT, "--quiet", *map(str, arguments)], env=self.environment, check=True,
                               stdout=subprocess.PIPE, text=True).stdout
 
+    def client_notes(self, *arguments):
+        """What affskel-client, which must succeed, tells people."""
+        return subprocess.run([CLIENT, *map(str, arguments)], env=self.environment, check=True,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
+
     def client_error(self, *arguments):
         """The error of affskel-client, which must fail: exit code, and what it says as JSON."""
         done = subprocess.run([CLIENT, "--json", *map(str, arguments)], env=self.environment, check=False,

@@ -12,6 +12,7 @@ import unittest
 from concurrent import futures
 
 import grpc
+import numpy as np
 
 import affskel
 from affskel.v1 import client_service_pb2 as service
@@ -211,23 +212,22 @@ class Waiting(WithDirectory):
 
 
 class Errors(WithDirectory):
-    def test_a_mesh_with_a_hole_is_told_with_its_place(self):
+    def test_a_mesh_that_is_no_good_is_told_with_the_place(self):
         client = self.client(self.server())
-        for text, words in ((OPEN_CUBE, "edge"), ("OFF\n1 0 0\n0 0 zero\n", "zero")):
-            with self.assertRaisesRegex(affskel.BadMeshError, words) as failure:
-                client.submit(text.encode(), spacing=.1).wait()
-            error = failure.exception
-            self.assertIsInstance(error, affskel.JobFailedError)
-            self.assertIsInstance(error, affskel.BadInputError)
-            self.assertEqual((error.code, error.exit_code, error.reason), ("BAD_INPUT", 3, "BAD_INPUT"))
-            self.assertIn(error.job, str(error))
+        with self.assertRaisesRegex(affskel.BadMeshError, "zero") as failure:
+            client.submit("OFF\n1 0 0\n0 0 zero\n".encode(), spacing=.1).wait()
+        error = failure.exception
+        self.assertIsInstance(error, affskel.JobFailedError)
+        self.assertIsInstance(error, affskel.BadInputError)
+        self.assertEqual((error.code, error.exit_code, error.reason), ("BAD_INPUT", 3, "BAD_INPUT"))
+        self.assertIn(error.job, str(error))
         self.assertEqual(error.line, 3)
         self.assertEqual(client.job(error.job).status().state, "failed")
 
     def test_it_is_told_as_affskel_client_tells_it(self):
         server = self.server()
         file = self.directory / "hole.off"
-        for text in (OPEN_CUBE, CUBE.replace("4 3 0 4 7", "4 3 0 4 8"), "OFF\n1 0 0\n0 0 zero\n", "OFF\n"):
+        for text in (CUBE.replace("4 3 0 4 7", "4 3 0 4 8"), "OFF\n1 0 0\n0 0 zero\n", "OFF\n"):
             file.write_text(text)
             code, said = self.directory.client_error("--server", server.address, "submit", file)
             with self.assertRaises(affskel.BadInputError) as failure:
@@ -236,6 +236,31 @@ class Errors(WithDirectory):
             self.assertEqual((code, said["code"], said["file"], said.get("line", 0)),
                              (error.exit_code, error.code, error.file, error.line))
             self.assertTrue(error.message.endswith(said["message"]), (error.message, said["message"]))
+
+    def test_holes_and_foreign_units_are_told_before_anything_is_sent(self):
+        server = self.server(workers=0)
+        client = self.client(server)
+        file = self.directory / "hole.off"
+        file.write_text(OPEN_CUBE)
+        _, said = self.directory.client_error("--server", server.address, "submit", file)
+        with self.assertRaises(affskel.BadInputError) as failure:
+            client.submit(file, spacing=.1)
+        self.assertEqual(failure.exception.file, str(file))
+        self.assertEqual(failure.exception.message.split(" (")[0], said["message"].split(" (")[0])
+        cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+        faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+        with self.assertRaisesRegex(affskel.BadInputError, "4 open edges"):
+            client.submit((cube, faces[1:]))
+        with self.assertRaisesRegex(affskel.BadInputError, "spacing 200 .* measures 1 x 1 x 1 units") as failure:
+            client.submit((cube, faces), spacing=200)
+        self.assertNotIsInstance(failure.exception, affskel.JobFailedError)
+        for wrong in ("10mm", "10", None, True):
+            with self.assertRaisesRegex(affskel.UsageError, "points is a number" if wrong is None else "spacing is a number"):
+                client.submit((cube, faces), **({"points": [1]} if wrong is None else {"spacing": wrong}))
+        self.assertEqual(client.jobs(), [])
+        # Seams, whose vertices stand twice at one place, are no holes; the server joins them.
+        apart = np.concatenate([cube[face] for face in faces])
+        self.assertFalse(client.submit((apart, np.arange(24).reshape(6, 4)), spacing=np.float32(.25)).existed)
 
     def test_wrong_arguments_are_refused_before_anything_is_stored(self):
         client = self.client(self.server(workers=0))
@@ -300,8 +325,9 @@ class Errors(WithDirectory):
         from affskel import _session
         most, _session.MAX_LISTED = _session.MAX_LISTED, 3
         self.addCleanup(setattr, _session, "MAX_LISTED", most)
-        self.assertEqual([status.id for status in client.jobs()], ids[::-1])
-        self.assertEqual([status.id for status in client.jobs(limit=4)], ids[:2:-1])
+        self.assertEqual([job.id for job in client.jobs()], ids[::-1])
+        self.assertEqual([job.seen.name for job in client.jobs(limit=4)], list("6543"))
+        self.assertRegex(repr(client.jobs(limit=1)), r"\[<affskel.Job [0-9a-f]{12} '6', queued>\]")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Every result as arrays, against the files of affskel-client, closed forms and VTK.
 
 Usage: results_test.py PROGRAMS PROJECT"""
+import importlib.util
 import json
 import sys
 import unittest
@@ -281,6 +282,71 @@ class ClosedForms(unittest.TestCase):
             body.skeleton()
 
 
+class ForPeople(unittest.TestCase):
+    def test_results_are_saved_as_the_command_line_writes_them(self):
+        for result, command, extensions in (
+                (body.field(), ["fetch", "{}", "field"], (".vti", ".csv")),
+                (body.skeleton(), ["skeleton", "{}"], (".vtp", ".ply", ".stl", ".csv")),
+                (body.skeleton("chords", .01, barrier=True), ["skeleton", "{}", "--operator", "chords", "--threshold", .01,
+                                                              "--barrier"], (".ply",)),
+                (body.skeleton_points("sobel"), ["skeleton", "{}", "--operator", "sobel"], (".csv",)),
+                (body.eroded(fraction=.05), ["erode", "{}", "--fraction", .05], (".off",)),
+                (body.eroded_points(volume=2e9), ["erode", "{}", "--volume", 2e9, "--as", "points"], (".xyz",)),
+                (body.measures(3), ["measure", "{}", "--threshold", 3], (".json", ".csv"))):
+            for extension in extensions:
+                theirs, ours = directory / f"theirs{extension}", directory / f"ours{extension}"
+                directory.client(*[str(word).format(body.id) for word in command], "-o", theirs)
+                self.assertEqual(result.save(ours), ours)
+                self.assertTrue(ours.read_bytes() == theirs.read_bytes(), (command, extension))
+        with self.assertRaisesRegex(affskel.UsageError, r"'\.foo'; possible are"):
+            body.field().save(directory / "field.foo")
+        with self.assertRaisesRegex(affskel.UsageError, "does not come from a job"):
+            affskel.Surface(np.zeros((0, 3)), np.zeros((0, 3), int)).save(directory / "s.vtp")
+
+    def test_every_result_is_told_in_a_line(self):
+        for result, words in ((body, f"<affskel.Job {body.id[:12]} 'body', done>"), (body.field(), "of [0-9]+ points, 500 dir"),
+                              (body.lattice(), "[0-9]+ x [0-9]+ x [0-9]+, [0-9]+ points inside"),
+                              (body.skeleton(), "triangles, [0-9]+ segments with E, "), (body.measures(), "of [0-9]+ parts, vol"),
+                              (body.skeleton_points(), "Points, [0-9]+ with E, normal, direction, H")):
+            self.assertRegex(repr(result), words)
+            self.assertLess(len(repr(result)), 160)
+
+    def test_status_has_report_and_warnings_of_the_command_line(self):
+        coarse = client.submit(directory / "body.off", points=400, operator="zucker-hummel", threshold=14).wait()
+        server_said = directory.client_notes("watch", coarse.id)
+        warnings_said = [line[9:] for line in server_said.splitlines() if line.startswith("warning: ")]
+        ours = coarse.status().warnings
+        self.assertEqual(len(ours), len(warnings_said), (ours, warnings_said))
+        for one, theirs in zip(ours, warnings_said):
+            self.assertEqual(one.split(";")[0], theirs.split(";")[0])
+        self.assertEqual(body.status().quality["components"], 1)
+        self.assertIsNone(body.status().remaining)
+
+    def test_the_module_shows_what_is_public_and_documents_it(self):
+        self.assertEqual(set(dir(affskel)), {*affskel.__all__, "__doc__", "__version__"})
+        for name in affskel.__all__:
+            self.assertGreater(len(getattr(affskel, name).__doc__ or ""), 20, name)
+        for function in (affskel.submit, affskel.jobs):
+            self.assertIn("Args:", function.__doc__)
+            self.assertIn(">>> ", function.__doc__)
+
+    @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "no python3-matplotlib")
+    def test_plots_have_the_triangles_and_the_places(self):
+        import matplotlib
+        matplotlib.use("Agg")
+        sheet = body.skeleton()
+        axes = sheet.plot()
+        triangles, lines = axes.collections
+        self.assertEqual(len(triangles.get_array()), len(sheet))
+        self.assertEqual(len(lines._segments3d), len(sheet.segments))
+        assert_same(np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()]).T,
+                    np.array([sheet.vertices.min(axis=0), sheet.vertices.max(axis=0)]))
+        axes.figure.savefig(directory / "sheet.png")
+        image, = body.field().plot().images
+        self.assertEqual(np.nanmax(image.get_array()), body.field().E.max())
+        self.assertEqual(len(body.skeleton("curve").plot().collections), 1)
+
+
 class SameMesh(unittest.TestCase):
     """However a mesh is given, its field is the same."""
 
@@ -410,7 +476,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(frame.shape, (len(field), 9))
         self.assertEqual(frame["E"].max(), field.E.max())
         self.assertEqual(self.pandas.DataFrame(body.skeleton("chords").table()).shape[1], 12)
-        jobs = self.pandas.DataFrame(client.jobs())
+        jobs = self.pandas.DataFrame(job.seen for job in client.jobs())
         self.assertIn(body.id, set(jobs["id"]))
         self.assertEqual(self.pandas.DataFrame(body.events())["event"][0], "submitted")
 

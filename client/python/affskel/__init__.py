@@ -3,7 +3,7 @@
     import affskel
     job = affskel.submit("body.off", spacing=200).wait()
     field = job.field()                        # points, E, normals, slope, direction: NumPy arrays
-    sheet = job.skeleton(operator="chords")    # vertices, faces, attributes
+    sheet = job.skeleton()                     # vertices, faces, segments of curves, attributes; .plot(), .save("s.vtp")
     solid = job.eroded(fraction=.05)           # the solid where E is at least 5 % of the volume
     limbs = job.measures()                     # lengths, volumes, radii of its parts; .table(), .graph(), .thickness
     job.view()                                 # in a notebook: the body and its skeleton to turn
@@ -17,7 +17,7 @@ from __future__ import annotations
 import os
 import threading
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, TypeVar
 
 from ._arrays import Field, Lattice, Points, Surface
 from ._client import Client
@@ -42,6 +42,7 @@ try:
 except PackageNotFoundError:  # not installed
     __version__ = "unknown"
 
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 _lock = threading.Lock()
 _client: Optional[Client] = None
 
@@ -64,26 +65,38 @@ def _default_client() -> Client:
         return _client
 
 
+def _as_in_client(method: Callable[..., Any]) -> Callable[[_Function], _Function]:
+    """The function's documentation is the method's."""
+    def document(function: _Function) -> _Function:
+        function.__doc__ = method.__doc__
+        return function
+    return document
+
+
+def __dir__() -> List[str]:
+    return sorted([*__all__, "__doc__", "__version__"])
+
+
+@_as_in_client(Client.submit)
 def submit(mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
            directions: str = "triangles", frame: str = "axis", operator: str = "ridge",
            threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
            repair: str = "auto") -> Job:
-    """See Client.submit."""
     return _default_client().submit(mesh, spacing=spacing, points=points, directions=directions, frame=frame,
                                     operator=operator, threshold=threshold, name=name, priority=priority,
                                     request_id=request_id, repair=repair)
 
 
+@_as_in_client(Client.job)
 def job(job: str) -> Job:
-    """See Client.job."""
     return _default_client().job(job)
 
 
-def jobs(*, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Status]:
-    """See Client.jobs."""
+@_as_in_client(Client.jobs)
+def jobs(*, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Job]:
     return _default_client().jobs(state=state, owner=owner, limit=limit)
 
 
+@_as_in_client(Client.server_info)
 def server_info() -> Dict[str, Any]:
-    """See Client.server_info."""
     return _default_client().server_info()

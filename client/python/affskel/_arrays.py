@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from ._errors import InternalError
 from ._messages import plain
+from ._saving import Saveable
 from .v1 import types_pb2 as types
 
 Floats = npt.NDArray[np.float64]
@@ -42,7 +43,7 @@ def _columns(points: Floats, names: str = "x y z") -> Table:
     return {name: points[:, axis] for axis, name in enumerate(names.split())}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Lattice:
     """The lattice whose points inside the solid are the R sample points.
 
@@ -60,6 +61,9 @@ class Lattice:
 
     def __len__(self) -> int:
         return len(self.inside)
+
+    def __repr__(self) -> str:
+        return f"<affskel.Lattice {' x '.join(map(str, self.dims))}, {len(self)} points inside>"
 
     @property
     def is_axis_parallel(self) -> bool:
@@ -97,8 +101,8 @@ class Lattice:
         return grid.reshape(nx, ny, nz, *array.shape[1:])
 
 
-@dataclass(frozen=True, eq=False)
-class Field:
+@dataclass(frozen=True, eq=False, repr=False)
+class Field(Saveable):
     """The erosion level E at the sample points.
 
     Attributes:
@@ -125,6 +129,9 @@ class Field:
     def __len__(self) -> int:
         return len(self.E)
 
+    def __repr__(self) -> str:
+        return f"<affskel.Field of {len(self)} points, {len(self.directions)} directions, E up to {self.E.max(initial=0):.6g}>"
+
     @property
     def share(self) -> Floats:
         """(R,) E as a share of v0."""
@@ -134,6 +141,16 @@ class Field:
         """Columns as in the CSV of affskel-client, and the slope: for `pandas.DataFrame(field.table())`."""
         return {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz"),
                 "direction": self.direction, "slope": self.slope}
+
+    def plot(self, **options: Any) -> Any:
+        """Shows E, by pyvista where that is installed, else by matplotlib, whose axes it returns: the slice across the
+        shortest axis with the greatest E.
+
+        Args:
+            options: for pyvista's `plot`, or matplotlib's `imshow`.
+        """
+        from ._plot import plot_field
+        return plot_field(self, **options)
 
     def to_pyvista(self) -> Any:
         """The whole lattice with the arrays E, E_share, slope, normal, direction and inside.
@@ -148,8 +165,8 @@ class Field:
         return field_dataset(self)
 
 
-@dataclass(frozen=True, eq=False)
-class Points:
+@dataclass(frozen=True, eq=False, repr=False)
+class Points(Saveable):
     """Points of a skeleton, or of an eroded solid.
 
     Attributes:
@@ -172,6 +189,9 @@ class Points:
     def __len__(self) -> int:
         return len(self.points)
 
+    def __repr__(self) -> str:
+        return f"<affskel.Points, {len(self)} with {', '.join(self.attributes())}>"
+
     def attributes(self) -> Table:
         """Arrays by point."""
         arrays = {"E": self.E, "normal": self.normals, "direction": self.direction, "H": self.H}
@@ -191,8 +211,8 @@ class Points:
         return points_dataset(self.points, self.attributes())
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(Saveable):
     """A triangulated skeleton, or the surface of an eroded solid.
 
     Attributes:
@@ -220,6 +240,22 @@ class Surface:
 
     def __len__(self) -> int:
         return len(self.faces)
+
+    def __repr__(self) -> str:
+        return (f"<affskel.Surface of {len(self.vertices)} vertices, {len(self)} triangles, {len(self.segments)} segments"
+                + (f" with {', '.join(self.attributes)}>" if self.attributes else ">"))
+
+    def plot(self, **options: Any) -> Any:
+        """Shows it, by pyvista where that is installed, else by matplotlib, whose axes it returns.
+
+        Args:
+            options: for pyvista's `plot`, or matplotlib's `plot_trisurf`.
+
+        Example:
+            >>> job.skeleton().plot().figure.savefig("skeleton.png")
+        """
+        from ._plot import plot_surface
+        return plot_surface(self, **options)
 
     def table(self) -> Table:
         """The vertices, columns as in the files of affskel-client: for `pandas.DataFrame(surface.table())`."""

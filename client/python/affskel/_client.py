@@ -3,17 +3,19 @@ from __future__ import annotations
 
 import getpass
 import hashlib
+import numbers
 import os
 from typing import Any, Dict, List, Optional
 
-from ._errors import LimitError, UsageError
+from ._checks import require_closed, require_points
+from ._errors import BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
 from ._messages import plain, value_of_word, word
 from ._programs import run_program
 from ._session import Session
 from ._settings import PathLike, choose
-from ._status import Status, status_of
+from ._status import status_of
 from .v1 import client_service_pb2 as service
 from .v1 import types_pb2 as types
 
@@ -32,6 +34,23 @@ def _user_name() -> str:
         return getpass.getuser()
     except (KeyError, OSError):  # no entry for the user
         return str(os.geteuid())
+
+
+def _number(value: object, what: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise UsageError(f"{what} is a number" + (", in units of the mesh" if what == "spacing" else "") + f", not {value!r}")
+    return float(value)
+
+
+def _check(mesh: Mesh, spacing: Optional[float]) -> None:
+    """What a worker would say of the mesh much later."""
+    assert mesh.polygons is not None
+    try:
+        require_closed(mesh.polygons)
+        if spacing is not None:
+            require_points(mesh.polygons, _number(spacing, "spacing"))
+    except BadInputError as error:
+        raise BadInputError(error.message, file=mesh.file) from None
 
 
 class Client:
@@ -77,7 +96,7 @@ class Client:
                repair: str = "auto") -> Job:
         """Submits a mesh.  The same mesh and parameters give the same job, computed once.
 
-        The server checks the mesh: one that bounds no solid is told by `Job.wait`, as BadMeshError.
+        A mesh with holes is refused at once; what else bounds no solid is told by `Job.wait`, as BadMeshError.
 
         Args:
             mesh: a path (OFF; other formats are read by the installed affskel-client), OFF text as bytes, a pair of
@@ -94,13 +113,19 @@ class Client:
 
         Raises:
             UsageError: an argument is wrong.
-            BadInputError: the arrays are no mesh, or affskel-client could not read the file.
+            BadInputError: the arrays are no mesh, it has holes, the spacing leaves no points in it, or affskel-client
+                could not read the file.
             LimitError: the mesh, or what the owner has, exceeds a limit.
             OSError: the file cannot be read.
+
+        Example:
+            >>> job = affskel.submit("body.off", points=100000).wait()
         """
         if spacing is not None and points is not None:
             raise UsageError("spacing and points exclude each other")
         given = mesh_of(mesh)
+        if given.polygons is not None:
+            _check(given, spacing)
         header = self._header(given, spacing, points, directions, frame, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
         header.name = name if name is not None else _short(given.name, MAX_NAME)
@@ -112,24 +137,28 @@ class Client:
             return self._submit_file(given.file, header, operator)
         self._complete(header, given.text)
         response = self._session.submit(header, given.text)
-        return Job(self._session, response.job.id, response.existed, given.file)
+        return Job(self._session, response.job.id, response.existed, given.file, status_of(response.job))
 
     def job(self, job: str) -> Job:
         """A job by its id, a unique prefix of at least 6 characters, or "@last", the caller's own last one."""
-        return Job(self._session, self._session.get_job(job).id)
+        known = self._session.get_job(job)
+        return Job(self._session, known.id, seen=status_of(known))
 
-    def jobs(self, *, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Status]:
-        """Jobs, newest first.
+    def jobs(self, *, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Job]:
+        """Jobs, newest first; `seen` is the status of each.
 
         Args:
             state: "queued", "running", "done", "failed" or "cancelled"; None = all.
             owner: None = all that the caller may see.
             limit: how many at most.
+
+        Example:
+            >>> pandas.DataFrame(job.seen for job in affskel.jobs(state="done"))
         """
         request = service.ListJobsRequest(owner=owner or "")
         if state is not None:
             request.states.append(value_of_word(types.JobState, state, "state"))
-        return [status_of(job) for job in self._session.list_jobs(request, limit)]
+        return [Job(self._session, job.id, seen=status_of(job)) for job in self._session.list_jobs(request, limit)]
 
     def server_info(self) -> Dict[str, Any]:
         """Version, workers and queue of the server, by the names of ServerInfo in the contract."""
@@ -140,12 +169,12 @@ class Client:
                 repair: str) -> service.SubmitJobHeader:
         header = service.SubmitJobHeader()
         if spacing is not None:
-            if not 0 < spacing < float("inf"):
+            if not 0 < _number(spacing, "spacing") < float("inf"):
                 raise UsageError(f"the spacing {spacing} is not above 0")
             header.params.sampling.spacing = spacing
         else:
             wanted = DEFAULT_POINTS if points is None else points
-            if not 1 <= wanted <= MAX_POINTS or int(wanted) != wanted:
+            if not 1 <= _number(wanted, "points") <= MAX_POINTS or int(wanted) != wanted:
                 raise UsageError(f"the number of points {wanted} is not 1 .. 2^31")
             header.params.sampling.target_points = int(wanted)
         header.params.directions = directions

@@ -54,7 +54,7 @@ class UsageError(AffskelError, ValueError):
 
 
 class BadInputError(AffskelError, ValueError):
-    """The mesh cannot be used."""
+    """The mesh cannot be used, or not with this spacing."""
 
     code = "BAD_INPUT"
     exit_code = 3

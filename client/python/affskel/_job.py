@@ -13,6 +13,7 @@ from ._measures import Measures, measures_of
 from ._messages import plain, value_of_word
 from ._programs import page
 from ._progress import ProgressBar
+from ._saving import Result, with_origin
 from ._session import Session
 from ._status import Status, status_of
 from ._view import View
@@ -30,6 +31,16 @@ def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> type
             raise UsageError(f"the threshold {threshold} is not above 0")
         params.threshold = threshold
     return params
+
+
+def _skeleton_options(operator: Optional[str], threshold: Optional[float]) -> List[str]:
+    """As affskel-client takes them."""
+    options = [] if operator is None else ["--operator", operator]
+    return options if threshold is None else [*options, "--threshold", repr(float(threshold))]
+
+
+def _level_options(fraction: Optional[float], volume: Optional[float]) -> List[str]:
+    return ["--volume", repr(volume)] if fraction is None else ["--fraction", repr(fraction)]
 
 
 def _argument(value: str) -> str:
@@ -50,16 +61,22 @@ class Job:
     Attributes:
         id: 32 hexadecimal digits.
         existed: of a job just submitted, whether the same was submitted before, so that this is that job.
+        seen: the last status that this object has met; None = none yet.
     """
 
-    def __init__(self, session: Session, job: str, existed: bool = False, file: str = "") -> None:
+    def __init__(self, session: Session, job: str, existed: bool = False, file: str = "",
+                 seen: Optional[Status] = None) -> None:
         self._session = session
         self._file = file  # that its mesh comes from, for messages
         self.id = job
         self.existed = existed
+        self.seen = seen
 
     def __repr__(self) -> str:
-        return f"affskel.Job({self.id!r})"
+        if self.seen is None:
+            return f"<affskel.Job {self.id[:12]}>"
+        state = self.seen.state if self.seen.state != "running" else f"running, {self.seen.share_done:.0%}"
+        return f"<affskel.Job {self.id[:12]} {self.seen.name!r}, {state}>"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Job) and self.id == other.id
@@ -70,8 +87,8 @@ class Job:
     # ---- Its life.
 
     def status(self) -> Status:
-        """The job as it is now."""
-        return status_of(self._session.get_job(self.id))
+        """The job as it is now: state, progress, time left, report and warnings."""
+        return self._see(self._session.get_job(self.id))
 
     def progress(self, *, timeout: Optional[float] = None) -> Iterator[Status]:
         """Its status now and after every change, until a final one; goes on across restarts of the server.
@@ -80,7 +97,7 @@ class Job:
             timeout: seconds for the whole; then TimedOutError.
         """
         for job in self._session.watch(self.id, timeout):
-            yield status_of(job)
+            yield self._see(job)
 
     def wait(self, *, timeout: Optional[float] = None, progress: Optional[bool] = None) -> "Job":
         """Follows the job to its end.
@@ -100,7 +117,7 @@ class Job:
         last: Optional[types.Job] = None
         with ProgressBar(progress) as bar:
             for last in self._session.watch(self.id, timeout):
-                bar.show(status_of(last))
+                bar.show(self._see(last))
         if last is None:
             raise InternalError("the server told no state of the job")
         if last.state == types.JOB_STATE_FAILED:
@@ -111,11 +128,11 @@ class Job:
 
     def cancel(self) -> Status:
         """Stops it, its progress kept; workers stop at their next report."""
-        return status_of(self._session.cancel(self.id))
+        return self._see(self._session.cancel(self.id))
 
     def resume(self) -> Status:
         """Goes on with a job that was cancelled or failed; computes results anew that retention has removed."""
-        return status_of(self._session.resume(self.id))
+        return self._see(self._session.resume(self.id))
 
     def delete(self) -> None:
         """Removes a job that is done, failed or cancelled, with all that belongs to it."""
@@ -135,7 +152,8 @@ class Job:
         """
         job = self._session.get_job(self.id)
         data = self._bytes(service.ARTIFACT_KIND_FIELD, timeout)
-        return field_of(self.lattice(timeout=timeout), self.directions(timeout=timeout), data, job.prepared.volume)
+        field = field_of(self.lattice(timeout=timeout), self.directions(timeout=timeout), data, job.prepared.volume)
+        return self._saveable(field, "fetch", self.id, "field")
 
     def lattice(self, *, timeout: Optional[float] = None) -> Lattice:
         """The sample points alone; there as soon as the mesh is prepared."""
@@ -170,7 +188,10 @@ class Job:
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         surface = surface_of(message)
         self._warn_if_empty("surface of the skeleton", len(surface) + len(surface.segments), message.quality)
-        return surface
+        options = _skeleton_options(operator, threshold)
+        for option, value in (("--alpha", alpha), ("--min-barrier", min_barrier)):
+            options += [] if value is None else [option, repr(float(value))]
+        return self._saveable(surface, "skeleton", self.id, *options, *(["--barrier"] if barrier else []))
 
     def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
                         timeout: Optional[float] = None) -> Points:
@@ -183,7 +204,7 @@ class Job:
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
         points = points_of(message)
         self._warn_if_empty("skeleton", len(points), message.quality)
-        return points
+        return self._saveable(points, "skeleton", self.id, "--as", "points", *_skeleton_options(operator, threshold))
 
     def divergence(self, operator: Optional[str] = None, *, timeout: Optional[float] = None) -> Floats:
         """(R,) the operator's H at every sample point, of which the threshold keeps some.
@@ -208,7 +229,7 @@ class Job:
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, fraction, volume)
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.corners), message.quality)
-        return surface_of(message)
+        return self._saveable(surface_of(message), "erode", self.id, "--as", "surface", *_level_options(fraction, volume))
 
     def eroded_points(self, fraction: Optional[float] = None, volume: Optional[float] = None, *,
                       timeout: Optional[float] = None) -> Points:
@@ -216,7 +237,7 @@ class Job:
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_POINTS, fraction, volume)
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.point), message.quality)
-        return points_of(message)
+        return self._saveable(points_of(message), "erode", self.id, "--as", "points", *_level_options(fraction, volume))
 
     def measures(self, threshold: Optional[float] = None, *, timeout: Optional[float] = None) -> Measures:
         """The solid in its limbs: lengths, volumes, radii, angles, and which part each triangle and sample point is of.
@@ -229,7 +250,8 @@ class Job:
         """
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_PARTS,
                                                skeleton=skeleton_params("curve", threshold))
-        return measures_of(types.SolidParts.FromString(self._fetched(request, timeout)))
+        measures = measures_of(types.SolidParts.FromString(self._fetched(request, timeout)))
+        return self._saveable(measures, "measure", self.id, *_skeleton_options(None, threshold))
 
     def mesh(self, *, timeout: Optional[float] = None) -> bytes:
         """The OFF text that was submitted, unchanged."""
@@ -243,10 +265,14 @@ class Job:
             height: of the frame, CSS pixels.
         """
         self._chosen(operator, threshold)  # the same errors as elsewhere
-        options = [] if operator is None else ["--operator", operator]
-        if threshold is not None:
-            options += ["--threshold", repr(float(threshold))]
-        return View(page(self._session.reached(), self.id, options), height)
+        return View(page(self._session.reached(), self.id, _skeleton_options(operator, threshold)), height)
+
+    def _see(self, job: types.Job) -> Status:
+        self.seen = status_of(job)
+        return self.seen
+
+    def _saveable(self, result: Result, *command: str) -> Result:
+        return with_origin(result, self._session.reached(), *command)
 
     def _chosen(self, operator: Optional[str], threshold: Optional[float]) -> Optional[types.SkeletonParams]:
         """None = the job's own skeleton.  A threshold alone is for the job's operator."""

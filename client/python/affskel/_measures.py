@@ -9,6 +9,7 @@ import numpy as np
 from ._arrays import Floats, Ints, Surface, Table, surface_of
 from ._errors import InternalError
 from ._messages import word
+from ._saving import Saveable
 from .v1 import types_pb2 as types
 
 # Columns of a table, and what the contract calls them.
@@ -16,8 +17,8 @@ NUMBERS = ("length", "straight_length", "volume", "volume_share", "surface_area"
            "greatest_radius", "angle")
 
 
-@dataclass(frozen=True, eq=False)
-class Measures:
+@dataclass(frozen=True, eq=False, repr=False)
+class Measures(Saveable):
     """The solid, parted by the branches of its curve skeleton.  p parts, m triangles, R sample points.
 
     Parts count from 1: row 0 of every array is part 1, the one with the greatest volume; volumes that are about equal
@@ -55,7 +56,7 @@ class Measures:
         return len(self.kinds)
 
     def __repr__(self) -> str:
-        return f"<affskel.Measures of {len(self)} parts>"
+        return f"<affskel.Measures of {len(self)} parts, volume {self.whole['volume']:.6g}>"
 
     def table(self) -> Table:
         """A row for each part, for `pandas.DataFrame(measures.table())`."""

@@ -8,6 +8,7 @@ from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
+from ._checks import Polygons, polygons_of_off
 from ._errors import BadInputError
 
 # Read by affskel-client, which knows more formats by the year; everything else is OFF text.
@@ -22,6 +23,7 @@ class Mesh(NamedTuple):
     name: str  # for people
     text: Optional[bytes]  # OFF; None = affskel-client must read the file
     file: str = ""  # where it comes from, if from a file
+    polygons: Optional[Polygons] = None  # of the text, as far as they could be read here
 
 
 def mesh_of(mesh: MeshLike) -> Mesh:
@@ -37,14 +39,17 @@ def mesh_of(mesh: MeshLike) -> Mesh:
         OSError: the file cannot be read.
     """
     if isinstance(mesh, bytes):
-        return Mesh("mesh", mesh)
+        return Mesh("mesh", mesh, "", polygons_of_off(mesh))
     if isinstance(mesh, (str, os.PathLike)):
         path = Path(mesh)
         if path.suffix.lower() in OFF_SUFFIXES:
-            return Mesh(path.stem, path.read_bytes(), str(path))
+            text = path.read_bytes()
+            return Mesh(path.stem, text, str(path), polygons_of_off(text))
         with path.open("rb"):  # the same error as for OFF when it is not there
             return Mesh(path.stem, None, str(path.absolute()))
-    return Mesh("mesh", off_text(*_arrays_of(mesh)))
+    points, faces = _arrays_of(mesh)
+    text = off_text(points, faces)
+    return Mesh("mesh", text, "", Polygons(np.asarray(points, np.float64), faces) if any(map(len, faces)) else None)
 
 
 def _arrays_of(mesh: Any) -> Tuple[Any, List[npt.NDArray[np.int64]]]:

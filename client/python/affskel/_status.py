@@ -1,11 +1,11 @@
 """What a server says of a job."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime, timezone
-from typing import Optional, Tuple
+from typing import Any, Iterator, Mapping, Optional, Tuple
 
-from ._messages import word
+from ._messages import plain, word
 from .v1 import types_pb2 as types
 
 
@@ -24,7 +24,7 @@ class Note:
 
 @dataclass(frozen=True)
 class Status:
-    """A job at one moment.  `pandas.DataFrame(affskel.jobs())` is a table of them.
+    """A job at one moment.  `pandas.DataFrame(job.seen for job in affskel.jobs())` is a table of them.
 
     Attributes:
         id: 32 hexadecimal digits.
@@ -37,6 +37,10 @@ class Status:
         skeleton_points: of the job's own skeleton, when done.
         reason: why it failed, why it does not run, or why its skeleton is empty.
         notes: what was found in the mesh.
+        warnings: what to know of a job that is done, in the words of affskel-client: of its mesh, its lattice and its
+            skeleton.
+        quality: the report of its skeleton, when done, by the names of SkeletonQuality in the contract; else empty.
+        remaining: seconds until all directions are done, an estimate; None = not known, or done.
         created, started, finished: UTC; None = not yet.
         removed: when retention removed the results; None = they are there.
     """
@@ -55,6 +59,9 @@ class Status:
     skeleton_points: int
     reason: str
     notes: Tuple[Note, ...]
+    warnings: Tuple[str, ...]
+    quality: Mapping[str, Any] = field(repr=False)
+    remaining: Optional[float]
     created: Optional[datetime]
     started: Optional[datetime]
     finished: Optional[datetime]
@@ -73,6 +80,25 @@ class Status:
         return self.directions_done / self.directions_total if self.directions_total else 0.0
 
 
+COARSE_LATTICE = 2000  # sample points, below which a skeleton is told to be coarse
+
+
+def _warnings(job: types.Job) -> Iterator[str]:
+    if job.state != types.JOB_STATE_DONE:
+        return
+    quality, prepared = job.quality, job.prepared
+    if quality.advice:
+        yield f"the skeleton: {quality.advice}"
+    yield from (note.message for note in prepared.notes if note.severity == "warning")
+    if job.skeleton_points == 0:
+        return
+    if prepared.points < COARSE_LATTICE:
+        yield f"the lattice is coarse, {prepared.points} points in the solid; take a smaller spacing than {prepared.spacing:.3g}"
+    if quality.components > quality.solid_components:
+        yield (f"the skeleton is in {quality.components} pieces, the solid in {quality.solid_components}; a smaller spacing or "
+               "threshold may join them")
+
+
 def status_of(job: types.Job) -> Status:
     prepared = job.prepared
     reason = job.error.message or job.waiting_reason or job.quality.advice
@@ -82,5 +108,7 @@ def status_of(job: types.Job) -> Status:
         directions_done=job.directions_done, directions_total=job.directions_total, points=prepared.points,
         spacing=prepared.spacing, volume=prepared.volume, skeleton_points=job.skeleton_points, reason=reason,
         notes=tuple(Note(note.severity, note.code, note.message) for note in prepared.notes),
+        warnings=tuple(_warnings(job)), quality=plain(job.quality) if job.HasField("quality") else {},
+        remaining=job.remaining_ms / 1000 if job.HasField("remaining_ms") else None,
         created=_time(job.created_ms), started=_time(job.started_ms), finished=_time(job.finished_ms),
         removed=_time(job.removed_ms), pinned=job.pinned, mesh_sha256=job.mesh_sha256)

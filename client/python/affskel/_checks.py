@@ -1,0 +1,71 @@
+"""What of a mesh is told before anything is sent: that it is open, and that a spacing is not one of its unit."""
+from __future__ import annotations
+
+from typing import List, NamedTuple, Optional, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from ._arrays import Floats, Ints
+from ._errors import BadInputError
+
+
+class Polygons(NamedTuple):
+    """Vertices (n, 3), and faces as arrays (m, k), one for each number k of corners."""
+
+    points: Floats
+    faces: Sequence[Ints]
+
+
+def polygons_of_off(text: bytes) -> Optional[Polygons]:
+    """Of plain OFF text, all of whose faces have as many corners; None for any other, which the server reads."""
+    head, _, rest = text.partition(b"\n")
+    if head.strip() != b"OFF" or b"#" in rest:
+        return None
+    words = rest.split()
+    try:
+        vertices, faces = int(words[0]), int(words[1])
+        numbers = np.array(words[3:], np.float64)
+        corners = int(numbers[3 * vertices])
+    except (ValueError, IndexError):
+        return None
+    table = numbers[3 * vertices:]
+    if vertices < 1 or faces < 1 or len(table) != faces * (corners + 1) or corners < 3:
+        return None
+    rows = table.reshape(faces, corners + 1).astype(np.int64)
+    if (rows[:, 0] != corners).any() or rows[:, 1:].min() < 0 or rows[:, 1:].max() >= vertices:
+        return None
+    return Polygons(numbers[:3 * vertices].reshape(-1, 3), [rows[:, 1:]])
+
+
+def require_closed(mesh: Polygons) -> None:
+    """Every edge needs two faces, where vertices at one place are one, as they are for the server.
+
+    Raises:
+        BadInputError: with the number of open edges and a place.
+    """
+    places, which = np.unique(mesh.points, axis=0, return_inverse=True)
+    which = which.reshape(-1)
+    edges: List[npt.NDArray[np.int64]] = []
+    for group in mesh.faces:
+        corners = which[group]
+        sides = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
+        edges.append(np.sort(sides[sides[:, 0] != sides[:, 1]], axis=1))
+    sides, count = np.unique(np.concatenate(edges), axis=0, return_counts=True)
+    alone = sides[count == 1]
+    if len(alone):
+        a, b = (tuple(float(x) for x in places[vertex]) for vertex in alone[0])
+        raise BadInputError(f"the mesh does not bound a solid: {len(alone)} open edges (one face only), for example from "
+                            f"{a} to {b}; close its holes first, MeshLab and Blender do")
+
+
+def require_points(mesh: Polygons, spacing: float) -> None:
+    """A lattice needs a few points.
+
+    Raises:
+        BadInputError: with the size of the mesh.
+    """
+    size = np.ptp(mesh.points, axis=0)
+    if spacing > size.max() / 2:
+        raise BadInputError(f"the spacing {spacing:.6g} leaves no room for sample points: the mesh measures "
+                            + " x ".join(f"{side:.3g}" for side in size) + " units")

@@ -1,0 +1,60 @@
+"""Results as pictures, by pyvista where it is installed, else by matplotlib."""
+from __future__ import annotations
+
+import importlib.util
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._errors import UsageError
+
+if TYPE_CHECKING:
+    from ._arrays import Field, Surface
+
+
+def _axes(**options: Any) -> Any:
+    if importlib.util.find_spec("matplotlib") is None:
+        raise UsageError("plot() needs pyvista or matplotlib")
+    from matplotlib import pyplot
+    return pyplot.figure().add_subplot(**options)
+
+
+def plot_surface(surface: "Surface", **options: Any) -> Any:
+    """By pyvista its plotter's answer; by matplotlib the axes, triangles coloured by their mean E, curves in red."""
+    if importlib.util.find_spec("pyvista") is not None:
+        return surface.to_pyvista().plot(**options)
+    axes = _axes(projection="3d")
+    from mpl_toolkits.mplot3d.art3d import Line3DCollection
+    places = surface.vertices
+    if len(surface.faces):
+        triangles = axes.plot_trisurf(*places.T, triangles=surface.faces, cmap="viridis", **options)
+        if "E" in surface.attributes:
+            triangles.set_array(surface.attributes["E"][surface.faces].mean(axis=1))
+            axes.figure.colorbar(triangles, ax=axes, label="E, mesh units cubed", shrink=.7)
+    if len(surface.segments):
+        axes.add_collection3d(Line3DCollection(places[surface.segments], colors="tab:red"))
+    if len(places):
+        low, high = places.min(axis=0), places.max(axis=0)
+        for set_limits, begin, end in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), low, high):
+            set_limits(begin, end)
+        axes.set_box_aspect(np.maximum(high - low, 1e-3 * np.ptp(places, axis=0).max()))
+    return axes
+
+
+def plot_field(field: "Field", **options: Any) -> Any:
+    """By pyvista its plotter's answer; by matplotlib the axes, with the slice of the lattice across its shortest axis
+    that has the greatest E."""
+    if importlib.util.find_spec("pyvista") is not None:
+        return field.to_pyvista().plot(**{"scalars": "E", **options})
+    grid = field.lattice.dense(field.E)
+    lengths = [count * np.linalg.norm(step) for count, step in zip(field.lattice.dims, field.lattice.axes)]
+    across = int(np.argmin(lengths))
+    at = int(np.unravel_index(field.lattice.inside[np.argmax(field.E)], field.lattice.dims)[across])
+    first, second = (axis for axis in range(3) if axis != across)
+    axes = _axes()
+    image = axes.imshow(np.take(grid, at, axis=across).T, origin="lower",
+                        **{"extent": (0, lengths[first], 0, lengths[second]), **options})
+    axes.set_xlabel(f"along lattice axis {first}, mesh units")
+    axes.set_ylabel(f"along lattice axis {second}, mesh units")
+    axes.figure.colorbar(image, ax=axes, label="E, mesh units cubed")
+    return axes
