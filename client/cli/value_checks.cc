@@ -66,6 +66,15 @@ CLI::Validator share_or_all() {
   return share_check(true, "above 0 and at most 1");
 }
 
+CLI::Validator positive_number_or_share() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        std::string copy = text;
+        return text.ends_with('%') ? proper_share()(copy) : positive_number()(copy);
+      },
+      "");
+}
+
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
   return CLI::Validator(
       [low, high](std::string& text) -> std::string {

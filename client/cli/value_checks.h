@@ -13,6 +13,8 @@ namespace affskel::client {
 CLI::Validator one_of(std::vector<std::string> words);
 /// A finite number above 0.
 CLI::Validator positive_number();
+/// The same, or a share between 0 and 1 with its sign: "1%".
+CLI::Validator positive_number_or_share();
 /// "0.1" or "10%", above 0 and below 1; rewrites it to a number.
 CLI::Validator proper_share();
 /// The same where all of it (100%) may be meant.

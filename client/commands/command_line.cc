@@ -30,7 +30,10 @@ std::string exit_codes_text() {
 
 CommandLine::CommandLine() {
   app_.name("affskel-client");
-  app_.description("Affine skeletons of closed triangle meshes: submit, follow, fetch.");
+  app_.description(
+      "Affine skeletons: the thin surface in the middle of what a closed triangle mesh bounds, which hardly\n"
+      "reacts to noise and follows affine maps. To see a shape's inside, measure its limbs, compare or pose\n"
+      "it. Begin with: affskel-client submit body.off -o results");
   app_.set_version_flag("--version", std::string("affskel-client ") + wire::kVersion);
   app_.fallthrough();  // global options may also follow the command
   app_.require_subcommand(1);

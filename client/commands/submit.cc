@@ -3,6 +3,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
+#include "client/cli/number_parsers.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/follow.h"
@@ -21,6 +23,7 @@ struct SubmitOptions {
   bool wait = false;
   std::string output_dir;  // empty = fetch nothing; otherwise implies wait
   Submission asked;
+  std::string spacing;  // mesh units, or a share of the mesh's length in %
   std::string repair = "auto";
 };
 
@@ -62,9 +65,19 @@ nlohmann::ordered_json paths_of(const std::vector<Fetched>& files) {
   return paths;
 }
 
+// "180", or "1%" of the longest side of the solid's box.
+double spacing_of(const std::string& text, const core::Solid& solid) {
+  if (text.empty()) return 0;
+  return text.ends_with('%') ? *parse_share(text) * longest_side(solid) : std::stod(text);
+}
+
 // What a worker would refuse, before anything is sent.  Returns what was said of the mesh.
-Notices check_mesh(const InputFile& input, const Submission& submission, Console& console) {
+// @param submission gets the spacing.
+Notices check_mesh(const InputFile& input, const std::string& spacing, Submission& submission,
+                   Console& console) {
   const core::Solid solid = check_solid(input, submission.repair);
+  submission.spacing = spacing_of(spacing, solid);
+  if (spacing.ends_with('%')) console.note("spacing " + base::to_text(submission.spacing));
   check_submission(solid, input, submission);
   Notices notices = solid_notices(solid, input);
   say(console, notices);
@@ -77,14 +90,14 @@ void run_submit(Context& context, const SubmitOptions& options) {
   say(console, conversion_notices(input));
   Submission asked = options.asked;
   asked.repair = options.repair == "auto";
-  const Notices said = check_mesh(input, asked, console);
+  const Notices said = check_mesh(input, options.spacing, asked, console);
   prepare_output_dir(options.output_dir);
   const Submitted submitted = submit(context.session(), context.environment(), input, asked);
   v1::Job job = submitted.job;
   console.result(job.id() + "\n");
   say(console, reuse_notices(submitted));
   const bool wait = options.wait || !options.output_dir.empty();
-  if (wait) job = follow(context, job.id(), false);
+  if (wait) job = follow(context, job.id(), false, !options.output_dir.empty());
   nlohmann::ordered_json document = to_json(job);
   document["existed"] = submitted.existed;
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
@@ -105,14 +118,16 @@ void add_following_options(CLI::App* command, SubmitOptions& o) {
 }
 
 void add_field_options(CLI::App* command, SubmitOptions& o) {
-  CLI::Option* spacing = command->add_option("--spacing", o.asked.spacing, "Lattice spacing in mesh units")
-                             ->check(positive_number())
-                             ->type_name("DT");
-  command->add_option("--points", o.asked.points, "Aim at this many sample points")
-      ->check(whole_number(1, kMaxPoints))
-      ->capture_default_str()
-      ->type_name("R")
-      ->excludes(spacing);
+  CLI::Option* points = command->add_option("--points", o.asked.points, "Aim at this many sample points")
+                            ->check(whole_number(1, kMaxPoints))
+                            ->capture_default_str()
+                            ->type_name("R");
+  command
+      ->add_option("--spacing", o.spacing,
+                   "Lattice spacing instead: in mesh units, or as a share of the mesh's length: 1%")
+      ->check(positive_number_or_share())
+      ->type_name("DT")
+      ->excludes(points);
   command->add_option("--directions", o.asked.directions, "triangles, sphere:N, random:N:SEED, joined by +")
       ->check(direction_set())
       ->capture_default_str()
@@ -152,7 +167,8 @@ void add_submit(CommandLine& line) {
   SubmitOptions& o = *options;
   CLI::App* command =
       line.add("submit", "Check a mesh and submit it; prints the job id",
-               "  affskel-client submit body.off --spacing 200 -o OUT\n"
+               "  affskel-client submit body.off -o OUT\n"
+               "  affskel-client submit body.off --spacing 200 --wait       # in the mesh's units; or 1%\n"
                "  affskel-client submit cube.off --points 50000 --directions triangles+sphere:1000 --wait\n"
                "  JOB=$(affskel-client submit body.off --name subject-7)\n"
                "  affskel-client make torus -o - | affskel-client submit - --wait",

@@ -28,6 +28,12 @@ ExitCode exit_code_of(grpc::StatusCode code) {
   }
 }
 
+// So ends a connection in the clear to a server that speaks TLS.
+std::string tls_hint(const std::string& server, const std::string& detail) {
+  if (server.starts_with("unix:") || detail.find("Socket closed") == std::string::npos) return "";
+  return "; if it speaks TLS, name who signed its certificate: --tls-ca";
+}
+
 }  // namespace
 
 ClientError error_from_status(const grpc::Status& status, const std::string& server, ExitCode not_yet) {
@@ -37,7 +43,7 @@ ClientError error_from_status(const grpc::Status& status, const std::string& ser
   switch (status.error_code()) {
     case grpc::StatusCode::UNAVAILABLE:
     case grpc::StatusCode::CANCELLED:
-      return {code, "cannot reach the server at " + server + ": " + detail};
+      return {code, "cannot reach the server at " + server + ": " + detail + tls_hint(server, detail)};
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {code, "the server at " + server + " did not answer in time"};
     case grpc::StatusCode::UNIMPLEMENTED:

@@ -15,6 +15,11 @@
 #include "wire/sha256.h"
 
 namespace affskel::client {
+double longest_side(const core::Solid& solid) {
+  const core::Vec3 size = solid.bbox_max - solid.bbox_min;
+  return std::max({size.x, size.y, size.z});
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,7 +85,7 @@ std::string size_text(const core::Vec3& size, double longest) {
 // A lattice of a few points has no skeleton: mostly the spacing is meant in another unit than the mesh has.
 void require_some_points(const core::Solid& solid, const InputFile& input, double spacing) {
   const core::Vec3 size = solid.bbox_max - solid.bbox_min;
-  const double longest = std::max({size.x, size.y, size.z});
+  const double longest = longest_side(solid);
   if (spacing <= 0.5 * longest) return;
   const double good = std::cbrt(solid.volume / 1e5);
   throw ClientError(ExitCode::kBadInput,

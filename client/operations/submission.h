@@ -27,6 +27,9 @@ struct Submission {
   bool repair = true;
 };
 
+/// Of the solid's box parallel to the axes, mesh units.
+double longest_side(const core::Solid& solid);
+
 /// Checks what a worker would refuse of lattice and directions, before anything is sent.
 /// @throws ClientError kBadInput or kLimit.
 void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission);

@@ -63,15 +63,24 @@ struct Layout {
   }
 };
 
-Layout lay_out(const std::vector<Shown>& views, int width, double highest, const RenderInput& input,
+// The E of the last colour.
+double highest_of(const RenderInput& input) {
+  double highest = 0;
+  for (const double e : input.skeleton.erosion()) highest = std::max(highest, e);
+  for (const double e : input.sheet.erosion()) highest = std::max(highest, e);
+  return highest;
+}
+
+Layout lay_out(const std::vector<Shown>& views, const RenderOptions& options, const RenderInput& input,
                Legend& legend) {
   Layout layout;
+  const int width = options.width;
   layout.text = std::max(6.0, width / 110.0);
   layout.margin = std::max(4, width / 50);
-  layout.head = static_cast<int>(4 * layout.text);
-  layout.label = 2.4 * layout.text;
+  layout.head = options.bare ? 0 : static_cast<int>(4 * layout.text);
+  layout.label = options.bare ? 0 : 2.4 * layout.text;
   legend.text = layout.text;
-  legend.scale = input.painted ? input.painted->scale : erosion_scale(highest, input.volume);
+  legend.scale = input.painted ? input.painted->scale : erosion_scale(highest_of(input), input.volume);
   if (input.painted) {
     legend.title = input.painted->title;
     legend.rows = input.painted->rows;
@@ -80,17 +89,9 @@ Layout lay_out(const std::vector<Shown>& views, int width, double highest, const
   std::vector<Block> blocks;
   for (const Shown& shown : views)
     blocks.push_back({shown.width, shown.height, 0.5 * layout.margin, layout.label + 0.5 * layout.margin});
-  blocks.push_back({0, 0, legend.width(), legend.height() + 0.5 * layout.margin});
+  if (!options.bare) blocks.push_back({0, 0, legend.width(), legend.height() + 0.5 * layout.margin});
   layout.arrangement = arrange(blocks, width - 2.0 * layout.margin, kTallest * width, layout.margin);
   return layout;
-}
-
-// The E of the last colour.
-double highest_of(const RenderInput& input) {
-  double highest = 0;
-  for (const double e : input.skeleton.erosion()) highest = std::max(highest, e);
-  for (const double e : input.sheet.erosion()) highest = std::max(highest, e);
-  return highest;
 }
 
 void paste(Image& image, const Image& part, int left, int top) {
@@ -174,6 +175,7 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   const ScreenPoint at = layout.place(which);
   paste(image, panel.resolve(options.background), static_cast<int>(at.x),
         static_cast<int>(at.y + layout.label));
+  if (options.bare) return;
   // A name that is longer than the body is wide reaches into the gaps beside it, or is written smaller.
   const double room = width + layout.margin, needed = text_width(shown.name, layout.text);
   const double size = layout.text * std::min(1.0, room / needed);
@@ -207,9 +209,10 @@ Image render_scene(const RenderInput& input, const RenderOptions& options) {
   for (const Camera& camera : options.cameras) views.push_back(shown_by(camera, input));
   Legend legend;
   legend.ink = ink_on(options.background);
-  const Layout layout = lay_out(views, options.width, highest_of(input), input, legend);
+  const Layout layout = lay_out(views, options, input, legend);
   Image image(options.width, layout.height(), options.background);
   for (std::size_t v = 0; v < views.size(); ++v) draw_view(image, input, options, layout, views[v], v);
+  if (options.bare) return image;
   draw_title(image, layout, input.title, legend.ink.strong);
   draw_legend(image, legend, layout.place(views.size()), layout.scale());
   return image;

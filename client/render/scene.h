@@ -18,6 +18,7 @@ struct RenderOptions {
   int width = 1600;                               ///< pixels, 200 .. 8000; the height follows from the shape
   std::vector<Camera> cameras = usual_cameras();  ///< one view each, 1 .. 6
   bool mesh = true;                               ///< draw the body
+  bool bare = false;                              ///< without title, names and scales, for small pictures
   Rgb background = kWhite;
 };
 

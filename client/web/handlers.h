@@ -26,5 +26,6 @@ http::Response submit_mesh(WebCall& call);
 
 http::Response make_result(WebCall& call);  ///< an artefact, a picture or the interactive page
 http::Response send_result(WebCall& call);
+http::Response send_thumbnail(WebCall& call);  ///< a small picture of a done job
 
 }  // namespace affskel::client

@@ -7,15 +7,17 @@
 #include "client/operations/job_notices.h"
 #include "client/operations/page.h"
 #include "client/operations/picture.h"
+#include "client/render/scene.h"
 #include "client/text/message_json.h"
 #include "client/view/page.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
+#include "wire/params.h"
 
 namespace affskel::client {
 namespace {
 
-constexpr int kPictureWidth = 1600;
+constexpr int kPictureWidth = 1600, kThumbnailWidth = 200;
 
 // As browsers name them; what has none is bytes.
 std::string type_of(const std::string& extension) {
@@ -88,16 +90,29 @@ struct Made {
   nlohmann::ordered_json facts = nlohmann::ordered_json::object();
 };
 
-Made make_picture(Session& server, const nlohmann::json& body, const std::string& job,
+// @param look of the picture: what options say beside the skeleton.
+std::shared_ptr<const Picture> drawn(WebState& web, Session& server, const v1::Job& job,
+                                     const PictureOptions& options, const std::string& look) {
+  const std::string key = job.id() + " " + std::to_string(job.finished_ms()) + " " +
+                          wire::cache_key(skeleton_params(options.skeleton, job)) + " " + look;
+  if (auto kept = web.pictures.find(key)) return kept;
+  auto picture = std::make_shared<const Picture>(make_picture(server, job, options));
+  web.pictures.put(key, picture);
+  return picture;
+}
+
+Made make_picture(WebState& web, Session& server, const nlohmann::json& body, const std::string& job,
                   const std::filesystem::path& path) {
+  const std::string background = text_member(body, "background", "white");
   PictureOptions options;
   options.skeleton = skeleton_member(body);
   options.render.width = kPictureWidth;
+  options.render.background = parse_background(background);
   Made made{finished_job(server, job), {}};
-  Picture picture = make_picture(server, made.job, options);
-  write_whole(path, picture.png);
-  made.notices = std::move(picture.notices);
-  made.facts["shown"] = picture.shown;
+  const auto picture = drawn(web, server, made.job, options, background);
+  write_whole(path, picture->png);
+  made.notices = picture->notices;
+  made.facts["shown"] = picture->shown;
   return made;
 }
 
@@ -105,7 +120,12 @@ Made make_view(Session& server, const nlohmann::json& body, const std::string& j
                const std::filesystem::path& path) {
   const SkeletonChoice skeleton = skeleton_member(body);
   Made made{finished_job(server, job), {}};
-  Page page = make_page(server, {{made.job, skeleton_params(skeleton, made.job)}});
+  std::vector<ViewSubject> subjects = {{made.job, skeleton_params(skeleton, made.job)}};
+  if (const std::string beside = text_member(body, "beside"); !beside.empty()) {
+    const v1::Job other = finished_job(server, beside);
+    subjects.push_back({other, skeleton_params(skeleton, other)});
+  }
+  Page page = make_page(server, subjects);
   write_whole(path, page.html);
   made.notices = std::move(page.notices);
   return made;
@@ -158,7 +178,7 @@ http::Response make_result(WebCall& call) {
   const std::string extension = extension_for(artifact, text_member(body, "format"));
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(extension));
   Session server = call.server();
-  Made made = artifact == "picture" ? make_picture(server, body, call.argument, file->path())
+  Made made = artifact == "picture" ? make_picture(call.web, server, body, call.argument, file->path())
               : artifact == "view"  ? make_view(server, body, call.argument, file->path())
                                     : make_artifact(server, body, call.argument, artifact, file->path());
   nlohmann::ordered_json answer = std::move(made.facts);
@@ -179,6 +199,21 @@ http::Response send_result(WebCall& call) {
   if (!result->policy.empty()) response.headers.emplace_back("Content-Security-Policy", result->policy);
   response.file = result->file->path();
   response.held = result;
+  return response;
+}
+
+http::Response send_thumbnail(WebCall& call) {
+  Session server = call.server();
+  const v1::Job job = finished_job(server, call.argument);
+  const std::string background = call.request.parameter("background");
+  PictureOptions options;
+  options.render.width = kThumbnailWidth;
+  options.render.cameras = {parse_camera("front")};
+  options.render.bare = true;
+  options.render.background = parse_background(background.empty() ? "white" : background);
+  http::Response response;
+  response.headers = {{"Content-Type", "image/png"}};
+  response.body = drawn(call.web, server, job, options, "thumbnail " + background)->png;
   return response;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/web/backend.h"
+#include "client/web/picture_cache.h"
 #include "client/web/private_folder.h"
 #include "client/web/request_guard.h"
 #include "client/web/shelf.h"
@@ -51,6 +52,8 @@ struct WebState {
   PrivateFolder folder;  // above the files in it
   Shelf<ResultFile> results{{12, 1024, std::uint64_t{16} << 30, std::chrono::hours(1)}};
   Shelf<UploadedMesh> meshes{{2, 256, std::uint64_t{1} << 30, std::chrono::hours(2)}};
+
+  PictureCache pictures{std::uint64_t{64} << 20};
 
   /// Forgets all that belongs to a session.
   void end_session(const std::string& id) {

@@ -32,7 +32,7 @@ Examples:
   affskel-server check --data-dir data
   affskel-server backup --data-dir data -o affskel-backup.db
   affskel-server migrate --data-dir data
-  affskel-server token add --data-dir data --owner ada --expires 90d
+  affskel-server token add --data-dir data --owner ada --expires 90d -o ada.token
   affskel-server --data-dir data --listen 0.0.0.0:7060 --tls-cert server.pem --tls-key server.key
 
 SIGTERM and SIGINT drain: nothing more is leased, workers report and give their leases back, exit 0.
@@ -95,8 +95,8 @@ All work beside a running server and without one; the first token may be made be
 server that was ever given a token asks TCP callers for one. Of a token only its hash is kept.
 
 Examples:
-  affskel-server token add --data-dir /var/lib/affskel --owner ada --expires 90d > ada.token
-  affskel-server token add --data-dir /var/lib/affskel --owner cluster --role worker > worker.token
+  affskel-server token add --data-dir /var/lib/affskel --owner ada --expires 90d -o ada.token
+  affskel-server token add --data-dir /var/lib/affskel --owner cluster --role worker -o worker.token
   affskel-server token list --data-dir /var/lib/affskel
   affskel-server token revoke --data-dir /var/lib/affskel 3
 
@@ -295,6 +295,9 @@ void add_token_commands(CLI::App& app, Options& options) {
          "--expires", [&options](const std::string& text) { options.expires = duration_of(text); },
          "It is good for so long: a number of s, m, h, d or w; default: until it is revoked")
       ->type_name("TIME");
+  add->add_option("-o,--output", options.output,
+                  "A new file for it, which nobody else may read; default: the standard output")
+      ->type_name("FILE");
   add_command(app, *token, options, "list", "List the tokens, without what they are", Command::kTokenList)
       ->footer(kTokenFooter);
   CLI::App* revoke =

@@ -37,7 +37,7 @@ struct Options {
   std::string log_level = "info";
   bool json = false;                            ///< of the commands: one JSON document instead of lines
   bool repair = false;                          ///< of check
-  std::string output;                           ///< of backup
+  std::string output;                           ///< of backup and token add
   bool force = false;                           ///< of backup
   std::string owner;                            ///< of token add
   v1::Role role = v1::ROLE_USER;                ///< of token add

@@ -1,14 +1,18 @@
 #include "process/token_command.h"
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "access/token.h"
@@ -72,26 +76,59 @@ Json json_of(const TokenRow& token, std::int64_t now_ms) {
           {"last_used_ms", time(token.last_used_ms)}};
 }
 
+/// A new file with a token, written before the token counts, so that none is lost; gone again unless it is kept.
+class TokenFile {
+ public:
+  /// @throws std::system_error when it exists, or cannot be written.
+  TokenFile(const std::string& path, const std::string& token) : path_(path) {
+    const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (fd < 0) fail("cannot make");
+    const std::string line = token + "\n";
+    const bool written =
+        write(fd, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && fsync(fd) == 0;
+    if (close(fd) == 0 && written) return;
+    unlink(path_.c_str());
+    fail("cannot write");
+  }
+  TokenFile(const TokenFile&) = delete;
+  TokenFile& operator=(const TokenFile&) = delete;
+  ~TokenFile() {
+    if (!kept_) unlink(path_.c_str());
+  }
+  void keep() { kept_ = true; }
+
+ private:
+  [[noreturn]] void fail(const char* what) const {
+    throw std::system_error(errno, std::generic_category(), std::string(what) + " the token's file " + path_);
+  }
+
+  std::string path_;
+  bool kept_ = false;
+};
+
 }  // namespace
 
 base::ExitCode add_token_command(const Options& options, const Console& console) {
   TokenDatabase db(options.data_dir, true);
   const std::string token = new_token();
+  std::optional<TokenFile> file;
+  if (!options.output.empty()) file.emplace(options.output, token);
   const std::int64_t now = unix_ms();
   std::optional<std::int64_t> expires;
   if (options.expires) expires = now + std::chrono::milliseconds(*options.expires).count();
   const std::int64_t id = add_token(*db, token, options.owner, options.role, now, expires);
+  if (file) file->keep();
   if (console.json()) {
-    console.result({{"token", token},
+    console.result({{"token", file ? Json() : Json(token)},
                     {"id", id},
                     {"owner", options.owner},
                     {"role", wire::word(options.role)},
                     {"expires_ms", expires ? Json(*expires) : Json()}});
   } else {
-    console.print(token + "\n");
+    if (!file) console.print(token + "\n");
     console.note("token " + std::to_string(id) + " of " + base::quoted(options.owner) + ", role " +
                  wire::word(options.role) + ", good until " + time_text(expires, "it is revoked") +
-                 "; it is not shown again");
+                 (file ? ", in " + options.output : "; it is not shown again"));
   }
   return base::ExitCode::kDone;
 }

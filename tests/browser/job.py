@@ -38,7 +38,7 @@ class Job:
         return len(self.skeleton_rows(threshold))
 
     def skeleton_rows(self, threshold):
-        self.run("skeleton", self.id, "--threshold", str(threshold), "-o", self.path("s.csv"))
+        self.run("skeleton", self.id, "--operator", "zucker-hummel", "--threshold", str(threshold), "-o", self.path("s.csv"))
         return self.rows("s.csv")
 
     def eroded(self, share):

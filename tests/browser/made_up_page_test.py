@@ -307,7 +307,8 @@ class Two(MadeUpPage):
     def test_has_a_slider_for_each_kind_of_skeleton_and_names_both(self):
         self.assertEqual(len(self.page.state()["thresholds"]), 2)
         self.assertEqual(self.page.element("threshold-name").text, "Shock threshold A")
-        self.assertEqual(self.page.element("threshold-name-2").text, "Sheet pieces B")
+        self.assertFalse(self.page.element("threshold-range-2").is_displayed(), "the sheet is one piece")
+        self.assertEqual(self.page.element("threshold-count-2").text, "16 triangles in one piece")
         self.page.type_number("threshold-field", 9.5)
         self.page.wait(lambda s: s["shown"][0] == 0 and s["shown"][1] == 16)
         names = [e.text for e in self.driver.find_elements("class name", "pane-name")]

@@ -140,6 +140,117 @@ class Desktop(OnThePage):
         self.page.wait(lambda: any("eroded" in e.text for e in self.page.all(".card [role=status]")) or
                        self.page.all(".card .error:not([hidden])"))
 
+    def test_wrong_parameters_are_refused_beside_their_fields(self):
+        page = self.page
+        self.submit_body(3000, "wrong")
+        page.shown("summary").click()
+        page.type("#download-threshold", -3)
+        page.find("button[data-file='skeleton.csv']").click()
+        refusal = "The threshold must be a number above 0"
+        page.wait(lambda: refusal in page.find("details .error").text)
+        row = page.find("button[data-file='skeleton.csv']").find_element("xpath", "ancestor::*[@class='artefact']")
+        page.wait(lambda: refusal in row.text)
+        page.type("#download-threshold", 3)
+        page.type("#download-level", 150)
+        page.find("#download-threshold").click()
+        page.wait(lambda: "above 0 and below 100 %" in page.find("details .error").text)
+        # Picture and turning view are by the same parameters as the files.
+        page.type("#download-level", 10)
+        page.find("#download-threshold").click()
+        page.wait(lambda: any("threshold 3" in e.text for e in page.all(".card [role=status]")))
+        self.assertFalse(page.find("details .error").is_displayed())
+
+    def test_back_and_escape_close_the_turning_view(self):
+        page = self.page
+        self.submit_body(2000, "closed")
+        for close in ("back", "escape", "escape within"):
+            page.shown("#interactive").click()
+            frame = page.shown("dialog iframe")
+            page.driver.switch_to.frame(frame)
+            page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
+            if close == "escape within":
+                page.find("#canvas").send_keys(Keys.ESCAPE)
+            page.driver.switch_to.default_content()
+            if close == "back":
+                page.driver.back()
+            elif close == "escape":
+                page.find("#close-interactive").send_keys(Keys.ESCAPE)
+            page.wait(lambda: not page.all("dialog"))
+            self.assertIn("#job/", page.driver.current_url)
+            page.heading("closed")
+
+    def test_a_job_again_with_other_parameters_and_beside_the_first(self):
+        page = self.page
+        self.submit_body(3000, "first")
+        first = page.driver.current_url.split("/")[-1]
+        page.shown("#again").click()
+        page.heading("New job")
+        page.picture_is_drawn("#found img")
+        self.assertEqual(page.find("#name").get_attribute("value"), "first")
+        page.type("#points", 3000)
+        page.shown("#submit").click()
+        page.wait(lambda: "The same was submitted before" in page.text())
+        page.type("#points", 2000)
+        page.shown("#submit").click()
+        page.heading("first")
+        page.skeleton_is_drawn()
+        self.assertNotEqual(page.driver.current_url.split("/")[-1], first)
+        page.shown("#beside").click()
+        page.wait(lambda: page.all(f"#beside option[value='{first}']"))[0].click()
+        page.shown("#interactive").click()
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown"))
+        self.assertEqual(page.script("return affskel.state().shown.length"), 2)
+        page.driver.switch_to.default_content()
+        page.screenshot("desktop-9-beside")
+        page.shown("#close-interactive").click()
+
+    def test_several_files_become_a_job_each(self):
+        page = self.page
+        page.shown("a.button[href='#new']").click()
+        with open(bench.path("nothing.off"), "w", encoding="ascii"):
+            pass
+        page.wait(lambda: page.all("#file"))[0].send_keys(
+            "\n".join(bench.path(name) for name in ("box.off", "nothing.off", "open.off")))
+        page.wait(lambda: len(page.all("#several li")) == 3 and "sending" not in page.find("#several").text)
+        texts = [line.text for line in page.all("#several li")]
+        self.assertRegex(texts[0], "^box (is submitted|was there already)$")
+        self.assertEqual(texts[1], "nothing.off: the file is empty")
+        self.assertIn("open edges", texts[2])
+        page.screenshot("desktop-10-several")
+        self.choose("nothing.off")
+        page.wait(lambda: "nothing.off cannot be read: the file is empty" in page.text())
+        page.script("location.hash = '#jobs'")
+        page.heading("Jobs")
+        page.wait(lambda: "box" in page.text())
+
+    def test_the_list_is_searched_ordered_and_cleaned(self):
+        page = self.page
+        names = ["zebra one", "zebra two", "ape"]
+        ids = [bench.run("submit", bench.path("box.off"), "--points", str(500 + 300 * n), "--name", name, "--wait").strip()
+               for n, name in enumerate(names)]
+        cards = [f"#job-{job}" for job in ids]
+        shown = lambda: [name for name, card in zip(names, cards) if page.all(card) and page.find(card).is_displayed()]
+        page.wait(lambda: shown() == names)
+        page.type("#search", "ZEBRA")
+        page.wait(lambda: shown() == names[:2])
+        page.find("#state option[value=running]").click()
+        page.wait(lambda: shown() == [] and "No job shown here is like that." in page.text())
+        page.find("#state option[value='']").click()
+        page.find("#order option[value=points]").click()
+        page.wait(lambda: [e.text for e in page.all(".job h2 a") if e.is_displayed()] == ["zebra two", "zebra one"])
+        page.wait(lambda: len([e for e in page.all(".thumbnail") if e.is_displayed()]) == 2)
+        page.screenshot("desktop-11-list")
+        for card in cards[:2]:
+            page.find(card + " input").click()
+        page.wait(lambda: "2 jobs selected" in page.text())
+        page.shown("#delete-selected").click()
+        page.shown("dialog .danger").click()
+        page.wait(lambda: not any(page.all(card) for card in cards[:2]))
+        page.find("#search").clear()
+        page.find("#search").send_keys(" ")
+        page.wait(lambda: shown() == ["ape"])
+
     def test_turns_the_skeleton(self):
         self.submit_body(8000, "turned")
         self.page.shown("#interactive").click()

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tools/test_authority.h"
 #include "lab.h"
+#include "tools/test_authority.h"
 
 namespace affskel::integration {
 namespace {
@@ -19,11 +20,27 @@ class SharedServerTest : public testing::Test {
 
   /// Makes a token and keeps it in a file of its owner's name; returns it.
   std::string add_token(const std::string& owner, const std::string& role = "user") const {
-    const Output made = lab_.run({AFFSKEL_SERVER_BINARY, "token", "add", "--data-dir", lab_.path("data"),
-                                  "--owner", owner, "--role", role});
+    const std::string file = lab_.path(owner + ".token");
+    const std::vector<std::string> command = {AFFSKEL_SERVER_BINARY,
+                                              "token",
+                                              "add",
+                                              "--data-dir",
+                                              lab_.path("data"),
+                                              "--owner",
+                                              owner,
+                                              "--role",
+                                              role,
+                                              "-o",
+                                              file};
+    const Output made = lab_.run(command);
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    lab_.write(owner + ".token", made.out);
-    return made.out.substr(0, made.out.find('\n'));
+    EXPECT_EQ(made.out, "") << "it is in its file alone";
+    EXPECT_EQ(std::filesystem::status(file).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    const std::string token = lab_.read(owner + ".token");
+    EXPECT_NE(lab_.run(command).exit_code, 0) << "no token is written over";
+    EXPECT_EQ(lab_.read(owner + ".token"), token);
+    return token.substr(0, token.find('\n'));
   }
 
   /// Serves TLS on a port of loopback, beside the lab's own socket.
@@ -54,6 +71,13 @@ class SharedServerTest : public testing::Test {
   tests::TestAuthority authority_;
   std::string address_;
 };
+
+TEST_F(SharedServerTest, WhoComesInTheClearIsToldOfTls) {
+  const Process server = start_server();
+  const Output refused = lab_.run({AFFSKEL_CLIENT_BINARY, "--server", address_, "list"});
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_NE(refused.err.find("--tls-ca"), std::string::npos) << refused.err;
+}
 
 TEST_F(SharedServerTest, PeopleAndWorkersComeByTlsAndTokens) {
   const std::string adas = add_token("ada");

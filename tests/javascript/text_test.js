@@ -64,10 +64,10 @@ test('progress, with pace and time left while directions are eroded', () => {
   const job = { ...kJob, state: 'running', stage: 'erode', directions_total: 2000, directions_done: 1000 };
   assert.equal(progress(job, null), '1,000 of 2,000 directions');
   assert.equal(
-    progress(job, { perSecond: 9.87, left: 61 }),
-    '1,000 of 2,000 directions, 9.9 per second, 1 min 01 s left',
+    progress({ ...job, remaining_ms: 61000 }, { perSecond: 9.87 }),
+    '1,000 of 2,000 directions, 9.9 per second, about 1 min 01 s left',
   );
-  assert.equal(progress({ ...job, stage: 'derive' }, { perSecond: 1, left: 1 }), '1,000 of 2,000 directions');
+  assert.equal(progress({ ...job, stage: 'derive' }, { perSecond: 1 }), '1,000 of 2,000 directions');
   assert.equal(progress({ ...job, state: 'done' }, null), '');
   assert.equal(progress(kJob, null), '');
 });

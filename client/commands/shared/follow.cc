@@ -14,14 +14,16 @@
 
 namespace affskel::client {
 
-v1::Job follow(Context& context, const std::string& job, bool stream) {
+v1::Job follow(Context& context, const std::string& job, bool stream, bool writes) {
   ProgressView view(context.console());
   std::string told_for;
   v1::Job last = context.session().watch(job, [&](const v1::Job& now) {
     if (told_for != now.id()) {
       told_for = now.id();
-      set_interrupt_message("\njob " + now.id() + " goes on; follow it again with: " +
-                            context.next_command("watch " + now.id()) + "\n");
+      set_interrupt_message(
+          "\njob " + now.id() + " goes on; " +
+          (writes ? "the same command again follows it and writes its files\n"
+                  : "follow it again with: " + context.next_command("watch " + now.id()) + "\n"));
     }
     view.update(now);
     if (stream) context.console().document(to_json(now));

@@ -9,7 +9,8 @@ namespace affskel::client {
 
 /// Follows the job to a final state, showing progress.
 /// @param stream in JSON mode, print every state as a document of its own.
-v1::Job follow(Context& context, const std::string& job, bool stream);
+/// @param writes files at the end, of which a person who interrupts is told.
+v1::Job follow(Context& context, const std::string& job, bool stream, bool writes = false);
 
 /// The result of a command that changed a job: its state, or in JSON mode all of it.
 void show_state(Console& console, const v1::Job& job);

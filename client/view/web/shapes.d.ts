@@ -110,6 +110,7 @@ interface Skeleton {
   high: number;
   first: number;
   keeps(value: number, least: number): boolean;
+  choice: boolean;
   describe(shown: number, least: number): string;
   at(ray: Ray): Found | null;
   show(threshold: number): number;

@@ -62,6 +62,7 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
     // Joining and placing may have split off pieces below the operator's threshold: then 0, the whole sheet.
     first: shares.every((share) => share >= threshold) ? threshold : 0,
     keeps: (value, least) => value >= least,
+    choice: shares.length > 1, // of one piece there is nothing to drop
     describe(elements, least) {
       let triangles = 0;
       for (let place = 0; place < elements; ++place) triangles += sheet.isTriangle(place) ? 1 : 0;
@@ -108,6 +109,7 @@ function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highe
     low: Math.max(lowestThreshold, threshold / 10),
     first: threshold,
     keeps: (value, least) => value > least,
+    choice: true,
     describe: (points) => `${whole(points)} skeleton points`,
     at(ray) {
       const p = cloud.pick(ray);

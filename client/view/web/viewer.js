@@ -188,6 +188,7 @@ export class Viewer {
       changed: () => this.applyThreshold(threshold),
     });
     const threshold = { group, slider, count: section.querySelector('output') };
+    for (const part of section.querySelectorAll('label, input')) part.hidden = !group.some((model) => model.skeleton.choice);
     return threshold;
   }
 
@@ -264,6 +265,8 @@ export class Viewer {
     if (event.target.matches('input, select') || event.ctrlKey || event.metaKey || event.altKey) return;
     if (view) this.stage.show(view);
     if (event.key === '0') this.reset();
+    // What shows this page over another closes it then; here nothing is told but the key.
+    if (event.key === 'Escape' && window.parent !== window) window.parent.postMessage('affskel-escape', '*');
   }
 
   reset() {

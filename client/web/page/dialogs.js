@@ -37,6 +37,7 @@ export function confirmed(question, detail, yes) {
  * @param {string} name
  */
 export function showInteractive(href, name) {
+  const frame = h('iframe', { src: href, sandbox: 'allow-scripts allow-downloads', allow: 'fullscreen *', title: `${name}: body and skeleton` });
   const dialog = h(
     'dialog',
     { class: 'full', 'aria-label': `${name}, to turn` },
@@ -47,9 +48,20 @@ export function showInteractive(href, name) {
       h('a', { href, target: '_blank', rel: 'noopener' }, 'Open in a tab of its own'),
       h('button', { type: 'button', id: 'close-interactive', onclick: () => dialog.close(), autofocus: true }, 'Close'),
     ),
-    h('iframe', { src: href, sandbox: 'allow-scripts allow-downloads', allow: 'fullscreen *', title: `${name}: body and skeleton` }),
+    frame,
   );
-  dialog.addEventListener('close', () => dialog.remove());
+  // Back closes it, and so does Escape within the page, which tells so: keys that it hears are not heard here.
+  const hear = (event) => event.source === frame.contentWindow && event.data === 'affskel-escape' && dialog.close();
+  const back = () => dialog.close();
+  window.addEventListener('message', hear);
+  window.addEventListener('popstate', back);
+  history.pushState({ shown: 'interactive' }, '');
+  dialog.addEventListener('close', () => {
+    window.removeEventListener('message', hear);
+    window.removeEventListener('popstate', back);
+    if (history.state?.shown === 'interactive') history.back();
+    dialog.remove();
+  });
   document.body.append(dialog);
   dialog.showModal();
 }

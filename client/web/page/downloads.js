@@ -13,10 +13,22 @@ function save(result) {
   link.remove();
 }
 
-/** The card of files, with what they are made by. */
+// A number of a field, 0 for an empty one; null for one that cannot be.
+function numberIn(field, most) {
+  if (field.value.trim() === '' && !field.validity.badInput) return 0;
+  const value = Number(field.value);
+  return !field.validity.badInput && value > 0 && value < most ? value : null;
+}
+
+/** The card of files, with what they are made by; picture and interactive page are made by the same. */
 export class Downloads {
-  constructor(job) {
+  /**
+   * @param {string} job
+   * @param {() => void} changed other parameters, all of which can be
+   */
+  constructor(job, changed) {
     this.job = job;
+    this.changed = changed;
     this.operator = h(
       'select',
       { id: 'download-operator' },
@@ -27,6 +39,8 @@ export class Downloads {
     this.level = h('input', { id: 'download-level', type: 'number', min: 0, max: 100, step: 'any', inputmode: 'decimal', value: 10 });
     this.status = h('p', { class: 'small', role: 'status' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
+    this.wrong = h('p', { class: 'error', role: 'alert', hidden: true });
+    for (const field of [this.operator, this.threshold, this.level]) field.addEventListener('change', () => this.check());
     this.element = h(
       'section',
       { class: 'card' },
@@ -35,7 +49,7 @@ export class Downloads {
       h(
         'details',
         {},
-        h('summary', {}, 'Other parameters, without eroding again'),
+        h('summary', {}, 'Other parameters, without eroding again: of picture, turning view and files'),
         h(
           'div',
           { class: 'fields' },
@@ -43,6 +57,7 @@ export class Downloads {
           h('div', {}, h('label', { for: 'download-threshold' }, 'Threshold'), this.threshold),
           h('div', {}, h('label', { for: 'download-level' }, 'Erosion level, % of the volume'), this.level),
         ),
+        this.wrong,
       ),
       this.status,
       this.problem,
@@ -51,7 +66,7 @@ export class Downloads {
 
   row(artefact) {
     const [title, what] = kArtefacts[artefact.name] || [artefact.name, ''];
-    return h(
+    const row = h(
       'div',
       { class: 'artefact' },
       h('p', {}, h('strong', {}, title), ` ${what}`),
@@ -59,26 +74,40 @@ export class Downloads {
         'div',
         { class: 'row wrap', role: 'group', 'aria-label': `${title} as` },
         artefact.formats.map((format) =>
-          button(format, () => this.fetch(artefact.name, format), {
+          button(format, () => this.fetch(artefact.name, format, row), {
             'aria-label': `${title} as ${format}`,
             'data-file': artefact.name + format,
           }),
         ),
       ),
     );
+    return row;
   }
 
+  // What the fields say.  Throws with what is wrong.
   parameters() {
-    const threshold = parseFloat(this.threshold.value);
-    const level = parseFloat(this.level.value);
-    return {
-      operator: this.operator.value,
-      threshold: threshold > 0 ? threshold : 0,
-      fraction: level > 0 && level < 100 ? level / 100 : 0,
-    };
+    const threshold = numberIn(this.threshold, Infinity);
+    if (threshold === null) throw new Error('The threshold must be a number above 0, or empty for the usual one.');
+    const level = numberIn(this.level, 100);
+    if (level === null) throw new Error('The erosion level must be above 0 and below 100 % of the volume.');
+    return { operator: this.operator.value, threshold, fraction: level / 100 };
   }
 
-  async fetch(artefact, format) {
+  // Tells what is wrong beside the fields; else what is shown is made anew.
+  check() {
+    try {
+      this.parameters();
+      this.wrong.hidden = true;
+      this.changed();
+    } catch (error) {
+      this.wrong.textContent = error.message;
+      this.wrong.hidden = false;
+    }
+  }
+
+  // What is told of a file stands below its buttons.
+  async fetch(artefact, format, row) {
+    row.append(this.status, this.problem);
     this.problem.hidden = true;
     this.status.textContent = 'The file is being made …';
     try {
@@ -94,9 +123,9 @@ export class Downloads {
   }
 
   // An address of the picture or of the interactive page.
-  async made(artefact) {
+  async made(artefact, more = {}) {
     announce('A moment, it is being made.');
     const { operator, threshold } = this.parameters();
-    return call('POST', jobPath(this.job, '/results'), { artefact, operator, threshold });
+    return call('POST', jobPath(this.job, '/results'), { artefact, operator, threshold, ...more });
   }
 }

@@ -65,6 +65,7 @@ export class JobView {
     this.results = h('div', { class: 'results' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.history = new History(id);
+    this.drawn = 0; // how often the picture was asked for
     this.element = h(
       'section',
       {},
@@ -128,11 +129,12 @@ export class JobView {
         (job.state === 'cancelled' || job.state === 'failed' || isRemoved(job)) && button('Resume', () => this.act('POST', '/resume'), { id: 'resume', class: 'primary' }),
         !job.pinned && job.expires_ms > 0 && button('Keep', () => this.act('POST', '/pin'), { id: 'pin' }),
         job.pinned && button('Keep no longer', () => this.act('POST', '/unpin'), { id: 'unpin' }),
+        ended && h('a', { class: 'button', id: 'again', href: `#new/${job.id}` }, 'Again with other parameters'),
         ended && button('Delete', () => this.remove(), { id: 'delete', class: 'danger' }),
       ].filter(Boolean),
     );
     // The button that was pressed may be another now.
-    if (held !== null) (this.actions.querySelector('button') || this.heading).focus();
+    if (held !== null) (this.actions.querySelector('button, a') || this.heading).focus();
   }
 
   async act(method, rest) {
@@ -170,12 +172,14 @@ export class JobView {
 
   /** @param {Job} job */
   showResults(job) {
-    const downloads = new Downloads(this.id);
+    const downloads = new Downloads(this.id, () => this.drawPicture(downloads, picture, waiting));
     const picture = h('img', { class: 'picture', alt: `${job.name}: the body and its skeleton from the front, the side and above`, hidden: true });
     const waiting = h('p', { class: 'small', role: 'status' }, 'The picture is being drawn …');
-    const interactive = button('Turn it', () => this.openInteractive(downloads, waiting), { id: 'interactive', class: 'primary' });
+    const beside = h('select', { id: 'beside', 'aria-label': 'Turn it beside another job' }, h('option', { value: '' }, 'alone'));
+    beside.addEventListener('focus', () => this.offerOthers(beside), { once: true });
+    const interactive = button('Turn it', () => this.openInteractive(downloads, waiting, beside.value), { id: 'interactive', class: 'primary' });
     this.results.replaceChildren(
-      h('section', { class: 'card' }, h('div', { class: 'row head' }, h('h2', {}, 'Skeleton'), interactive), waiting, picture),
+      h('section', { class: 'card' }, h('div', { class: 'row head' }, h('h2', {}, 'Skeleton'), beside, interactive), waiting, picture),
       downloads.element,
     );
     this.drawPicture(downloads, picture, waiting);
@@ -187,11 +191,16 @@ export class JobView {
    * @param {HTMLElement} waiting
    */
   async drawPicture(downloads, picture, waiting) {
+    this.drawn += 1;
+    const turn = this.drawn;
+    waiting.textContent = 'The picture is being drawn …';
     try {
-      const result = await downloads.made('picture');
+      const background = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'white';
+      const result = await downloads.made('picture', { background });
+      if (turn !== this.drawn) return; // other parameters by now
       picture.onload = () => {
         picture.hidden = false;
-        waiting.textContent = [`Shown: ${result.shown}`, ...result.warnings].join('; ');
+        waiting.textContent = [`Shown: ${result.shown}`, ...result.warnings.map((warning) => warning.message)].join('; ');
       };
       picture.src = result.href;
     } catch (error) {
@@ -200,14 +209,26 @@ export class JobView {
   }
 
   /**
+   * The jobs that this one can be compared with.
+   * @param {HTMLSelectElement} beside
+   */
+  async offerOthers(beside) {
+    const { jobs } = await call('GET', '/api/jobs?limit=200');
+    for (const job of jobs) {
+      if (job.id !== this.id && hasResults(job)) beside.append(h('option', { value: job.id }, `beside ${job.name}, ${moment(job.created_ms)}`));
+    }
+  }
+
+  /**
    * @param {import('./downloads.js').Downloads} downloads
    * @param {HTMLElement} status
+   * @param {string} beside another job, or ''
    */
-  async openInteractive(downloads, status) {
+  async openInteractive(downloads, status, beside) {
     const before = status.textContent;
     status.textContent = 'A moment …';
     try {
-      const result = await downloads.made('view');
+      const result = await downloads.made('view', beside ? { beside } : {});
       status.textContent = before;
       showInteractive(result.href, this.job.name);
     } catch (error) {

@@ -1,9 +1,49 @@
 // The list of jobs, live.
-import { call } from './api.js';
+import { call, jobPath } from './api.js';
+import { confirmed, showProblem } from './dialogs.js';
 import { announce, button, h, setText } from './elements.js';
-import { ago } from './numbers.js';
+import { ago, counted, measure } from './numbers.js';
 import { session } from './session.js';
-import { activity, isActive, progress, wording } from './text.js';
+import { activity, isActive, isRemoved, progress, wording } from './text.js';
+
+/** @type {Object<string, {text: string, compare: (a: Job, b: Job) => number}>} */
+const kOrders = {
+  newest: { text: 'newest first', compare: (a, b) => b.created_ms - a.created_ms },
+  oldest: { text: 'oldest first', compare: (a, b) => a.created_ms - b.created_ms },
+  name: { text: 'by name', compare: (a, b) => a.name.localeCompare(b.name) },
+  points: { text: 'most points first', compare: (a, b) => (b.prepared?.points || 0) - (a.prepared?.points || 0) },
+};
+
+/**
+ * What tells jobs of one mesh apart.
+ * @param {Job} job
+ */
+function asked({ params, prepared }) {
+  const { sampling, directions, frame } = params;
+  const points = prepared?.points || sampling?.target_points;
+  const lattice = points ? counted(points, 'point') : `spacing ${measure(sampling?.spacing || 0)}`;
+  return [lattice, directions && directions !== 'triangles' && directions, frame && frame !== session.usual.frame && frame].filter(Boolean).join(', ');
+}
+
+// The small pictures are asked for one after the other: the service draws few at once.
+let drawing = Promise.resolve();
+function showThumbnail(image, job) {
+  const loaded = () =>
+    new Promise((resolve) => {
+      image.onload = () => resolve(image.removeAttribute('hidden'));
+      image.onerror = resolve;
+      const background = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'white';
+      image.src = `${jobPath(job.id, '/thumbnail')}?background=${background}`;
+    });
+  drawing = drawing.then(() => image.isConnected && loaded());
+}
+const whenSeen = new IntersectionObserver((entries) => {
+  for (const { isIntersecting, target } of entries) {
+    if (!isIntersecting) continue;
+    whenSeen.unobserve(target);
+    target.dispatchEvent(new Event('seen'));
+  }
+});
 
 // One job in the list.
 class Card {
@@ -15,16 +55,25 @@ class Card {
     this.numbers = h('p', { class: 'numbers' });
     this.what = h('p', { class: 'what' });
     this.when = h('p', { class: 'small' });
+    this.chosen = h('input', { type: 'checkbox' });
+    this.image = h('img', { class: 'thumbnail', alt: '', hidden: true });
+    this.place = h('span', { class: 'place' }, this.image);
     this.element = h(
       'li',
-      { class: 'card job', id: `job-${job.id}` },
-      h('div', { class: 'row' }, h('h2', {}, this.link), this.badge),
-      this.bar,
-      this.numbers,
-      this.what,
-      this.when,
+      { class: 'card job row', id: `job-${job.id}` },
+      this.chosen,
+      this.place,
+      h(
+        'div',
+        { class: 'told' },
+        h('div', { class: 'row wrap' }, h('h2', {}, this.link), this.when, this.badge),
+        this.bar,
+        h('div', { class: 'row wrap' }, this.what, this.numbers),
+      ),
     );
     this.state = job.state;
+    this.job = job;
+    this.watched = false; // whether its picture is asked for once it is seen
   }
 
   /**
@@ -32,6 +81,8 @@ class Card {
    * @param {Rate | null} rate
    */
   update(job, rate) {
+    this.job = job;
+    this.chosen.setAttribute('aria-label', `Select ${job.name}`);
     setText(this.link, job.name || job.id.slice(0, 12));
     this.badge.className = `badge ${job.state}`;
     setText(this.badge, wording('states', job.state));
@@ -39,7 +90,12 @@ class Card {
     setText(this.numbers, progress(job, rate));
     setText(this.what, activity(job));
     const owner = session.admin && job.owner !== session.owner ? `${job.owner}, ` : '';
-    setText(this.when, `${owner}submitted ${ago(job.created_ms)}`);
+    setText(this.when, `${owner}${asked(job)}, submitted ${ago(job.created_ms)}`);
+    if (job.state === 'done' && !isRemoved(job) && !this.watched) {
+      this.watched = true;
+      whenSeen.observe(this.place);
+      this.place.addEventListener('seen', () => showThumbnail(this.image, this.job), { once: true });
+    }
     if (job.state !== this.state) announce(`${job.name}: ${wording('states', job.state)}`);
     this.state = job.state;
   }
@@ -74,6 +130,29 @@ export class JobList {
       h('a', { class: 'button primary', href: '#new' }, 'Choose a mesh'),
     );
     this.more = button('Show older jobs', () => this.showMore(), { hidden: true });
+    this.search = h('input', { type: 'search', id: 'search', 'aria-label': 'Search in names, owners and ids', placeholder: 'Search' });
+    this.state = h(
+      'select',
+      { id: 'state', 'aria-label': 'State' },
+      h('option', { value: '' }, 'in any state'),
+      Object.entries(session.words.states).map(([word, text]) => h('option', { value: word }, text)),
+    );
+    this.order = h(
+      'select',
+      { id: 'order', 'aria-label': 'Order' },
+      Object.entries(kOrders).map(([word, { text }]) => h('option', { value: word }, text)),
+    );
+    for (const control of [this.search, this.state, this.order]) control.addEventListener('input', () => this.arrange());
+    this.selected = h('span', { class: 'small', role: 'status' });
+    this.together = h(
+      'div',
+      { class: 'row wrap together', hidden: true },
+      this.selected,
+      button('Cancel them', () => this.cancelSelected(), { id: 'cancel-selected' }),
+      button('Delete them', () => this.deleteSelected(), { id: 'delete-selected', class: 'danger' }),
+    );
+    this.list.addEventListener('change', () => this.showSelected());
+    this.nothing = h('p', { class: 'card', hidden: true }, 'No job shown here is like that.');
     const all = h('input', { type: 'checkbox', id: 'everybody' });
     all.addEventListener('change', () => {
       this.everybody = all.checked;
@@ -89,7 +168,10 @@ export class JobList {
         session.admin && h('label', { class: 'check', for: 'everybody' }, all, 'Everybody’s'),
         h('a', { class: 'button primary', href: '#new' }, 'New job'),
       ),
+      h('div', { class: 'row wrap filters' }, this.search, this.state, this.order),
+      this.together,
       this.none,
+      this.nothing,
       this.list,
       this.more,
     );
@@ -113,22 +195,79 @@ export class JobList {
       this.cards.delete(id);
     }
     this.rates.keep(ids);
-    jobs.forEach((job, place) => this.show(job, place));
+    for (const job of jobs) this.show(job);
+    this.arrange();
     this.none.hidden = jobs.length > 0;
     this.more.hidden = !more || this.limit >= 1000;
     return jobs.some(isActive);
   }
 
   /** @param {Job} job */
-  show(job, place) {
+  show(job) {
     let card = this.cards.get(job.id);
     if (!card) {
       card = new Card(job);
       this.cards.set(job.id, card);
     }
     card.update(job, this.rates.update(job));
-    // Moved only where the order has changed: a moved element loses the focus.
-    const there = this.list.children[place];
-    if (there !== card.element) this.list.insertBefore(card.element, there || null);
+  }
+
+  // Which cards are seen, and where.
+  arrange() {
+    const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const seen = ({ job }) => {
+      const text = `${job.name} ${job.owner} ${job.id}`.toLowerCase();
+      return (!this.state.value || job.state === this.state.value) && words.every((word) => text.includes(word));
+    };
+    const cards = [...this.cards.values()].sort((a, b) => kOrders[this.order.value].compare(a.job, b.job));
+    cards.forEach((card, place) => {
+      card.element.hidden = !seen(card);
+      if (card.element.hidden) card.chosen.checked = false;
+      // Moved only where the order has changed: a moved element loses the focus.
+      const there = this.list.children[place];
+      if (there !== card.element) this.list.insertBefore(card.element, there || null);
+    });
+    this.nothing.hidden = cards.length === 0 || cards.some((card) => !card.element.hidden);
+    this.showSelected();
+  }
+
+  chosen() {
+    return [...this.cards.values()].filter((card) => card.chosen.checked).map((card) => card.job);
+  }
+
+  showSelected() {
+    const jobs = this.chosen();
+    this.together.hidden = jobs.length === 0;
+    setText(this.selected, `${counted(jobs.length, 'job')} selected`);
+  }
+
+  async cancelSelected() {
+    const jobs = this.chosen().filter(isActive);
+    if (jobs.length === 0) showProblem('None of the selected jobs is waiting or running.');
+    const wanted = jobs.length > 0 && await confirmed(`Cancel ${counted(jobs.length, 'job')}?`, 'Their progress is kept, and they can be resumed.', 'Cancel them');
+    if (wanted) await this.each(jobs, (job) => call('POST', jobPath(job.id, '/cancel')));
+  }
+
+  async deleteSelected() {
+    const jobs = this.chosen().filter((job) => !isActive(job));
+    if (jobs.length === 0) showProblem('Jobs that wait or run must be cancelled before they can be deleted.');
+    const wanted = jobs.length > 0 && await confirmed(`Delete ${counted(jobs.length, 'job')}?`, 'Their meshes, fields and skeletons are removed for good.', 'Delete them');
+    if (wanted) await this.each(jobs, (job) => call('DELETE', jobPath(job.id)));
+  }
+
+  // One after the other; what goes wrong with some is told of each.
+  async each(jobs, act) {
+    const wrong = [];
+    for (const job of jobs) {
+      try {
+        await act(job);
+        const card = this.cards.get(job.id);
+        if (card) card.chosen.checked = false;
+      } catch (error) {
+        wrong.push(`${job.name}: ${error.message}`);
+      }
+    }
+    showProblem(wrong.length ? wrong.join('; ') : null);
+    this.refresh();
   }
 }

@@ -14,7 +14,7 @@ let poll = null;
 
 function viewOfAddress() {
   const [view, id] = location.hash.slice(1).split('/');
-  if (view === 'new') return new NewJob();
+  if (view === 'new') return new NewJob(id && decodeURIComponent(id));
   if (view === 'job' && id) return new JobView(decodeURIComponent(id), new Rates());
   if (view === 'server' && session.admin) return new Overview(new Rates());
   return new JobList(new Rates());
@@ -88,7 +88,10 @@ async function begin() {
     event.preventDefault(); // what is behind '#' names a view
     byId('view').focus();
   });
-  window.addEventListener('hashchange', () => session.signed_in && showView(true));
+  window.addEventListener('hashchange', () => {
+    if (session.signed_in) showView(true);
+    else if (location.hash.includes('key=')) location.reload(); // the address of a new page, pasted
+  });
   document.addEventListener('signed-out', () => {
     if (!session.signed_in) return;
     forget();

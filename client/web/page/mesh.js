@@ -1,5 +1,6 @@
 // A new job: a mesh, what it is, and what is asked of it.
-import { call, upload } from './api.js';
+import { call, jobPath, upload } from './api.js';
+import { filesIn } from './dropped.js';
 import { announce, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
@@ -26,14 +27,15 @@ function meshFacts(f) {
 
 /** What is seen at #new. */
 export class NewJob {
-  constructor() {
+  /** @param {string} [job] whose mesh it is, to be computed with other parameters */
+  constructor(job) {
     this.title = 'New job';
-    this.file = h('input', { id: 'file', type: 'file', accept: kTypes.join(','), class: 'visually-hidden' });
+    this.file = h('input', { id: 'file', type: 'file', accept: kTypes.join(','), multiple: true, class: 'visually-hidden' });
     this.drop = h(
       'label',
       { class: 'drop', for: 'file' },
       h('strong', {}, 'Drop a mesh here, or choose a file'),
-      h('span', { class: 'small' }, `A closed surface as ${kTypes.join(', ')}, at most ${bytes(session.max_mesh_bytes)}`),
+      h('span', { class: 'small' }, `A closed surface as ${kTypes.join(', ')}, at most ${bytes(session.max_mesh_bytes)}; several, or folders of them, become a job each`),
     );
     this.sent = h('progress', { max: 1, value: 0, hidden: true, 'aria-label': 'Upload' });
     this.status = h('p', { class: 'small', role: 'status' });
@@ -49,8 +51,9 @@ export class NewJob {
       this.found,
       this.form,
     );
-    this.file.addEventListener('change', () => this.file.files[0] && this.take(this.file.files[0]));
+    this.file.addEventListener('change', () => this.takeAll([...this.file.files]));
     this.listenForDrops();
+    if (job) this.takeFromJob(job);
   }
 
   listenForDrops() {
@@ -63,9 +66,71 @@ export class NewJob {
     this.drop.addEventListener('dragleave', over(false));
     this.drop.addEventListener('drop', (event) => {
       over(false)(event);
-      const [file] = event.dataTransfer.files;
-      if (file) this.take(file);
+      filesIn(event.dataTransfer, kTypes).then((files) => this.takeAll(files));
     });
+  }
+
+  /** @param {string} id */
+  async takeFromJob(id) {
+    this.status.textContent = 'Fetching the mesh of the job …';
+    try {
+      const job = await call('GET', jobPath(id));
+      const made = await call('POST', jobPath(id, '/results'), { artefact: 'mesh', format: '.off' });
+      const answer = await fetch(made.href);
+      if (!answer.ok) throw new Error('its mesh could not be fetched');
+      await this.take(new File([await answer.blob()], `${job.name}.off`));
+    } catch (error) {
+      this.status.textContent = '';
+      this.complain(error.message);
+    }
+  }
+
+  /** @param {File[]} files one to be looked at, several to be computed as they are */
+  async takeAll(files) {
+    if (files.length === 0) this.complain(`There is no file of the kinds ${kTypes.join(', ')}.`);
+    if (files.length === 1) await this.take(files[0]);
+    if (files.length < 2) return;
+    this.complain('');
+    const list = h('ul', { class: 'notes', id: 'several' });
+    this.found.replaceChildren(h('section', { class: 'card' }, h('h2', {}, `${counted(files.length, 'file')}, a job each`), list));
+    this.form.replaceChildren();
+    for (const file of files) {
+      const line = h('li', {}, `${file.name}: sending …`);
+      list.append(line);
+      line.replaceChildren(...(await this.submitted(file)));
+    }
+    announce(`${counted(files.length, 'file')} done`);
+  }
+
+  // What came of one of several files.
+  async submitted(file) {
+    try {
+      const mesh = await this.sentFile(file);
+      if (!mesh.mesh) throw new Error(mesh.error);
+      const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: file.name.replace(/\.[^.]*$/, '') });
+      return [h('a', { href: `#job/${answer.id}` }, answer.name), answer.existed ? ' was there already' : ' is submitted'];
+    } catch (error) {
+      return [h('span', { class: 'error' }, `${file.name}: ${error.message}`)];
+    }
+  }
+
+  /** @param {File} file */
+  async sentFile(file) {
+    if (file.size === 0) throw new Error('the file is empty');
+    const most = session.max_mesh_bytes;
+    if (file.size > most) throw new Error(`it has ${bytes(file.size)}; the server takes at most ${bytes(most)}`);
+    this.sent.hidden = false;
+    this.status.textContent = `Sending ${file.name} …`;
+    try {
+      return await upload(file, (share) => {
+        this.sent.value = share;
+        if (share === 1) setText(this.status, 'Looking at the mesh …');
+      });
+    } finally {
+      this.status.textContent = '';
+      this.sent.hidden = true;
+      this.file.value = ''; // the same file may be chosen again
+    }
   }
 
   complain(message) {
@@ -78,27 +143,12 @@ export class NewJob {
     this.complain('');
     this.found.replaceChildren();
     this.form.replaceChildren();
-    const most = session.max_mesh_bytes;
-    if (file.size > most) {
-      this.complain(`${file.name} has ${bytes(file.size)}; the server takes at most ${bytes(most)}.`);
-      return;
-    }
-    this.sent.hidden = false;
-    this.status.textContent = `Sending ${file.name} …`;
     try {
-      const mesh = await upload(file, (share) => {
-        this.sent.value = share;
-        if (share === 1) setText(this.status, 'Looking at the mesh …');
-      });
-      this.status.textContent = '';
+      const mesh = await this.sentFile(file);
       if (mesh.facts) this.show(mesh);
       else this.complain(`${file.name} cannot be read: ${mesh.error}`);
     } catch (error) {
-      this.status.textContent = '';
       this.complain(`${file.name} cannot be read: ${error.message}`);
-    } finally {
-      this.sent.hidden = true;
-      this.file.value = ''; // the same file may be chosen again
     }
   }
 
@@ -132,11 +182,13 @@ const choice = (id, texts) =>
 const numberField = (id, attributes) =>
   h('input', { id, type: 'number', min: 0, step: 'any', inputmode: 'decimal', ...attributes });
 
+const newRequest = () => crypto.getRandomValues(new Uint32Array(4)).join('-');
+
 // What is asked of a mesh.
 class SubmitForm {
   constructor(mesh) {
     this.mesh = mesh;
-    this.requestId = crypto.getRandomValues(new Uint32Array(4)).join('-');
+    this.requestId = newRequest();
     this.given = 'points'; // which of the two was typed
     this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: mesh.name.replace(/\.[^.]*$/, '') });
     this.points = numberField('points', { step: 1, value: kUsualPoints });
@@ -153,6 +205,7 @@ class SubmitForm {
     this.howManyField.hidden = true;
     this.frame = choice('frame', session.words.frames);
     this.operator = choice('operator', session.words.operators);
+    this.operator.value = session.usual.operator;
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.submit = h('button', { type: 'submit', class: 'primary', id: 'submit' }, 'Compute the skeleton');
     this.element = this.build();
@@ -183,7 +236,7 @@ class SubmitForm {
           field('directions', 'Directions of the planes', this.directions, 'Cubes and other shapes with few normals need some from all sides.'),
           this.howManyField,
           field('frame', 'Lattice along', this.frame),
-          field('operator', 'Shocks found by', this.operator),
+          field('operator', 'Skeleton by', this.operator),
         ),
       ),
       this.problem,
@@ -260,7 +313,13 @@ class SubmitForm {
         name: this.name.value.trim(),
         request_id: this.requestId,
       });
-      announce(answer.existed ? 'The same was submitted before; this is that job.' : `${answer.name} was submitted.`);
+      this.requestId = newRequest(); // other parameters are another request
+      if (answer.existed) {
+        this.problem.replaceChildren('The same was submitted before: ', h('a', { href: `#job/${answer.id}` }, answer.name), '. Other parameters above make another job of it.');
+        this.problem.hidden = false;
+        return;
+      }
+      announce(`${answer.name} was submitted.`);
       location.hash = `#job/${answer.id}`;
     } catch (error) {
       this.problem.textContent = error.message;

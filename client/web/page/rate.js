@@ -9,8 +9,7 @@ export class Rates {
   }
 
   /**
-   * What the job's progress is worth by now: directions per second and the seconds that are left; null while
-   * nothing is known.
+   * What the job's progress is worth by now: directions per second; null while nothing is known.
    * @param {Job} job
    */
   update(job, now = performance.now() / 1000) {
@@ -32,7 +31,7 @@ export class Rates {
   of(job) {
     const entry = this.jobs.get(job.id);
     if (!entry || !(entry.perSecond > 1e-6)) return null;
-    return { perSecond: entry.perSecond, left: (job.directions_total - entry.done) / entry.perSecond };
+    return { perSecond: entry.perSecond };
   }
 
   // Forgets all jobs but these.

@@ -53,10 +53,10 @@ interface Job {
   created_ms: number;
   started_ms: number;
   finished_ms: number;
+  remaining_ms?: number;
   expires_ms: number;
   removed_ms: number;
 }
 interface Rate {
   perSecond: number;
-  left: number;
 }

@@ -111,7 +111,7 @@ export function progress(job, rate) {
   let text = `${count(job.directions_done)} of ${counted(job.directions_total, 'direction')}`;
   if (rate && job.state === 'running' && job.stage === 'erode') {
     text += `, ${rate.perSecond < 10 ? rate.perSecond.toPrecision(2) : count(rate.perSecond)} per second`;
-    text += `, ${duration(rate.left)} left`;
+    if (job.remaining_ms !== undefined) text += `, about ${duration(job.remaining_ms / 1000)} left`;
   }
   return text;
 }

@@ -50,6 +50,16 @@ TEST_F(ClientTest, SubmitRefusesASpacingThatLeavesNoPoints) {
   EXPECT_EQ(run({"submit", dir_ / "cube.off", "--spacing", "1000"}, "unix:/nowhere/s").exit_code, 5);
 }
 
+TEST_F(ClientTest, ASpacingMayBeAShareOfTheMeshsLength) {
+  const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "2.5%"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(service_.submitted.params().sampling().spacing(), 50);
+  EXPECT_NE(outcome.err.find("spacing 50\n"), std::string::npos) << outcome.err;
+  for (const char* wrong : {"0%", "100%", "-1%", "%", "x%"})
+    EXPECT_EQ(run({"submit", dir_ / "cube.off", "--spacing", wrong}).exit_code, 2) << wrong;
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--spacing", "60%"}).exit_code, 3) << "no room for points";
+}
+
 // Nothing is sent: there is no server.
 TEST_F(ClientTest, SubmitRefusesWhatIsBeyondTheCoresLimits) {
   const std::string file = dir_ / "cube.off", nowhere = "unix:/nowhere/s";

@@ -218,6 +218,24 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);
 }
 
+// Small pictures stand in the list: drawn once, for who may see the job.
+TEST_F(WebServiceTest, KeepsPicturesThatItHasDrawn) {
+  EXPECT_EQ(ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail").status, 401);
+  sign_in();
+  const Answer first = ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail?background=dark");
+  EXPECT_EQ(first.status, 200) << first.body;
+  EXPECT_EQ(first.header("Content-Type"), "image/png");
+  EXPECT_EQ(first.body.substr(1, 3), "PNG");
+  service_.fetches.clear();
+  EXPECT_EQ(ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail?background=dark").body, first.body);
+  EXPECT_TRUE(service_.fetches.empty());
+  EXPECT_NE(ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail").body, first.body) << "on white";
+  EXPECT_FALSE(service_.fetches.empty());
+  EXPECT_EQ(ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail?background=loud").status, 400);
+  service_.job.set_state(v1::JOB_STATE_RUNNING);
+  EXPECT_EQ(ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail?background=dark").status, 404);
+}
+
 TEST_F(WebServiceTest, WordsTheContractForThePage) {
   sign_in();
   const json session = ask("GET", "/api/session").object();
