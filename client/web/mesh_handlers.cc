@@ -52,7 +52,11 @@ std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::s
   input.title = name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".png"));
   base::AtomicFile out(file->path());
-  out.write(encode_png(render_scene(input, {.width = kMeshPictureWidth})));
+  RenderOptions look;
+  look.width = kMeshPictureWidth;
+  if (const std::string background = call.request.parameter("background"); !background.empty())
+    look.background = parse_background(background);
+  out.write(encode_png(render_scene(input, look)));
   out.commit();
   return call.keep({std::move(file), "mesh.png", "image/png", true, {}});
 }

@@ -1,4 +1,5 @@
 // Calls of the page's own service.
+import { background } from './elements.js';
 
 /** What went wrong, in words for people; `code` as on the command line, `retryAfter` in seconds where that was told. */
 export class ApiError extends Error {
@@ -74,7 +75,7 @@ export const jobPath = (id, rest = '') => `/api/jobs/${encodeURIComponent(id)}${
 export function upload(file, progress) {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
-    request.open('POST', `/api/meshes?name=${encodeURIComponent(file.name)}`);
+    request.open('POST', `/api/meshes?name=${encodeURIComponent(file.name)}&background=${background()}`);
     request.upload.onprogress = (event) => progress(event.lengthComputable ? event.loaded / event.total : 0);
     request.onerror = () => reject(new ApiError(0, 'UNREACHABLE', kNoAnswer));
     request.onload = () => {

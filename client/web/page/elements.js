@@ -26,6 +26,12 @@ export function h(tag, attributes = {}, ...children) {
 export const byId = (id) => document.getElementById(id);
 
 /**
+ * The background of pictures that suits the page.
+ * @returns {string}
+ */
+export const background = () => (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'white');
+
+/**
  * Sets the text only when it changes, so that screen readers hear no repetition.
  * @param {Element} element
  * @param {string} text

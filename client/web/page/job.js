@@ -2,7 +2,7 @@
 import { call, jobPath } from './api.js';
 import { confirmed, showInteractive } from './dialogs.js';
 import { Downloads } from './downloads.js';
-import { announce, button, facts, h, setText } from './elements.js';
+import { announce, background, button, facts, h, setText } from './elements.js';
 import { showProgress } from './jobs.js';
 import { count, counted, duration, measure, moment } from './numbers.js';
 import { History } from './history.js';
@@ -195,8 +195,7 @@ export class JobView {
     const turn = this.drawn;
     waiting.textContent = 'The picture is being drawn …';
     try {
-      const background = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'white';
-      const result = await downloads.made('picture', { background });
+      const result = await downloads.made('picture', { background: background() });
       if (turn !== this.drawn) return; // other parameters by now
       picture.onload = () => {
         picture.hidden = false;

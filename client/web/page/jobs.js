@@ -1,7 +1,7 @@
 // The list of jobs, live.
 import { call, jobPath } from './api.js';
 import { confirmed, showProblem } from './dialogs.js';
-import { announce, button, h, setText } from './elements.js';
+import { announce, background, button, h, setText } from './elements.js';
 import { ago, counted, measure } from './numbers.js';
 import { session } from './session.js';
 import { activity, isActive, isRemoved, progress, wording } from './text.js';
@@ -32,8 +32,7 @@ function showThumbnail(image, job) {
     new Promise((resolve) => {
       image.onload = () => resolve(image.removeAttribute('hidden'));
       image.onerror = resolve;
-      const background = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'white';
-      image.src = `${jobPath(job.id, '/thumbnail')}?background=${background}`;
+      image.src = `${jobPath(job.id, '/thumbnail')}?background=${background()}`;
     });
   drawing = drawing.then(() => image.isConnected && loaded());
 }
