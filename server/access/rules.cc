@@ -62,7 +62,8 @@ constexpr AccessRule kAccess[] = {
     {"wrong role", [](const Attempt& a) { return !may_call(*a.method, a.role); },
      grpc::StatusCode::PERMISSION_DENIED,
      [](const Attempt& a) {
-       return std::string(a.method->name) + " is not for the role " + wire::word(a.role);
+       return "the token is a " + wire::word(a.role) + "'s, and " + std::string(a.method->name) +
+              " is not for that role; affskel-server token add makes others";
      }},
 };
 

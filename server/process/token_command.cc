@@ -18,6 +18,7 @@
 #include "access/token.h"
 #include "base/quoted.h"
 #include "database/database_file.h"
+#include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
 #include "process/data_dir.h"
@@ -79,9 +80,11 @@ Json json_of(const TokenRow& token, std::int64_t now_ms) {
 /// A new file with a token, written before the token counts, so that none is lost; gone again unless it is kept.
 class TokenFile {
  public:
-  /// @throws std::system_error when it exists, or cannot be written.
+  /// @throws StoreError kInvalid when it exists, std::system_error when it cannot be written.
   TokenFile(const std::string& path, const std::string& token) : path_(path) {
     const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (fd < 0 && errno == EEXIST)
+      throw StoreError(StoreError::Code::kInvalid, path_ + " exists already: a token gets a file of its own");
     if (fd < 0) fail("cannot make");
     const std::string line = token + "\n";
     const bool written =

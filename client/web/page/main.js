@@ -54,7 +54,12 @@ function showView(moved) {
   if (ask) {
     poll = new Poll(
       () => ask.call(view),
-      (error) => error?.status !== 401 && showProblem(error && `${error.message} Trying again …`),
+      (error) => {
+        if (error?.status === 401) return;
+        const gone = error?.status === 404; // deleted meanwhile, or never there: it does not come back
+        if (gone) poll.stop();
+        showProblem(error && (gone ? error.message : `${error.message} Trying again …`));
+      },
     );
     view.refresh = () => poll.now();
     view.pause = () => poll.stop();
