@@ -48,8 +48,7 @@ export class NewJob {
       h('p', {}, h('a', { href: '#jobs' }, '← All jobs')),
       h('h1', { tabindex: -1 }, 'New job'),
       h('div', { class: 'card' }, this.file, this.drop, this.sent, this.status, this.problem),
-      this.found,
-      this.form,
+      h('div', { class: 'beside' }, this.found, this.form),
     );
     this.file.addEventListener('change', () => this.takeAll([...this.file.files]));
     this.listenForDrops();

@@ -177,6 +177,7 @@ TEST(MakeSolid, RefusesWhatBoundsNoSolidAndSaysWhere) {
   Mesh open = make_sphere(1, 80);
   open.triangles.pop_back();
   EXPECT_NE(refusal(open).find("3 open edges"), std::string::npos);
+  EXPECT_NE(refusal(open).find("fill its holes first"), std::string::npos);
   Mesh twice = make_sphere(1, 80);
   twice.triangles.push_back(twice.triangles[5]);
   EXPECT_NE(refusal(twice).find("triangle 5 and triangle 80 are the same"), std::string::npos);
