@@ -16,6 +16,7 @@ struct ConsoleStyle {
   bool terminal = false;    ///< standard error is a terminal: progress bars
   bool colour = false;      ///< ANSI colours on standard error
   bool out_colour = false;  ///< ANSI colours on standard output
+  unsigned out_columns = 0;  ///< of the terminal there; 0 = none
 };
 
 /// Results go to `out`, everything for people to `err`.  Whatever writes to `out` throws ClientError

@@ -13,6 +13,12 @@
 #include "client/text/words.h"
 
 namespace affskel::client {
+
+unsigned terminal_columns(int descriptor) {
+  winsize size{};
+  return ioctl(descriptor, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
 namespace {
 
 constexpr int kDefaultWidth = 80;
@@ -20,9 +26,9 @@ constexpr int kMaxBar = 40;
 constexpr std::chrono::seconds kMinSilence{1};  // between plain lines of one stage
 constexpr double kSmoothing = 1.5;              // seconds over which the rate forgets
 
-int terminal_width() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kDefaultWidth;
+int progress_width() {
+  const unsigned columns = terminal_columns(STDERR_FILENO);
+  return columns > 0 ? static_cast<int>(columns) : kDefaultWidth;
 }
 
 std::string label(const v1::Job& job) {
@@ -122,7 +128,7 @@ void ProgressView::update(const v1::Job& job) {
   if (console_.style().quiet) return;
   const double rate = measure(job);
   if (console_.style().terminal) {
-    console_.transient(progress_bar(job, rate, terminal_width() - 1));
+    console_.transient(progress_bar(job, rate, progress_width() - 1));
   } else {
     print(job, rate);
   }

@@ -10,6 +10,9 @@
 
 namespace affskel::client {
 
+/// Columns of the terminal behind a descriptor; 0 = it is none, or does not tell.
+unsigned terminal_columns(int descriptor);
+
 /// The line without colours, at most `width` columns: stage, bar, share and number of directions done, rate,
 /// time left.  Its length does not change as long as the total and the reason to wait do not.
 /// @param per_second directions, 0 = not known yet.

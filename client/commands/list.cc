@@ -28,7 +28,8 @@ void run_list(Context& context, const ListOptions& options) {
   if (jobs.empty()) {
     context.console().note("no jobs");
   } else {
-    context.console().result(job_table(jobs, unix_now_ms(), context.console().style().out_colour));
+    const ConsoleStyle& style = context.console().style();
+    context.console().result(job_table(jobs, unix_now_ms(), style.out_colour, style.out_columns));
   }
 }
 

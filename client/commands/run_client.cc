@@ -1,9 +1,12 @@
 #include "client/commands/run_client.h"
 
+#include <unistd.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <sstream>
 
+#include "client/cli/progress.h"
 #include "client/commands/command_line.h"
 #include "client/text/nearest_word.h"
 
@@ -19,6 +22,7 @@ ConsoleStyle style_for(const GlobalOptions& global, const ClientIo& io) {
   style.terminal = !plain && io.err_is_terminal;
   style.colour = style.terminal;
   style.out_colour = !plain && io.out_is_terminal;
+  if (io.out_is_terminal) style.out_columns = terminal_columns(STDOUT_FILENO);
   return style;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/number_text.h"
+#include "base/utf8.h"
 #include "client/text/key_line.h"
 #include "client/text/printable.h"
 #include "client/text/skeleton_text.h"
@@ -111,21 +112,46 @@ std::string progress_text(const v1::Job& job) {
   return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total());
 }
 
-// Columns in bytes, before colours; names with multi-byte characters stand last, where alignment does not
-// matter.
-std::string aligned(const std::vector<std::vector<std::string>>& rows,
-                    const std::vector<const char*>& state_colours) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
+using TableRow = std::vector<std::string>;
+
+// In bytes, before colours; names with multi-byte characters stand last, where alignment does not matter.
+std::vector<std::size_t> column_widths(const std::vector<TableRow>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const TableRow& row : rows) {
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
   }
+  return widths;
+}
+
+constexpr std::size_t kColumnGap = 2;  // between columns
+
+std::size_t table_width(const std::vector<TableRow>& rows) {
+  std::size_t width = 0;
+  for (const std::size_t column : column_widths(rows)) width += column + kColumnGap;
+  return width - kColumnGap;
+}
+
+// Leaves out what a person misses least; job, state and name stay.
+void fit_table(std::vector<TableRow>& rows, std::size_t width) {
+  for (const char* column : {"STAGE", "DIRECTIONS", "SKELETON", "OWNER", "POINTS", "AGE"}) {
+    if (table_width(rows) <= width) return;
+    const auto at = std::find(rows.front().begin(), rows.front().end(), column) - rows.front().begin();
+    for (TableRow& row : rows) row.erase(row.begin() + at);
+  }
+  constexpr std::size_t kShortest = 8;
+  const std::size_t before_name = table_width(rows) - column_widths(rows).back();
+  const std::size_t room = std::max(kShortest, width - std::min(width, before_name));
+  for (TableRow& row : rows) row.back() = base::truncate_utf8(row.back(), room);
+}
+
+std::string aligned(const std::vector<TableRow>& rows, const std::vector<const char*>& state_colours) {
+  const std::vector<std::size_t> widths = column_widths(rows);
   std::string text;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto& row = rows[r];
+    const TableRow& row = rows[r];
     for (std::size_t c = 0; c < row.size(); ++c) {
       text += coloured(row[c], c == kStateColumn ? state_colours[r] : "");
-      if (c + 1 < row.size()) text.append(widths[c] - row[c].size() + 2, ' ');
+      if (c + 1 < row.size()) text.append(widths[c] - row[c].size() + kColumnGap, ' ');
     }
     text.push_back('\n');
   }
@@ -198,9 +224,9 @@ std::string job_details(const v1::Job& job, bool colour) {
   return text + counters_details(job.counters());
 }
 
-std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bool colour) {
+std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bool colour, unsigned width) {
   std::vector<const char*> colours = {""};
-  std::vector<std::vector<std::string>> rows = {
+  std::vector<TableRow> rows = {
       {"JOB", "STATE", "STAGE", "DIRECTIONS", "POINTS", "SKELETON", "AGE", "OWNER", "NAME"}};
   for (const v1::Job& job : jobs) {
     rows.push_back({printable(short_id(job)), state_word(job.state()), stage_word(job.stage()),
@@ -210,6 +236,7 @@ std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bo
     colours.push_back(colour ? state_colour(job.state()) : "");
     for (std::string& cell : rows.back()) std::replace(cell.begin(), cell.end(), '\n', ' ');
   }
+  if (width > 0) fit_table(rows, width);
   return aligned(rows, colours);
 }
 

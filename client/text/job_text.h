@@ -18,8 +18,10 @@ std::string percent_text(const v1::Job& job);
 std::string job_details(const v1::Job& job, bool colour = false);
 
 /// Aligned columns for `list`, newest first as given. @param now_ms for the ages; @param colour states in
-/// ANSI colours.
-std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bool colour = false);
+/// ANSI colours. @param width of the terminal, columns; 0 = none: a narrow one goes without columns, and then with
+/// shorter names.
+std::string job_table(const std::vector<v1::Job>& jobs, std::uint64_t now_ms, bool colour = false,
+                      unsigned width = 0);
 
 /// Reason of a FAILED job for people: "CODE: message (line N)".
 std::string failure_text(const v1::JobError& error);

@@ -136,6 +136,26 @@ TEST(JobTable, AlignsAndCannotBreakTheTerminal) {
             "0123456789ab  running  erode  3/500       -       -         5.0 s         evil ?[2J\n");
 }
 
+TEST(JobTable, FitsANarrowTerminal) {
+  v1::Job job;
+  job.set_id("0123456789abcdef0123456789abcdef");
+  job.set_name("a rather long name of a body");
+  job.set_state(v1::JOB_STATE_RUNNING);
+  job.set_stage(v1::JOB_STAGE_ERODE);
+  job.set_created_ms(1000);
+  for (const unsigned width : {40u, 60u, 80u, 120u}) {
+    const std::string table = job_table({job}, 6000, false, width);
+    for (std::size_t begin = 0, end = 0; (end = table.find('\n', begin)) != std::string::npos;
+         begin = end + 1)
+      EXPECT_LE(end - begin, width) << table;
+    EXPECT_NE(table.find("0123456789ab  running  "), std::string::npos) << table;
+  }
+  EXPECT_EQ(job_table({job}, 6000, false, 40),
+            "JOB           STATE    NAME\n"
+            "0123456789ab  running  a rather long nam\n");
+  EXPECT_EQ(job_table({job}, 6000, false, 120), job_table({job}, 6000));
+}
+
 TEST(JobDetails, TellsWhyAJobFailedOrWaits) {
   v1::Job job;
   job.set_state(v1::JOB_STATE_FAILED);
