@@ -9,7 +9,7 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/notices.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "client/commands/shared/up_option.h"
+#include "client/commands/shared/stance_option.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/picture.h"
 
@@ -26,7 +26,7 @@ struct RenderCommandOptions {
 
 PictureOptions picture_of(const RenderCommandOptions& options) {
   PictureOptions picture = options.picture;
-  picture.up = chosen_up(options.up);
+  picture.stance = chosen_stance(options.up);
   picture.colour = options.colour == "part"        ? PictureColour::kPart
                    : options.colour == "thickness" ? PictureColour::kThickness
                                                    : PictureColour::kErosion;
@@ -53,7 +53,7 @@ void run_render(Context& context, const RenderCommandOptions& options) {
 }
 
 void add_looks(CLI::App* command, RenderCommandOptions& options) {
-  add_up(command, options.up);
+  add_stance(command, options.up);
   command
       ->add_option("--camera", options.cameras,
                    camera_words() +

@@ -11,7 +11,7 @@
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/notices.h"
 #include "client/commands/shared/skeleton_options.h"
-#include "client/commands/shared/up_option.h"
+#include "client/commands/shared/stance_option.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/page.h"
 #include "client/text/words.h"
@@ -70,7 +70,7 @@ void run_view(Context& context, const ViewCommandOptions& options) {
   const Destination destination = destination_of(options.output, "", context.console());
   choose_format(destination, page_formats(), "page");
   base::AtomicFile file(destination.file);
-  const ViewOptions look{chosen_up(options.up), options.level};
+  const ViewOptions look{chosen_stance(options.up), options.level};
   const Page page = make_page(context.session(), subjects_of(context, options), look);
   file.write(page.html);
   file.commit();
@@ -121,7 +121,7 @@ void add_view(CommandLine& line) {
                    "Show the eroded solid at this share of v0 at first: 0.05 or 5%")
       ->transform(proper_share())
       ->type_name("F");
-  add_up(command, options->up);
+  add_stance(command, options->up);
   add_output(command, options->output, "HTML file to write, or -");
 }
 

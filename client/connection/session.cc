@@ -308,6 +308,12 @@ v1::Job Session::unpin(const std::string& job) {
   return link_->unary(about<v1::UnpinJobRequest>(job), &Link::Stub::UnpinJob);
 }
 
+v1::Job Session::set_stance(const std::string& job, const v1::Stance& stance) {
+  auto request = about<v1::SetStanceRequest>(job);
+  if (stance.up() != v1::AXIS_DIRECTION_UNSPECIFIED) *request.mutable_stance() = stance;
+  return link_->unary(request, &Link::Stub::SetStance);
+}
+
 std::string Session::delete_job(const std::string& job) {
   return link_->unary(about<v1::DeleteJobRequest>(job), &Link::Stub::DeleteJob).id();
 }

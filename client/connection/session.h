@@ -67,6 +67,8 @@ class Session {
   v1::Verification verify(const std::string& job, double share, std::uint64_t verification);
   v1::Job pin(const std::string& job);
   v1::Job unpin(const std::string& job);
+  /// Keeps with the job how its solid stands; an empty stance: as its shape tells.
+  v1::Job set_stance(const std::string& job, const v1::Stance& stance);
   std::string delete_job(const std::string& job);
   /// What happened to the job, oldest first.
   v1::ListJobEventsResponse job_events(const std::string& job);

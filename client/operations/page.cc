@@ -12,6 +12,7 @@
 #include "client/artifacts/solid_parts.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
+#include "client/operations/kept_stance.h"
 #include "client/text/words.h"
 #include "core/chords/chord_sheet.h"
 #include "core/shocks/shock_operator.h"
@@ -182,7 +183,10 @@ Page make_page(Session& session, const std::vector<ViewSubject>& subjects, const
     input.models.push_back(fetch_model(session, subject, page.notices));
     points = std::max(points, subject.job.prepared().points());
   }
-  input.up = options.up.value_or(up_axis(input.models.front().mesh));
+  for (const ViewModel& model : input.models) {
+    const core::Stance stands = keep_stance(session, model.job, options.stance, model.mesh);
+    if (&model == &input.models.front()) input.stance = stands;
+  }
   const double highest = highest_share(input.models);
   input.levels = view_levels(highest, options.level, points);
   const double first = options.level > 0 ? options.level : 0.1 * highest;

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/base/notice.h"
-#include "client/base/up_axis.h"
+#include "client/base/stance.h"
 #include "client/connection/session.h"
 #include "client/view/page.h"
 
@@ -18,8 +17,8 @@ struct ViewSubject {
 };
 
 struct ViewOptions {
-  std::optional<UpAxis> up;  ///< absent: that of the first body, see up_axis
-  double level = 0;          ///< of the eroded solid that is shown at first, a share of v0; 0 = none is
+  StanceChoice stance;  ///< what is chosen is kept with the job
+  double level = 0;     ///< of the eroded solid that is shown at first, a share of v0; 0 = none is
 };
 
 struct Page {

@@ -8,6 +8,7 @@
 #include "client/artifacts/solid_parts.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
+#include "client/operations/kept_stance.h"
 #include "client/render/scene.h"
 #include "client/text/skeleton_text.h"
 #include "client/text/words.h"
@@ -138,7 +139,7 @@ Picture make_picture(Session& session, const v1::Job& job, const PictureOptions&
   }
   if (options.level > 0) append(notices, fetch_eroded(session, job, options.level, input));
   input.mesh = fetch_mesh(session, job.id());
-  input.up = options.up.value_or(up_axis(input.mesh));
+  input.stance = keep_stance(session, job, options.stance, input.mesh);
   input.cell = lattice_cell(job.prepared());
   input.volume = job.prepared().volume();
   input.title = title_of(input, job, shown);

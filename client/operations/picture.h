@@ -1,10 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "client/base/notice.h"
-#include "client/base/up_axis.h"
+#include "client/base/stance.h"
 #include "client/connection/session.h"
 #include "client/operations/skeleton_choice.h"
 #include "client/render/scene.h"
@@ -19,8 +18,8 @@ enum class PictureColour { kErosion, kPart, kThickness };
 struct PictureOptions {
   PictureColour colour = PictureColour::kErosion;
   SkeletonChoice skeleton;
-  double level = 0;          ///< of the eroded solid that is drawn, as a share of v0; 0 = none
-  std::optional<UpAxis> up;  ///< absent: see up_axis
+  double level = 0;     ///< of the eroded solid that is drawn, as a share of v0; 0 = none
+  StanceChoice stance;  ///< what is chosen is kept with the job
   RenderOptions render;
 };
 

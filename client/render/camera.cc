@@ -79,11 +79,11 @@ std::vector<Camera> usual_cameras() {
   return {parse_camera("front"), parse_camera("side"), parse_camera("top")};
 }
 
-View view_of(const Camera& camera, const Stance& stance) {
+View view_of(const Camera& camera, const core::Stance& stance) {
   const OnCircle a = on_circle(camera.azimuth), e = on_circle(camera.elevation);
-  const Vec3 level = a.cosine * stance.front + a.sine * stance.right;  // where it looks from, at the horizon
-  return {a.cosine * stance.right - a.sine * stance.front, e.cosine * stance.up - e.sine * level,
-          e.cosine * level + e.sine * stance.up};
+  const Vec3 right = stance.right(), up = stance.up.vector(), front = stance.front.vector();
+  const Vec3 level = a.cosine * front + a.sine * right;  // where it looks from, at the horizon
+  return {a.cosine * right - a.sine * front, e.cosine * up - e.sine * level, e.cosine * level + e.sine * up};
 }
 
 }  // namespace affskel::client

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/base/up_axis.h"
+#include "client/base/stance.h"
 #include "client/render/panel.h"
 
 namespace affskel::client {
@@ -28,6 +28,6 @@ Camera parse_camera(std::string_view text);
 std::vector<Camera> usual_cameras();
 
 /// The view of a solid that stands so.  Exact in multiples of 90 degrees.
-View view_of(const Camera& camera, const Stance& stance);
+View view_of(const Camera& camera, const core::Stance& stance);
 
 }  // namespace affskel::client

@@ -33,8 +33,21 @@ struct Shown {
   double height = 0;
 };
 
+// With the axis that points at the viewer, where there is one.
+std::string view_name(const std::string& camera, const View& view) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool minus : {false, true}) {
+      const core::AxisDirection direction{axis, minus};
+      if (core::dot(direction.vector(), view.toward) == 1)
+        return camera + " (" + direction_text(direction) + ")";
+    }
+  }
+  return camera;
+}
+
 Shown shown_by(const Camera& camera, const RenderInput& input) {
-  Shown shown{camera.name, view_of(camera, stance(input.up)), {}, 0, 0};
+  Shown shown{"", view_of(camera, input.stance), {}, 0, 0};
+  shown.name = view_name(camera.name, shown.view);
   std::optional<Box> box;
   for (const Vec3& p : input.mesh.points) {
     const Vec3 seen{core::dot(shown.view.right, p), core::dot(shown.view.up, p),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
-#include "client/base/up_axis.h"
+#include "client/base/stance.h"
 #include "client/render/camera.h"
 #include "client/render/image.h"
 #include "client/render/legend.h"
@@ -43,7 +43,7 @@ struct RenderInput {
   std::string level;               ///< what the eroded solid is, for the legend; with one
   std::array<core::Vec3, 3> cell;  ///< steps of the lattice, mesh units; give the balls' size and shape
   double volume = 0;               ///< v0, mesh units cubed; E is labelled as a share of it
-  UpAxis up = UpAxis::kZ;          ///< of the body
+  core::Stance stance;             ///< of the body
   std::string title;               ///< one line above the views
 };
 

@@ -5,6 +5,7 @@
 
 #include "base/number_text.h"
 #include "base/utf8.h"
+#include "client/base/stance.h"
 #include "client/text/key_line.h"
 #include "client/text/printable.h"
 #include "client/text/skeleton_text.h"
@@ -181,6 +182,7 @@ std::string job_details(const v1::Job& job, bool colour) {
   if (job.state() == v1::JOB_STATE_FAILED) text += key_line("reason", failure_text(job.error()));
   if (!job.waiting_reason().empty()) text += key_line("reason", job.waiting_reason());
   if (job.pinned()) text += key_line("pinned", "yes");
+  if (const auto stance = kept_stance(job)) text += key_line("stance", stance_text(*stance));
   if (job.removed_ms() > 0) {
     text += key_line("results_removed",
                      utc_time(job.removed_ms()) + ", by the server's retention; resume computes them again");

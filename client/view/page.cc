@@ -274,12 +274,12 @@ ordered_json add_model(Arrays& arrays, const ViewModel& model, double unit) {
 }
 
 ordered_json page_facts(const ViewInput& input, double unit) {
-  const Stance stands = stance(input.up);
-  return {{"up", std::string(1, up_letter(input.up))},
+  const core::Stance& stands = input.stance;
+  return {{"stands", stance_text(stands)},
           {"stance",
-           {{"right", components(stands.right)},
-            {"up", components(stands.up)},
-            {"front", components(stands.front)}}},
+           {{"right", components(stands.right())},
+            {"up", components(stands.up.vector())},
+            {"front", components(stands.front.vector())}}},
           {"unit", unit},
           {"highestShare", view_share(highest_share(input.models), 1)},
           {"scaleTitle", kScaleTitle},

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
-#include "client/base/up_axis.h"
+#include "client/base/stance.h"
 #include "client/view/view_points.h"
 #include "core/mesh/mesh.h"
 
@@ -29,7 +29,7 @@ struct ViewModel {
 /// What is on a page.
 struct ViewInput {
   std::vector<ViewModel> models;  ///< one, or two side by side with one camera
-  UpAxis up = UpAxis::kZ;         ///< of all
+  core::Stance stance;            ///< of all
   std::vector<double> levels;     ///< of the eroded solids, shares of v0, ascending; may be empty
   std::size_t first_level = 0;    ///< where the slider stands at first
   bool show_level = false;        ///< whether the eroded solid is shown at first

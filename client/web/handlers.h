@@ -18,6 +18,7 @@ http::Response resume_job(WebCall& call);
 http::Response delete_job(WebCall& call);
 http::Response pin_job(WebCall& call);
 http::Response unpin_job(WebCall& call);
+http::Response set_stance(WebCall& call);
 http::Response list_events(WebCall& call);  ///< what happened to a job
 
 http::Response take_mesh(WebCall& call);    ///< inspects an upload

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "client/operations/artifact_calls.h"
+#include "client/operations/kept_stance.h"
 #include "client/text/message_json.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
@@ -63,6 +65,14 @@ http::Response pin_job(WebCall& call) {
 
 http::Response unpin_job(WebCall& call) {
   return api_answer(job_json(call.server().unpin(call.argument)));
+}
+
+http::Response set_stance(WebCall& call) {
+  const StanceChoice choice = parse_stance(text_member(json_body(call.request), "stance"));
+  Session server = call.server();
+  const v1::Job job = server.get_job(call.argument);
+  keep_stance(server, job, choice, fetch_mesh(server, job.id()));
+  return api_answer(job_json(server.get_job(job.id())));
 }
 
 http::Response list_events(WebCall& call) {

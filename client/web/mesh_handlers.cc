@@ -3,6 +3,7 @@
 
 #include "base/atomic_file.h"
 #include "base/utf8.h"
+#include "client/base/stance.h"
 #include "client/files/read/input_file.h"
 #include "client/operations/inspection.h"
 #include "client/operations/submission.h"
@@ -48,7 +49,7 @@ std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::s
   RenderInput input;
   input.mesh = mesh;
   input.cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  input.up = up_axis(mesh);
+  input.stance = core::find_stance(mesh);
   input.title = name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".png"));
   base::AtomicFile out(file->path());

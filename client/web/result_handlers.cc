@@ -3,6 +3,7 @@
 
 #include "base/atomic_file.h"
 #include "base/utf8.h"
+#include "client/base/stance.h"
 #include "client/operations/fetch.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/page.h"
@@ -93,8 +94,10 @@ struct Made {
 // @param look of the picture: what options say beside the skeleton.
 std::shared_ptr<const Picture> drawn(WebState& web, Session& server, const v1::Job& job,
                                      const PictureOptions& options, const std::string& look) {
+  const auto kept_so = kept_stance(job);
+  const std::string stands = kept_so ? stance_text(*kept_so) : "";
   const std::string key = job.id() + " " + std::to_string(job.finished_ms()) + " " +
-                          wire::cache_key(skeleton_params(options.skeleton, job)) + " " + look;
+                          wire::cache_key(skeleton_params(options.skeleton, job)) + " " + stands + " " + look;
   if (auto kept = web.pictures.find(key)) return kept;
   auto picture = std::make_shared<const Picture>(make_picture(server, job, options));
   web.pictures.put(key, picture);

@@ -7,6 +7,7 @@
 #include "client/web/api_answers.h"
 #include "client/web/cookie.h"
 #include "client/web/handlers.h"
+#include "wire/params.h"
 #include "wire/version.h"
 
 namespace affskel::client {
@@ -72,6 +73,13 @@ ordered_json offered_artifacts() {
   return artifacts;
 }
 
+ordered_json sheet_operators() {
+  ordered_json sheets = ordered_json::array();
+  for (const std::string& word : operator_words())
+    if (wire::gives_sheet(operator_named(word))) sheets.push_back(word);
+  return sheets;
+}
+
 ordered_json session_json(const WebState& web, const WebUser& user) {
   return {
       {"mode", web.options.personal ? "personal" : "sign-in"},
@@ -83,6 +91,7 @@ ordered_json session_json(const WebState& web, const WebUser& user) {
       {"words", word_texts()},
       {"usual",
        {{"operator", operator_word(v1::OPERATOR_UNSPECIFIED)}, {"frame", frame_word(v1::FRAME_UNSPECIFIED)}}},
+      {"sheets", sheet_operators()},
       {"artefacts", offered_artifacts()}};
 }
 

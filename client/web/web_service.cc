@@ -31,7 +31,7 @@ struct Route {
   http::Response (*respond)(WebCall& call);
 };
 
-constexpr std::array<Route, 22> kRoutes = {{
+constexpr std::array<Route, 23> kRoutes = {{
     {"GET", "/", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
     {"GET", "/page.js", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
     {"GET", "/page.css", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
@@ -48,6 +48,7 @@ constexpr std::array<Route, 22> kRoutes = {{
     {"POST", "/api/jobs/*/resume", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, resume_job},
     {"POST", "/api/jobs/*/pin", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, pin_job},
     {"POST", "/api/jobs/*/unpin", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, unpin_job},
+    {"POST", "/api/jobs/*/stance", Access::kSignedIn, Body::kObject, http::AnswerKind::kQuick, set_stance},
     {"GET", "/api/jobs/*/events", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, list_events},
     {"POST", "/api/jobs/*/results", Access::kSignedIn, Body::kObject, http::AnswerKind::kAwaited,
      make_result},

@@ -18,6 +18,7 @@ constexpr MethodRule kMethods[] = {
     {Method::kResumeJob, "ResumeJob", Side::kClient, true, false, true},
     {Method::kPinJob, "PinJob", Side::kClient, true, false, true},
     {Method::kUnpinJob, "UnpinJob", Side::kClient, true, false, true},
+    {Method::kSetStance, "SetStance", Side::kClient, true, false, true},
     {Method::kDeleteJob, "DeleteJob", Side::kClient, true, false, true},
     {Method::kListJobEvents, "ListJobEvents", Side::kClient, true, false, true},
     {Method::kVerifyJob, "VerifyJob", Side::kClient, true, false, true},

@@ -25,6 +25,7 @@ enum class Method {
   kResumeJob,
   kPinJob,
   kUnpinJob,
+  kSetStance,
   kDeleteJob,
   kListJobEvents,
   kVerifyJob,

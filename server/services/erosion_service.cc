@@ -154,6 +154,14 @@ grpc::ServerUnaryReactor* ErosionServiceImpl::UnpinJob(grpc::CallbackServerConte
   });
 }
 
+grpc::ServerUnaryReactor* ErosionServiceImpl::SetStance(grpc::CallbackServerContext* context,
+                                                        const v1::SetStanceRequest* request,
+                                                        v1::Job* response) {
+  return answer(Method::kSetStance, *context, *response, [this, request, response](const Identity& caller) {
+    *response = jobs_.with_reason(store_.set_stance(job_ref(request->job(), caller), request->stance()));
+  });
+}
+
 grpc::ServerUnaryReactor* ErosionServiceImpl::DeleteJob(grpc::CallbackServerContext* context,
                                                         const v1::DeleteJobRequest* request,
                                                         v1::DeleteJobResponse* response) {

@@ -43,6 +43,8 @@ class ErosionServiceImpl final : public v1::ErosionService::CallbackService {
                                    v1::Job* response) override;
   grpc::ServerUnaryReactor* UnpinJob(grpc::CallbackServerContext* context, const v1::UnpinJobRequest* request,
                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* SetStance(grpc::CallbackServerContext* context,
+                                      const v1::SetStanceRequest* request, v1::Job* response) override;
   grpc::ServerUnaryReactor* ListJobEvents(grpc::CallbackServerContext* context,
                                           const v1::ListJobEventsRequest* request,
                                           v1::ListJobEventsResponse* response) override;

@@ -29,7 +29,7 @@ constexpr const char* kJobColumns =
     " iif(EXISTS (SELECT 1 FROM tasks INDEXED BY tasks_in_need WHERE job_id = j.id AND state = 'pending'"
     " AND parked = 0 AND needs_memory > 0),"
     " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0), 0),"
-    " e.core_version"
+    " e.core_version, j.stance_up, j.stance_front"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -56,6 +56,13 @@ void read_counters(Columns& columns, v1::JobCounters& counters) {
   counters.set_leases_lost(columns.natural());
   counters.set_longest_report_gap_ms(columns.natural());
   counters.set_directions_lost_estimate(columns.real());
+}
+
+void read_stance(Columns& columns, v1::Job& job) {
+  v1::Stance stance;
+  stance.set_up(static_cast<v1::AxisDirection>(columns.integer()));
+  stance.set_front(static_cast<v1::AxisDirection>(columns.integer()));
+  if (stance.up() != v1::AXIS_DIRECTION_UNSPECIFIED) *job.mutable_stance() = stance;
 }
 
 /// A job as it is sent, and what it is found by.
@@ -98,6 +105,7 @@ ReadJob read_job(const Statement& row) {
   job.set_expires_ms(columns.natural());
   job.set_memory_needed(columns.natural());
   job.set_core_version(columns.text());
+  read_stance(columns, job);
   return read;
 }
 

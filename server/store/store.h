@@ -93,6 +93,9 @@ class Store final : public TokenSource {
   v1::Verification verify(const JobRef& job_ref, double share, std::int64_t verification);
   /// Keeps a job from retention, or no longer.
   v1::Job pin(const JobRef& job_ref, bool pinned);
+  /// Keeps how its solid stands; an empty one: as its shape tells.
+  /// @throws StoreError kInvalid when its directions lie along one axis, or one is missing.
+  v1::Job set_stance(const JobRef& job_ref, const v1::Stance& stance);
   /// Deletes a job that is not active, and marks what no other job needs for tidy().  Returns its id.
   std::string remove(const JobRef& job_ref);
 

@@ -270,6 +270,23 @@ class Desktop(JobPage):
         self.page.slide("opacity", 0)
         self.assertEqual(covered(self.page.canvas_picture()), 0)
 
+    def test_clipping_begins_where_the_skeleton_is_seen(self):
+        self.page.click("view-front")
+        drawn = lambda: (self.page.drawn(), self.page.canvas_picture())[1]
+        whole = drawn()
+        self.page.choose("clip-axis", "y")
+        self.assertTrue(self.page.element("clip-flip").is_selected(), "the front is at -y")
+        self.assertNotEqual(drawn().tobytes(), whole.tobytes())
+        self.page.click("show-mesh")
+        with_plane = drawn()
+        self.page.choose("clip-axis", "")
+        background = whole.getpixel((2, 2))
+        covered = lambda picture: sum(1 for c in picture.getdata() if c != background)
+        self.assertGreater(covered(with_plane), 0.3 * covered(drawn()))
+        self.page.click("view-side")
+        self.page.choose("clip-axis", "x")
+        self.assertFalse(self.page.element("clip-flip").is_selected())
+
     def test_fills_the_screen(self):
         self.page.click("full")
         self.page.wait(lambda _: self.page.script("return document.fullscreenElement !== null"))

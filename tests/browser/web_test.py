@@ -104,6 +104,14 @@ class Desktop(OnThePage):
         page.picture_is_drawn()
         self.assertRegex(page.wait(lambda: [e.text for e in page.all(".card [role=status]") if "Shown" in e.text])[0],
                          r"Shown: sheet of [0-9]+ triangles .*\(ridge, threshold 6\)")
+        before = page.find("img.picture").get_attribute("src")
+        page.find("#stance option[value='z,x']").click()
+        page.wait(lambda: page.find("img.picture").get_attribute("src") != before)
+        self.assertEqual(json.loads(bench.run("--json", "status", job))["stance"], {"up": "z", "front": "x"})
+        page.picture_is_drawn()
+        page.screenshot("desktop-3-from-the-side")
+        page.find("#stance option[value='shape']").click()
+        page.wait(lambda: "stance" not in json.loads(bench.run("--json", "status", job)))
         page.shown("#history summary").click()
         happened = page.wait(lambda: [line.text for line in page.all(".history li")])
         self.assertIn("submitted", happened[0])
@@ -178,6 +186,34 @@ class Desktop(OnThePage):
             page.wait(lambda: not page.all("dialog"))
             self.assertIn("#job/", page.driver.current_url)
             page.heading("closed")
+
+    def test_the_threshold_changes_while_the_view_is_turned(self):
+        page = self.page
+        self.submit_body(20000, "threshold")
+        page.shown("#interactive").click()
+
+        def within(script):
+            page.driver.switch_to.frame(page.shown("dialog iframe"))
+            value = page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0 && " + script))
+            page.driver.switch_to.default_content()
+            return value
+
+        usual = within("affskel.state().skeletonShown")
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.shown("#view-side").click()
+        page.wait(lambda: "view=side" in page.script("return location.hash"))
+        page.driver.switch_to.default_content()
+        page.type("#view-threshold", 1)
+        page.find("dialog strong").click()
+        page.wait(lambda: within("affskel.state().skeletonShown") > usual)
+        self.assertAlmostEqual(within("affskel.state().looking.azimuth"), 90, 1)
+        page.screenshot("desktop-12-threshold")
+        page.type("#view-threshold", -2)
+        page.find("dialog strong").click()
+        page.wait(lambda: "above 0" in page.find("dialog [role=status]").text)
+        page.driver.back()
+        page.wait(lambda: not page.all("dialog"))
+        page.heading("threshold")
 
     def test_a_job_again_with_other_parameters_and_beside_the_first(self):
         page = self.page

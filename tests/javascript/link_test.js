@@ -80,11 +80,13 @@ test('of a bad link what is good is taken', () => {
 
 test('of many changes the last is in the address, and a frame without one is none', async () => {
   const seen = [];
+  const told = [];
   const listeners = {};
   globalThis.window = {
     location: { hash: '#level=5' },
     addEventListener: (name, listener) => (listeners[name] = listener),
     history: { replaceState: (_, __, text) => seen.push(text) },
+    parent: { postMessage: (message) => told.push(message) },
   };
   const opened = [];
   let now = 1;
@@ -94,8 +96,10 @@ test('of many changes the last is in the address, and a frame without one is non
   link.update();
   await new Promise((resolve) => setTimeout(resolve, 300));
   assert.deepEqual(seen, ['#level=2']);
+  assert.deepEqual(told, [{ affskelLink: 'level=2' }], 'what shows the page in a frame knows, too');
   listeners.hashchange();
   assert.deepEqual(opened, ['#level=5']);
+  window.parent = window;
   window.history.replaceState = () => {
     throw Object.assign(new Error(), { name: 'SecurityError' });
   };

@@ -257,15 +257,18 @@ class Job:
         """The OFF text that was submitted, unchanged."""
         return self._bytes(service.ARTIFACT_KIND_MESH, timeout)
 
-    def view(self, operator: Optional[str] = None, threshold: Optional[float] = None, *, height: int = 640) -> View:
+    def view(self, operator: Optional[str] = None, threshold: Optional[float] = None, *, up: Optional[str] = None,
+             height: int = 640) -> View:
         """The body and its skeleton to turn, in a frame of the notebook; made by the installed affskel-client.
 
         Args:
             operator, threshold: as for `skeleton`.
+            up: what points up and what it faces, such as "z,-y", kept with the job; "shape" = as its shape tells.
             height: of the frame, CSS pixels.
         """
         self._chosen(operator, threshold)  # the same errors as elsewhere
-        return View(page(self._session.reached(), self.id, _skeleton_options(operator, threshold)), height)
+        stance = [] if up is None else [f"--up={up}"]
+        return View(page(self._session.reached(), self.id, [*_skeleton_options(operator, threshold), *stance]), height)
 
     def _see(self, job: types.Job) -> Status:
         self.seen = status_of(job)

@@ -77,8 +77,11 @@ export class Link {
   update() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
+      const text = this.state();
+      // What shows this page in a frame can show another one from the same place.
+      if (window.parent !== window) window.parent.postMessage({ affskelLink: text }, '*');
       try {
-        window.history.replaceState(null, '', `#${this.state()}`);
+        window.history.replaceState(null, '', `#${text}`);
       } catch (error) {
         if (/** @type {Error} */ (error).name !== 'SecurityError') throw error; // a frame of a notebook has no address of its own
       }

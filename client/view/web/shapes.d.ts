@@ -41,7 +41,7 @@ interface Part {
   colour: Triple; // 0 .. 1
 }
 interface Page {
-  up: string;
+  stands: string;
   stance: { right: Triple; up: Triple; front: Triple };
   unit: number;
   highestShare: number;
@@ -102,6 +102,7 @@ interface ProbedModel {
 
 interface Skeleton {
   drawn: any;
+  places: Float32Array; // of its points, page units
   values: Float32Array;
   name: string;
   symbol: string;

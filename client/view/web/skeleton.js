@@ -54,6 +54,7 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
   const values = Float32Array.from(sheet.order, (t) => shares[pieceOf[t]]);
   return {
     drawn: sheet,
+    places: sheetPositions,
     values,
     name: 'Sheet pieces',
     symbol: 'share ≥',
@@ -102,6 +103,7 @@ function makeBalls({ arrays, cell, lowestThreshold, threshold, operator }, highe
   const cloud = new BallCloud(positions, colours, cell, clip);
   return {
     drawn: cloud,
+    places: positions,
     values,
     name: 'Shock threshold',
     symbol: '|H| >',

@@ -103,6 +103,11 @@ export class Stage {
     return { view: this.view, azimuth, elevation, target, zoom: this.camera.zoom / this.wholeZoom() };
   }
 
+  // Where the viewer is: a component of the direction to him.
+  toward(axis) {
+    return this.camera.position.clone().sub(this.controls.target).normalize().getComponent(axis);
+  }
+
   // The zoom at which the whole body is in a pane.
   wholeZoom() {
     this.camera.updateMatrixWorld();

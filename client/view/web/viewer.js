@@ -48,6 +48,8 @@ export class Viewer {
     this.wireLook();
     this.clipping = new Clipping(this.clip, {
       half: (axis) => this.stage.halfBox.getComponent(axis),
+      toward: (axis) => this.stage.toward(axis),
+      skeletons: () => this.models.map(({ skeleton }) => skeleton.places),
       coordinate: (axis, at) => this.models[0].coordinates([at, at, at])[axis],
       changed: () => this.stage.changeScene(),
     });

@@ -35,8 +35,11 @@ export function confirmed(question, detail, yes) {
  * Shows the interactive page over everything.  It runs in a sandbox of its own.
  * @param {string} href
  * @param {string} name
+ * @param {HTMLElement[]} controls of what it shows
+ * @returns {(href: string) => void} shows another page in its place, from where this one is seen
  */
-export function showInteractive(href, name) {
+export function showInteractive(href, name, controls) {
+  const tab = h('a', { href, target: '_blank', rel: 'noopener' }, 'Open in a tab of its own');
   const frame = h('iframe', { src: href, sandbox: 'allow-scripts allow-downloads', allow: 'fullscreen *', title: `${name}: body and skeleton` });
   const dialog = h(
     'dialog',
@@ -45,13 +48,19 @@ export function showInteractive(href, name) {
       'div',
       { class: 'bar' },
       h('strong', {}, name),
-      h('a', { href, target: '_blank', rel: 'noopener' }, 'Open in a tab of its own'),
+      controls,
+      tab,
       h('button', { type: 'button', id: 'close-interactive', onclick: () => dialog.close(), autofocus: true }, 'Close'),
     ),
     frame,
   );
   // Back closes it, and so does Escape within the page, which tells so: keys that it hears are not heard here.
-  const hear = (event) => event.source === frame.contentWindow && event.data === 'affskel-escape' && dialog.close();
+  let seen = ''; // from where, as the page's own links keep it
+  const hear = (event) => {
+    if (event.source !== frame.contentWindow) return;
+    if (event.data === 'affskel-escape') dialog.close();
+    else if (typeof event.data?.affskelLink === 'string') seen = event.data.affskelLink;
+  };
   const back = () => dialog.close();
   window.addEventListener('message', hear);
   window.addEventListener('popstate', back);
@@ -64,6 +73,10 @@ export function showInteractive(href, name) {
   });
   document.body.append(dialog);
   dialog.showModal();
+  return (next) => {
+    tab.href = next;
+    frame.contentWindow.location.replace(`${next}#${seen}`); // no step of Back of its own
+  };
 }
 
 /**

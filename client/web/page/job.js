@@ -15,6 +15,19 @@ const shown = (job) => job && JSON.stringify(kShown.map((name) => job[name]));
 /** @type {(job: Job | undefined) => boolean} */
 const hasResults = (job) => job?.state === 'done' && !isRemoved(job);
 
+// What is up and what is in front, as the service takes it, and in words.
+const kDirections = ['z', '-z', 'y', '-y', 'x', '-x'];
+const axis = (direction) => direction.slice(-1);
+const kStances = [
+  ['shape', 'stands as its shape tells'],
+  ...kDirections.flatMap((up) =>
+    kDirections.filter((front) => axis(front) !== axis(up)).map((front) => [`${up},${front}`, `${up} up, facing ${front}`]),
+  ),
+];
+const direction = (word) => word.replace('minus-', '-');
+/** @type {(job: Job) => string} */
+const stanceOf = ({ stance }) => (stance ? `${direction(stance.up)},${direction(stance.front)}` : 'shape');
+
 /** @param {Job} job */
 function asked(job) {
   const { sampling, directions, frame } = job.params;
@@ -42,6 +55,32 @@ function prepared({ prepared: p }) {
     ['Volume', measure(p.volume)],
     ['Solids', count(p.solids)],
   ];
+}
+
+/**
+ * The threshold of a sheet that is being turned; the files are made by the same.  Of points the page has a slider.
+ * @param {Job} job
+ * @param {import('./downloads.js').Downloads} downloads
+ * @param {() => Promise<void>} show again
+ */
+function thresholdControls(job, downloads, show) {
+  if (!session.sheets.includes(downloads.operator.value || job.skeleton.operator || session.usual.operator)) return [];
+  const field = h('input', { id: 'view-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });
+  const told = h('span', { class: 'small', role: 'status' });
+  field.value = downloads.threshold.value;
+  field.addEventListener('change', async () => {
+    downloads.threshold.value = field.value;
+    told.textContent = 'A moment …';
+    try {
+      downloads.parameters();
+      downloads.check();
+      await show();
+      told.textContent = '';
+    } catch (error) {
+      told.textContent = error.message;
+    }
+  });
+  return [told, h('label', { for: 'view-threshold' }, 'Threshold'), field];
 }
 
 /** What is seen at #job/ID. */
@@ -137,10 +176,10 @@ export class JobView {
     if (held !== null) (this.actions.querySelector('button, a') || this.heading).focus();
   }
 
-  async act(method, rest) {
+  async act(method, rest, body) {
     this.problem.hidden = true;
     try {
-      await call(method, jobPath(this.id, rest));
+      await call(method, jobPath(this.id, rest), body);
       this.refresh();
     } catch (error) {
       this.complain(error);
@@ -175,14 +214,32 @@ export class JobView {
     const downloads = new Downloads(this.id, () => this.drawPicture(downloads, picture, waiting));
     const picture = h('img', { class: 'picture', alt: `${job.name}: the body and its skeleton from the front, the side and above`, hidden: true });
     const waiting = h('p', { class: 'small', role: 'status' }, 'The picture is being drawn …');
+    const stance = h(
+      'select',
+      { id: 'stance', 'aria-label': 'How it stands', title: 'How it stands in pictures' },
+      kStances.map(([value, text]) => h('option', { value }, text)),
+    );
+    stance.value = stanceOf(job);
+    stance.addEventListener('change', () => this.stand(stance, () => this.drawPicture(downloads, picture, waiting)));
     const beside = h('select', { id: 'beside', 'aria-label': 'Turn it beside another job' }, h('option', { value: '' }, 'alone'));
     beside.addEventListener('focus', () => this.offerOthers(beside), { once: true });
     const interactive = button('Turn it', () => this.openInteractive(downloads, waiting, beside.value), { id: 'interactive', class: 'primary' });
     this.results.replaceChildren(
-      h('section', { class: 'card' }, h('div', { class: 'row head' }, h('h2', {}, 'Skeleton'), beside, interactive), waiting, picture),
+      h('section', { class: 'card' }, h('div', { class: 'row head' }, h('h2', {}, 'Skeleton'), stance, beside, interactive), waiting, picture),
       downloads.element,
     );
     this.drawPicture(downloads, picture, waiting);
+  }
+
+  /**
+   * Keeps with the job how it stands.
+   * @param {HTMLSelectElement} stance
+   * @param {() => void} draw
+   */
+  async stand(stance, draw) {
+    await this.act('POST', '/stance', { stance: stance.value });
+    if (this.problem.hidden) draw();
+    else stance.value = stanceOf(this.job);
   }
 
   /**
@@ -225,14 +282,14 @@ export class JobView {
    */
   async openInteractive(downloads, status, beside) {
     const before = status.textContent;
+    const made = () => downloads.made('view', beside ? { beside } : {});
     status.textContent = 'A moment …';
     try {
-      const result = await downloads.made('view', beside ? { beside } : {});
+      const result = await made();
       status.textContent = before;
-      showInteractive(result.href, this.job.name);
+      const show = showInteractive(result.href, this.job.name, thresholdControls(this.job, downloads, async () => show((await made()).href)));
     } catch (error) {
       status.textContent = error.message;
     }
   }
 }
-

@@ -16,6 +16,7 @@ interface Session {
   max_mesh_bytes?: any;
   words?: any; // Words
   usual?: any; // words of operator and frame
+  sheets?: any; // words of operators that give sheets and curves
   artefacts?: any;
 }
 
@@ -50,6 +51,7 @@ interface Job {
   waiting_reason?: string;
   cancel_requested: boolean;
   pinned: boolean;
+  stance?: { up: string; front: string };
   created_ms: number;
   started_ms: number;
   finished_ms: number;

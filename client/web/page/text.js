@@ -11,6 +11,7 @@ export const kArtefacts = {
   divergence: ['Divergence', 'H, which the threshold is applied to'],
   skeleton: ['Skeleton', 'sheets and curves; .stl and .off have no place for curves, .csv and .xyz hold the vertices'],
   curve: ['Curve', 'a line through each limb; .json and .graphml: a graph, .swc: trees, .glb: joints of the mesh'],
+  thickness: ['Thickness', 'of the body at every triangle: how far the skeleton is below it'],
   eroded: ['Eroded solid', 'where E is at least a share of the volume'],
   mesh: ['Mesh', 'the file as it was submitted'],
 };

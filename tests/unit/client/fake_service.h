@@ -105,6 +105,13 @@ class FakeService final : public v1::ErosionService::Service {
     *response = job;
     return fails;
   }
+  grpc::Status SetStance(grpc::ServerContext*, const v1::SetStanceRequest* request,
+                         v1::Job* response) override {
+    job.clear_stance();
+    if (request->has_stance()) *job.mutable_stance() = request->stance();
+    *response = job;
+    return fails;
+  }
   grpc::Status ListJobEvents(grpc::ServerContext*, const v1::ListJobEventsRequest*,
                              v1::ListJobEventsResponse* response) override {
     *response = events;

@@ -49,6 +49,7 @@ every_call(const std::string& job) {
       {"ResumeJob", unary(&Client::Stub::ResumeJob, about(v1::ResumeJobRequest()), v1::Job(), client)},
       {"PinJob", unary(&Client::Stub::PinJob, about(v1::PinJobRequest()), v1::Job(), client)},
       {"UnpinJob", unary(&Client::Stub::UnpinJob, about(v1::UnpinJobRequest()), v1::Job(), client)},
+      {"SetStance", unary(&Client::Stub::SetStance, about(v1::SetStanceRequest()), v1::Job(), client)},
       {"DeleteJob",
        unary(&Client::Stub::DeleteJob, about(v1::DeleteJobRequest()), v1::DeleteJobResponse(), client)},
       {"ListJobEvents", unary(&Client::Stub::ListJobEvents, about(v1::ListJobEventsRequest()),

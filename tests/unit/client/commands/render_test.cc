@@ -44,7 +44,8 @@ TEST_F(ClientTest, RenderTakesCamerasALevelABackgroundAndAnAxisUp) {
                                                 {"--camera", "0,95"},
                                                 {"--background", "red"},
                                                 {"--level", "1.5"},
-                                                {"--up", "up"}}) {
+                                                {"--up", "up"},
+                                                {"--up", "y,-y"}}) {
     std::vector<std::string> command = {"render", "@last", "-o", dir_ / "w.png"};
     command.insert(command.end(), wrong.begin(), wrong.end());
     const Outcome outcome = run(command);
@@ -52,6 +53,18 @@ TEST_F(ClientTest, RenderTakesCamerasALevelABackgroundAndAnAxisUp) {
     EXPECT_NE(outcome.err.find(wrong[1]), std::string::npos) << outcome.err;
   }
   EXPECT_FALSE(std::filesystem::exists(dir_ / "w.png"));
+}
+
+TEST_F(ClientTest, RenderAndViewKeepHowTheSolidStands) {
+  const std::string one = dir_ / "p.png", other = dir_ / "q.png";
+  ASSERT_EQ(run({"render", "@last", "-o", one, "--width", "300", "--up", "y,-x"}).exit_code, 0);
+  EXPECT_EQ(service_.job.stance().up(), v1::AXIS_DIRECTION_Y);
+  EXPECT_EQ(service_.job.stance().front(), v1::AXIS_DIRECTION_MINUS_X);
+  EXPECT_NE(run({"status", "@last"}).out.find("y up, facing -x"), std::string::npos);
+  ASSERT_EQ(run({"render", "@last", "-o", other, "--width", "300"}).exit_code, 0);
+  EXPECT_EQ(tests::read_file(one), tests::read_file(other));
+  ASSERT_EQ(run({"view", "@last", "-o", dir_ / "v.html", "--up", "shape"}).exit_code, 0);
+  EXPECT_FALSE(service_.job.has_stance());
 }
 
 TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {

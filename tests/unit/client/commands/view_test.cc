@@ -52,7 +52,7 @@ TEST_F(ViewTest, WritesThePage) {
   EXPECT_EQ(all.at("operator"), "ridge");
   EXPECT_EQ(all.at("threshold"), 0.001);
   EXPECT_EQ(all.at("pointsHere"), 0) << "a sheet needs none";
-  EXPECT_EQ(all.at("up"), "z");
+  EXPECT_EQ(all.at("stands"), "z up, facing -y");
   EXPECT_EQ(all.at("showLevel"), false);
   EXPECT_EQ(all.at("eroded").size(), all.at("levels").size());
   const json told = json::parse(run({"--json", "-o", dir_ / "p.html"}).out);
@@ -81,7 +81,7 @@ TEST_F(ViewTest, CarriesTheLevelThatIsAskedForAndShowsIt) {
   const json all = facts();
   EXPECT_EQ(all.at("levels").at(all.at("firstLevel").get<std::size_t>()), 0.125);
   EXPECT_EQ(all.at("showLevel"), true);
-  EXPECT_EQ(all.at("up"), "x");
+  EXPECT_EQ(all.at("stands").get<std::string>().substr(0, 5), "x up,");
   EXPECT_EQ(run({"--level", "2", "-o", dir_ / "p.html"}).exit_code, 2);
   EXPECT_EQ(run({"--up", "w", "-o", dir_ / "p.html"}).exit_code, 2);
 }

@@ -120,8 +120,9 @@ TEST(RenderScene, UpIsUp) {
   input.title.clear();
   RenderOptions options;
   options.cameras = {{"", 0, 0}};
-  const auto shape_of = [&](UpAxis up) {
-    input.up = up;
+  constexpr core::Stance kX{{0, false}, {2, false}};
+  const auto shape_of = [&](const core::Stance& stance) {
+    input.stance = stance;
     const Image image = render_scene(input, options);
     std::vector<int> rows;  // dark pixels per row, of the drawing
     for (int y = 0; y < image.height(); ++y) {
@@ -131,11 +132,11 @@ TEST(RenderScene, UpIsUp) {
     }
     return rows;
   };
-  const std::vector<int> rows = shape_of(UpAxis::kX);
+  const std::vector<int> rows = shape_of(kX);
   const auto first = std::find_if(rows.begin(), rows.end(), [](int drawn) { return drawn > 0; });
   ASSERT_NE(first, rows.end());
   EXPECT_LT(*(first + 10), *(first + 300)) << "the tip is above";
-  EXPECT_NE(shape_of(UpAxis::kX), shape_of(UpAxis::kZ));
+  EXPECT_NE(shape_of(kX), shape_of({}));
 }
 
 TEST(RenderScene, LeavesOutTheMeshAndDrawsTheErodedSolid) {

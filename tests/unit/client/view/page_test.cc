@@ -300,9 +300,9 @@ TEST(Page, KeepsTheLicenceOfThreeJs) {
 
 TEST(Page, SaysHowBodiesStandAndThatColoursAreNotLinear) {
   ViewInput input = sample_input();
-  input.up = UpAxis::kY;
+  input.stance = {{1, false}, {2, false}};
   const json all = page_facts(view_page(input));
-  EXPECT_EQ(all.at("up"), "y");
+  EXPECT_EQ(all.at("stands"), "y up, facing z");
   EXPECT_EQ(all.at("stance").at("front"), json({0., 0., 1.}));
   EXPECT_EQ(all.at("scaleTitle"), "Erosion level E, % of v0");
   EXPECT_EQ(all.at("scaleNote"), "Not linear: the colour follows the cube root of E");

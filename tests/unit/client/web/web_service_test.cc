@@ -79,6 +79,12 @@ TEST_F(WebServiceTest, KeepsAJobAndTellsWhatHappenedToIt) {
   EXPECT_TRUE(service_.job.pinned());
   EXPECT_EQ(ask("POST", job + "/unpin").object()["pinned"], false);
   EXPECT_FALSE(service_.job.pinned());
+  EXPECT_EQ(ask("POST", job + "/stance", R"({"stance": "y,-x"})").object()["stance"],
+            json({{"up", "y"}, {"front", "minus-x"}}));
+  EXPECT_EQ(service_.job.stance().front(), v1::AXIS_DIRECTION_MINUS_X);
+  EXPECT_EQ(ask("POST", job + "/stance", R"({"stance": "y,y"})").status, 400);
+  EXPECT_EQ(ask("POST", job + "/stance", R"({"stance": "shape"})").status, 200);
+  EXPECT_FALSE(service_.job.has_stance());
   v1::JobEvent& event = *service_.events.add_events();
   event.set_number(7);
   event.set_event("lease_lost");

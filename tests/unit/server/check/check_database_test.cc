@@ -189,7 +189,7 @@ TEST(CheckOldDatabaseTest, OnlySqlitesOwnChecksOfAnOlderSchema) {
   const TemporaryDirectory directory;
   {
     Database db((directory.path() / "affskel.db").string(), Database::Mode::kReadWrite);
-    migrate(db);
+    migrate(db, {embedded_migrations().front()});
     db.execute(
         "PRAGMA foreign_keys = OFF; INSERT INTO requests VALUES ('r', '', 'nobody');"
         "PRAGMA application_id = 1095127883; PRAGMA user_version = 14");

@@ -64,7 +64,7 @@ class MaintenanceTest : public StoreTest {
     store_.reset();
     fs::remove(database());
     Database db(database(), Database::Mode::kReadWrite);
-    migrate(db);
+    migrate(db, {embedded_migrations().front()});
     db.execute("PRAGMA application_id = 1095127883; PRAGMA user_version = 14");
   }
 

@@ -44,6 +44,29 @@ TEST_F(ListTest, ReferencesAreQuotedAsTheyWereGiven) {
   EXPECT_NE(status.error_message().find("'@LAST'"), std::string::npos) << status.error_message();
 }
 
+TEST_F(ListTest, AJobKeepsHowItsSolidStands) {
+  const std::string id = submit("OFF 1"), other = submit("OFF 2");
+  const auto set = [&](int up, int front) {
+    grpc::ClientContext context;
+    v1::SetStanceRequest request;
+    request.set_job(id);
+    request.mutable_stance()->set_up(static_cast<v1::AxisDirection>(up));
+    request.mutable_stance()->set_front(static_cast<v1::AxisDirection>(front));
+    v1::Job job;
+    return client_->SetStance(&context, request, &job).error_code();
+  };
+  EXPECT_FALSE(job(id).has_stance());
+  EXPECT_EQ(set(v1::AXIS_DIRECTION_MINUS_Z, v1::AXIS_DIRECTION_X), grpc::StatusCode::OK);
+  EXPECT_EQ(job(id).stance().up(), v1::AXIS_DIRECTION_MINUS_Z);
+  EXPECT_EQ(job(id).stance().front(), v1::AXIS_DIRECTION_X);
+  EXPECT_FALSE(job(other).has_stance());
+  for (const auto& [up, front] : {std::pair{5, 6}, {1, 1}, {1, 0}, {0, 3}, {7, 1}, {1, -1}})
+    EXPECT_EQ(set(up, front), grpc::StatusCode::INVALID_ARGUMENT) << up << " " << front;
+  EXPECT_EQ(job(id).stance().up(), v1::AXIS_DIRECTION_MINUS_Z) << "a refusal changes nothing";
+  EXPECT_EQ(set(0, 0), grpc::StatusCode::OK);
+  EXPECT_FALSE(job(id).has_stance());
+}
+
 TEST_F(ListTest, RefusesWhatIsNoToken) {
   submit("OFF 1");
   submit("OFF 2");

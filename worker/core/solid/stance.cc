@@ -1,0 +1,182 @@
+#include "core/solid/stance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/mesh/box.h"
+#include "core/solid/surface_samples.h"
+#include "core/spatial/distance_to_mesh.h"
+
+// Places are samples of the surface, evenly by area.  Coordinates are x, y, z by number, so that every rule is written
+// once for all axes.  The figures behind the constants: 8 bodies of 292 to 107,024 triangles in three poses, and 20
+// animals, busts and hands of CGAL's data (`stance_test` has such shapes of our own).
+
+namespace affskel::core {
+namespace {
+
+using Axes = std::array<double, 3>;
+
+constexpr std::size_t kSamples = 20000;
+constexpr std::size_t kMirrored = 8;   // every eighth sample: each takes a search for the nearest triangle
+constexpr double kMirrorImage = 0.05;  // mean distance of the halves by the side across: bodies 0.004 to 0.03
+constexpr double kNoImage = 0.01;      // beyond twice that: animals front to back 0.03 at least
+constexpr double kClearlyLonger = 1.25;  // a body's height against its arms hanging obliquely: 1.5
+constexpr double kFeet = 0.05;           // of the height
+constexpr double kStands = 0.1;          // of the base: bodies 0.14 to 0.5, animals 0.2 to 0.5
+constexpr double kStandsBetter = 1.5;    // a camel on its feet against on its rump: 1.9
+constexpr double kClearlyWider = 1.25;   // a body with its arms hanging against its depth: 2
+constexpr double kHeadAside = 0.1;       // by the longest side: animals 0.11 to 0.38, bodies to 0.04
+constexpr double kFeetAside = 0.02;      // bodies 0.04 to 0.05
+
+Axes components(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+AxisDirection usual_front(AxisDirection up) {
+  return up.axis == 2 ? AxisDirection{1, true} : AxisDirection{2, false};
+}
+
+class Shape {
+ public:
+  Shape(const Mesh& mesh, std::vector<Vec3> places) : mesh_(mesh), distance_(mesh) {
+    for (const Vec3& place : places) places_.push_back(components(place));
+    const Box box = box_of(places);
+    low_ = box.low;
+    high_ = box.high;
+    longest_ = box.longest_side();
+    for (const Axes& place : places_)
+      for (std::size_t a = 0; a < 3; ++a) middle_[a] += place[a] / double(places_.size());
+    for (std::size_t a = 0; a < 3; ++a) unlikeness_[a] = unlike_mirror_image(a);
+  }
+
+  AxisDirection up() const {
+    const bool across_y = is_across(1, 0) && is_across(1, 2), across_z = is_across(2, 0) && is_across(2, 1);
+    const double on_z = across_z ? 0 : spread_of_feet(2), on_y = across_y ? 0 : spread_of_feet(1);
+    if (on_y >= kStands && on_y > kStandsBetter * on_z) return {1, false};
+    if (on_z >= kStands && on_z > kStandsBetter * on_y) return {2, false};
+    return {side(1) > kClearlyLonger * std::max(side(0), side(2)) ? 1U : 2U, false};
+  }
+
+  AxisDirection front(AxisDirection up) const {
+    AxisDirection front = usual_front(up);
+    const std::size_t other = 3 - up.axis - front.axis;
+    const bool stands = side(up.axis) >= std::max(side(front.axis), side(other));
+    if (is_across(front.axis, other) ||
+        (!is_across(other, front.axis) && stands && side(front.axis) > kClearlyWider * side(other))) {
+      front = {other, false};
+    }
+    const double head = beside(up, 0.85, 1, front.axis) - middle_[front.axis];
+    const double feet = beside(up, 0, 0.04, front.axis) - beside(up, 0.07, 0.15, front.axis);
+    if (std::fabs(head) > kHeadAside * longest_) {
+      front.minus = head < 0;
+    } else if (std::fabs(feet) > kFeetAside * longest_) {
+      front.minus = feet < 0;
+    }
+    return front;
+  }
+
+ private:
+  double side(std::size_t axis) const { return high_[axis] - low_[axis]; }
+
+  // How far the surface is from its mirror image in the mean, by the side across the mirror, which stands in the middle
+  // of the box or of the surface, whichever suits better.
+  double unlike_mirror_image(std::size_t axis) const {
+    double least = HUGE_VAL;
+    for (const double mirror : {(low_[axis] + high_[axis]) / 2, middle_[axis]}) {
+      double sum = 0;
+      std::size_t count = 0;
+      for (std::size_t p = 0; p < places_.size(); p += kMirrored, ++count) {
+        Axes image = places_[p];
+        image[axis] = 2 * mirror - image[axis];
+        sum += distance_.nearest({image[0], image[1], image[2]});
+      }
+      least = std::min(least, sum / double(count) / side(axis));
+    }
+    return least;
+  }
+
+  // Whether left and right lie along an axis rather than along another one.
+  bool is_across(std::size_t axis, std::size_t other) const {
+    return unlikeness_[axis] < kMirrorImage && unlikeness_[other] > 2 * unlikeness_[axis] + kNoImage;
+  }
+
+  // The box round what it stands on, as a share of the whole's base; 0 when it would fall over.
+  double spread_of_feet(std::size_t up) const {
+    Axes low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (const Axes& place : places_) {
+      if (place[up] > low_[up] + kFeet * side(up)) continue;
+      for (std::size_t a = 0; a < 3; ++a) {
+        low[a] = std::min(low[a], place[a]);
+        high[a] = std::max(high[a], place[a]);
+      }
+    }
+    double share = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (a == up) continue;
+      if (!(low[a] < middle_[a] && middle_[a] < high[a])) return 0;
+      share *= (high[a] - low[a]) / side(a);
+    }
+    return share;
+  }
+
+  // The mean along `axis` of what lies between two heights, shares of the whole; the middle where nothing does.
+  double beside(AxisDirection up, double from, double to, std::size_t axis) const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const Axes& place : places_) {
+      const double share = (place[up.axis] - low_[up.axis]) / side(up.axis);
+      const double height = up.minus ? 1 - share : share;
+      if (!(height >= from && height <= to)) continue;
+      sum += place[axis];
+      ++count;
+    }
+    return count > 0 ? sum / double(count) : middle_[axis];
+  }
+
+  const Mesh& mesh_;
+  DistanceToMesh distance_;
+  std::vector<Axes> places_;
+  Axes low_{}, high_{}, middle_{}, unlikeness_{};
+  double longest_ = 0;
+};
+
+// Empty where there is nothing to look at.
+std::vector<Vec3> places_on(const Mesh& mesh) {
+  constexpr double kLargest = 1e100;  // squares of lengths do not overflow
+  for (const Vec3& p : mesh.points)
+    if (!(std::fabs(p.x) < kLargest && std::fabs(p.y) < kLargest && std::fabs(p.z) < kLargest)) return {};
+  try {
+    return surface_samples(mesh, {kSamples});
+  } catch (const CoreError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+Vec3 AxisDirection::vector() const {
+  const double length = minus ? -1 : 1;
+  return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
+}
+
+Vec3 Stance::right() const {
+  return cross(up.vector(), front.vector());
+}
+
+Stance find_stance(const Mesh& mesh, const StanceOptions& options) {
+  const std::vector<Vec3> places = places_on(mesh);
+  if (places.empty()) {
+    const AxisDirection up = options.up.value_or(AxisDirection{2, false});
+    return {up, usual_front(up)};
+  }
+  const Shape shape(mesh, places);
+  const AxisDirection up = options.up.value_or(shape.up());
+  return {up, shape.front(up)};
+}
+
+}  // namespace affskel::core
