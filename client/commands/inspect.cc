@@ -1,13 +1,17 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
+#include "client/commands/shared/destination.h"
 #include "client/files/read/input_file.h"
 #include "client/operations/inspection.h"
+#include "client/operations/mesh_picture.h"
 #include "client/text/key_line.h"
 
 namespace affskel::client {
@@ -84,12 +88,24 @@ std::string facts_text(const ordered_json& facts, bool all) {
 
 struct InspectOptions {
   std::string file;
+  std::string picture;  // file, or empty
   bool all = false;
 };
 
+void draw(Console& console, const InspectOptions& options, const InputFile& input) {
+  const Destination destination = destination_of(options.picture, "", console);
+  choose_format(destination, picture_formats(), "picture");
+  base::AtomicFile file(destination.file);
+  file.write(mesh_picture(input, std::filesystem::path(input.path).filename().string(), {}));
+  file.commit();
+  console.note("wrote " + destination.name());
+}
+
 void run_inspect(Console& console, const InspectOptions& options) {
   const std::size_t places = options.all ? std::numeric_limits<std::size_t>::max() : kFewPlaces;
-  const Inspection inspection = inspect(read_named_input(options.file), places);
+  const InputFile input = read_named_input(options.file);
+  const Inspection inspection = inspect(input, places);
+  if (!options.picture.empty()) draw(console, options, input);
   console.result(facts_text(inspection.facts, options.all));
   console.document(inspection.facts);
   if (inspection.error) throw *inspection.error;
@@ -101,7 +117,8 @@ void add_inspect(CommandLine& line) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::App* command = line.add("inspect", "What a mesh is, and every defect with its place; needs no server",
                                "  affskel-client inspect body.off\n  affskel-client inspect scan.off --all\n"
-                               "  affskel-client --json inspect scan.stl",
+                               "  affskel-client --json inspect scan.stl\n"
+                               "  affskel-client inspect scan.off --render defects.png",
                                [options](Context& context) { run_inspect(context.console(), *options); });
   command
       ->add_option("FILE", options->file,
@@ -109,6 +126,10 @@ void add_inspect(CommandLine& line) {
       ->required()
       ->check(mesh_file())
       ->type_name("");
+  command
+      ->add_option("--render", options->picture,
+                   "PNG file to write: the mesh from the front, the side and above, its defects\nmarked")
+      ->type_name("FILE");
   command->add_flag("--all", options->all,
                     "Every place of every defect, each on a line; else the first five");
 }

@@ -39,15 +39,11 @@ void prepare_output_dir(const std::string& directory) {
 
 std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
                                    const fs::path& name) {
-  const std::string stem = (directory / name).string();
   std::vector<Fetched> files;
-  const auto keep = [&](FetchRequest request) {
+  for (const FetchRequest& request : main_files(job, (directory / name).string())) {
     files.push_back(fetch(context.session(), request));
     show_written(context.console(), files.back());
-  };
-  keep({job.id(), "field", {stem + ".field" + std::string(extension_of(open_field_format(job)))}});
-  for (const char* extension : {".vtp", ".ply"})
-    keep({job.id(), "skeleton", {stem + ".skeleton" + extension}});
+  }
   return files;
 }
 

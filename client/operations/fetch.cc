@@ -73,4 +73,10 @@ FileFormat open_field_format(const v1::Job& job) {
   return FileFormat::kVti;
 }
 
+std::vector<FetchRequest> main_files(const v1::Job& job, const std::string& stem) {
+  return {{job.id(), "field", {stem + ".field" + std::string(extension_of(open_field_format(job)))}},
+          {job.id(), "skeleton", {stem + ".skeleton.vtp"}},
+          {job.id(), "skeleton", {stem + ".skeleton.ply"}}};
+}
+
 }  // namespace affskel::client

@@ -63,4 +63,8 @@ Fetched fetch(Session& session, const FetchRequest& request);
 /// lattice is not parallel to the mesh's axes.
 FileFormat open_field_format(const v1::Job& job);
 
+/// What most people want of a job: its field in that format, STEM.field.vti or .vts, and its skeleton,
+/// STEM.skeleton.vtp and .ply.
+std::vector<FetchRequest> main_files(const v1::Job& job, const std::string& stem);
+
 }  // namespace affskel::client

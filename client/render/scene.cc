@@ -98,6 +98,10 @@ Layout lay_out(const std::vector<Shown>& views, const RenderOptions& options, co
     legend.title = input.painted->title;
     legend.rows = input.painted->rows;
   }
+  for (const DefectMarks& marks : input.marks) {
+    legend.title = "Defects";
+    legend.rows.push_back(marks.what);
+  }
   legend.level = input.eroded.corners().empty() ? "" : input.level;
   std::vector<Block> blocks;
   for (const Shown& shown : views)
@@ -175,6 +179,17 @@ void draw_solids(const RenderInput& input, const RenderOptions& options, Panel& 
   }
 }
 
+// An edge that is short on the picture is a spot.
+void draw_marks(const RenderInput& input, const Layout& layout, Panel& panel) {
+  const double width = std::max(2.0, layout.text / 4);
+  for (const DefectMarks& marks : input.marks) {
+    const std::vector<Rgb> colours(input.mesh.points.size(), marks.what.colour);
+    panel.draw_curves(input.mesh.points, marks.edges, colours, width);
+    for (const auto& [a, b] : marks.edges)
+      panel.draw_ball({0.5 * (input.mesh.points[a] + input.mesh.points[b]), marks.what.colour}, 0.7 * width);
+  }
+}
+
 // One view with its name above it.
 void draw_view(Image& image, const RenderInput& input, const RenderOptions& options, const Layout& layout,
                const Shown& shown, std::size_t which) {
@@ -184,6 +199,7 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   const double highest = highest_of(input);
   draw_points(input, layout, highest, panel);
   draw_sheet(input.sheet, colours_of(input, highest), std::max(2.0, layout.text / 5), panel);
+  draw_marks(input, layout, panel);
   draw_solids(input, options, panel);
   const ScreenPoint at = layout.place(which);
   paste(image, panel.resolve(options.background), static_cast<int>(at.x),

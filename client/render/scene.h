@@ -32,10 +32,17 @@ struct PaintedBody {
   std::vector<ColourRow> rows;
 };
 
+/// Edges of the body that stand out.
+struct DefectMarks {
+  ColourRow what;                    ///< for the legend
+  std::vector<core::Segment> edges;  ///< of the body's points
+};
+
 /// What is on the picture.
 struct RenderInput {
   core::Mesh mesh;                     ///< the body, drawn translucent
   std::optional<PaintedBody> painted;  ///< drawn instead; the skeleton then in one colour
+  std::vector<DefectMarks> marks;      ///< drawn over it; may be empty
   v1::SkeletonPoints skeleton;  ///< drawn as balls, stretched like the cells, coloured by E; may be empty
   v1::TriangleMesh
       sheet;  ///< of `chords` or `ridge`, drawn as a surface, with curves, coloured by E; may be empty

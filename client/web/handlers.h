@@ -25,7 +25,8 @@ http::Response take_mesh(WebCall& call);    ///< inspects an upload
 http::Response lay_lattice(WebCall& call);  ///< points for a spacing, or a spacing for points
 http::Response submit_mesh(WebCall& call);
 
-http::Response make_result(WebCall& call);  ///< an artefact, a picture or the interactive page
+http::Response make_result(WebCall& call);
+http::Response make_archive(WebCall& call);  ///< an artefact, a picture or the interactive page
 http::Response send_result(WebCall& call);
 http::Response send_thumbnail(WebCall& call);  ///< a small picture of a done job
 

@@ -3,9 +3,9 @@
 
 #include "base/atomic_file.h"
 #include "base/utf8.h"
-#include "client/base/stance.h"
 #include "client/files/read/input_file.h"
 #include "client/operations/inspection.h"
+#include "client/operations/mesh_picture.h"
 #include "client/operations/submission.h"
 #include "client/render/scene.h"
 #include "client/web/api_answers.h"
@@ -45,19 +45,14 @@ double number_of(const http::Request& request, const std::string& name) {
   throw ClientError(ExitCode::kUsage, "'" + name + "' must be a number");
 }
 
-std::string picture_of(const WebCall& call, const core::Mesh& mesh, const std::string& name) {
-  RenderInput input;
-  input.mesh = mesh;
-  input.cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  input.stance = core::find_stance(mesh);
-  input.title = name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
+std::string picture_of(const WebCall& call, const InputFile& input, const std::string& name) {
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".png"));
   base::AtomicFile out(file->path());
   RenderOptions look;
   look.width = kMeshPictureWidth;
   if (const std::string background = call.request.parameter("background"); !background.empty())
     look.background = parse_background(background);
-  out.write(encode_png(render_scene(input, look)));
+  out.write(mesh_picture(input, name, look));
   out.commit();
   return call.keep({std::move(file), "mesh.png", "image/png", true, {}});
 }
@@ -107,7 +102,7 @@ http::Response take_mesh(WebCall& call) {
   inspection.facts["file"] = name;
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
   if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
-    answer["picture"] = picture_of(call, input.off.mesh, name);
+    answer["picture"] = picture_of(call, input, name);
   if (inspection.error) {
     answer["error"] = inspection.error->what();
     return api_answer(answer);

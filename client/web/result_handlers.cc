@@ -2,14 +2,15 @@
 #include <array>
 
 #include "base/atomic_file.h"
-#include "base/utf8.h"
 #include "client/base/stance.h"
+#include "client/operations/archive.h"
 #include "client/operations/fetch.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/page.h"
 #include "client/operations/picture.h"
 #include "client/render/scene.h"
 #include "client/text/message_json.h"
+#include "client/text/portable_name.h"
 #include "client/view/page.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
@@ -38,17 +39,8 @@ std::string type_of(const std::string& extension) {
   return "application/octet-stream";
 }
 
-// Names under which every system can save a file.
 std::string file_name(const std::string& job, const std::string& what, const std::string& extension) {
-  constexpr std::size_t kMaxBytes = 100;
-  std::string stem(base::truncate_utf8(base::to_utf8(job), kMaxBytes));
-  for (char& c : stem) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
-        std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos)
-      c = '_';
-  }
-  if (stem.empty() || stem.front() == '.') stem.insert(0, "job");
-  return stem + "." + what + extension;
+  return portable_name(job) + "." + what + extension;
 }
 
 // RFC 6266: for old programs without what is not ASCII.
@@ -191,6 +183,25 @@ http::Response make_result(WebCall& call) {
   answer["warnings"] = warnings_json(made.notices);
   answer["href"] = call.keep({std::move(file), answer["name"].get<std::string>(), type_of(extension), shown,
                               artifact == "view" ? view_page_policy() : std::string()});
+  return api_answer(answer, 201);
+}
+
+http::Response make_archive(WebCall& call) {
+  const nlohmann::json body = json_body(call.request);
+  const auto ids = body.find("jobs");
+  if (ids == body.end() || !ids->is_array() || ids->empty() ||
+      !std::all_of(ids->begin(), ids->end(), [](const nlohmann::json& id) { return id.is_string(); }))
+    throw ClientError(ExitCode::kUsage, "'jobs' must be ids of jobs");
+  if (ids->size() > kMaxArchived)
+    throw ClientError(ExitCode::kLimit, "an archive holds " + std::to_string(kMaxArchived) + " jobs at most");
+  Session server = call.server();
+  std::vector<v1::Job> jobs;
+  for (const nlohmann::json& id : *ids) jobs.push_back(finished_job(server, id.get<std::string>()));
+  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".zip"));
+  write_archive(server, jobs, file->path());
+  const std::string name = jobs.size() == 1 ? portable_name(jobs.front().name()) + ".zip" : "affskel.zip";
+  nlohmann::ordered_json answer = {{"name", name}, {"size", file->bytes()}};
+  answer["href"] = call.keep({std::move(file), name, "application/zip", false, {}});
   return api_answer(answer, 201);
 }
 

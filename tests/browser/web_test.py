@@ -2,11 +2,13 @@
 
 Usage: web_test.py AFFSKEL-CLIENT AFFSKEL-SERVER [TEST...]
 """
+import io
 import json
 import os
 import subprocess
 import sys
 import unittest
+import zipfile
 
 if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM", "CHROMEDRIVER"]):
     print("no chromium or chromedriver: skipped")
@@ -280,6 +282,10 @@ class Desktop(OnThePage):
         for card in cards[:2]:
             page.find(card + " input").click()
         page.wait(lambda: "2 jobs selected" in page.text())
+        page.shown("#download-selected").click()
+        with zipfile.ZipFile(io.BytesIO(page.downloaded("affskel.zip"))) as archive:
+            self.assertIsNone(archive.testzip())
+            self.assertEqual(len(archive.namelist()), 8, archive.namelist())
         page.shown("#delete-selected").click()
         page.shown("dialog .danger").click()
         page.wait(lambda: not any(page.all(card) for card in cards[:2]))

@@ -12,6 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from own_namespaces import require_own_mounts
+
 INSIDE = "AFFSKEL_TEST_NAMESPACE"
 
 # Lower than what is usual, since not every root may raise its limits.  The files of events and networks are apart from
@@ -50,6 +52,7 @@ def enter():
         sys.exit(77)
     if INSIDE in os.environ:
         return
+    require_own_mounts()
     environment = {k: v for k, v in os.environ.items() if not k.startswith("AFFSKEL_")}
     # Of this machine, for builds: see Engine.build.
     environment[INSIDE] = f"/proc/{os.getppid()}/ns/net"

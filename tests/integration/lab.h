@@ -47,10 +47,9 @@ struct Output {
 /// Why a test that mounts is skipped, and what would let it run.
 inline constexpr const char* kCannotMount =
     "a small disk is a tmpfs in a mount namespace of its own, which this user may not make; to run this, "
-    "allow "
-    "user namespaces (sysctl kernel.unprivileged_userns_clone=1; in a container a seccomp profile with "
-    "unshare "
-    "and mount) and install unshare (util-linux)";
+    "allow user namespaces (sysctl kernel.unprivileged_userns_clone=1; in a container a seccomp profile with "
+    "unshare and mount), install unshare (util-linux), and where the root is a plain chroot mount it on itself "
+    "first (mount --bind ROOT ROOT)";
 
 /// The real programs in a directory of their own, removed at the end.
 class Lab {

@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 
 from hosts import Host
+from own_namespaces import require_own_mounts
 
 TARBALL, GUIDE, PACKAGES = (Path(argument).resolve() for argument in sys.argv[1:4])
 del sys.argv[1:]
@@ -19,6 +20,7 @@ del sys.argv[1:]
 if os.geteuid() != 0 or not TARBALL.exists():
     print("SKIPPED: roots with services of their own need root and a bare Debian root; run the tests as root")
     sys.exit(77)
+require_own_mounts()
 
 SERVER, WORKER = "affskel-server", "affskel-worker@lab"
 

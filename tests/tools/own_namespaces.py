@@ -19,10 +19,19 @@ def enter(*tools):
         skip(f"no {', '.join(missing)}; deploy/run-tests --all installs it")
     if os.geteuid() != 0:
         skip("namespaces of its own need root; run the tests as root")
+    require_own_mounts()
     # The shell is there as process 1, to reap what loses its parent.
     os.environ["AFFSKEL_TEST_NAMESPACES"] = "entered"
     os.execvp("unshare", ["unshare", "--net", "--pid", "--fork", "--kill-child", "--mount-proc",
                           "sh", "-c", '"$@"; exit $?', "sh", sys.executable, "-B", *sys.argv])
+
+
+def require_own_mounts():
+    """Skips the test where no mounts of its own can be made: in a plain chroot, or a container that forbids it."""
+    tried = subprocess.run(["unshare", "--mount", "true"], check=False, capture_output=True, text=True)
+    if tried.returncode != 0:
+        skip(f"no mounts of its own can be made here ({tried.stderr.strip()}); where the root is a plain chroot, mount "
+             "it on itself first (mount --bind ROOT ROOT)")
 
 
 def skip(reason):

@@ -19,16 +19,23 @@ struct Edge {
 // Collects places of one kind of defect.
 class Collector {
  public:
-  Collector(std::string code, std::string one, std::string many, const core::OffMesh& off,
+  Collector(std::string name, std::string one, std::string many, const core::OffMesh& off,
             std::size_t max_places)
       : one_(std::move(one)), many_(std::move(many)), off_(off), max_places_(max_places) {
-    defect_.code = std::move(code);
+    defect_.code = name + "s";
+    std::replace(defect_.code.begin(), defect_.code.end(), ' ', '-');
+    defect_.name = std::move(name);
   }
 
-  void add(std::uint32_t triangle, const std::string& detail) {
-    if (++defect_.count > max_places_) return;
-    const std::uint64_t line = triangle < off_.triangle_line.size() ? off_.triangle_line[triangle] : 0;
-    defect_.places.push_back({line, triangle, detail});
+  void add_triangle(std::uint32_t triangle, const std::string& detail) {
+    const core::Triangle& t = off_.mesh.triangles[triangle];
+    add(triangle, detail, {{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}});
+  }
+
+  void add_edge(const Edge& edge) {
+    const core::Triangle& t = off_.mesh.triangles[edge.triangle];
+    const auto [low, high] = std::minmax(t[edge.corner], t[(edge.corner + 1) % 3]);
+    add(edge.triangle, ", vertices " + std::to_string(low) + " and " + std::to_string(high), {{low, high}});
   }
 
   void finish(std::vector<MeshDefect>& defects) {
@@ -38,24 +45,23 @@ class Collector {
   }
 
  private:
+  void add(std::uint32_t triangle, const std::string& detail, std::vector<core::Segment> edges) {
+    if (++defect_.count > max_places_) return;
+    const std::uint64_t line = triangle < off_.triangle_line.size() ? off_.triangle_line[triangle] : 0;
+    defect_.places.push_back({line, triangle, detail, std::move(edges)});
+  }
+
   MeshDefect defect_;
   std::string one_, many_;
   const core::OffMesh& off_;
   std::size_t max_places_;
 };
 
-// The edge's vertices as its triangle names them.
-std::string edge_text(const core::OffMesh& off, const Edge& e) {
-  const core::Triangle& vertices = off.mesh.triangles[e.triangle];
-  const auto [low, high] = std::minmax(vertices[e.corner], vertices[(e.corner + 1) % 3]);
-  return ", vertices " + std::to_string(low) + " and " + std::to_string(high);
-}
-
 // Welded corners; degenerate triangles are reported and left out.
 std::vector<std::pair<Corners, std::uint32_t>> proper_triangles(const core::OffMesh& off,
                                                                 std::size_t max_places,
                                                                 std::vector<MeshDefect>& defects) {
-  Collector degenerate("degenerate-triangles", "triangle has two corners at one place",
+  Collector degenerate("degenerate triangle", "triangle has two corners at one place",
                        "triangles have two corners at one place", off, max_places);
   const std::vector<std::uint32_t> first = core::first_coincident_point(off.mesh.points);
   std::vector<std::pair<Corners, std::uint32_t>> proper;
@@ -63,7 +69,7 @@ std::vector<std::pair<Corners, std::uint32_t>> proper_triangles(const core::OffM
     Corners corners{};
     for (std::size_t c = 0; c < 3; ++c) corners[c] = first[off.mesh.triangles[t][c]];
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
-      degenerate.add(t, "");
+      degenerate.add_triangle(t, "");
     } else {
       proper.emplace_back(corners, t);
     }
@@ -83,15 +89,15 @@ void find_edge_defects(const std::vector<std::pair<Corners, std::uint32_t>>& tri
   }
   const auto key = [](const Edge& e) { return std::tuple(e.low, e.high, e.triangle); };
   std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
-  Collector open("open-edges", "edge has a triangle on one side only (a hole)",
+  Collector open("open edge", "edge has a triangle on one side only (a hole)",
                  "edges have a triangle on one side only (a hole)", off, max_places);
-  Collector crowded("crowded-edges", "edge has more than two triangles", "edges have more than two triangles",
+  Collector crowded("crowded edge", "edge has more than two triangles", "edges have more than two triangles",
                     off, max_places);
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high)
       ++end;
-    if (end - begin == 1) open.add(edges[begin].triangle, edge_text(off, edges[begin]));
-    if (end - begin > 2) crowded.add(edges[begin].triangle, edge_text(off, edges[begin]));
+    if (end - begin == 1) open.add_edge(edges[begin]);
+    if (end - begin > 2) crowded.add_edge(edges[begin]);
   }
   open.finish(defects);
   crowded.finish(defects);
@@ -101,11 +107,11 @@ void find_repeated(std::vector<std::pair<Corners, std::uint32_t>> triangles, con
                    std::size_t max_places, std::vector<MeshDefect>& defects) {
   for (auto& entry : triangles) std::sort(entry.first.begin(), entry.first.end());
   std::sort(triangles.begin(), triangles.end());
-  Collector repeated("repeated-triangles", "triangle repeats another", "triangles repeat others", off,
+  Collector repeated("repeated triangle", "triangle repeats another", "triangles repeat others", off,
                      max_places);
   for (std::size_t i = 1; i < triangles.size(); ++i) {
     if (triangles[i].first != triangles[i - 1].first) continue;
-    repeated.add(triangles[i].second, ", like triangle " + std::to_string(triangles[i - 1].second));
+    repeated.add_triangle(triangles[i].second, ", like triangle " + std::to_string(triangles[i - 1].second));
   }
   repeated.finish(defects);
 }

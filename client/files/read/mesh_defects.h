@@ -12,7 +12,8 @@ namespace affskel::client {
 struct DefectPlace {
   std::uint64_t line = 0;  ///< of the file, counted from 1; 0 where the format has none
   std::uint32_t triangle = 0;
-  std::string detail;  ///< ", vertices 3 and 7" or empty
+  std::string detail;                ///< ", vertices 3 and 7" or empty
+  std::vector<core::Segment> edges;  ///< of the mesh's points: the edge, or all of the triangle
 };
 
 /// So many places of each kind of defect are told where all are not asked for.
@@ -20,6 +21,7 @@ inline constexpr std::size_t kFewPlaces = 5;
 
 /// A kind of defect that keeps a mesh from bounding a solid.
 struct MeshDefect {
+  std::string name;  ///< one of them: "open edge"
   std::string code;  ///< "open-edges", "crowded-edges", "repeated-triangles", "degenerate-triangles"
   std::uint64_t count = 0;
   std::string cause;                ///< "edges have a triangle on one side only (a hole)"

@@ -1,17 +1,9 @@
 // The files of a finished job, and its pictures.
 import { call, jobPath } from './api.js';
-import { announce, button, h } from './elements.js';
+import { announce, button, h, save } from './elements.js';
 import { bytes } from './numbers.js';
 import { session } from './session.js';
 import { kArtefacts } from './text.js';
-
-// Saves what the service has made.
-function save(result) {
-  const link = h('a', { href: result.href, download: result.name, hidden: true });
-  document.body.append(link);
-  link.click();
-  link.remove();
-}
 
 // A number of a field, 0 for an empty one; null for one that cannot be.
 function numberIn(field, most) {

@@ -19,6 +19,17 @@ export function h(tag, attributes = {}, ...children) {
 }
 
 /**
+ * Saves a file that the service has made.
+ * @param {{ href: string, name: string }} result
+ */
+export function save(result) {
+  const link = h('a', { href: result.href, download: result.name, hidden: true });
+  document.body.append(link);
+  link.click();
+  link.remove();
+}
+
+/**
  * The element of the page with this id, which it has.
  * @param {string} id
  * @returns {any}

@@ -287,7 +287,8 @@ export class JobView {
     try {
       const result = await made();
       status.textContent = before;
-      const show = showInteractive(result.href, this.job.name, thresholdControls(this.job, downloads, async () => show((await made()).href)));
+      const again = async () => show((await made()).href);
+      const show = showInteractive(result.href, this.job.name, thresholdControls(this.job, downloads, again));
     } catch (error) {
       status.textContent = error.message;
     }

@@ -1,7 +1,7 @@
 // The list of jobs, live.
 import { call, jobPath } from './api.js';
 import { confirmed, showProblem } from './dialogs.js';
-import { announce, background, button, h, setText } from './elements.js';
+import { announce, background, button, h, save, setText } from './elements.js';
 import { ago, counted, measure } from './numbers.js';
 import { session } from './session.js';
 import { activity, isActive, isRemoved, progress, wording } from './text.js';
@@ -147,6 +147,7 @@ export class JobList {
       'div',
       { class: 'row wrap together', hidden: true },
       this.selected,
+      button('Download them', () => this.downloadSelected(), { id: 'download-selected' }),
       button('Cancel them', () => this.cancelSelected(), { id: 'cancel-selected' }),
       button('Delete them', () => this.deleteSelected(), { id: 'delete-selected', class: 'danger' }),
     );
@@ -238,6 +239,20 @@ export class JobList {
     const jobs = this.chosen();
     this.together.hidden = jobs.length === 0;
     setText(this.selected, `${counted(jobs.length, 'job')} selected`);
+  }
+
+  // Fields, skeletons and meshes.
+  async downloadSelected() {
+    const jobs = this.chosen().filter((job) => job.state === 'done' && !isRemoved(job));
+    showProblem(jobs.length === 0 ? 'None of the selected jobs has results.' : null);
+    if (jobs.length === 0) return;
+    setText(this.selected, `The archive of ${counted(jobs.length, 'job')} is being made …`);
+    try {
+      save(await call('POST', '/api/archives', { jobs: jobs.map((job) => job.id) }));
+    } catch (error) {
+      showProblem(error.message);
+    }
+    this.showSelected();
   }
 
   async cancelSelected() {

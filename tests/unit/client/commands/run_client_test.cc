@@ -371,6 +371,11 @@ TEST_F(ClientTest, InspectNeedsNoServer) {
   EXPECT_EQ(open.exit_code, 3);
   EXPECT_FALSE(json::parse(open.out).at("computable"));
   EXPECT_EQ(json::parse(open.out).at("defects").at(0).at("count"), 3);
+  EXPECT_EQ(run({"inspect", dir_ / "open.off", "--render", dir_ / "open.png"}).exit_code, 3);
+  EXPECT_EQ(tests::read_file(dir_ / "open.png").substr(1, 3), "PNG");
+  EXPECT_EQ(run({"inspect", dir_ / "cube.off", "--render", dir_ / "cube.png"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "cube.png"));
+  EXPECT_EQ(run({"inspect", dir_ / "cube.off", "--render", dir_ / "cube.jpg"}).exit_code, 2);
 }
 
 TEST_F(ClientTest, OtherFormatsAreSubmittedAsOffText) {

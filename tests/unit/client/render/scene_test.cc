@@ -112,6 +112,28 @@ TEST(RenderScene, NoThirdOfThePictureIsEmpty) {
   }
 }
 
+TEST(RenderScene, DefectsAreMarkedHoweverSmall) {
+  RenderInput input;
+  input.mesh = core::make_sphere(100, 1280);
+  input.cell = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  constexpr Rgb kMark{1, 0, 0};
+  const auto marked = [&](const RenderInput& scene) {
+    const Image image =
+        render_scene(scene, {.width = 600, .cameras = {parse_camera("front"), parse_camera("back")}});
+    std::size_t red = 0;
+    for (int y = 0; y < image.height() * 2 / 3; ++y)
+      for (int x = 0; x < image.width(); ++x) {
+        const Rgb c = image.at(x, y);
+        red += c.r > 0.45f && c.r > 2 * c.g && c.r > 2 * c.b ? 1 : 0;
+      }
+    return red;
+  };
+  EXPECT_EQ(marked(input), 0u);
+  const core::Triangle& t = input.mesh.triangles[0];
+  input.marks = {{{kMark, "1 open edge"}, {{t[0], t[1]}}}};
+  EXPECT_GT(marked(input), 8u);
+}
+
 TEST(RenderScene, UpIsUp) {
   // A pyramid along x: from the front its tip must be at the top of what is drawn, whichever axis is up.
   RenderInput input = sample_scene(

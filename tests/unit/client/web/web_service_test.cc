@@ -61,6 +61,27 @@ TEST_F(WebServiceTest, ListsJobsAndSaysWhetherThereAreMore) {
     EXPECT_EQ(ask("GET", std::string("/api/jobs?limit=") + limit).status, 400) << limit;
 }
 
+TEST_F(WebServiceTest, AnArchiveHoldsTheFilesOfJobs) {
+  sign_in();
+  service_.job.set_name("body");
+  const std::string id = service_.job.id();
+  const json made = ask("POST", "/api/archives", R"({"jobs": [")" + id + R"(", ")" + id + R"("]})").object();
+  EXPECT_EQ(made["name"], "affskel.zip");
+  const Answer sent = ask("GET", made["href"]);
+  EXPECT_EQ(sent.body.substr(0, 2), "PK");
+  EXPECT_EQ(made["size"], sent.body.size());
+  for (const std::string folder : {"body/", "body-2/"}) {
+    for (const char* file : {"body.field.vti", "body.skeleton.vtp", "body.skeleton.ply", "body.off"})
+      EXPECT_NE(sent.body.find(folder + file), std::string::npos) << folder << file;
+  }
+  EXPECT_EQ(ask("POST", "/api/archives", R"({"jobs": []})").status, 400);
+  EXPECT_EQ(ask("POST", "/api/archives", R"({"jobs": [7]})").status, 400);
+  EXPECT_EQ(ask("POST", "/api/archives", R"({"jobs": ["000000"]})").status, 404);
+  json many = {{"jobs", json::array()}};
+  for (int i = 0; i < 101; ++i) many["jobs"].push_back(id);
+  EXPECT_EQ(ask("POST", "/api/archives", many.dump()).status, 507);
+}
+
 TEST_F(WebServiceTest, PassesOnWhatTheServerSays) {
   sign_in();
   EXPECT_EQ(ask("GET", "/api/jobs/000000").status, 404);

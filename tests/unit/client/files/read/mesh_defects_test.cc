@@ -43,9 +43,15 @@ TEST(FindDefects, AHoleNamesItsEdgesAndLines) {
   ASSERT_EQ(defects.size(), 1u);
   EXPECT_EQ(defects[0].code, "open-edges");
   EXPECT_EQ(defects[0].count, 3u);
+  EXPECT_EQ(defects[0].name, "open edge");
+  // The sides of the triangle that is gone.
+  const core::Triangle gone = tetrahedron().mesh.triangles.back();
   for (const DefectPlace& place : defects[0].places) {
     EXPECT_GE(place.line, 7u);
     EXPECT_LE(place.line, 9u);
+    ASSERT_EQ(place.edges.size(), 1u);
+    for (const std::uint32_t v : {place.edges[0][0], place.edges[0][1]})
+      EXPECT_NE(std::find(gone.begin(), gone.end(), v), gone.end());
   }
   EXPECT_TRUE(
       defect_text(defects[0]).starts_with("3 edges have a triangle on one side only (a hole): line "));
