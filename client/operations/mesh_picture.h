@@ -13,4 +13,7 @@ namespace affskel::client {
 /// @param name for the title. @throws ClientError kBadInput for a mesh without triangles.
 std::string mesh_picture(const InputFile& input, const std::string& name, const RenderOptions& look);
 
+/// The same to turn, see view_page; defects up to 20,000 of a kind.
+std::string mesh_page(const InputFile& input, const std::string& name);
+
 }  // namespace affskel::client

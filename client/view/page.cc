@@ -216,6 +216,7 @@ ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
 ordered_json warnings_of(const ViewModel& model) {
   ordered_json warnings = ordered_json::array();
   for (const v1::MeshNote& note : model.job.prepared().notes()) warnings.push_back(note.message());
+  if (model.job.id().empty()) return warnings;
   for (const Notice& warning : skeleton_warnings(model.job.prepared(), model.quality))
     warnings.push_back(warning.message);
   if (!model.quality.advice().empty()) warnings.push_back(model.quality.advice());
@@ -286,7 +287,8 @@ ordered_json page_facts(const ViewInput& input, double unit) {
           {"scaleNote", kScaleNote},
           {"levels", input.levels},
           {"firstLevel", input.first_level},
-          {"showLevel", input.show_level}};
+          {"showLevel", input.show_level},
+          {"meshOnly", input.mesh_only}};
 }
 
 std::string name_of(const ViewInput& input) {
@@ -371,6 +373,7 @@ std::string view_page(const ViewInput& input) {
   const std::string name = markup_text(name_of(input)), data = json_for_html(facts),
                     block = core::base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
+                                {"kind", input.mesh_only ? "Mesh" : "Affine skeleton"},
                                 {"version", wire::kVersion},
                                 {"style", page_style()},
                                 {"script", page_script()},

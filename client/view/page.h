@@ -33,6 +33,7 @@ struct ViewInput {
   std::vector<double> levels;     ///< of the eroded solids, shares of v0, ascending; may be empty
   std::size_t first_level = 0;    ///< where the slider stands at first
   bool show_level = false;        ///< whether the eroded solid is shown at first
+  bool mesh_only = false;         ///< one mesh without a job: the segments of its sheet are its defects
 };
 
 /// E of the last colour, as a share of v0: the highest on any of the skeletons.

@@ -8,6 +8,7 @@
 #include "client/operations/mesh_picture.h"
 #include "client/operations/submission.h"
 #include "client/render/scene.h"
+#include "client/view/page.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
 #include "client/web/until_gone.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr int kMeshPictureWidth = 1200;
 constexpr std::uint64_t kMaxDrawn = 4'000'000;  // triangles
+constexpr std::uint64_t kMaxTurned = 500'000;   // whose page has 10 MB
 // Up to so many points the lattice is laid to count them.
 constexpr double kMaxCounted = 4e6;
 
@@ -43,6 +45,15 @@ double number_of(const http::Request& request, const std::string& name) {
   } catch (const std::exception&) {  // no number, or beyond a double
   }
   throw ClientError(ExitCode::kUsage, "'" + name + "' must be a number");
+}
+
+// The mesh to turn.
+std::string view_of(const WebCall& call, const InputFile& input, const std::string& name) {
+  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".html"));
+  base::AtomicFile out(file->path());
+  out.write(mesh_page(input, name));
+  out.commit();
+  return call.keep({std::move(file), "mesh.html", "text/html; charset=utf-8", true, view_page_policy()});
 }
 
 std::string picture_of(const WebCall& call, const InputFile& input, const std::string& name) {
@@ -103,6 +114,8 @@ http::Response take_mesh(WebCall& call) {
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
   if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
     answer["picture"] = picture_of(call, input, name);
+  if (input.off.mesh.triangles.size() <= kMaxTurned && !input.off.mesh.triangles.empty())
+    answer["view"] = view_of(call, input, name);
   if (inspection.error) {
     answer["error"] = inspection.error->what();
     return api_answer(answer);

@@ -322,6 +322,17 @@ class Desktop(OnThePage):
         self.page.picture_is_drawn("#found img")
         self.assertEqual(self.page.all("#submit"), [])
         self.page.screenshot("desktop-5-defects")
+        self.page.shown("#turn-mesh").click()
+        self.page.driver.switch_to.frame(self.page.shown("dialog iframe"))
+        state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
+        self.assertGreater(state["skeletonShown"], 2, "defects")
+        self.assertIn("triangle on one side only", self.page.find("#warnings").text)
+        for hidden in ["#threshold", "#level", "#legend"]:
+            self.assertFalse(self.page.find(hidden).is_displayed(), hidden)
+        self.page.driver.switch_to.default_content()
+        self.page.screenshot("desktop-13-defects-turned")
+        self.page.shown("#close-interactive").click()
+        self.page.wait(lambda: not self.page.all("dialog"))
         with open(bench.path("text.off"), "w", encoding="ascii") as file:
             file.write("this is no mesh\n")
         self.choose("text.off")

@@ -5,6 +5,8 @@ const element = (name, textContent, properties = {}) =>
   Object.assign(document.createElement(name), { textContent, ...properties });
 
 function factsOf(model) {
+  const box = model.box.map((side) => rounded(side, 4)).join(' × ');
+  if (model.job === '') return { triangles: whole(model.triangles), box };
   return {
     triangles: whole(model.triangles),
     points: whole(model.points),
@@ -15,7 +17,7 @@ function factsOf(model) {
     job: model.job.slice(0, 8),
     ...Object.fromEntries(model.pieces),
     operator: model.operator,
-    box: model.box.map((side) => rounded(side, 4)).join(' × '),
+    box,
   };
 }
 

@@ -143,8 +143,16 @@ export class Viewer {
     this.seenLast = seen;
   }
 
+  // What a mesh without a job has none of is hidden by style.css.
+  showMeshOnly() {
+    document.documentElement.dataset.kind = 'mesh';
+    element('skeleton-name').textContent = 'Defects';
+    element('show-skeleton').parentElement.hidden = this.page.models[0].arrays.sheetSegments.length === 0;
+  }
+
   showPanel() {
     const { page } = this;
+    if (page.meshOnly) this.showMeshOnly();
     showWarnings(element('warnings'), page.models);
     showFacts(element('facts-list'), page.models);
     element('ticks').textContent =

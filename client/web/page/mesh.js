@@ -1,7 +1,8 @@
 // A new job: a mesh, what it is, and what is asked of it.
 import { call, jobPath, upload } from './api.js';
 import { filesIn } from './dropped.js';
-import { announce, byId, facts, h, setText } from './elements.js';
+import { showInteractive } from './dialogs.js';
+import { announce, button, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
 
@@ -159,7 +160,12 @@ export class NewJob {
       h(
         'section',
         { class: 'card', id: 'found' },
-        h('h2', { tabindex: -1, id: 'found-heading' }, mesh.mesh ? 'This is the mesh' : 'This mesh bounds no solid'),
+        h(
+          'div',
+          { class: 'row head' },
+          h('h2', { tabindex: -1, id: 'found-heading' }, mesh.mesh ? 'This is the mesh' : 'This mesh bounds no solid'),
+          mesh.view && button('Turn it', () => showInteractive(mesh.view, mesh.name, []), { id: 'turn-mesh' }),
+        ),
         mesh.error && h('p', { class: 'error' }, mesh.error),
         h('ul', { class: 'notes' }, defects, notes),
         mesh.picture && h('img', { class: 'picture', src: mesh.picture, alt: `${mesh.name} from the front, the side and above` }),
