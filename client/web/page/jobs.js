@@ -141,7 +141,8 @@ export class JobList {
       { id: 'order', 'aria-label': 'Order' },
       Object.entries(kOrders).map(([word, { text }]) => h('option', { value: word }, text)),
     );
-    for (const control of [this.search, this.state, this.order]) control.addEventListener('input', () => this.arrange());
+    this.owner = h('select', { id: 'owner', 'aria-label': 'Owner', hidden: true }, h('option', { value: '' }, 'of anybody'));
+    for (const control of [this.search, this.state, this.owner, this.order]) control.addEventListener('input', () => this.arrange());
     this.selected = h('span', { class: 'small', role: 'status' });
     this.together = h(
       'div',
@@ -168,7 +169,7 @@ export class JobList {
         session.admin && h('label', { class: 'check', for: 'everybody' }, all, 'Everybody’s'),
         h('a', { class: 'button primary', href: '#new' }, 'New job'),
       ),
-      h('div', { class: 'row wrap filters' }, this.search, this.state, this.order),
+      h('div', { class: 'row wrap filters' }, this.search, this.state, this.owner, this.order),
       this.together,
       this.none,
       this.nothing,
@@ -196,6 +197,7 @@ export class JobList {
     }
     this.rates.keep(ids);
     for (const job of jobs) this.show(job);
+    this.offerOwners(jobs);
     this.arrange();
     this.none.hidden = jobs.length > 0;
     this.more.hidden = !more || this.limit >= 1000;
@@ -212,11 +214,24 @@ export class JobList {
     card.update(job, this.rates.update(job));
   }
 
+  // Of several owners' jobs those of one can be seen alone.
+  offerOwners(jobs) {
+    const owners = [...new Set([...jobs.map((job) => job.owner), this.owner.value])].filter(Boolean).sort();
+    const offered = [...this.owner.options].slice(1).map((option) => option.value);
+    if (owners.join('\n') !== offered.join('\n')) {
+      const chosen = this.owner.value;
+      this.owner.replaceChildren(h('option', { value: '' }, 'of anybody'), ...owners.map((owner) => h('option', { value: owner }, `of ${owner}`)));
+      this.owner.value = chosen;
+    }
+    this.owner.hidden = owners.length < 2;
+  }
+
   // Which cards are seen, and where.
   arrange() {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const seen = ({ job }) => {
       const text = `${job.name} ${job.owner} ${job.id}`.toLowerCase();
+      if (this.owner.value && job.owner !== this.owner.value) return false;
       return (!this.state.value || job.state === this.state.value) && words.every((word) => text.includes(word));
     };
     const cards = [...this.cards.values()].sort((a, b) => kOrders[this.order.value].compare(a.job, b.job));
