@@ -374,6 +374,7 @@ std::string view_page(const ViewInput& input) {
                     block = core::base64(arrays.bytes());
   return fill(page_template(), {{"name", name},
                                 {"kind", input.mesh_only ? "Mesh" : "Affine skeleton"},
+                                {"what", input.mesh_only ? "mesh" : "affine skeleton"},
                                 {"version", wire::kVersion},
                                 {"style", page_style()},
                                 {"script", page_script()},

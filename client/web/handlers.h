@@ -21,7 +21,8 @@ http::Response unpin_job(WebCall& call);
 http::Response set_stance(WebCall& call);
 http::Response list_events(WebCall& call);  ///< what happened to a job
 
-http::Response take_mesh(WebCall& call);    ///< inspects an upload
+http::Response take_mesh(WebCall& call);
+http::Response turn_mesh(WebCall& call);    ///< inspects an upload
 http::Response lay_lattice(WebCall& call);  ///< points for a spacing, or a spacing for points
 http::Response submit_mesh(WebCall& call);
 

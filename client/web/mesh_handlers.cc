@@ -97,6 +97,16 @@ Submission submission_of(const nlohmann::json& body) {
 
 }  // namespace
 
+// Made for who asks for it: most look at the picture.
+http::Response turn_mesh(WebCall& call) {
+  const std::string name = upload_name(call.request);
+  const InputFile input = read_input(call.upload->path().string());
+  if (input.off.mesh.triangles.size() > kMaxTurned)
+    throw ClientError(ExitCode::kLimit,
+                      "meshes of up to " + std::to_string(kMaxTurned) + " triangles can be turned");
+  return api_answer({{"href", view_of(call, input, name)}}, 201);
+}
+
 // That a file is no mesh is an answer, too.
 http::Response take_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
@@ -114,8 +124,6 @@ http::Response take_mesh(WebCall& call) {
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
   if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
     answer["picture"] = picture_of(call, input, name);
-  if (input.off.mesh.triangles.size() <= kMaxTurned && !input.off.mesh.triangles.empty())
-    answer["view"] = view_of(call, input, name);
   if (inspection.error) {
     answer["error"] = inspection.error->what();
     return api_answer(answer);

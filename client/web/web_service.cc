@@ -31,7 +31,7 @@ struct Route {
   http::Response (*respond)(WebCall& call);
 };
 
-constexpr std::array<Route, 24> kRoutes = {{
+constexpr std::array<Route, 25> kRoutes = {{
     {"GET", "/", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
     {"GET", "/page.js", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
     {"GET", "/page.css", Access::kEverybody, Body::kNone, http::AnswerKind::kQuick, send_page_file},
@@ -56,6 +56,7 @@ constexpr std::array<Route, 24> kRoutes = {{
      send_thumbnail},
     {"POST", "/api/archives", Access::kSignedIn, Body::kObject, http::AnswerKind::kAwaited, make_archive},
     {"POST", "/api/meshes", Access::kSignedIn, Body::kMesh, http::AnswerKind::kComputed, take_mesh},
+    {"POST", "/api/meshes/view", Access::kSignedIn, Body::kMesh, http::AnswerKind::kComputed, turn_mesh},
     {"GET", "/api/meshes/*/lattice", Access::kSignedIn, Body::kNone, http::AnswerKind::kComputed,
      lay_lattice},
     {"GET", "/results/*", Access::kSignedIn, Body::kNone, http::AnswerKind::kQuick, send_result},

@@ -144,7 +144,7 @@ TEST_F(ServerCommandsTest, MigrateIsRefusedWhileTheServerRuns) {
   EXPECT_NE(old.err.find("affskel-server migrate"), std::string::npos) << old.err;
   const Output migrated = command({"migrate"}, lab_.path("data"));
   EXPECT_EQ(migrated.exit_code, 0) << migrated.err;
-  EXPECT_NE(migrated.out.find("\nfrom: -1\nto: 1"), std::string::npos) << migrated.out;
+  EXPECT_NE(migrated.out.find("\nfrom: -1\nto: "), std::string::npos) << migrated.out;
   EXPECT_EQ(check().exit_code, 0);
 }
 

@@ -70,12 +70,13 @@ export const jobPath = (id, rest = '') => `/api/jobs/${encodeURIComponent(id)}${
  * Sends a file; `progress` gets the share sent.  Throws ApiError.
  * @param {File} file
  * @param {(share: number) => void} progress
+ * @param {string} path
  * @returns {Promise<any>}
  */
-export function upload(file, progress) {
+export function upload(file, progress, path = '/api/meshes') {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
-    request.open('POST', `/api/meshes?name=${encodeURIComponent(file.name)}&background=${background()}`);
+    request.open('POST', `${path}?name=${encodeURIComponent(file.name)}&background=${background()}`);
     request.upload.onprogress = (event) => progress(event.lengthComputable ? event.loaded / event.total : 0);
     request.onerror = () => reject(new ApiError(0, 'UNREACHABLE', kNoAnswer));
     request.onload = () => {

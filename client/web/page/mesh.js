@@ -145,14 +145,25 @@ export class NewJob {
     this.form.replaceChildren();
     try {
       const mesh = await this.sentFile(file);
-      if (mesh.facts) this.show(mesh);
+      if (mesh.facts) this.show(mesh, file);
       else this.complain(`${file.name} cannot be read: ${mesh.error}`);
     } catch (error) {
       this.complain(`${file.name} cannot be read: ${error.message}`);
     }
   }
 
-  show(mesh) {
+  /** @param {File} file */
+  async turn(file) {
+    this.complain('');
+    try {
+      const { href } = await upload(file, () => {}, '/api/meshes/view');
+      showInteractive(href, file.name, []);
+    } catch (error) {
+      this.complain(error.message);
+    }
+  }
+
+  show(mesh, file) {
     const { facts: f } = mesh;
     const defects = (f.defects || []).map((defect) => h('li', { class: 'defect' }, defect.message));
     const notes = (f.notes || []).map((note) => h('li', { class: note.severity }, note.message));
@@ -164,7 +175,7 @@ export class NewJob {
           'div',
           { class: 'row head' },
           h('h2', { tabindex: -1, id: 'found-heading' }, mesh.mesh ? 'This is the mesh' : 'This mesh bounds no solid'),
-          mesh.view && button('Turn it', () => showInteractive(mesh.view, mesh.name, []), { id: 'turn-mesh' }),
+          button('Turn it', () => this.turn(file), { id: 'turn-mesh' }),
         ),
         mesh.error && h('p', { class: 'error' }, mesh.error),
         h('ul', { class: 'notes' }, defects, notes),

@@ -144,7 +144,10 @@ TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   EXPECT_FALSE(open["facts"]["computable"]);
   EXPECT_EQ(open["facts"]["defects"][0]["code"], "open-edges");
   EXPECT_TRUE(open.contains("picture"));
+  const Answer turned = ask("POST", "/api/meshes/view?name=open.off", tests::read_file(dir_ / "open.off"));
+  EXPECT_NE(ask("GET", turned.object()["href"]).body.find("open.off"), std::string::npos);
   const json bad = uploaded("bad.off", tests::read_file(dir_ / "bad.off"));
+  EXPECT_EQ(ask("POST", "/api/meshes/view?name=bad.off", tests::read_file(dir_ / "bad.off")).status, 422);
   EXPECT_EQ(bad["line"], 5);
   EXPECT_FALSE(bad.contains("facts"));
   EXPECT_EQ(bad.dump().find(std::filesystem::temp_directory_path().string()), std::string::npos)
