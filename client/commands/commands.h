@@ -29,6 +29,7 @@ void add_erode(CommandLine& line);
 void add_render(CommandLine& line);
 void add_view(CommandLine& line);
 void add_inspect(CommandLine& line);
+void add_repair(CommandLine& line);
 void add_make(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_transform(CommandLine& line);
@@ -42,10 +43,10 @@ void add_job_ids(CommandLine& line);
 
 /// All of them, in the order of the help.
 inline constexpr std::array kCommands = {
-    add_submit,      add_list,    add_status,      add_watch,     add_log,     add_verify,
-    add_cancel,      add_resume,  add_delete,      add_pin,       add_unpin,   add_fetch,
-    add_skeleton,    add_surface, add_measure,     add_erode,     add_render,  add_view,
-    add_inspect,     add_make,    add_compare,     add_transform, add_perturb, add_web,
-    add_server_info, add_health,  add_completions, add_man,       add_job_ids};
+    add_submit,   add_list,        add_status,  add_watch,       add_log,       add_verify,
+    add_cancel,   add_resume,      add_delete,  add_pin,         add_unpin,     add_fetch,
+    add_skeleton, add_surface,     add_measure, add_erode,       add_render,    add_view,
+    add_inspect,  add_repair,      add_make,    add_compare,     add_transform, add_perturb,
+    add_web,      add_server_info, add_health,  add_completions, add_man,       add_job_ids};
 
 }  // namespace affskel::client

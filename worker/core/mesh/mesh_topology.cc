@@ -72,7 +72,7 @@ class EdgeDefects {
     if (open_.count != 0 && crowded_.count != 0) message += "; ";
     if (crowded_.count != 0) message += tell(crowded_, "edge", " where more than two triangles meet");
     if (open_.count != 0)
-      message += "; fill its holes first, by MeshLab's Close Holes or Blender's Fill Holes";
+      message += "; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's Fill Holes";
     throw CoreError(CoreError::Code::kBadInput, message);
   }
 

@@ -185,7 +185,7 @@ TEST(CommandLine, EveryCommandHasADescriptionAndExamples) {
       EXPECT_FALSE(option->get_description().empty()) << command.get_name() << " " << option->get_name();
     }
   });
-  EXPECT_EQ(commands, 29 + 8);
+  EXPECT_EQ(commands, 30 + 8);
 }
 
 std::string script(const std::string& shell) {

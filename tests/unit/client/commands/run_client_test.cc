@@ -378,6 +378,34 @@ TEST_F(ClientTest, InspectNeedsNoServer) {
   EXPECT_EQ(run({"inspect", dir_ / "cube.off", "--render", dir_ / "cube.jpg"}).exit_code, 2);
 }
 
+TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
+  core::Mesh cube = core::make_box(2000, 2000, 2000, 2);
+  cube.triangles.pop_back();
+  tests::write_file(dir_ / "open.off", core::write_off(cube));
+  const Outcome closed =
+      run({"--json", "repair", dir_ / "open.off", "--repair", "fill=1e6", "-o", dir_ / "closed.off"},
+          "unix:/nowhere/s");
+  ASSERT_EQ(closed.exit_code, 0) << closed.err;
+  EXPECT_EQ(json::parse(closed.out).at("steps").at(0).at("code"), "filled-holes");
+  EXPECT_EQ(json::parse(closed.out).at("volume"), 8e9);
+  EXPECT_EQ(run({"inspect", dir_ / "closed.off"}).exit_code, 0);
+  const Outcome sound = run({"repair", dir_ / "cube.off", "-o", dir_ / "same.ply"});
+  EXPECT_NE(sound.out.find("sound:"), std::string::npos) << sound.out;
+
+  // What was not done is told with commands that do it.
+  const Outcome left = run({"repair", dir_ / "open.off", "--repair", "fill=10", "-o", dir_ / "left.off"});
+  EXPECT_EQ(left.exit_code, 3);
+  EXPECT_NE(left.err.find("1 hole is left"), std::string::npos) << left.err;
+  EXPECT_NE(left.err.find("--repair fill="), std::string::npos) << left.err;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "left.off"));
+  EXPECT_EQ(run({"repair", dir_ / "open.off", "--repair", "none", "-o", dir_ / "left.off"}).exit_code, 3);
+  EXPECT_EQ(run({"repair", dir_ / "cube.off", "--repair", "wrap=500", "-o", dir_ / "wrapped.stl"}).exit_code,
+            0);
+  for (const char* wrong : {"mend", "fill=", "fill=-1", "wrap=x", "none=3"})
+    EXPECT_EQ(run({"repair", dir_ / "cube.off", "--repair", wrong, "-o", dir_ / "w.off"}).exit_code, 2)
+        << wrong;
+}
+
 TEST_F(ClientTest, OtherFormatsAreSubmittedAsOffText) {
   ASSERT_EQ(run({"transform", dir_ / "cube.off", "-o", dir_ / "cube.stl", "--scale", "1"}).exit_code, 0);
   const Outcome submitted = run({"submit", dir_ / "cube.stl"});

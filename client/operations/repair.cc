@@ -1,0 +1,56 @@
+#include "client/operations/repair.h"
+
+#include <utility>
+
+#include "base/number_text.h"
+#include "client/base/error.h"
+#include "core/base/error.h"
+#include "core/solid/solid.h"
+
+namespace affskel::client {
+namespace {
+
+constexpr double kMostFilled = 0.2;  // of the surface: beyond, what is computed is hardly what was scanned
+
+core::RepairOptions options_for(const RepairChoice& choice, core::ExecutionContext* context) {
+  core::RepairOptions options;
+  options.kind = choice.kind == RepairChoice::Kind::kWrap ? core::RepairKind::kWrap : core::RepairKind::kMend;
+  options.longest_hole = choice.longest_hole;
+  options.alpha = choice.alpha;
+  options.context = context;
+  return options;
+}
+
+}  // namespace
+
+Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoice& choice,
+              core::ExecutionContext* context) {
+  Repair done;
+  done.mesh = mesh;
+  core::SolidOptions options;
+  options.repair = choice.kind != RepairChoice::Kind::kNone;
+  options.check_self_intersections = false;
+  options.context = context;
+  try {
+    if (options.repair) {
+      core::RepairedMesh repaired = core::repair_mesh(mesh, options_for(choice, context));
+      done.left = repaired.left;
+      done.longest_left = repaired.longest_left;
+      if (done.left.empty() && repaired.filled_share > kMostFilled &&
+          choice.kind == RepairChoice::Kind::kAuto) {
+        done.left = "what would fill its holes is " + base::rounded(100 * repaired.filled_share, 3) +
+                    " % of the surface, too much to be done unasked";
+        done.longest_left = repaired.longest_filled;
+      }
+      done.mesh = std::move(repaired.mesh);
+      done.steps = std::move(repaired.steps);
+      done.filled_share = repaired.filled_share;
+    }
+    if (done.left.empty()) done.volume = core::make_solid(done.mesh, options).volume;
+  } catch (const core::CoreError& error) {
+    throw error_from_core(error, file);
+  }
+  return done;
+}
+
+}  // namespace affskel::client

@@ -1,0 +1,52 @@
+#include "core/repair/alpha_wrap.h"
+
+#include <CGAL/alpha_wrap_3.h>
+
+#include <array>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/repair/surface_mesh.h"
+
+namespace affskel::core {
+namespace {
+
+// Unit normals of vertices, weighted by area.
+std::vector<Vec3> vertex_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.points.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.points[t[0]];
+    const Vec3 area = cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
+    for (const std::uint32_t v : t) normals[v] = normals[v] + area;
+  }
+  for (Vec3& normal : normals) {
+    const double length = norm(normal);
+    if (length > 0) normal = (1 / length) * normal;
+  }
+  return normals;
+}
+
+}  // namespace
+
+Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
+  if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "there is nothing to wrap");
+  std::vector<Point> points;
+  for (const Vec3& p : mesh.points) points.emplace_back(p.x, p.y, p.z);
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (const Triangle& t : mesh.triangles) triangles.push_back({t[0], t[1], t[2]});
+  SurfaceMesh wrap;
+  if (triangles.empty()) {
+    CGAL::alpha_wrap_3(points, options.alpha, options.offset, wrap);
+  } else {
+    CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, wrap);
+  }
+  Mesh wrapped = mesh_of(wrap);
+  if (wrapped.triangles.empty())
+    throw CoreError(CoreError::Code::kBadInput, "the wrap is empty; take a smaller alpha");
+  const std::vector<Vec3> normals = vertex_normals(wrapped);
+  for (std::size_t v = 0; v < wrapped.points.size(); ++v)
+    wrapped.points[v] = wrapped.points[v] - options.offset * normals[v];
+  return wrapped;
+}
+
+}  // namespace affskel::core

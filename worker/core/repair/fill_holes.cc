@@ -1,0 +1,102 @@
+#include "core/repair/fill_holes.h"
+
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/repair/surface_mesh.h"
+
+namespace affskel::core {
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+using Halfedge = SurfaceMesh::Halfedge_index;
+using Face = SurfaceMesh::Face_index;
+
+constexpr double kPlane = 1e-6;  // of the loop's length: farther from its plane it is not plane
+
+struct Loop {
+  Halfedge edge;
+  Hole hole;
+  bool plane = false;
+};
+
+std::vector<Vec3> points_of(const SurfaceMesh& surface, Halfedge edge) {
+  std::vector<Vec3> points;
+  for (const Halfedge h : CGAL::halfedges_around_face(edge, surface)) {
+    const Point& p = surface.point(surface.target(h));
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  return points;
+}
+
+// Whether points lie in the plane through their middle along their area's normal.
+bool lie_in_a_plane(const std::vector<Vec3>& points, const Vec3& centre, double length) {
+  Vec3 normal{};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    normal = normal + cross(points[i] - centre, points[(i + 1) % points.size()] - centre);
+  const double area = norm(normal);
+  if (!(area > 0)) return false;
+  return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+    return std::fabs(dot(p - centre, normal)) <= kPlane * length * area;
+  });
+}
+
+Loop loop_at(const SurfaceMesh& surface, Halfedge edge) {
+  Loop loop{edge, {}, false};
+  const std::vector<Vec3> points = points_of(surface, edge);
+  loop.hole.edges = points.size();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    loop.hole.length += norm(points[(i + 1) % points.size()] - points[i]);
+    loop.hole.centre = loop.hole.centre + (1.0 / double(points.size())) * points[i];
+  }
+  loop.plane = lie_in_a_plane(points, loop.hole.centre, loop.hole.length);
+  return loop;
+}
+
+double area_of(const SurfaceMesh& surface, const std::vector<Face>& faces) {
+  double area = 0;
+  for (const Face face : faces) {
+    const std::vector<Vec3> p = points_of(surface, surface.halfedge(face));
+    area += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
+  }
+  return area;
+}
+
+void fill(SurfaceMesh& surface, Loop& loop) {
+  std::vector<Face> faces;
+  if (loop.plane || loop.hole.edges == 3) {
+    PMP::triangulate_hole(surface, loop.edge, std::back_inserter(faces));
+  } else {
+    std::vector<SurfaceMesh::Vertex_index> vertices;
+    PMP::triangulate_refine_and_fair_hole(surface, loop.edge, std::back_inserter(faces),
+                                          std::back_inserter(vertices));
+  }
+  loop.hole.filled = !faces.empty();
+  loop.hole.area = area_of(surface, faces);
+}
+
+}  // namespace
+
+FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options) {
+  SurfaceMesh surface = surface_mesh_of(mesh);
+  std::vector<Halfedge> edges;
+  PMP::extract_boundary_cycles(surface, std::back_inserter(edges));
+  std::vector<Loop> loops;
+  for (const Halfedge edge : edges) loops.push_back(loop_at(surface, edge));
+  std::stable_sort(loops.begin(), loops.end(),
+                   [](const Loop& a, const Loop& b) { return a.hole.length > b.hole.length; });
+  FilledHoles filled;
+  for (Loop& loop : loops) {
+    throw_if_stopped(options.context);
+    if (loop.hole.length <= options.longest) fill(surface, loop);
+    filled.holes.push_back(loop.hole);
+  }
+  filled.mesh = mesh_of(surface);
+  return filled;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+struct FillHolesOptions {
+  double longest = 0;                   ///< boundary loops up to this length are filled, mesh units
+  ExecutionContext* context = nullptr;  ///< asked between holes whether to stop
+};
+
+/// A boundary loop.
+struct Hole {
+  std::uint64_t edges = 0;
+  double length = 0;  ///< mesh units
+  Vec3 centre;        ///< of its points
+  bool filled = false;
+  double area = 0;  ///< of what fills it, mesh units squared
+};
+
+struct FilledHoles {
+  Mesh mesh;                ///< the given points first, as they were
+  std::vector<Hole> holes;  ///< longest first
+};
+
+/// Fills holes by CGAL: a plane loop by a plane cut, any other by the triangulation of least area and bending that is
+/// refined to the density of its rim and faired (Liepa 2003; Zou, Ju & Carr 2013).
+/// @param mesh manifold, its triangles agreeing.
+/// @throws CoreError kCancelled when the context asks to stop.
+FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options);
+
+}  // namespace affskel::core

@@ -1,0 +1,227 @@
+#include "core/repair/repair_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/number_text.h"
+#include "core/base/disjoint_sets.h"
+#include "core/base/error.h"
+#include "core/mesh/box.h"
+#include "core/mesh/unused_points.h"
+#include "core/repair/alpha_wrap.h"
+#include "core/repair/fill_holes.h"
+#include "core/repair/orient_soup.h"
+#include "core/solid/surface_samples.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kLongestHole = 0.6;        // of the box's diagonal: half of a body's back, a sleeve, a neck
+constexpr double kWrapDetail = 1.0 / 220;   // of the box's diagonal
+constexpr double kFinestWrap = 1.0 / 2000;  // of the box's diagonal: some five million triangles, and minutes
+constexpr double kSmallest = 1e-60, kLargest = 1e60;
+constexpr double kWrapOffset = 0.1;  // of alpha
+// Volume by area^(3/2): a ball 0.094, a rod fifty times as long as thick 0.03, a plate of 1 % 0.0035.
+constexpr double kFlat = 1e-3;
+
+std::string short_text(double value) {
+  return base::rounded(value, 4);
+}
+
+std::string place_text(const Vec3& p) {
+  return "(" + short_text(p.x) + ", " + short_text(p.y) + ", " + short_text(p.z) + ")";
+}
+
+double diagonal(const Mesh& mesh) {
+  return norm(box_of(mesh.points).sides());
+}
+
+class Mending {
+ public:
+  Mending(const Mesh& mesh, const RepairOptions& options) : options_(options) {
+    longest_ = options.longest_hole > 0 ? options.longest_hole : kLongestHole * diagonal(mesh);
+    orient(mesh);
+    fill();
+    drop_flaps();
+    turn_outward();
+  }
+
+  RepairedMesh result() { return std::move(result_); }
+
+ private:
+  void tell(const char* code, std::uint64_t count, const std::string& message) {
+    if (count > 0) result_.steps.push_back({code, count, message});
+  }
+
+  void orient(const Mesh& mesh) {
+    OrientedSoup soup = orient_soup(mesh);
+    tell("welded-points", soup.welded_points,
+         base::counted(soup.welded_points, "point") + " at the place of another joined to it");
+    tell("unused-points", soup.unused_points,
+         base::counted(soup.unused_points, "point") + " that no triangle names left out");
+    tell("degenerate-triangles", soup.degenerate,
+         base::counted(soup.degenerate, "triangle") + " with two corners at one place left out");
+    tell("repeated-triangles", soup.repeated,
+         base::counted(soup.repeated, "triangle") + " beside another of the same corners left out");
+    tell("turned-triangles", soup.turned,
+         base::counted(soup.turned, "triangle") + " turned to agree with the others");
+    tell(
+        "separated-points", soup.separated_points,
+        base::counted(soup.separated_points, "point") + " doubled, so that at every edge two triangles meet");
+    tell("stitched-edges", soup.stitched_edges,
+         base::counted(soup.stitched_edges, "pair") + " of edges between the same points joined");
+    result_.mesh = std::move(soup.mesh);
+  }
+
+  void fill() {
+    const double area = surface_area(result_.mesh);
+    const std::vector<bool> whole = closed_parts(result_.mesh);
+    FilledHoles filled = fill_holes(result_.mesh, {longest_, options_.context});
+    std::uint64_t count = 0, left = 0;
+    double added = 0;
+    const Hole *longest = nullptr, *longest_left = nullptr;
+    for (const Hole& hole : filled.holes) {
+      (hole.filled ? count : left) += 1;
+      added += hole.area;
+      const Hole*& seen = hole.filled ? longest : longest_left;
+      if (seen == nullptr) seen = &hole;
+    }
+    if (count > 0) {
+      result_.longest_filled = longest->length;
+      tell("filled-holes", count,
+           base::counted(count, "hole") + " filled, the longest " + short_text(longest->length) +
+               " round near " + place_text(longest->centre) + ", together " +
+               short_text(100 * added / (area + added)) + " % of the surface");
+    }
+    if (left > 0) {
+      result_.longest_left = longest_left->length;
+      result_.left = base::counted(left, "hole") + (left == 1 ? " is" : " are") + " left, the longest " +
+                     short_text(longest_left->length) + " round near " + place_text(longest_left->centre);
+    }
+    result_.filled_share = added / (area + added);
+    result_.mesh = std::move(filled.mesh);
+    was_whole_ = whole;
+  }
+
+  static DisjointSets parts_of(const Mesh& mesh) {
+    DisjointSets parts(mesh.points.size());
+    for (const Triangle& t : mesh.triangles) {
+      parts.unite(t[0], t[1]);
+      parts.unite(t[0], t[2]);
+    }
+    return parts;
+  }
+
+  // Per point whether its part has no boundary.  A part's edges are twice its half edges' pairs: odd sums tell nothing,
+  // so boundaries are looked for.
+  static std::vector<bool> closed_parts(const Mesh& mesh) {
+    DisjointSets parts = parts_of(mesh);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t c = 0; c < 3; ++c) sides.emplace_back(std::minmax(t[c], t[(c + 1) % 3]));
+    std::sort(sides.begin(), sides.end());
+    std::vector<bool> open_root(mesh.points.size(), false), closed(mesh.points.size());
+    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+      while (end < sides.size() && sides[end] == sides[begin]) ++end;
+      if (end - begin == 1) open_root[parts.find(sides[begin].first)] = true;
+    }
+    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) closed[v] = !open_root[parts.find(v)];
+    return closed;
+  }
+
+  // Parts that were open and enclose next to nothing now.
+  void drop_flaps() {
+    Mesh& mesh = result_.mesh;
+    DisjointSets parts = parts_of(mesh);
+    std::vector<double> volume(mesh.points.size(), 0), area(mesh.points.size(), 0);
+    std::vector<bool> was_open(mesh.points.size(), false);
+    for (std::uint32_t v = 0; v < was_whole_.size(); ++v)
+      if (!was_whole_[v]) was_open[parts.find(v)] = true;
+    for (const Triangle& t : mesh.triangles) {
+      const std::uint32_t root = parts.find(t[0]);
+      const Vec3 origin = mesh.points[root];
+      const Vec3 a = mesh.points[t[0]] - origin, b = mesh.points[t[1]] - origin,
+                 c = mesh.points[t[2]] - origin;
+      volume[root] += dot(a, cross(b, c)) / 6;
+      area[root] += 0.5 * norm(cross(b - a, c - a));
+    }
+    const auto is_flap = [&](std::uint32_t root) {
+      return was_open[root] && std::fabs(volume[root]) < kFlat * std::pow(area[root], 1.5);
+    };
+    std::uint64_t flaps = 0, sound = 0;
+    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+      if (parts.find(v) != v || area[v] == 0) continue;
+      (is_flap(v) ? flaps : sound) += 1;
+    }
+    if (flaps == 0 || sound == 0) return;
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return is_flap(parts.find(t[0])); });
+    drop_unused_points(mesh);
+    tell("flaps", flaps, base::counted(flaps, "part") + " without volume left out");
+  }
+
+  // All of it, when it encloses less than nothing: what lies in what is for make_solid.
+  void turn_outward() {
+    Mesh& mesh = result_.mesh;
+    const Vec3 origin = mesh.points.front();
+    double volume = 0;
+    for (const Triangle& t : mesh.triangles)
+      volume +=
+          dot(mesh.points[t[0]] - origin, cross(mesh.points[t[1]] - origin, mesh.points[t[2]] - origin));
+    if (!result_.left.empty() || volume >= 0) return;
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    tell("turned-out", 1, "the surface was inside out and turned");
+  }
+
+  const RepairOptions& options_;
+  double longest_ = 0;
+  RepairedMesh result_;
+  std::vector<bool> was_whole_;  // per point before holes were filled: of a part without boundary
+};
+
+RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
+  AlphaWrapOptions wrap;
+  wrap.alpha = options.alpha > 0 ? options.alpha : kWrapDetail * diagonal(mesh);
+  wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
+  if (wrap.alpha < kFinestWrap * diagonal(mesh)) {
+    throw CoreError(CoreError::Code::kBadInput,
+                    "a wrap by alpha " + short_text(wrap.alpha) + " would be too fine; take " +
+                        short_text(1.01 * kFinestWrap * diagonal(mesh)) + " or more");
+  }
+  RepairedMesh result;
+  if (mesh.triangles.empty()) {
+    result.mesh = mesh;
+  } else {
+    // Through a hole that is wider than alpha the wrap would enter.
+    RepairOptions all = options;
+    all.longest_hole = HUGE_VAL;
+    result = Mending(mesh, all).result();
+  }
+  result.mesh = alpha_wrap(result.mesh, wrap);
+  result.steps.push_back({"wrapped", result.mesh.triangles.size(),
+                          "wrapped by " + base::counted(result.mesh.triangles.size(), "triangle") +
+                              ", hollows narrower than " + short_text(wrap.alpha) + " are closed"});
+  return result;
+}
+
+// Powers of lengths must not overflow, nor vanish.
+void check_size(const Mesh& mesh) {
+  if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "the mesh has no points");
+  const double size = diagonal(mesh);
+  if (size == 0) throw CoreError(CoreError::Code::kBadInput, "all points lie at one place");
+  if (!(size > kSmallest && size < kLargest)) {
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the mesh is " + short_text(size) +
+                        " long, from corner to corner of its box: " + "change the unit of length");
+  }
+}
+
+}  // namespace
+
+RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
+  check_size(mesh);
+  if (options.kind == RepairKind::kWrap) return wrapped(mesh, options);
+  return Mending(mesh, options).result();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+enum class RepairKind {
+  kMend,  ///< weld, orient, separate, fill holes, drop flaps; what is sound stays as it is
+  kWrap,  ///< a new surface round all of it, for what cannot be mended; see alpha_wrap
+};
+
+struct RepairOptions {
+  RepairKind kind = RepairKind::kMend;
+  double longest_hole = 0;  ///< of a boundary loop that is filled, mesh units; 0: 0.6 of the box's diagonal
+  double alpha = 0;         ///< of a wrap, mesh units; 0: a 220th of the box's diagonal
+  double offset = 0;        ///< of a wrap, mesh units; 0: a tenth of alpha
+  ExecutionContext* context = nullptr;
+};
+
+/// One thing that was done.
+struct RepairStep {
+  std::string
+      code;  ///< stable: "welded-points", "unused-points", "degenerate-triangles", "repeated-triangles",
+  ///< "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "flaps", "turned-out",
+  ///< "wrapped"
+  std::uint64_t count = 0;
+  std::string message;  ///< with counts, lengths and places
+};
+
+struct RepairedMesh {
+  Mesh mesh;  ///< bounds a solid, see make_solid, or `left` says why not
+  std::vector<RepairStep> steps;
+  double filled_share = 0;    ///< of the surface's area: what fills holes
+  double longest_filled = 0;  ///< length round the longest hole that was filled, mesh units
+  double longest_left = 0;    ///< length round the longest hole that is left, mesh units
+  std::string left;           ///< what it still lacks, with what would help; empty: nothing
+};
+
+/// Makes a mesh bound a solid, in steps that are told.
+/// @throws CoreError kBadInput without triangles (a wrap: without points), for a box of 1e60 or more, of 1e-60 or less,
+///   for an alpha below a 2000th of its diagonal; kCancelled.
+RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options = {});
+
+}  // namespace affskel::core
