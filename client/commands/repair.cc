@@ -4,16 +4,14 @@
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
-#include "client/cli/number_parsers.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
+#include "client/commands/shared/repair_option.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
-#include "client/operations/repair.h"
 #include "client/text/key_line.h"
-#include "client/text/shell_quoted.h"
 
 namespace affskel::client {
 namespace {
@@ -22,52 +20,19 @@ struct RepairOptions {
   std::string file, output, format, how = "auto";
 };
 
-[[noreturn]] void no_repair(const std::string& text) {
-  throw ClientError(
-      ExitCode::kUsage,
-      "--repair '" + text + "': auto, none, fill=LENGTH, wrap or wrap=ALPHA is needed, in units of the mesh");
-}
-
-RepairChoice choice_of(const std::string& text) {
-  using Kind = RepairChoice::Kind;
-  if (text == "auto") return {};
-  if (text == "none") return {Kind::kNone};
-  if (text == "wrap") return {Kind::kWrap};
-  const std::size_t sign = text.find('=');
-  const auto value =
-      sign == std::string::npos ? std::nullopt : parse_number(std::string_view(text).substr(sign + 1));
-  if (!value || !(*value > 0)) no_repair(text);
-  if (text.starts_with("fill=")) return {Kind::kFill, *value};
-  if (text.starts_with("wrap=")) return {Kind::kWrap, 0, *value};
-  no_repair(text);
-}
-
 // A wrap takes points, too.
 core::Mesh mesh_of(const std::string& file, const RepairChoice& choice) {
   if (choice.kind == RepairChoice::Kind::kWrap) return read_shape(file).mesh();
   return read_named_input(file).off.mesh;
 }
 
-// What the other ways are, to who has met the end of one.
-[[noreturn]] void advise(const Context& context, const std::string& file, const Repair& done) {
-  const std::string again = "repair " + shell_quoted(file) + " --repair ";
-  throw ClientError(
-      ExitCode::kBadInput,
-      done.left + "; fill them by: " +
-          context.next_command(again + "fill=" + base::rounded(1.01 * done.longest_left, 3) +
-                               " -o filled.off") +
-          ", or take a new surface round all of it: " + context.next_command(again + "wrap -o wrapped.off"),
-      file);
-}
-
 void run_repair(Context& context, const RepairOptions& options) {
   Console& console = context.console();
-  const RepairChoice choice = choice_of(options.how);
+  const RepairChoice choice = chosen_repair(options.how);
   const Destination destination = destination_of(options.output, options.format, console);
   ShapeFile shape;
   shape.off.mesh = mesh_of(options.file, choice);
-  Repair done = repair(shape.off.mesh, options.file, choice);
-  if (!done.left.empty()) advise(context, options.file, done);
+  Repair done = repaired(context, shape.off.mesh, options.file, choice);
   shape.off.mesh = std::move(done.mesh);
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");
   base::AtomicFile file(destination.file);
@@ -111,14 +76,11 @@ void add_repair(CommandLine& line) {
                    "Geomview OFF text, .ply, .obj, .stl or .vtp; for a wrap points, too (.xyz, .ply)")
       ->required()
       ->type_name("");
-  command
-      ->add_option(
-          "--repair", options->how,
-          "auto: fill holes no longer round than 0.6 of the box's diagonal; fill=LENGTH:\nup to that length; "
-          "wrap: wrap it in a new surface that closes hollows narrower\nthan a 220th of the diagonal, or "
-          "wrap=ALPHA; none: only check")
-      ->capture_default_str()
-      ->type_name("HOW");
+  add_repair_option(
+      command, options->how,
+      "auto: fill holes no longer round than 0.6 of the box's diagonal; fill=LENGTH:\nup to that length; "
+      "wrap: wrap it in a new surface that closes hollows narrower\nthan a 220th of the diagonal, or "
+      "wrap=ALPHA; none: only check");
   add_format(command, options->format);
   add_output(command, options->output, "Mesh file to write, or -");
 }

@@ -9,6 +9,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/shared/follow.h"
 #include "client/commands/shared/notices.h"
+#include "client/commands/shared/repair_option.h"
 #include "client/commands/shared/skeleton_options.h"
 #include "client/commands/shared/written.h"
 #include "client/operations/submission.h"
@@ -80,12 +81,28 @@ Notices check_mesh(const InputFile& input, const std::string& spacing, Submissio
   return notices;
 }
 
+// What is mended beyond what workers mend is another mesh.
+void replace_mesh(Context& context, const std::string& file, const RepairChoice& choice, InputFile& input) {
+  Repair done = repaired(context, input.off.mesh, file, choice);
+  Notices notices;
+  for (const core::RepairStep& step : done.steps)
+    notices.push_back(note(step.code, "repaired before it was sent: " + step.message, input.path));
+  say(context.console(), notices);
+  input.off = core::OffMesh();
+  input.off.mesh = std::move(done.mesh);
+  input.bytes = core::write_off(input.off.mesh);
+}
+
 void run_submit(Context& context, const SubmitOptions& options) {
+  using Kind = RepairChoice::Kind;
   Console& console = context.console();
-  const InputFile input = read_named_input(options.file);
+  const RepairChoice repair = chosen_repair(options.repair);
+  InputFile input = read_named_input(options.file);
   say(console, conversion_notices(input));
+  if (repair.kind == Kind::kFill || repair.kind == Kind::kWrap)
+    replace_mesh(context, options.file, repair, input);
   Submission asked = options.asked;
-  asked.repair = options.repair == "auto";
+  asked.repair = repair.kind != Kind::kNone;
   const Notices said = check_mesh(input, options.spacing, asked, console);
   prepare_output_dir(options.output_dir);
   const Submitted submitted = submit(context.session(), context.environment(), input, asked);
@@ -150,10 +167,10 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
                    "Submitting again with the same key and content gives the same job")
       ->check(utf8_text())
       ->type_name("KEY");
-  command->add_option("--repair", o.repair, "Weld, turn and drop what needs it, and say so, or refuse")
-      ->check(one_of({"auto", "none"}))
-      ->capture_default_str()
-      ->type_name("MODE");
+  add_repair_option(
+      command, o.repair,
+      "auto: weld, turn and drop what needs it, and say so; none: refuse instead;\nfill=LENGTH, wrap or "
+      "wrap=ALPHA: submit what repair makes of the mesh");
 }
 
 }  // namespace

@@ -392,6 +392,14 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   const Outcome sound = run({"repair", dir_ / "cube.off", "-o", dir_ / "same.ply"});
   EXPECT_NE(sound.out.find("sound:"), std::string::npos) << sound.out;
 
+  // Submitted as it is then.
+  const Outcome submitted = run({"submit", dir_ / "open.off", "--repair", "fill=1e6", "--points", "100"});
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  EXPECT_NE(submitted.err.find("repaired before it was sent: 1 hole filled"), std::string::npos)
+      << submitted.err;
+  EXPECT_EQ(core::read_off(service_.mesh).mesh.triangles.size(), 48u);
+  EXPECT_EQ(run({"submit", dir_ / "open.off", "--repair", "mend"}).exit_code, 2);
+
   // What was not done is told with commands that do it.
   const Outcome left = run({"repair", dir_ / "open.off", "--repair", "fill=10", "-o", dir_ / "left.off"});
   EXPECT_EQ(left.exit_code, 3);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "client/commands/shared/context.h"
+#include "client/operations/repair.h"
+
+namespace affskel::client {
+
+/// --repair. @param what its values do, for the help.
+void add_repair_option(CLI::App* command, std::string& how, const std::string& what);
+
+/// What it says: "auto", "none", "fill=LENGTH", "wrap" or "wrap=ALPHA".
+/// @throws ClientError kUsage for anything else.
+RepairChoice chosen_repair(const std::string& text);
+
+/// The repaired mesh, which bounds a solid.
+/// @param file as the user named it.
+/// @throws ClientError kBadInput where something is left, with the commands that would do it; as repair.
+Repair repaired(const Context& context, const core::Mesh& mesh, const std::string& file,
+                const RepairChoice& choice);
+
+}  // namespace affskel::client
