@@ -6,6 +6,7 @@
 #include "client/files/read/input_file.h"
 #include "client/operations/inspection.h"
 #include "client/operations/mesh_picture.h"
+#include "client/operations/repair.h"
 #include "client/operations/submission.h"
 #include "client/render/scene.h"
 #include "client/view/page.h"
@@ -14,6 +15,7 @@
 #include "client/web/until_gone.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid_frame.h"
+#include "core/text/off_file.h"
 
 namespace affskel::client {
 namespace {
@@ -95,6 +97,27 @@ Submission submission_of(const nlohmann::json& body) {
   return submission;
 }
 
+// The upload becomes what repair makes of it; the steps as notes of a mesh.
+nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& name, InputFile& input,
+                                           core::ExecutionContext* context) {
+  const std::string how = call.request.parameter("repair");
+  RepairChoice choice{RepairChoice::Kind::kFill, HUGE_VAL};
+  if (how == "wrap") choice = {RepairChoice::Kind::kWrap};
+  if (how != "wrap" && how != "fill") throw ClientError(ExitCode::kUsage, "'repair' must be fill or wrap");
+  Repair done = repair(input.off.mesh, name, choice, context);
+  if (!done.left.empty()) throw ClientError(ExitCode::kBadInput, done.left);
+  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".off"));
+  base::AtomicFile out(file->path());
+  out.write(core::write_off(done.mesh));
+  out.commit();
+  call.upload = std::move(file);
+  input = read_input(call.upload->path().string());
+  nlohmann::ordered_json notes = nlohmann::ordered_json::array();
+  for (const core::RepairStep& step : done.steps)
+    notes.push_back({{"severity", "repaired"}, {"code", step.code}, {"message", step.message}});
+  return notes;
+}
+
 }  // namespace
 
 // Made for who asks for it: most look at the picture.
@@ -110,17 +133,21 @@ http::Response turn_mesh(WebCall& call) {
 // That a file is no mesh is an answer, too.
 http::Response take_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
+  UntilGone context(call.request.gone);
   InputFile input;
+  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   try {
     input = read_input(call.upload->path().string());
+    if (!call.request.parameter("repair").empty()) steps = replace_by_repaired(call, name, input, &context);
   } catch (const ClientError& error) {
     if (error.exit_code() != ExitCode::kBadInput) throw;
     return api_answer({{"name", name}, {"error", error.what()}, {"line", error.line()}});
   }
-  UntilGone context(call.request.gone);
   Inspection inspection = inspect(input, kFewPlaces, &context);
   core::throw_if_stopped(&context);
   inspection.facts["file"] = name;
+  for (auto& note : inspection.facts["notes"]) steps.push_back(std::move(note));
+  inspection.facts["notes"] = std::move(steps);
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
   if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
     answer["picture"] = picture_of(call, input, name);

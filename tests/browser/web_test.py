@@ -333,6 +333,8 @@ class Desktop(OnThePage):
         self.page.screenshot("desktop-13-defects-turned")
         self.page.shown("#close-interactive").click()
         self.page.wait(lambda: not self.page.all("dialog"))
+        self.page.shown("#wrap").click()
+        self.page.wait(lambda: "wrapped by" in self.page.find("#found").text and self.page.all("#submit"))
         with open(bench.path("text.off"), "w", encoding="ascii") as file:
             file.write("this is no mesh\n")
         self.choose("text.off")

@@ -114,18 +114,23 @@ export class NewJob {
     }
   }
 
-  /** @param {File} file */
-  async sentFile(file) {
+  /**
+   * @param {File} file
+   * @param {string} repair see upload
+   */
+  async sentFile(file, repair = '') {
     if (file.size === 0) throw new Error('the file is empty');
     const most = session.max_mesh_bytes;
     if (file.size > most) throw new Error(`it has ${bytes(file.size)}; the server takes at most ${bytes(most)}`);
     this.sent.hidden = false;
     this.status.textContent = `Sending ${file.name} …`;
     try {
-      return await upload(file, (share) => {
+      const told = repair ? 'Repairing the mesh …' : 'Looking at the mesh …';
+      const progress = (share) => {
         this.sent.value = share;
-        if (share === 1) setText(this.status, 'Looking at the mesh …');
-      });
+        if (share === 1) setText(this.status, told);
+      };
+      return await upload(file, progress, '/api/meshes', repair);
     } finally {
       this.status.textContent = '';
       this.sent.hidden = true;
@@ -138,13 +143,16 @@ export class NewJob {
     this.problem.hidden = !message;
   }
 
-  /** @param {File} file */
-  async take(file) {
+  /**
+   * @param {File} file
+   * @param {string} repair see upload
+   */
+  async take(file, repair = '') {
     this.complain('');
     this.found.replaceChildren();
     this.form.replaceChildren();
     try {
-      const mesh = await this.sentFile(file);
+      const mesh = await this.sentFile(file, repair);
       if (mesh.facts) this.show(mesh, file);
       else this.complain(`${file.name} cannot be read: ${mesh.error}`);
     } catch (error) {
@@ -179,6 +187,13 @@ export class NewJob {
         ),
         mesh.error && h('p', { class: 'error' }, mesh.error),
         h('ul', { class: 'notes' }, defects, notes),
+        !mesh.mesh &&
+          h(
+            'div',
+            { class: 'row wrap' },
+            button('Fill its holes', () => this.take(file, 'fill'), { id: 'fill-holes', class: 'primary' }),
+            button('Wrap it in a new surface', () => this.take(file, 'wrap'), { id: 'wrap' }),
+          ),
         mesh.picture && h('img', { class: 'picture', src: mesh.picture, alt: `${mesh.name} from the front, the side and above` }),
         meshFacts(f),
       ),

@@ -18,6 +18,10 @@ using Face = SurfaceMesh::Face_index;
 
 constexpr double kPlane = 1e-6;  // of the loop's length: farther from its plane it is not plane
 
+// Time grows with the square of a loop's edges (two of 20,000 take 18 s), and with their cube where Delaunay's
+// triangulation has no answer.
+constexpr std::uint64_t kMaxEdges = 20'000, kMaxCubic = 500;
+
 struct Loop {
   Halfedge edge;
   Hole hole;
@@ -68,12 +72,13 @@ double area_of(const SurfaceMesh& surface, const std::vector<Face>& faces) {
 
 void fill(SurfaceMesh& surface, Loop& loop) {
   std::vector<Face> faces;
+  const auto how = CGAL::parameters::do_not_use_cubic_algorithm(loop.hole.edges > kMaxCubic);
   if (loop.plane || loop.hole.edges == 3) {
-    PMP::triangulate_hole(surface, loop.edge, std::back_inserter(faces));
+    PMP::triangulate_hole(surface, loop.edge, std::back_inserter(faces), how);
   } else {
     std::vector<SurfaceMesh::Vertex_index> vertices;
     PMP::triangulate_refine_and_fair_hole(surface, loop.edge, std::back_inserter(faces),
-                                          std::back_inserter(vertices));
+                                          std::back_inserter(vertices), how);
   }
   loop.hole.filled = !faces.empty();
   loop.hole.area = area_of(surface, faces);
@@ -92,7 +97,7 @@ FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options) {
   FilledHoles filled;
   for (Loop& loop : loops) {
     throw_if_stopped(options.context);
-    if (loop.hole.length <= options.longest) fill(surface, loop);
+    if (loop.hole.length <= options.longest && loop.hole.edges <= kMaxEdges) fill(surface, loop);
     filled.holes.push_back(loop.hole);
   }
   filled.mesh = mesh_of(surface);

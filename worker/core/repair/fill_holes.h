@@ -28,7 +28,8 @@ struct FilledHoles {
 };
 
 /// Fills holes by CGAL: a plane loop by a plane cut, any other by the triangulation of least area and bending that is
-/// refined to the density of its rim and faired (Liepa 2003; Zou, Ju & Carr 2013).
+/// refined to the density of its rim and faired (Liepa 2003; Zou, Ju & Carr 2013).  Loops of more than 20,000 edges, and
+/// those that nothing fills, are left.
 /// @param mesh manifold, its triangles agreeing.
 /// @throws CoreError kCancelled when the context asks to stop.
 FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options);

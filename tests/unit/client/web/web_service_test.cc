@@ -4,6 +4,8 @@
 #include <regex>
 
 #include "client/view/page.h"
+#include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
 #include "sample_data.h"
 #include "web/web_service_fixture.h"
 
@@ -146,6 +148,16 @@ TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   EXPECT_TRUE(open.contains("picture"));
   const Answer turned = ask("POST", "/api/meshes/view?name=open.off", tests::read_file(dir_ / "open.off"));
   EXPECT_NE(ask("GET", turned.object()["href"]).body.find("open.off"), std::string::npos);
+  core::Mesh cube = core::make_box(2000, 2000, 2000, 2);
+  cube.triangles.pop_back();
+  for (const char* how : {"fill", "wrap"}) {
+    const json repaired =
+        ask("POST", std::string("/api/meshes?name=o.off&repair=") + how, core::write_off(cube)).object();
+    EXPECT_TRUE(repaired.contains("mesh")) << how << repaired;
+    EXPECT_EQ(repaired["facts"]["notes"][0]["code"], "filled-holes");
+    EXPECT_NEAR(repaired["facts"]["volume"].get<double>() / 8e9, 1, 0.01) << how;
+  }
+  EXPECT_EQ(ask("POST", "/api/meshes?name=o.off&repair=mend", core::write_off(cube)).status, 400);
   const json bad = uploaded("bad.off", tests::read_file(dir_ / "bad.off"));
   EXPECT_EQ(ask("POST", "/api/meshes/view?name=bad.off", tests::read_file(dir_ / "bad.off")).status, 422);
   EXPECT_EQ(bad["line"], 5);
