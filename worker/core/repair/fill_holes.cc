@@ -51,6 +51,7 @@ bool lie_in_a_plane(const std::vector<Vec3>& points, const Vec3& centre, double 
 
 Loop loop_at(const SurfaceMesh& surface, Halfedge edge) {
   Loop loop{edge, {}, false};
+  loop.hole.point = surface.target(edge);
   const std::vector<Vec3> points = points_of(surface, edge);
   loop.hole.edges = points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {

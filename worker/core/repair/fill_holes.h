@@ -16,8 +16,9 @@ struct FillHolesOptions {
 /// A boundary loop.
 struct Hole {
   std::uint64_t edges = 0;
-  double length = 0;  ///< mesh units
-  Vec3 centre;        ///< of its points
+  double length = 0;        ///< mesh units
+  Vec3 centre;              ///< of its points
+  std::uint32_t point = 0;  ///< one of them
   bool filled = false;
   double area = 0;  ///< of what fills it, mesh units squared
 };

@@ -1,6 +1,5 @@
 #include "core/repair/repair_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -76,7 +75,6 @@ class Mending {
 
   void fill() {
     const double area = surface_area(result_.mesh);
-    const std::vector<bool> whole = closed_parts(result_.mesh);
     FilledHoles filled = fill_holes(result_.mesh, {longest_, options_.context});
     std::uint64_t count = 0, left = 0;
     double added = 0;
@@ -101,7 +99,7 @@ class Mending {
     }
     result_.filled_share = added / (area + added);
     result_.mesh = std::move(filled.mesh);
-    was_whole_ = whole;
+    for (const Hole& hole : filled.holes) rims_.push_back(hole.point);
   }
 
   static DisjointSets parts_of(const Mesh& mesh) {
@@ -113,31 +111,13 @@ class Mending {
     return parts;
   }
 
-  // Per point whether its part has no boundary.  A part's edges are twice its half edges' pairs: odd sums tell nothing,
-  // so boundaries are looked for.
-  static std::vector<bool> closed_parts(const Mesh& mesh) {
-    DisjointSets parts = parts_of(mesh);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;
-    for (const Triangle& t : mesh.triangles)
-      for (std::size_t c = 0; c < 3; ++c) sides.emplace_back(std::minmax(t[c], t[(c + 1) % 3]));
-    std::sort(sides.begin(), sides.end());
-    std::vector<bool> open_root(mesh.points.size(), false), closed(mesh.points.size());
-    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-      while (end < sides.size() && sides[end] == sides[begin]) ++end;
-      if (end - begin == 1) open_root[parts.find(sides[begin].first)] = true;
-    }
-    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) closed[v] = !open_root[parts.find(v)];
-    return closed;
-  }
-
   // Parts that were open and enclose next to nothing now.
   void drop_flaps() {
     Mesh& mesh = result_.mesh;
     DisjointSets parts = parts_of(mesh);
     std::vector<double> volume(mesh.points.size(), 0), area(mesh.points.size(), 0);
     std::vector<bool> was_open(mesh.points.size(), false);
-    for (std::uint32_t v = 0; v < was_whole_.size(); ++v)
-      if (!was_whole_[v]) was_open[parts.find(v)] = true;
+    for (const std::uint32_t v : rims_) was_open[parts.find(v)] = true;
     for (const Triangle& t : mesh.triangles) {
       const std::uint32_t root = parts.find(t[0]);
       const Vec3 origin = mesh.points[root];
@@ -176,7 +156,7 @@ class Mending {
   const RepairOptions& options_;
   double longest_ = 0;
   RepairedMesh result_;
-  std::vector<bool> was_whole_;  // per point before holes were filled: of a part without boundary
+  std::vector<std::uint32_t> rims_;  // of each hole a point
 };
 
 RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
@@ -196,6 +176,7 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
     RepairOptions all = options;
     all.longest_hole = HUGE_VAL;
     result = Mending(mesh, all).result();
+    result.left.clear();
   }
   result.mesh = alpha_wrap(result.mesh, wrap);
   result.steps.push_back({"wrapped", result.mesh.triangles.size(),
@@ -212,7 +193,7 @@ void check_size(const Mesh& mesh) {
   if (!(size > kSmallest && size < kLargest)) {
     throw CoreError(CoreError::Code::kBadInput,
                     "the mesh is " + short_text(size) +
-                        " long, from corner to corner of its box: " + "change the unit of length");
+                        " long, from corner to corner of its box; change the unit of length");
   }
 }
 
