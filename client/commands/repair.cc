@@ -22,40 +22,50 @@ struct RepairOptions {
 
 // A wrap takes points, too.
 core::Mesh mesh_of(const std::string& file, const RepairChoice& choice) {
-  if (choice.kind == RepairChoice::Kind::kWrap) return read_shape(file).mesh();
+  if (choice.kind == RepairChoice::Kind::kWrap && file != "-") return read_shape(file).mesh();
   return read_named_input(file).off.mesh;
+}
+
+std::string steps_text(const Repair& done) {
+  std::string text;
+  for (const core::RepairStep& step : done.steps) text += key_line(step.code, step.message);
+  if (done.steps.empty()) text += key_line("sound", "yes");
+  text += key_line("triangles", std::to_string(done.mesh.triangles.size()));
+  return text + key_line("volume", base::plain(done.volume, base::kMeasureDigits));
+}
+
+nlohmann::ordered_json steps_json(const Repair& done) {
+  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+  for (const core::RepairStep& step : done.steps)
+    steps.push_back({{"code", step.code}, {"count", step.count}, {"message", step.message}});
+  return steps;
 }
 
 void run_repair(Context& context, const RepairOptions& options) {
   Console& console = context.console();
   const RepairChoice choice = chosen_repair(options.how);
   const Destination destination = destination_of(options.output, options.format, console);
+  const Repair done = repaired(context, mesh_of(options.file, choice), options.file, choice);
   ShapeFile shape;
-  shape.off.mesh = mesh_of(options.file, choice);
-  Repair done = repaired(context, shape.off.mesh, options.file, choice);
-  shape.off.mesh = std::move(done.mesh);
+  shape.off.mesh = done.mesh;
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");
   base::AtomicFile file(destination.file);
   write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {"repaired"}, write); });
   file.commit();
 
-  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-  std::string text;
-  for (const core::RepairStep& step : done.steps) {
-    text += key_line(step.code, step.message);
-    steps.push_back({{"code", step.code}, {"count", step.count}, {"message", step.message}});
+  const std::string text = steps_text(done);
+  if (destination.is_stdout()) {
+    console.note(text.substr(0, text.size() - 1));
+  } else {
+    console.result(text);
+    console.note("wrote " + destination.name());
   }
-  if (done.steps.empty()) text += key_line("sound", "yes");
-  text += key_line("triangles", std::to_string(shape.mesh().triangles.size()));
-  text += key_line("volume", base::plain(done.volume, base::kMeasureDigits));
-  console.result(text);
-  console.note("wrote " + destination.name());
   console.document({{"file", options.output},
                     {"repair", options.how},
-                    {"steps", steps},
+                    {"steps", steps_json(done)},
                     {"filled_share", done.filled_share},
-                    {"points", shape.mesh().points.size()},
-                    {"triangles", shape.mesh().triangles.size()},
+                    {"points", done.mesh.points.size()},
+                    {"triangles", done.mesh.triangles.size()},
                     {"volume", done.volume}});
 }
 

@@ -392,6 +392,12 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   const Outcome sound = run({"repair", dir_ / "cube.off", "-o", dir_ / "same.ply"});
   EXPECT_NE(sound.out.find("sound:"), std::string::npos) << sound.out;
 
+  const Outcome piped =
+      run({"repair", dir_ / "open.off", "--repair", "fill=1e6", "-o", "-", "--format", "off"});
+  EXPECT_EQ(piped.exit_code, 0);
+  EXPECT_EQ(piped.out, "") << "the report is not in the file";
+  EXPECT_NE(piped.err.find("1 hole filled"), std::string::npos) << piped.err;
+
   // Submitted as it is then.
   const Outcome submitted = run({"submit", dir_ / "open.off", "--repair", "fill=1e6", "--points", "100"});
   ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
