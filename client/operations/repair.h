@@ -29,7 +29,7 @@ struct Repair {
   double volume = 0;                    ///< mesh units cubed; 0 where something is left
   std::string left;         ///< why the mesh bounds no solid yet: holes that are longer, or too much of the
                             ///< surface, than is filled unasked; empty: it does
-  double longest_left = 0;  ///< what fills those: a length, mesh units
+  double longest_left = 0;  ///< what fills those: a length, mesh units; 0: none does
 };
 
 /// @param file for messages.

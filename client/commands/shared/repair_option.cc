@@ -20,13 +20,15 @@ namespace {
 // What the other ways are, to who has met the end of one.
 [[noreturn]] void advise(const Context& context, const std::string& file, const Repair& done) {
   const std::string again = "repair " + shell_quoted(file) + " --repair ";
-  throw ClientError(
-      ExitCode::kBadInput,
-      done.left + "; fill them by: " +
-          context.next_command(again + "fill=" + base::rounded(1.01 * done.longest_left, 3) +
-                               " -o filled.off") +
-          ", or take a new surface round all of it: " + context.next_command(again + "wrap -o wrapped.off"),
-      file);
+  std::string fill;
+  if (done.longest_left > 0) {
+    const std::string length = base::rounded(1.01 * done.longest_left, 3);
+    fill = "fill them by: " + context.next_command(again + "fill=" + length + " -o filled.off") + ", or ";
+  }
+  throw ClientError(ExitCode::kBadInput,
+                    done.left + "; " + fill + "take a new surface round all of it: " +
+                        context.next_command(again + "wrap -o wrapped.off"),
+                    file);
 }
 
 }  // namespace

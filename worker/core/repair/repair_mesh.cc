@@ -93,9 +93,13 @@ class Mending {
                short_text(100 * added / (area + added)) + " % of the surface");
     }
     if (left > 0) {
-      result_.longest_left = longest_left->length;
+      // What is short enough could not be filled: no greater length helps.
+      const bool too_long = longest_left->length > longest_;
+      result_.longest_left = too_long ? longest_left->length : 0;
       result_.left = base::counted(left, "hole") + (left == 1 ? " is" : " are") + " left, the longest " +
                      short_text(longest_left->length) + " round near " + place_text(longest_left->centre);
+      if (!too_long)
+        result_.left += ", of " + base::counted(longest_left->edges, "edge") + ", more than can be filled";
     }
     result_.filled_share = added / (area + added);
     result_.mesh = std::move(filled.mesh);

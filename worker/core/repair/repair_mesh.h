@@ -37,7 +37,7 @@ struct RepairedMesh {
   std::vector<RepairStep> steps;
   double filled_share = 0;    ///< of the surface's area: what fills holes
   double longest_filled = 0;  ///< length round the longest hole that was filled, mesh units
-  double longest_left = 0;    ///< length round the longest hole that is left, mesh units
+  double longest_left = 0;    ///< length round the longest hole that is left, mesh units; 0: no length helps
   std::string left;           ///< what it still lacks, with what would help; empty: nothing
 };
 
