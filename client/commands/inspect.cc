@@ -52,6 +52,18 @@ std::string few_places(const ordered_json& defect) {
                                 (more ? " (--all)" : ""));
 }
 
+std::string holes_text(const ordered_json& holes) {
+  std::string text = key_line("holes", holes["count"].dump());
+  for (const ordered_json& hole : holes["longest"]) {
+    const ordered_json& c = hole["centre"];
+    text += key_line(
+        "hole", base::rounded(hole["length"].get<double>(), 4) + " round, " + hole["edges"].dump() +
+                    " edges, near (" + base::rounded(c[0].get<double>(), 4) + ", " +
+                    base::rounded(c[1].get<double>(), 4) + ", " + base::rounded(c[2].get<double>(), 4) + ")");
+  }
+  return text;
+}
+
 std::string facts_text(const ordered_json& facts, bool all) {
   std::string text;
   for (const auto& [key, value] : facts.items()) {
@@ -70,6 +82,8 @@ std::string facts_text(const ordered_json& facts, bool all) {
       }
     } else if (key == "defects") {
       for (const ordered_json& entry : value) text += all ? all_places(entry) : few_places(entry);
+    } else if (key == "holes") {
+      text += holes_text(value);
     } else if (key == "passed_over") {
       for (const ordered_json& rows : value) {
         text += key_line("passed_over", rows["rows"].dump() + " of " + rows["word"].get<std::string>() +

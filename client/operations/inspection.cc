@@ -1,5 +1,7 @@
 #include "client/operations/inspection.h"
 
+#include "core/base/error.h"
+#include "core/repair/fill_holes.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -87,6 +89,21 @@ ordered_json defects_json(const std::vector<MeshDefect>& defects) {
   return list;
 }
 
+// The longest ones.
+ordered_json holes_json(const core::Mesh& mesh, std::size_t max_places) {
+  std::vector<core::Hole> holes;
+  try {
+    holes = core::find_holes(mesh);
+  } catch (const core::CoreError&) {  // there is no triangle: told by the defects
+  }
+  ordered_json list = ordered_json::array();
+  for (const core::Hole& hole : holes) {
+    if (list.size() == max_places) break;
+    list.push_back({{"edges", hole.edges}, {"length", hole.length}, {"centre", vec(hole.centre)}});
+  }
+  return {{"count", holes.size()}, {"longest", std::move(list)}};
+}
+
 }  // namespace
 
 Inspection inspect(const InputFile& input, std::size_t max_places, core::ExecutionContext* context) {
@@ -101,6 +118,7 @@ Inspection inspect(const InputFile& input, std::size_t max_places, core::Executi
     if (error.exit_code() == ExitCode::kCancelled) throw;
     inspection.facts["computable"] = false;
     inspection.facts["defects"] = defects_json(find_defects(input.off, max_places));
+    inspection.facts["holes"] = holes_json(input.off.mesh, max_places);
     inspection.error = error;
   }
   return inspection;

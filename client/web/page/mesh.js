@@ -21,6 +21,7 @@ function meshFacts(f) {
     ['File', `${f.file}, ${bytes(f.bytes)}`],
     ['Triangles', count(f.triangles)],
     ['Vertices', count(f.vertices)],
+    ...(f.holes?.count ? [['Holes', `${count(f.holes.count)}, the longest ${measure(f.holes.longest[0].length)} round`]] : []),
     ...solid,
     ...size,
   ]);

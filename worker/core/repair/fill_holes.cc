@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/repair/orient_soup.h"
 #include "core/repair/surface_mesh.h"
 
 namespace affskel::core {
@@ -85,18 +86,30 @@ void fill(SurfaceMesh& surface, Loop& loop) {
   loop.hole.area = area_of(surface, faces);
 }
 
-}  // namespace
-
-FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options) {
-  SurfaceMesh surface = surface_mesh_of(mesh);
+// Longest first.
+std::vector<Loop> loops_of(const SurfaceMesh& surface) {
   std::vector<Halfedge> edges;
   PMP::extract_boundary_cycles(surface, std::back_inserter(edges));
   std::vector<Loop> loops;
   for (const Halfedge edge : edges) loops.push_back(loop_at(surface, edge));
   std::stable_sort(loops.begin(), loops.end(),
                    [](const Loop& a, const Loop& b) { return a.hole.length > b.hole.length; });
+  return loops;
+}
+
+}  // namespace
+
+std::vector<Hole> find_holes(const Mesh& mesh) {
+  const SurfaceMesh surface = surface_mesh_of(orient_soup(mesh).mesh);
+  std::vector<Hole> holes;
+  for (const Loop& loop : loops_of(surface)) holes.push_back(loop.hole);
+  return holes;
+}
+
+FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options) {
+  SurfaceMesh surface = surface_mesh_of(mesh);
   FilledHoles filled;
-  for (Loop& loop : loops) {
+  for (Loop& loop : loops_of(surface)) {
     throw_if_stopped(options.context);
     if (loop.hole.length <= options.longest && loop.hole.edges <= kMaxEdges) fill(surface, loop);
     filled.holes.push_back(loop.hole);

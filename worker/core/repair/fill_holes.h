@@ -35,4 +35,8 @@ struct FilledHoles {
 /// @throws CoreError kCancelled when the context asks to stop.
 FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options);
 
+/// The boundary loops of triangles in any state, longest first, after what orient_soup does to them.
+/// @throws CoreError kBadInput when no triangle has three different corners.
+std::vector<Hole> find_holes(const Mesh& mesh);
+
 }  // namespace affskel::core

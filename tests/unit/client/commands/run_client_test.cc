@@ -371,6 +371,9 @@ TEST_F(ClientTest, InspectNeedsNoServer) {
   EXPECT_EQ(open.exit_code, 3);
   EXPECT_FALSE(json::parse(open.out).at("computable"));
   EXPECT_EQ(json::parse(open.out).at("defects").at(0).at("count"), 3);
+  EXPECT_EQ(json::parse(open.out).at("holes").at("count"), 1);
+  EXPECT_EQ(json::parse(open.out).at("holes").at("longest").at(0).at("edges"), 3);
+  EXPECT_NE(run({"inspect", dir_ / "open.off"}).out.find(" round, 3 edges, near ("), std::string::npos);
   EXPECT_EQ(run({"inspect", dir_ / "open.off", "--render", dir_ / "open.png"}).exit_code, 3);
   EXPECT_EQ(tests::read_file(dir_ / "open.png").substr(1, 3), "PNG");
   EXPECT_EQ(run({"inspect", dir_ / "cube.off", "--render", dir_ / "cube.png"}).exit_code, 0);
