@@ -43,7 +43,7 @@ void add_repair_option(CLI::App* command, std::string& how, const std::string& w
     }
   };
   command->add_option("--repair", how, what)
-      ->check(CLI::Validator(refuse, "", ""))
+      ->check(CLI::Validator(refuse, "{auto,none,wrap,fill=}", ""))
       ->capture_default_str()
       ->type_name("HOW");
 }
