@@ -88,9 +88,7 @@ void add_repair(CommandLine& line) {
       ->type_name("");
   add_repair_option(
       command, options->how,
-      "auto: fill holes no longer round than 0.6 of the box's diagonal; fill=LENGTH:\nup to that length; "
-      "wrap: wrap it in a new surface that closes hollows narrower\nthan a 220th of the diagonal, or "
-      "wrap=ALPHA; none: only check");
+      "auto fills holes up to 0.6 of the box's diagonal round, fill=LENGTH up to that\nlength; wrap, or wrap=ALPHA, takes a new surface round all of it, which closes\nhollows narrower than a 220th of the diagonal; none only checks");
   add_format(command, options->format);
   add_output(command, options->output, "Mesh file to write, or -");
 }

@@ -169,8 +169,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
       ->type_name("KEY");
   add_repair_option(
       command, o.repair,
-      "auto: weld, turn and drop what needs it, and say so; none: refuse instead;\nfill=LENGTH, wrap or "
-      "wrap=ALPHA: submit what repair makes of the mesh");
+      "What is mended: what workers mend (auto), nothing (none), or all that repair\nmends, by fill=LENGTH, wrap or wrap=ALPHA");
 }
 
 }  // namespace
