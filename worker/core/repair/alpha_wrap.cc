@@ -33,7 +33,12 @@ Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
   std::vector<Point> points;
   for (const Vec3& p : mesh.points) points.emplace_back(p.x, p.y, p.z);
   std::vector<std::array<std::size_t, 3>> triangles;
-  for (const Triangle& t : mesh.triangles) triangles.push_back({t[0], t[1], t[2]});
+  for (const Triangle& t : mesh.triangles) {
+    // CGAL's tree does not bear triangles without area.
+    if (!CGAL::collinear(points[t[0]], points[t[1]], points[t[2]])) triangles.push_back({t[0], t[1], t[2]});
+  }
+  if (triangles.empty() && !mesh.triangles.empty())
+    throw CoreError(CoreError::Code::kBadInput, "no triangle has an area, so there is nothing to wrap");
   SurfaceMesh wrap;
   if (triangles.empty()) {
     CGAL::alpha_wrap_3(points, options.alpha, options.offset, wrap);

@@ -147,6 +147,15 @@ TEST(RepairMesh, TurnsWhatDisagrees) {
   EXPECT_NEAR(volume_of(repaired.mesh), volume, 1e-9 * volume);
 }
 
+TEST(RepairMesh, WrapsBesideTrianglesWithoutArea) {
+  Mesh line;
+  line.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, 0, 0}, {0, 1, 0}};
+  line.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 3, 1}};
+  EXPECT_THROW(repair_mesh(line, {.kind = RepairKind::kWrap, .alpha = 0.1}), CoreError);
+  line.triangles.push_back({0, 1, 4});
+  EXPECT_FALSE(repair_mesh(line, {.kind = RepairKind::kWrap, .alpha = 0.1}).mesh.triangles.empty());
+}
+
 TEST(RepairMesh, RefusesWhatCannotBeComputedWith) {
   Mesh ball = make_sphere(1, 80);
   EXPECT_THROW(repair_mesh(ball, {.kind = RepairKind::kWrap, .alpha = 1e-4}), CoreError);
