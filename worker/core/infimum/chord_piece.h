@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "core/base/vec3.h"
+#include "core/infimum/piece_input.h"
+
+namespace affskel::core {
+
+/// Vertices nearer to a plane than this (scaled units) lie in it.
+constexpr double kTouchHeight = 1e-12;
+
+/// The chordal piece of x for the unit direction d: the part of { y in V : d.y < d.x } that x is joined with.
+/// What only touches the plane lies above it: a piece does not reach through a saddle that the plane just
+/// touches, which is the lower of the two limits there.
+///
+/// Derivatives are those by t, two coordinates of the plane's tilt: the plane (d + t_0 u + t_1 w).(y - x) = 0.
+/// In them both are exact: the gradient is minus the section's first moment, the second derivative the
+/// integral of (y - x)(y - x)^T cot(inclination of the wall) along the rim.
+struct ChordPiece {
+  bool found = false;  ///< false where x lies outside, within rounding
+  double volume = 0;   ///< chord(x, d), scaled units
+  double area = 0;     ///< of all lids of the piece
+  Vec3 u, w;           ///< with d an orthonormal basis
+  std::array<double, 2> gradient{};
+  std::array<double, 3> hessian{};  ///< 00, 01, 11
+};
+
+/// Finds pieces one after another, reusing its memory.  One per thread.
+///
+/// Cost: proportional to the triangles that the plane cuts, with a logarithm for finding them.  Of the surface
+/// below the plane only sums are asked for (PieceInput).
+class PieceFinder {
+ public:
+  explicit PieceFinder(const PieceInput& input);
+  ~PieceFinder();
+  PieceFinder(const PieceFinder&) = delete;
+  PieceFinder& operator=(const PieceFinder&) = delete;
+
+  /// @param d of unit length.
+  ChordPiece find(const Vec3& x, const Vec3& d);
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace affskel::core
