@@ -125,7 +125,11 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
   sum_up();
   find_handles();
   find_rings();
-  if (shells.size() > solid.solid_volume.size()) rays.emplace(mesh, threads);
+  std::vector<std::uint8_t> bounded(solid.solid_volume.size(), 0);
+  for (const Shell& shell : shells) {
+    if (bounded[shell.solid] != 0 && !rays) rays.emplace(mesh, threads);
+    bounded[shell.solid] = 1;
+  }
   for (const double v : solid.solid_volume) volume += std::ldexp(v, -3 * solid.exponent);
 }
 
@@ -162,14 +166,21 @@ void PieceInput::number_anew(const Solid& solid) {
     shells[shell_of[mesh.triangles[t][0]]].solid =
         solid.shells[solid.triangle_shell[triangle_order[t]]].solid;
   }
-  if (solid.crossings.empty()) return;
-  crosses.assign(number.size(), 0);
+  if (!solid.crossings.empty()) add_crossings(solid, triangle_number);
+}
+
+// Solids that pass through each other are one from here on.
+void PieceInput::add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number) {
+  crosses.assign(mesh.points.size(), 0);
+  DisjointSets solids(solid.solid_volume.size());
   for (const auto& [i, j] : solid.crossings) {
     crossings.emplace_back(triangle_number[i], triangle_number[j]);
     for (const std::uint32_t t : {triangle_number[i], triangle_number[j]}) {
       for (const std::uint32_t v : mesh.triangles[t]) crosses[v] = 1;
     }
+    solids.unite(solid.shells[solid.triangle_shell[i]].solid, solid.shells[solid.triangle_shell[j]].solid);
   }
+  for (Shell& shell : shells) shell.solid = solids.find(shell.solid);
 }
 
 void PieceInput::sum_up() {

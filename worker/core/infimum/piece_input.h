@@ -50,12 +50,14 @@ struct PieceInput {
 
   struct Shell {
     std::uint32_t root = 0;   ///< its first vertex
-    std::uint32_t solid = 0;  ///< the solid it bounds
+    std::uint32_t solid = 0;  ///< the solid it bounds; the least one of those that pass through each other
     /// Two for every handle: with them the tree's edges cut the shell into a disc (tree-cotree, Eppstein 2003).
     std::vector<Segment> handles;
   };
 
   explicit PieceInput(const Solid& solid, unsigned threads = 1);
+  PieceInput(const PieceInput&) = delete;
+  PieceInput& operator=(const PieceInput&) = delete;
 
   /// Sums over the triangles whose first corner is below `vertex` in the tree, or is `vertex` itself.
   SurfaceSums below(std::uint32_t vertex) const {
@@ -84,6 +86,7 @@ struct PieceInput {
 
  private:
   void number_anew(const Solid& solid);
+  void add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number);
   void sum_up();
   void find_handles();
   void find_rings();
