@@ -48,8 +48,8 @@ struct RimPlace {
 struct Loop {
   std::uint32_t begin = 0, end = 0;  // of places
   std::uint32_t shell = 0;
-  double low_b = kInfinity, high_b = -kInfinity;
-  Flat rightmost{-kInfinity, 0};
+  double high_a = -kInfinity, low_b = kInfinity, high_b = -kInfinity;
+  Flat rightmost{-kInfinity, 0};  // but for vertices that the plane touches, where loops may meet
 };
 
 // A tree edge that the plane cuts, by its lower end in the tree.
@@ -170,9 +170,10 @@ class PieceFinder::Work {
       const std::uint32_t low = c[k], high = c[(k + 1) % 3];
       places_.push_back({cut(low, high, rim.height[k], rim.height[(k + 1) % 3]), i});
       const Flat& at = places_.back().at;
+      loop.high_a = std::max(loop.high_a, at.a);
       loop.low_b = std::min(loop.low_b, at.b);
       loop.high_b = std::max(loop.high_b, at.b);
-      if (at.a > loop.rightmost.a) loop.rightmost = at;
+      if (rim.height[(k + 1) % 3] > kTouchHeight && at.a > loop.rightmost.a) loop.rightmost = at;
       if (in_.parent[std::max(low, high)] == std::min(low, high)) cut_edge(low, high, index, sums.whole);
       if (!in_.at_handle.empty() && in_.at_handle[3 * rim.triangle + k] != 0) risers_.emplace_back(low, index);
       loop.shell = in_.shell_of[low];
@@ -242,10 +243,10 @@ class PieceFinder::Work {
     if (b0) sums.whole -= in_.own[rim.triangle];
   }
 
-  // Where the loop's places pass the line b from x or from `beyond` to the right: calls visit(a, up).
+  // Where the loop passes the ray from (a, b) to the right: calls visit(a there, whether b grows).
   template <class Visit>
   void crossings_right(const Loop& loop, double a, double b, Visit visit) const {
-    if (b < loop.low_b || b > loop.high_b || loop.rightmost.a < a) return;
+    if (b < loop.low_b || b > loop.high_b || loop.high_a < a) return;
     Flat from = places_[loop.end - 1].at;
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
       const Flat to = places_[i].at;
@@ -257,19 +258,27 @@ class PieceFinder::Work {
     }
   }
 
-  // The loop that a ray from x meets first: it bounds the lid that holds x.
-  std::uint32_t loop_round_x() const {
+  // The loop through which a ray to the right leaves the section first, where it starts inside.  Only ways out
+  // count: where the plane touches an edge, two loops run along it, one of them the way in.
+  template <class OfLid>
+  std::uint32_t loop_right_of(double a, double b, OfLid of_lid) const {
     std::uint32_t nearest = kNone;
     double least = kInfinity;
+    int winding = 0;
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-      crossings_right(loops_[l], 0, 0, [&](double at, bool) {
-        if (at < least) {
-          least = at;
-          nearest = l;
-        }
+      if (!of_lid(l)) continue;
+      crossings_right(loops_[l], a, b, [&](double at, bool out) {
+        winding += out ? 1 : -1;
+        if (!out || at >= least) return;
+        least = at;
+        nearest = l;
       });
     }
-    return nearest;
+    return winding > 0 ? nearest : kNone;
+  }
+
+  std::uint32_t loop_round_x() const {
+    return loop_right_of(0, 0, [](std::uint32_t) { return true; });
   }
 
   std::uint32_t find_class(std::uint32_t a) {
@@ -333,20 +342,9 @@ class PieceFinder::Work {
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       if (!of_solid(loops_[l])) continue;
       const Flat& start = loops_[l].rightmost;
-      std::uint32_t nearest = kNone;
-      double least = kInfinity;
-      int winding = 0;
-      for (std::uint32_t other = 0; other < loops_.size(); ++other) {
-        if (other == l || !of_solid(loops_[other])) continue;
-        crossings_right(loops_[other], start.a, start.b, [&](double at, bool up) {
-          winding += up ? 1 : -1;
-          if (at < least) {
-            least = at;
-            nearest = other;
-          }
-        });
-      }
-      if (nearest != kNone && winding > 0) unite(l, nearest);
+      const std::uint32_t next = loop_right_of(
+          start.a, start.b, [&](std::uint32_t other) { return other != l && of_solid(loops_[other]); });
+      if (next != kNone) unite(l, next);
     }
   }
 

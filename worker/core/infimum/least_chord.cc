@@ -1,0 +1,385 @@
+// Notation.  f(t) the volume of the piece below the plane of normal d + t_0 u + t_1 w; g and H its derivatives
+// at t = 0; s a saddle, z = (u.(s - x), w.(s - x)): the plane touches s where t.z = 0 and lies below it where
+// t.z > 0.  At a least piece g = sum of l_i z_i over the active saddles with all l_i >= 0.
+#include "core/infimum/least_chord.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/unit.h"
+#include "core/infimum/chord_piece.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
+constexpr int kMostSteps = 60;
+constexpr int kMostShorter = 6;       // of a step
+constexpr double kLongestStep = 0.5;  // of t
+constexpr double kLeastGain = 1e-12;  // of the volume: a lesser decrease is none
+constexpr double kLastGain = 1e-8;    // of the volume: after it, the next would be below rounding
+constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whether a part joins there
+constexpr double kJump = 1e-9;        // of the volume
+constexpr double kParallel = 1e-9;    // sine between two saddles' z
+
+using Flat = std::array<double, 2>;
+
+double dot(const Flat& a, const Flat& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+double cross(const Flat& a, const Flat& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+double norm(const Flat& a) {
+  return std::sqrt(dot(a, a));
+}
+Flat times(double s, const Flat& a) {
+  return {s * a[0], s * a[1]};
+}
+
+// A step of t, and what f is to fall by to second order.
+struct Step {
+  Flat t{};
+  double gain = 0;
+};
+
+double bend(const std::array<double, 3>& h, const Flat& t) {
+  return h[0] * t[0] * t[0] + 2 * h[1] * t[0] * t[1] + h[2] * t[1] * t[1];
+}
+
+Step step_along(const ChordPiece& at, Flat t) {
+  const double length = norm(t);
+  if (length > kLongestStep) t = times(kLongestStep / length, t);
+  return {t, -(dot(at.gradient, t) + 0.5 * bend(at.hessian, t))};
+}
+
+// Newton's step; where f is not convex its second derivative is raised until it is.
+Step free_step(const ChordPiece& at) {
+  const auto& [a, b, c] = at.hessian;
+  const double mean = 0.5 * (a + c), spread = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
+  const double least = mean - spread, wanted = 1e-3 * std::max(std::abs(mean) + spread, 1e-12 * at.area);
+  const double more = std::max(0.0, wanted - least);
+  const double aa = a + more, cc = c + more, det = aa * cc - b * b;
+  const Flat& g = at.gradient;
+  if (det > 0) return step_along(at, {-(cc * g[0] - b * g[1]) / det, -(aa * g[1] - b * g[0]) / det});
+  const double size = norm(g);
+  return size > 0 ? step_along(at, times(-kLongestStep / size, g)) : Step{};
+}
+
+// Along the great circle of a saddle.
+Step step_round(const ChordPiece& at, const Flat& z) {
+  const double length = norm(z);
+  const Flat e = {-z[1] / length, z[0] / length};
+  const double first = dot(at.gradient, e), second = bend(at.hessian, e);
+  if (first == 0) return {};
+  const bool convex = second * kLongestStep > std::abs(first);
+  return step_along(at, times(convex ? -first / second : first > 0 ? -kLongestStep : kLongestStep, e));
+}
+
+}  // namespace
+
+class ChordDescent::Work {
+ public:
+  explicit Work(const PieceInput& input) : in_(input), finder_(input) {}
+
+  LeastChord at(const Vec3& x, const LeastChord& start) {
+    begin(x, start);
+    return result(0);
+  }
+
+  LeastChord descend(const Vec3& x, const LeastChord& start) {
+    begin(x, start);
+    if (!valid(piece_)) return {};
+    for (int n = 0; n < kMostSteps; ++n) {
+      const Step step = next_step();
+      if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
+      if (step.gain < kLastGain * piece_.volume) break;
+    }
+    return result(piece_.area + multipliers());
+  }
+
+  std::uint64_t evaluations() const { return evaluations_; }
+
+ private:
+  // A vertex at which a step may meet a part that is not of the piece.
+  struct Meeting {
+    double at = 0;  // share of the step
+    std::uint32_t vertex = 0;
+    friend bool operator<(const Meeting& a, const Meeting& b) {
+      return a.at != b.at ? a.at < b.at : a.vertex < b.vertex;
+    }
+  };
+
+  static bool valid(const ChordPiece& piece) { return piece.found && piece.volume > 0; }
+
+  ChordPiece find(const Vec3& d) {
+    ++evaluations_;
+    return finder_.find(x_, d);
+  }
+
+  void begin(const Vec3& x, const LeastChord& start) {
+    x_ = x;
+    active_.clear();
+    for (const std::uint32_t s : start.saddles) {
+      if (s != kNoSaddle) active_.push_back(s);
+    }
+    d_ = touching(start.normal);
+    piece_ = find(d_);
+  }
+
+  LeastChord result(double slope) const {
+    LeastChord least;
+    if (!valid(piece_)) return least;
+    least.erosion = piece_.volume;
+    least.area = piece_.area;
+    least.slope = slope;
+    least.normal = d_;
+    for (std::size_t i = 0; i < active_.size(); ++i) least.saddles[i] = active_[i];
+    if (active_.size() == 2 && active_[1] < active_[0]) std::swap(least.saddles[0], least.saddles[1]);
+    return least;
+  }
+
+  Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
+  Flat flat(std::uint32_t vertex) const {
+    const Vec3 y = from_x(vertex);
+    return {core::dot(piece_.u, y), core::dot(piece_.w, y)};
+  }
+
+  // The unit vector nearest to d of a plane that touches the active saddles.
+  Vec3 touching(Vec3 d) const {
+    if (active_.size() == 2) {
+      const Vec3 normal = core::cross(from_x(active_[0]), from_x(active_[1]));
+      const double size = core::norm(normal);
+      if (size > kParallel * core::norm(from_x(active_[0])) * core::norm(from_x(active_[1]))) {
+        return (core::dot(normal, d) < 0 ? -1 / size : 1 / size) * normal;
+      }
+    }
+    if (!active_.empty()) {
+      const Vec3 s = from_x(active_[0]);
+      for (int twice = 0; twice < 2; ++twice) d = d - (core::dot(d, s) / core::dot(s, s)) * s;
+    }
+    return (1 / core::norm(d)) * d;
+  }
+
+  // The sum of the active saddles' multipliers.
+  double multipliers() const {
+    if (active_.empty()) return 0;
+    const Flat z = flat(active_[0]);
+    if (active_.size() == 1) return std::max(0.0, dot(piece_.gradient, z) / dot(z, z));
+    const auto [first, second] = pair_of_multipliers(z, flat(active_[1]));
+    return std::max(0.0, first) + std::max(0.0, second);
+  }
+
+  std::pair<double, double> pair_of_multipliers(const Flat& a, const Flat& b) const {
+    const double det = cross(a, b);
+    return {cross(piece_.gradient, b) / det, cross(a, piece_.gradient) / det};
+  }
+
+  // Lets go of saddles that hold nothing back, and steps along those that remain.
+  Step next_step() {
+    if (active_.size() == 2) {
+      const Flat a = flat(active_[0]), b = flat(active_[1]);
+      if (std::abs(cross(a, b)) <= kParallel * norm(a) * norm(b)) {
+        active_.pop_back();
+      } else {
+        const auto [first, second] = pair_of_multipliers(a, b);
+        if (first >= 0 && second >= 0) return {};
+        active_.erase(active_.begin() + (first * norm(a) < second * norm(b) ? 0 : 1));
+      }
+    }
+    if (active_.empty()) return free_step(piece_);
+    const Flat z = flat(active_[0]);
+    if (dot(piece_.gradient, z) < 0) {
+      const Step free = free_step(piece_);
+      if (dot(free.t, z) > 0) {
+        active_.clear();
+        return free;
+      }
+    }
+    return step_round(piece_, z);
+  }
+
+  Vec3 tilted(const Step& step, double share) const {
+    return d_ + ((share * step.t[0]) * piece_.u + (share * step.t[1]) * piece_.w);
+  }
+
+  void move_to(const Vec3& d, const ChordPiece& piece) {
+    d_ = d;
+    piece_ = piece;
+  }
+
+  bool falls(const ChordPiece& piece) const {
+    return valid(piece) && piece.volume < piece_.volume * (1 - kLeastGain);
+  }
+
+  // Makes the step, or as much of it as lets f fall; false when none does.
+  bool go(const Step& step) {
+    const Vec3 end = touching(tilted(step, 1));
+    const ChordPiece there = find(end);
+    if (falls(there)) {
+      move_to(end, there);
+      return true;
+    }
+    find_meetings(step);
+    return go_to_meeting(step, there);
+  }
+
+  // f is smooth up to `share` of the step, and does not fall as far as there.
+  bool go_shorter(const Step& step, double share, const ChordPiece& end) {
+    if (step.gain < kLastGain * piece_.volume) return false;
+    ChordPiece there = end;
+    for (int n = 0; n < kMostShorter; ++n) {
+      share *= shorter(step, share, there);
+      const Vec3 d = touching(tilted(step, share));
+      there = find(d);
+      if (!falls(there)) continue;
+      move_to(d, there);
+      return true;
+    }
+    return false;
+  }
+
+  // The least of the parabola through f and its slope here and f there, as a share of the way.
+  double shorter(const Step& step, double share, const ChordPiece& there) const {
+    if (!valid(there)) return 0.25;
+    const double slope = share * dot(piece_.gradient, step.t);
+    const double rise = there.volume - piece_.volume - slope;
+    return rise > 0 ? std::clamp(-0.5 * slope / rise, 0.05, 0.5) : 0.5;
+  }
+
+  // How many of the meetings lie where the plane is now, within rounding.
+  std::size_t meetings_here(const Step& step) const {
+    const double fall = -dot(piece_.gradient, step.t);
+    std::size_t here = 0;
+    while (here < meetings_.size() && meetings_[here].at * fall <= kLastGain * piece_.volume) ++here;
+    return here;
+  }
+
+  bool go_to_meeting(const Step& step, const ChordPiece& end) {
+    const std::size_t here = meetings_here(step);
+    std::size_t falling = here, rising = meetings_.size();  // how many are passed
+    Vec3 best;
+    ChordPiece best_piece, first_piece;
+    while (falling < rising) {
+      const std::size_t middle = falling + (rising - falling + 1) / 2;
+      const Meeting& meeting = meetings_[middle - 1];
+      active_.push_back(meeting.vertex);
+      const Vec3 d = touching(tilted(step, meeting.at));
+      active_.pop_back();
+      const ChordPiece there = find(d);
+      if (falls(there)) {
+        falling = middle;
+        best = d;
+        best_piece = there;
+      } else {
+        rising = middle - 1;
+        first_piece = there;
+      }
+    }
+    if (falling == here) {
+      for (std::size_t n = 0; n < here; ++n) {
+        if (hold(meetings_[n].vertex)) return true;
+      }
+      return here < meetings_.size() ? go_shorter(step, meetings_[here].at, first_piece) : go_shorter(step, 1, end);
+    }
+    move_to(best, best_piece);
+    if (joins_at(meetings_[falling - 1].vertex)) active_.push_back(meetings_[falling - 1].vertex);
+    return true;
+  }
+
+  // Whether a part joins the piece as soon as the plane passes the vertex, which it touches.
+  bool joins_at(std::uint32_t vertex) {
+    const Vec3 s = from_x(vertex);
+    const Vec3 d = d_ - (kBeyond / core::dot(s, s)) * s;
+    const ChordPiece beyond = find((1 / core::norm(d)) * d);
+    const double smooth = kBeyond / core::norm(s) * norm(piece_.gradient);
+    return valid(beyond) && beyond.volume > piece_.volume * (1 + kJump) + 2 * smooth;
+  }
+
+  // Makes a saddle active that the plane touches within rounding; false where nothing joins there.
+  bool hold(std::uint32_t vertex) {
+    const Vec3 old = d_;
+    const ChordPiece old_piece = piece_;
+    active_.push_back(vertex);
+    d_ = touching(d_);
+    piece_ = find(d_);
+    if (valid(piece_) && piece_.volume <= old_piece.volume * (1 + kJump) && joins_at(vertex)) return true;
+    active_.pop_back();
+    move_to(old, old_piece);
+    return false;
+  }
+
+  // Vertices that get below the plane during a step, and whose neighbours below are of several parts then.
+  void find_meetings(const Step& step) {
+    meetings_.clear();
+    const Vec3 end = tilted(step, 1);
+    const Vec3 size0{std::abs(d_.x), std::abs(d_.y), std::abs(d_.z)};
+    const Vec3 size1{std::abs(end.x), std::abs(end.y), std::abs(end.z)};
+    for (std::uint32_t n = 0; n < in_.nodes.size();) {
+      const PieceInput::Node& node = in_.nodes[n];
+      const Vec3 centre = node.centre - x_;
+      if (core::dot(d_, centre) + core::dot(size0, node.half) < -2 * kTouchHeight ||
+          core::dot(end, centre) - core::dot(size1, node.half) > 0) {
+        n = node.skip;
+        continue;
+      }
+      for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
+        for (const std::uint32_t v : in_.mesh.triangles[t]) {
+          if (in_.owner[v] == t) add_meeting(v, end);
+        }
+      }
+      ++n;
+    }
+    std::sort(meetings_.begin(), meetings_.end());
+  }
+
+  void add_meeting(std::uint32_t v, const Vec3& end) {
+    if (std::find(active_.begin(), active_.end(), v) != active_.end()) return;
+    const Vec3 y = from_x(v);
+    const double h0 = core::dot(d_, y), h1 = core::dot(end, y);
+    if (h0 < -kTouchHeight || h1 >= -kTouchHeight) return;
+    const double at = std::max(0.0, h0 / (h0 - h1));
+    if (may_join(v, d_ + at * (end - d_))) meetings_.push_back({at, v});
+  }
+
+  // Whether the neighbours below form several stretches of the ring, or the vertex is not alone in the plane.
+  bool may_join(std::uint32_t v, const Vec3& d) const {
+    if (!in_.crosses.empty() && in_.crosses[v] != 0) return true;
+    const auto ring = in_.rings[v];
+    int changes = 0;
+    bool before = core::dot(d, in_.mesh.points[ring.back()] - x_) < 0;
+    for (const std::uint32_t other : ring) {
+      const double h = core::dot(d, in_.mesh.points[other] - x_);
+      if (std::abs(h) <= 4 * kTouchHeight) return true;
+      changes += (h < 0) != before;
+      before = h < 0;
+    }
+    return changes >= 4;
+  }
+
+  const PieceInput& in_;
+  PieceFinder finder_;
+  Vec3 x_, d_;
+  std::vector<std::uint32_t> active_;  // saddles, at most two
+  ChordPiece piece_;                   // of d_
+  std::vector<Meeting> meetings_;
+  std::uint64_t evaluations_ = 0;
+};
+
+ChordDescent::ChordDescent(const PieceInput& input) : work_(std::make_unique<Work>(input)) {}
+ChordDescent::~ChordDescent() = default;
+
+LeastChord ChordDescent::at(const Vec3& x, const LeastChord& start) {
+  return work_->at(x, start);
+}
+
+LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start) {
+  return work_->descend(x, start);
+}
+
+std::uint64_t ChordDescent::evaluations() const {
+  return work_->evaluations();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "core/base/vec3.h"
+#include "core/infimum/piece_input.h"
+
+namespace affskel::core {
+
+/// A plane through x whose piece is the least of all planes near it.
+struct LeastChord {
+  static constexpr std::uint32_t kNone = PieceInput::kNone;
+
+  double erosion = std::numeric_limits<double>::infinity();  ///< volume of the piece, scaled units
+  double area = 0;                                           ///< of its lids
+  double slope = 0;                                          ///< |grad E|: area plus the saddles' multipliers
+  Vec3 normal;                                               ///< of the plane, away from the piece
+  /// Vertices that the plane just touches, and at which the piece would grow by a part: PieceInput's numbers;
+  /// none, one or two.
+  std::array<std::uint32_t, 2> saddles{kNone, kNone};
+
+  int kind() const { return (saddles[0] != kNone) + (saddles[1] != kNone); }
+};
+
+/// Goes down from one plane to another until none near it has a lesser piece.
+///
+/// The volume is smooth where the plane meets no saddle, and jumps up where it passes one at which another
+/// part joins the piece.  So the least piece is mostly a limit, at a plane that touches one saddle s or two,
+/// with the constraint d.(s - x) >= 0.  An active-set Newton method (Nocedal and Wright 2006, chapter 16) in
+/// coordinates of the plane's tilt, in which constraints are linear and derivatives exact (ChordPiece): a step
+/// that raises the volume ends at the last saddle up to which it falls, which becomes active; one whose
+/// multiplier is negative is let go.
+///
+/// Only sums, products, quotients and square roots are taken: the result is the same on every machine.
+class ChordDescent {
+ public:
+  explicit ChordDescent(const PieceInput& input);
+  ~ChordDescent();
+  ChordDescent(const ChordDescent&) = delete;
+  ChordDescent& operator=(const ChordDescent&) = delete;
+
+  /// The plane through x nearest to `start`'s that touches start's saddles, without going down: its piece, and
+  /// no slope.  Erosion infinite where x lies outside, within rounding.
+  LeastChord at(const Vec3& x, const LeastChord& start);
+
+  /// Goes down from what at() gives.
+  LeastChord descend(const Vec3& x, const LeastChord& start);
+
+  std::uint64_t evaluations() const;  ///< pieces found so far
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace affskel::core
