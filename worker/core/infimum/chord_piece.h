@@ -9,11 +9,8 @@
 
 namespace affskel::core {
 
-/// Vertices nearer to a plane than this (scaled units) lie in it.
-constexpr double kTouchHeight = 1e-12;
-
 /// The chordal piece of x for the unit direction d: the part of { y in V : d.y < d.x } that x is joined with.
-/// What only touches the plane lies above it: a piece does not reach through a saddle that the plane just
+/// What only touches the plane (kTouchHeight) lies above it: a piece does not reach through a saddle that the plane just
 /// touches, which is the lower of the two limits there.
 ///
 /// Derivatives are those by t, two coordinates of the plane's tilt: the plane (d + t_0 u + t_1 w).(y - x) = 0.
@@ -25,8 +22,10 @@ struct ChordPiece {
   double area = 0;     ///< of all lids of the piece
   Vec3 u, w;           ///< with d an orthonormal basis
   std::array<double, 2> gradient{};
-  std::array<double, 3> hessian{};  ///< 00, 01, 11
 };
+
+/// Second derivatives 00, 01, 11.
+using Hessian = std::array<double, 3>;
 
 /// Finds pieces one after another, reusing its memory.  One per thread.
 ///
@@ -41,6 +40,9 @@ class PieceFinder {
 
   /// @param d of unit length.
   ChordPiece find(const Vec3& x, const Vec3& d);
+
+  /// Of the piece found last.
+  Hessian hessian() const;
 
  private:
   class Work;

@@ -9,6 +9,7 @@
 
 #include "core/base/unit.h"
 #include "core/infimum/chord_piece.h"
+#include "core/infimum/section_loops.h"
 
 namespace affskel::core {
 namespace {
@@ -44,18 +45,23 @@ struct Step {
   double gain = 0;
 };
 
-double bend(const std::array<double, 3>& h, const Flat& t) {
+// A piece with its second derivatives.
+struct Stand : ChordPiece {
+  Hessian hessian{};
+};
+
+double bend(const Hessian& h, const Flat& t) {
   return h[0] * t[0] * t[0] + 2 * h[1] * t[0] * t[1] + h[2] * t[1] * t[1];
 }
 
-Step step_along(const ChordPiece& at, Flat t) {
+Step step_along(const Stand& at, Flat t) {
   const double length = norm(t);
   if (length > kLongestStep) t = times(kLongestStep / length, t);
   return {t, -(dot(at.gradient, t) + 0.5 * bend(at.hessian, t))};
 }
 
 // Newton's step; where f is not convex its second derivative is raised until it is.
-Step free_step(const ChordPiece& at) {
+Step free_step(const Stand& at) {
   const auto& [a, b, c] = at.hessian;
   const double mean = 0.5 * (a + c), spread = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
   const double least = mean - spread, wanted = 1e-3 * std::max(std::abs(mean) + spread, 1e-12 * at.area);
@@ -68,7 +74,7 @@ Step free_step(const ChordPiece& at) {
 }
 
 // Along the great circle of a saddle.
-Step step_round(const ChordPiece& at, const Flat& z) {
+Step step_round(const Stand& at, const Flat& z) {
   const double length = norm(z);
   const Flat e = {-z[1] / length, z[0] / length};
   const double first = dot(at.gradient, e), second = bend(at.hessian, e);
@@ -91,6 +97,7 @@ class ChordDescent::Work {
   LeastChord descend(const Vec3& x, const LeastChord& start) {
     begin(x, start);
     if (!valid(piece_)) return {};
+    piece_.hessian = finder_.hessian();
     for (int n = 0; n < kMostSteps; ++n) {
       const Step step = next_step();
       if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
@@ -125,7 +132,7 @@ class ChordDescent::Work {
       if (s != kNoSaddle) active_.push_back(s);
     }
     d_ = touching(start.normal);
-    piece_ = find(d_);
+    piece_ = {find(d_), {}};
   }
 
   LeastChord result(double slope) const {
@@ -204,7 +211,10 @@ class ChordDescent::Work {
     return d_ + ((share * step.t[0]) * piece_.u + (share * step.t[1]) * piece_.w);
   }
 
-  void move_to(const Vec3& d, const ChordPiece& piece) {
+  // The piece of d is the one found last.
+  Stand standing(const ChordPiece& piece) const { return {piece, finder_.hessian()}; }
+
+  void move_to(const Vec3& d, const Stand& piece) {
     d_ = d;
     piece_ = piece;
   }
@@ -218,7 +228,7 @@ class ChordDescent::Work {
     const Vec3 end = touching(tilted(step, 1));
     const ChordPiece there = find(end);
     if (falls(there)) {
-      move_to(end, there);
+      move_to(end, standing(there));
       return true;
     }
     find_meetings(step);
@@ -234,7 +244,7 @@ class ChordDescent::Work {
       const Vec3 d = touching(tilted(step, share));
       there = find(d);
       if (!falls(there)) continue;
-      move_to(d, there);
+      move_to(d, standing(there));
       return true;
     }
     return false;
@@ -260,7 +270,8 @@ class ChordDescent::Work {
     const std::size_t here = meetings_here(step);
     std::size_t falling = here, rising = meetings_.size();  // how many are passed
     Vec3 best;
-    ChordPiece best_piece, first_piece;
+    Stand best_piece;
+    ChordPiece first_piece;
     while (falling < rising) {
       const std::size_t middle = falling + (rising - falling + 1) / 2;
       const Meeting& meeting = meetings_[middle - 1];
@@ -271,7 +282,7 @@ class ChordDescent::Work {
       if (falls(there)) {
         falling = middle;
         best = d;
-        best_piece = there;
+        best_piece = standing(there);
       } else {
         rising = middle - 1;
         first_piece = there;
@@ -300,10 +311,10 @@ class ChordDescent::Work {
   // Makes a saddle active that the plane touches within rounding; false where nothing joins there.
   bool hold(std::uint32_t vertex) {
     const Vec3 old = d_;
-    const ChordPiece old_piece = piece_;
+    const Stand old_piece = piece_;
     active_.push_back(vertex);
     d_ = touching(d_);
-    piece_ = find(d_);
+    piece_ = standing(find(d_));
     if (valid(piece_) && piece_.volume <= old_piece.volume * (1 + kJump) && joins_at(vertex)) return true;
     active_.pop_back();
     move_to(old, old_piece);
@@ -314,23 +325,15 @@ class ChordDescent::Work {
   void find_meetings(const Step& step) {
     meetings_.clear();
     const Vec3 end = tilted(step, 1);
-    const Vec3 size0{std::abs(d_.x), std::abs(d_.y), std::abs(d_.z)};
-    const Vec3 size1{std::abs(end.x), std::abs(end.y), std::abs(end.z)};
-    for (std::uint32_t n = 0; n < in_.nodes.size();) {
-      const PieceInput::Node& node = in_.nodes[n];
-      const Vec3 centre = node.centre - x_;
-      if (core::dot(d_, centre) + core::dot(size0, node.half) < -2 * kTouchHeight ||
-          core::dot(end, centre) - core::dot(size1, node.half) > 0) {
-        n = node.skip;
-        continue;
+    const PlaneHeights now(x_, d_), then(x_, end);
+    const auto meets = [&](const FourBoxes& boxes) {
+      return (now.middle(boxes) >= -now.reach(boxes)) & (then.middle(boxes) <= then.reach(boxes));
+    };
+    in_.tree.visit(meets, [&](std::uint32_t t) {
+      for (const std::uint32_t v : in_.mesh.triangles[t]) {
+        if (in_.owner[v] == t) add_meeting(v, end);
       }
-      for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-        for (const std::uint32_t v : in_.mesh.triangles[t]) {
-          if (in_.owner[v] == t) add_meeting(v, end);
-        }
-      }
-      ++n;
-    }
+    });
     std::sort(meetings_.begin(), meetings_.end());
   }
 
@@ -362,7 +365,7 @@ class ChordDescent::Work {
   PieceFinder finder_;
   Vec3 x_, d_;
   std::vector<std::uint32_t> active_;  // saddles, at most two
-  ChordPiece piece_;                   // of d_
+  Stand piece_;                        // of d_
   std::vector<Meeting> meetings_;
   std::uint64_t evaluations_ = 0;
 };

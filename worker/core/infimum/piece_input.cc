@@ -14,8 +14,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;         // triangles at most, of a leaf
-constexpr double kUnit = 0x1p62;           // see SurfaceSums
+constexpr double kUnit = 0x1p62;  // see SurfaceSums
 
 std::uint64_t quantised(double value) {
   return static_cast<std::uint64_t>(std::llrint(value * kUnit));
@@ -28,49 +27,6 @@ DoubleSum restored(std::uint64_t value) {
   const double lo = static_cast<double>(whole - static_cast<std::int64_t>(hi));
   return {hi / kUnit, lo / kUnit};
 }
-
-// Orders triangles so that those of a node follow each other, and lists the nodes in depth-first order.
-class NodeBuilder {
- public:
-  explicit NodeBuilder(const Mesh& mesh) : boxes_(boxes_of(mesh)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    build(0, static_cast<std::uint32_t>(order_.size()));
-  }
-
-  std::vector<std::uint32_t> take_order() { return std::move(order_); }
-  std::vector<PieceInput::Node> take_nodes() { return std::move(nodes_); }
-
- private:
-  double centre(std::uint32_t triangle, std::size_t axis) const {
-    return boxes_[triangle].low[axis] + boxes_[triangle].high[axis];
-  }
-
-  void build(std::uint32_t first, std::uint32_t count) {
-    Box box, centres;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      box.include(boxes_[order_[i]]);
-      centres.include(Vec3{centre(order_[i], 0), centre(order_[i], 1), centre(order_[i], 2)});
-    }
-    const std::size_t index = nodes_.size();
-    nodes_.push_back({0.5 * (box.lowest() + box.highest()), 0.5 * box.sides(), first, 0, 0});
-    if (count <= kLeaf) {
-      nodes_[index].count = count;
-    } else {
-      const std::size_t axis = centres.longest_axis();
-      const auto begin = order_.begin() + first;
-      std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t i, std::uint32_t j) {
-        return std::pair(centre(i, axis), i) < std::pair(centre(j, axis), j);
-      });
-      build(first, count / 2);
-      build(first + count / 2, count - count / 2);
-    }
-    nodes_[index].skip = static_cast<std::uint32_t>(nodes_.size());
-  }
-
-  std::vector<Box> boxes_;
-  std::vector<std::uint32_t> order_;
-  std::vector<PieceInput::Node> nodes_;
-};
 
 // The vertices in preorder of trees that are found breadth first, so that their branches stay short; parents
 // by old numbers.
@@ -134,9 +90,7 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
 }
 
 void PieceInput::number_anew(const Solid& solid) {
-  NodeBuilder builder(solid.mesh);
-  const std::vector<std::uint32_t> triangle_order = builder.take_order();
-  nodes = builder.take_nodes();
+  const std::vector<std::uint32_t> triangle_order = tree.build(boxes_of(solid.mesh));
   const Preorder vertices = preorder_of(solid.mesh);
   std::vector<std::uint32_t> number(vertices.order.size()), triangle_number(triangle_order.size());
   for (std::uint32_t v = 0; v < number.size(); ++v) number[vertices.order[v]] = v;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/groups.h"
+#include "core/infimum/four_tree.h"
 #include "core/mesh/mesh.h"
 #include "core/solid/solid.h"
 #include "core/spatial/ray_shooter.h"
@@ -41,13 +42,6 @@ struct SurfaceSums {
 struct PieceInput {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// A node of the tree of boxes, in depth-first order: a plane that misses its box goes on at `skip`.
-  struct Node {
-    Vec3 centre, half;
-    std::uint32_t first = 0, count = 0;  ///< its triangles; count 0 unless it is a leaf
-    std::uint32_t skip = 0;
-  };
-
   struct Shell {
     std::uint32_t root = 0;   ///< its first vertex
     std::uint32_t solid = 0;  ///< the solid it bounds; the least one of those that pass through each other
@@ -75,7 +69,7 @@ struct PieceInput {
   std::vector<std::uint32_t> shell_of;  ///< per vertex
   std::vector<Shell> shells;
   std::vector<std::uint8_t> at_handle;  ///< per half-edge: of an edge of Shell::handles; empty without any
-  std::vector<Node> nodes;           ///< over triangles, which are numbered in their order
+  FourTree tree;                        ///< over the triangles, which are numbered in its order
   Groups<std::uint32_t> rings;       ///< per vertex: its neighbours, in their order round it
   std::vector<std::uint32_t> owner;  ///< per vertex: a triangle of its
   /// Pairs of triangles that pass through each other.

@@ -1,0 +1,90 @@
+#include "core/infimum/four_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace affskel::core {
+
+class FourTree::Builder {
+ public:
+  Builder(const std::vector<Box>& boxes, std::vector<Node>& nodes)
+      : boxes_(boxes), nodes_(nodes), order_(boxes.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    build({0, static_cast<std::uint32_t>(order_.size())});
+  }
+
+  std::vector<std::uint32_t> take_order() { return std::move(order_); }
+
+ private:
+  struct Range {
+    std::uint32_t first = 0, count = 0;
+  };
+
+  double centre(std::uint32_t item, std::size_t axis) const {
+    return boxes_[item].low[axis] + boxes_[item].high[axis];
+  }
+
+  std::array<Range, 2> halves(const Range& range) {
+    Box centres;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      centres.include(Vec3{centre(order_[i], 0), centre(order_[i], 1), centre(order_[i], 2)});
+    }
+    const std::size_t axis = centres.longest_axis();
+    const auto begin = order_.begin() + range.first;
+    const std::uint32_t half = range.count / 2;
+    std::nth_element(begin, begin + half, begin + range.count, [&](std::uint32_t i, std::uint32_t j) {
+      return std::pair(centre(i, axis), i) < std::pair(centre(j, axis), j);
+    });
+    return {Range{range.first, half}, Range{range.first + half, range.count - half}};
+  }
+
+  void put(Node& node, std::uint32_t place, const Box& box) const {
+    const Vec3 middle = 0.5 * (box.lowest() + box.highest()), half = 0.5 * box.sides();
+    for (std::size_t k = 0; k < 3; ++k) {
+      node.boxes.centre[k][place] = static_cast<float>(middle[static_cast<int>(k)]);
+      node.boxes.half[k][place] = std::nextafter(static_cast<float>(half[static_cast<int>(k)]),
+                                                 std::numeric_limits<float>::infinity());
+    }
+  }
+
+  std::uint32_t build(const Range& range) {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    Node node;
+    if (range.count <= 4) {
+      node.leaf = true;
+      node.size = range.count;
+      for (std::uint32_t i = 0; i < range.count; ++i) {
+        put(node, i, boxes_[order_[range.first + i]]);
+        node.child[i] = range.first + i;
+      }
+    } else {
+      const auto [left, right] = halves(range);
+      for (const Range& half : {left, right}) {
+        for (const Range& quarter : halves(half)) {
+          if (quarter.count == 0) continue;
+          Box box;
+          for (std::uint32_t i = 0; i < quarter.count; ++i) box.include(boxes_[order_[quarter.first + i]]);
+          put(node, node.size, box);
+          node.child[node.size++] = build(quarter);
+        }
+      }
+    }
+    nodes_[index] = node;
+    return index;
+  }
+
+  const std::vector<Box>& boxes_;
+  std::vector<Node>& nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+std::vector<std::uint32_t> FourTree::build(const std::vector<Box>& boxes) {
+  nodes_.clear();
+  return Builder(boxes, nodes_).take_order();
+}
+
+}  // namespace affskel::core
