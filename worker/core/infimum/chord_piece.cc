@@ -27,6 +27,9 @@ constexpr std::uint32_t kNone = PieceInput::kNone;
 constexpr double kThird = 1.0 / 3;
 constexpr double kSteepest = 1e9;  // of cot(inclination): level triangles have no finite one
 
+// By sides_of(): the corner that is alone on its side.
+constexpr std::array<std::uint8_t, 8> kAlone = {0, 0, 1, 2, 2, 1, 0, 0};
+
 using Place = SectionLoops::Place;
 using Cut = SectionLoops::Cut;
 using Loop = SectionLoops::Loop;
@@ -233,15 +236,18 @@ class PieceFinder::Work {
   }
 
   void add_triangle(const Cut& cut, Sums& sums) const {
-    const auto& h = cut.height;
     const Triangle& c = in_.mesh.triangles[cut.triangle];
-    // The corner that is alone on its side.
-    const bool b0 = h[0] < 0, b1 = h[1] < 0, b2 = h[2] < 0;
-    const std::size_t k = b1 == b2 ? 0 : b0 == b2 ? 1 : 2;
-    const double corner = h[k] * h[k] / ((h[k] - h[(k + 1) % 3]) * (h[k] - h[(k + 2) % 3]));
-    const double share = h[k] < 0 ? corner : 1 - corner;
+    const unsigned sides = sides_of(cut.height);
+    const std::size_t k = kAlone[sides];
+    const double sign = (sides >> k & 1U) != 0 ? -1 : 1;
+    // Distances from the plane.
+    const double alone = std::max(sign * cut.height[k], 0.0);
+    const double second = std::max(-sign * cut.height[(k + 1) % 3], 0.0);
+    const double third = std::max(-sign * cut.height[(k + 2) % 3], 0.0);
+    const double corner = alone * alone / ((alone + second) * (alone + third));
+    const double share = sign < 0 ? corner : 1 - corner;
     sums.cut += kThird * share * dot(in_.area_vector[cut.triangle], in_.mesh.points[c[k]] - x_);
-    if (b0) sums.whole -= in_.own[cut.triangle];
+    if ((sides & 1U) != 0) sums.whole -= in_.own[cut.triangle];
   }
 
   void add_bend(const Loop& loop, Hessian& sum) const {

@@ -27,14 +27,16 @@ class FourTree::Builder {
     return boxes_[item].low[axis] + boxes_[item].high[axis];
   }
 
+  // Of whole leaves; a leaf has no second half.
   std::array<Range, 2> halves(const Range& range) {
+    const std::uint32_t half = std::min(range.count, (range.count / 2 + 3) / 4 * 4);
+    if (half == range.count) return {range, Range{}};
     Box centres;
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
       centres.include(Vec3{centre(order_[i], 0), centre(order_[i], 1), centre(order_[i], 2)});
     }
     const std::size_t axis = centres.longest_axis();
     const auto begin = order_.begin() + range.first;
-    const std::uint32_t half = range.count / 2;
     std::nth_element(begin, begin + half, begin + range.count, [&](std::uint32_t i, std::uint32_t j) {
       return std::pair(centre(i, axis), i) < std::pair(centre(j, axis), j);
     });
@@ -54,22 +56,24 @@ class FourTree::Builder {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
     Node node;
+    constexpr float kNowhere = -std::numeric_limits<float>::infinity();  // as half a side
+    for (Four& half : node.boxes.half) half = Four{kNowhere, kNowhere, kNowhere, kNowhere};
     if (range.count <= 4) {
       node.leaf = true;
-      node.size = range.count;
       for (std::uint32_t i = 0; i < range.count; ++i) {
         put(node, i, boxes_[order_[range.first + i]]);
         node.child[i] = range.first + i;
       }
     } else {
+      std::uint32_t size = 0;
       const auto [left, right] = halves(range);
       for (const Range& half : {left, right}) {
         for (const Range& quarter : halves(half)) {
           if (quarter.count == 0) continue;
           Box box;
           for (std::uint32_t i = 0; i < quarter.count; ++i) box.include(boxes_[order_[quarter.first + i]]);
-          put(node, node.size, box);
-          node.child[node.size++] = build(quarter);
+          put(node, size, box);
+          node.child[size++] = build(quarter);
         }
       }
     }

@@ -49,33 +49,36 @@ class FourTree {
   /// @return the items in the tree's order, in which visit() numbers them.
   std::vector<std::uint32_t> build(const std::vector<Box>& boxes);
 
-  /// Calls visit(item) in ascending order for every item whose box meets(boxes) tells of with a number other
-  /// than 0, of four that it is asked for at once.
-  template <class Meets, class Visit>
-  void visit(Meets meets, Visit visit) const {
-    std::array<std::uint32_t, 3 * 32> open;  // no tree is deeper: a node has a quarter of its parent's items
-    std::size_t count = 0;
+  /// Lists the items, in ascending order, whose box meets(boxes) tells of with -1, not 0, of four that it is
+  /// asked for at once.  Without branches on what is met: no processor foresees them.
+  template <class Meets>
+  void select(Meets meets, std::vector<std::uint32_t>& items) const {
+    std::array<std::uint32_t, 4 * 32> open;  // no tree is deeper: a node has a quarter of its parent's items
+    std::size_t count = 0, found = 0;
     open[count++] = 0;
     while (count > 0) {
       const Node& node = nodes_[open[--count]];
       const auto met = meets(node.boxes);
       if (node.leaf) {
-        for (std::uint32_t i = 0; i < node.size; ++i) {
-          if (met[i] != 0) visit(node.child[i]);
+        if (items.size() < found + 4) items.resize(2 * found + 64);
+        for (std::uint32_t i = 0; i < 4; ++i) {
+          items[found] = node.child[i];
+          found += static_cast<std::size_t>(met[i] & 1);
         }
       } else {
-        for (std::uint32_t i = node.size; i-- > 0;) {
-          if (met[i] != 0) open[count++] = node.child[i];
+        for (std::uint32_t i = 4; i-- > 0;) {
+          open[count] = node.child[i];
+          count += static_cast<std::size_t>(met[i] & 1);
         }
       }
     }
+    items.resize(found);
   }
 
  private:
   struct Node {
     FourBoxes boxes;
-    std::array<std::uint32_t, 4> child{};  // nodes, or the items of a leaf
-    std::uint32_t size = 0;
+    std::array<std::uint32_t, 4> child{};  // nodes, or the items of a leaf; where there are fewer, none is met
     bool leaf = false;
   };
 

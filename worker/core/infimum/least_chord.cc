@@ -329,11 +329,12 @@ class ChordDescent::Work {
     const auto meets = [&](const FourBoxes& boxes) {
       return (now.middle(boxes) >= -now.reach(boxes)) & (then.middle(boxes) <= then.reach(boxes));
     };
-    in_.tree.visit(meets, [&](std::uint32_t t) {
+    in_.tree.select(meets, near_);
+    for (const std::uint32_t t : near_) {
       for (const std::uint32_t v : in_.mesh.triangles[t]) {
         if (in_.owner[v] == t) add_meeting(v, end);
       }
-    });
+    }
     std::sort(meetings_.begin(), meetings_.end());
   }
 
@@ -366,6 +367,7 @@ class ChordDescent::Work {
   Vec3 x_, d_;
   std::vector<std::uint32_t> active_;  // saddles, at most two
   Stand piece_;                        // of d_
+  std::vector<std::uint32_t> near_;  // triangles that a step may pass
   std::vector<Meeting> meetings_;
   std::uint64_t evaluations_ = 0;
 };

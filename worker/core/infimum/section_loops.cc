@@ -14,10 +14,8 @@ void make_basis(const Vec3& d, Vec3& u, Vec3& w) {
   w = {m, sign + d.y * d.y * s, -d.y};
 }
 
-std::uint32_t rising_edge(const std::array<double, 3>& height) {
-  const bool b0 = height[0] < 0, b1 = height[1] < 0, b2 = height[2] < 0;
-  return b0 && !b1 ? 0 : b1 && !b2 ? 1 : 2;
-}
+// By sides_of(): the corner below whose next one is above.
+constexpr std::array<std::uint32_t, 8> kRisingEdge = {0, 0, 1, 1, 2, 0, 2, 0};
 
 }  // namespace
 
@@ -30,28 +28,36 @@ void SectionLoops::cut(const Vec3& x, const Vec3& d) {
   collect();
   loops_.clear();
   cuts_.clear();
-  tree_edges_.clear();
+  tree_edges_.resize(found_.size());
+  tree_edge_count_ = 0;
   handle_edges_.clear();
   traced_.assign(found_.size(), 0);
   for (std::uint32_t i = 0; i < found_.size(); ++i) {
     if (traced_[i] == 0) trace(i);
   }
+  tree_edges_.resize(tree_edge_count_);
   first_mark_ += static_cast<std::uint32_t>(found_.size());
 }
 
 void SectionLoops::collect() {
-  found_.clear();
   const PlaneHeights plane(x_, d_);
   const auto meets = [&](const FourBoxes& boxes) {
     const Four middle = plane.middle(boxes), reach = plane.reach(boxes);
     return (middle <= reach) & (middle >= -reach);
   };
-  in_.tree.visit(meets, [&](std::uint32_t t) {
+  in_.tree.select(meets, near_);
+  found_.resize(near_.size());
+  std::size_t count = 0;
+  for (const std::uint32_t t : near_) {
     const Triangle& c = in_.mesh.triangles[t];
-    const std::array<double, 3> h = {height(c[0]), height(c[1]), height(c[2])};
-    const int count = (h[0] < 0) + (h[1] < 0) + (h[2] < 0);
-    if (count == 1 || count == 2) found_.push_back({t, rising_edge(h), h, {}});
-  });
+    Cut& cut = found_[count];
+    cut.triangle = t;
+    cut.height = {height(c[0]), height(c[1]), height(c[2])};
+    const unsigned sides = sides_of(cut.height);
+    cut.edge = kRisingEdge[sides];
+    count += static_cast<std::size_t>((0x7EU >> sides) & 1U);
+  }
+  found_.resize(count);
   if (first_mark_ > std::numeric_limits<std::uint32_t>::max() - found_.size() - 1) {
     std::fill(mark_.begin(), mark_.end(), 0);
     first_mark_ = 1;
@@ -70,7 +76,7 @@ void SectionLoops::trace(std::uint32_t start) {
     const std::uint32_t next = (cut.edge + 1) % 3, half_edge = 3 * cut.triangle + cut.edge;
     const Triangle& c = in_.mesh.triangles[cut.triangle];
     const std::uint32_t low = c[cut.edge], high = c[next];
-    const double low_height = cut.height[cut.edge], high_height = cut.height[next];
+    const double low_height = cut.height[cut.edge], high_height = std::max(cut.height[next], 0.0);
     const Vec3& p = in_.mesh.points[low];
     const Vec3 y = (p - x_) + (low_height / (low_height - high_height)) * (in_.mesh.points[high] - p);
     const Place at{dot(u_, y), dot(w_, y)};
@@ -80,7 +86,8 @@ void SectionLoops::trace(std::uint32_t start) {
     loop.high_b = std::max(loop.high_b, at.b);
     if (high_height > kTouchHeight && at.a > loop.rightmost.a) loop.rightmost = at;
     const std::uint32_t child = std::max(low, high);
-    if (in_.parent[child] == std::min(low, high)) tree_edges_.push_back({child, index, child == low});
+    tree_edges_[tree_edge_count_] = {child, index, child == low};
+    tree_edge_count_ += in_.parent[child] == std::min(low, high) ? 1 : 0;
     if (!in_.at_handle.empty() && in_.at_handle[half_edge] != 0) handle_edges_.emplace_back(low, index);
     i = mark_[in_.mates[half_edge] / 3] - first_mark_;
   }

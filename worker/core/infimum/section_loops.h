@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,12 @@ namespace affskel::core {
 
 /// Vertices nearer to a plane than this (scaled units) lie in it.
 constexpr double kTouchHeight = 1e-12;
+
+/// Bit i where corner i is below, of a triangle's heights.
+inline unsigned sides_of(const std::array<double, 3>& height) {
+  return (height[0] < -kTouchHeight ? 1U : 0U) | (height[1] < -kTouchHeight ? 2U : 0U) |
+         (height[2] < -kTouchHeight ? 4U : 0U);
+}
 
 /// The section of a solid with the plane of normal d through x, as closed loops.  Its memory is used again.
 ///
@@ -29,7 +36,7 @@ class SectionLoops {
   struct Cut {
     std::uint32_t triangle = 0;
     std::uint32_t edge = 0;  ///< corner that the edge begins at
-    std::array<double, 3> height{};
+    std::array<double, 3> height{};  ///< within kTouchHeight may be < 0 above, too
     Place leaves;
   };
 
@@ -62,12 +69,7 @@ class SectionLoops {
   const Vec3& u() const { return u_; }
   const Vec3& w() const { return w_; }
 
-  /// 0 for what lies above within rounding.
-  double height(std::uint32_t vertex) const {
-    const double h = dot(d_, in_.mesh.points[vertex] - x_);
-    return h < -kTouchHeight ? h : h > 0 ? h : 0;
-  }
-  bool below(std::uint32_t vertex) const { return height(vertex) < 0; }
+  bool below(std::uint32_t vertex) const { return height(vertex) < -kTouchHeight; }
 
   /// The loop through which a ray from (a, b) to the right leaves the section first; kNone when it starts
   /// outside.  Only ways out count: where the plane touches an edge, two loops run along it, one of them the
@@ -91,6 +93,7 @@ class SectionLoops {
   }
 
  private:
+  double height(std::uint32_t vertex) const { return dot(d_, in_.mesh.points[vertex] - x_); }
   void collect();
   void trace(std::uint32_t start);
 
@@ -112,6 +115,7 @@ class SectionLoops {
 
   const PieceInput& in_;
   Vec3 x_, d_, u_, w_;
+  std::vector<std::uint32_t> near_;  // triangles that may be cut
   std::vector<Cut> found_;           // in the order of the tree
   std::vector<std::uint32_t> mark_;  // per triangle: first_mark_ plus its place in found_
   std::uint32_t first_mark_ = 1;
@@ -119,6 +123,7 @@ class SectionLoops {
   std::vector<Cut> cuts_;
   std::vector<Loop> loops_;
   std::vector<TreeEdge> tree_edges_;
+  std::size_t tree_edge_count_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> handle_edges_;
 };
 
