@@ -38,6 +38,16 @@ class PlaneHeights {
     return boxes.half[0] * size_[0] + boxes.half[1] * size_[1] + boxes.half[2] * size_[2] + kSlack;
   }
 
+  /// No less than the distance of any point of a box from x, for all boxes.
+  static Four distance(const FourBoxes& boxes, const Vec3& x) {
+    Four sum = boxes.half[0] + boxes.half[1] + boxes.half[2] + kSlack;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      sum += away < 0 ? -away : away;
+    }
+    return sum;
+  }
+
  private:
   std::array<float, 3> d_, size_;
   float offset_;

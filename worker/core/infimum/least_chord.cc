@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/unit.h"
 #include "core/infimum/chord_piece.h"
+#include "core/infimum/saddle_search.h"
 #include "core/infimum/section_loops.h"
 
 namespace affskel::core {
@@ -16,12 +20,15 @@ namespace {
 
 constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMostSteps = 60;
+constexpr double kPromise = 2;  // what steps to come may gain, in gains of the next one
 constexpr int kMostShorter = 6;       // of a step
 constexpr double kLongestStep = 0.5;  // of t
 constexpr double kLeastGain = 1e-12;  // of the volume: a lesser decrease is none
 constexpr double kLastGain = 1e-8;    // of the volume: after it, the next would be below rounding
 constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whether a part joins there
 constexpr double kJump = 1e-9;        // of the volume
+constexpr double kAcross = 1e-6;      // how far below a saddle a descent across it starts
+constexpr double kWorthwhile = 1.3;   // how much more than the least piece one across a saddle may be at first
 constexpr double kParallel = 1e-9;    // sine between two saddles' z
 
 using Flat = std::array<double, 2>;
@@ -87,37 +94,22 @@ Step step_round(const Stand& at, const Flat& z) {
 
 class ChordDescent::Work {
  public:
-  explicit Work(const PieceInput& input) : in_(input), finder_(input) {}
+  explicit Work(const PieceInput& input) : in_(input), finder_(input), saddles_(input) {}
 
-  LeastChord at(const Vec3& x, const LeastChord& start) {
-    begin(x, start);
-    return result(0);
-  }
-
-  LeastChord descend(const Vec3& x, const LeastChord& start) {
-    begin(x, start);
-    if (!valid(piece_)) return {};
-    piece_.hessian = finder_.hessian();
-    for (int n = 0; n < kMostSteps; ++n) {
-      const Step step = next_step();
-      if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
-      if (step.gain < kLastGain * piece_.volume) break;
+  LeastChord descend(const Vec3& x, const LeastChord& start, const DescentBound& bound) {
+    x_ = x;
+    LeastChord least = go_down(start, bound);
+    if (!(least.erosion < bound.erosion * (1 - kLastGain))) return {};
+    while (true) {
+      const LeastChord lower = across(least);
+      if (!(lower.erosion < least.erosion * (1 - kLastGain))) return least;
+      least = lower;
     }
-    return result(piece_.area + multipliers());
   }
 
   std::uint64_t evaluations() const { return evaluations_; }
 
  private:
-  // A vertex at which a step may meet a part that is not of the piece.
-  struct Meeting {
-    double at = 0;  // share of the step
-    std::uint32_t vertex = 0;
-    friend bool operator<(const Meeting& a, const Meeting& b) {
-      return a.at != b.at ? a.at < b.at : a.vertex < b.vertex;
-    }
-  };
-
   static bool valid(const ChordPiece& piece) { return piece.found && piece.volume > 0; }
 
   ChordPiece find(const Vec3& d) {
@@ -125,14 +117,53 @@ class ChordDescent::Work {
     return finder_.find(x_, d);
   }
 
-  void begin(const Vec3& x, const LeastChord& start) {
-    x_ = x;
+  // From the plane nearest to start's that touches its saddles.
+  LeastChord go_down(const LeastChord& start, const DescentBound& bound) {
     active_.clear();
     for (const std::uint32_t s : start.saddles) {
       if (s != kNoSaddle) active_.push_back(s);
     }
-    d_ = touching(start.normal);
+    return go_down(touching(start.normal), bound);
+  }
+
+  LeastChord go_down(const Vec3& from, const DescentBound& bound) {
+    d_ = from;
     piece_ = {find(d_), {}};
+    if (!valid(piece_) || piece_.volume > bound.first) return {};
+    piece_.hessian = finder_.hessian();
+    for (int n = 0; n < kMostSteps; ++n) {
+      const Step step = next_step();
+      if (n > 0 && piece_.volume - kPromise * step.gain > bound.erosion) return {};
+      if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
+      if (step.gain < kLastGain * piece_.volume) break;
+    }
+    return result(piece_.area + multipliers());
+  }
+
+  // The lesser piece, if there is one, on the other side of a saddle near a least one: of those that the plane
+  // touches, which a part joins there, or of those just below it, where a part is left out.
+  LeastChord across(const LeastChord& least) {
+    LeastChord best = least;
+    const auto keep = [&](const LeastChord& other) {
+      if (other.erosion < best.erosion) best = other;
+    };
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (least.saddles[i] == kNoSaddle) continue;
+      active_.clear();
+      if (least.saddles[1 - i] != kNoSaddle) active_.push_back(least.saddles[1 - i]);
+      const Vec3 y = from_x(least.saddles[i]);
+      const Vec3 d = touching(least.normal - (kAcross / core::dot(y, y)) * y);
+      const double none = std::numeric_limits<double>::infinity();
+      if (core::dot(d, y) < -kTouchHeight) keep(go_down(d, {none, best.erosion}));
+    }
+    const std::vector<SaddleSearch::Saddle> others = saddles_.just_below(x_, least.normal);
+    for (const SaddleSearch::Saddle& saddle : others) {
+      LeastChord start;
+      start.normal = least.normal;
+      start.saddles[0] = saddle.vertex;
+      keep(go_down(start, {kWorthwhile * best.erosion, best.erosion}));
+    }
+    return best;
   }
 
   LeastChord result(double slope) const {
@@ -231,7 +262,7 @@ class ChordDescent::Work {
       move_to(end, standing(there));
       return true;
     }
-    find_meetings(step);
+    meetings_ = saddles_.sinking(x_, d_, tilted(step, 1), active_);
     return go_to_meeting(step, there);
   }
 
@@ -274,7 +305,7 @@ class ChordDescent::Work {
     ChordPiece first_piece;
     while (falling < rising) {
       const std::size_t middle = falling + (rising - falling + 1) / 2;
-      const Meeting& meeting = meetings_[middle - 1];
+      const SaddleSearch::Saddle& meeting = meetings_[middle - 1];
       active_.push_back(meeting.vertex);
       const Vec3 d = touching(tilted(step, meeting.at));
       active_.pop_back();
@@ -321,66 +352,21 @@ class ChordDescent::Work {
     return false;
   }
 
-  // Vertices that get below the plane during a step, and whose neighbours below are of several parts then.
-  void find_meetings(const Step& step) {
-    meetings_.clear();
-    const Vec3 end = tilted(step, 1);
-    const PlaneHeights now(x_, d_), then(x_, end);
-    const auto meets = [&](const FourBoxes& boxes) {
-      return (now.middle(boxes) >= -now.reach(boxes)) & (then.middle(boxes) <= then.reach(boxes));
-    };
-    in_.tree.select(meets, near_);
-    for (const std::uint32_t t : near_) {
-      for (const std::uint32_t v : in_.mesh.triangles[t]) {
-        if (in_.owner[v] == t) add_meeting(v, end);
-      }
-    }
-    std::sort(meetings_.begin(), meetings_.end());
-  }
-
-  void add_meeting(std::uint32_t v, const Vec3& end) {
-    if (std::find(active_.begin(), active_.end(), v) != active_.end()) return;
-    const Vec3 y = from_x(v);
-    const double h0 = core::dot(d_, y), h1 = core::dot(end, y);
-    if (h0 < -kTouchHeight || h1 >= -kTouchHeight) return;
-    const double at = std::max(0.0, h0 / (h0 - h1));
-    if (may_join(v, d_ + at * (end - d_))) meetings_.push_back({at, v});
-  }
-
-  // Whether the neighbours below form several stretches of the ring, or the vertex is not alone in the plane.
-  bool may_join(std::uint32_t v, const Vec3& d) const {
-    if (!in_.crosses.empty() && in_.crosses[v] != 0) return true;
-    const auto ring = in_.rings[v];
-    int changes = 0;
-    bool before = core::dot(d, in_.mesh.points[ring.back()] - x_) < 0;
-    for (const std::uint32_t other : ring) {
-      const double h = core::dot(d, in_.mesh.points[other] - x_);
-      if (std::abs(h) <= 4 * kTouchHeight) return true;
-      changes += (h < 0) != before;
-      before = h < 0;
-    }
-    return changes >= 4;
-  }
-
   const PieceInput& in_;
   PieceFinder finder_;
+  SaddleSearch saddles_;
   Vec3 x_, d_;
   std::vector<std::uint32_t> active_;  // saddles, at most two
   Stand piece_;                        // of d_
-  std::vector<std::uint32_t> near_;  // triangles that a step may pass
-  std::vector<Meeting> meetings_;
+  std::span<const SaddleSearch::Saddle> meetings_;  // of the step in hand
   std::uint64_t evaluations_ = 0;
 };
 
 ChordDescent::ChordDescent(const PieceInput& input) : work_(std::make_unique<Work>(input)) {}
 ChordDescent::~ChordDescent() = default;
 
-LeastChord ChordDescent::at(const Vec3& x, const LeastChord& start) {
-  return work_->at(x, start);
-}
-
-LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start) {
-  return work_->descend(x, start);
+LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start, const DescentBound& bound) {
+  return work_->descend(x, start, bound);
 }
 
 std::uint64_t ChordDescent::evaluations() const {

@@ -25,6 +25,12 @@ struct LeastChord {
   int kind() const { return (saddles[0] != kNone) + (saddles[1] != kNone); }
 };
 
+/// When a descent is given up.
+struct DescentBound {
+  double first = std::numeric_limits<double>::infinity();    ///< the first piece is greater
+  double erosion = std::numeric_limits<double>::infinity();  ///< the least one is going to be greater
+};
+
 /// Goes down from one plane to another until none near it has a lesser piece.
 ///
 /// The volume is smooth where the plane meets no saddle, and jumps up where it passes one at which another
@@ -42,12 +48,10 @@ class ChordDescent {
   ChordDescent(const ChordDescent&) = delete;
   ChordDescent& operator=(const ChordDescent&) = delete;
 
-  /// The plane through x nearest to `start`'s that touches start's saddles, without going down: its piece, and
-  /// no slope.  Erosion infinite where x lies outside, within rounding.
-  LeastChord at(const Vec3& x, const LeastChord& start);
-
-  /// Goes down from what at() gives.
-  LeastChord descend(const Vec3& x, const LeastChord& start);
+  /// Goes down from the plane through x nearest to `start`'s that touches start's saddles, and looks across
+  /// the saddles near the least piece for lesser ones.  Erosion infinite where x lies outside, within
+  /// rounding, and when the way down does not promise to lead below the bound.
+  LeastChord descend(const Vec3& x, const LeastChord& start, const DescentBound& bound = {});
 
   std::uint64_t evaluations() const;  ///< pieces found so far
 

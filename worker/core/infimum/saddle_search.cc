@@ -1,0 +1,85 @@
+#include "core/infimum/saddle_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/infimum/section_loops.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kFurthestTilt = 0.1;
+// Of this many triangles.  With more the tilt is less, so that its vertices grow in number as a rim's do.
+constexpr double kTriangles = 1000;
+
+}  // namespace
+
+SaddleSearch::SaddleSearch(const PieceInput& input)
+    : in_(input),
+      furthest_(kFurthestTilt *
+                std::sqrt(kTriangles / std::max(kTriangles, static_cast<double>(input.mesh.triangles.size())))) {}
+
+template <class Meets, class Visit>
+void SaddleSearch::visit_vertices(Meets meets, Visit visit) {
+  in_.tree.select(meets, near_);
+  for (const std::uint32_t t : near_) {
+    for (const std::uint32_t v : in_.mesh.triangles[t]) {
+      if (in_.owner[v] == t) visit(v);
+    }
+  }
+}
+
+const std::vector<SaddleSearch::Saddle>& SaddleSearch::sinking(const Vec3& x, const Vec3& d, const Vec3& end,
+                                                               std::span<const std::uint32_t> but) {
+  x_ = x;
+  found_.clear();
+  const PlaneHeights now(x, d), then(x, end);
+  const auto meets = [&](const FourBoxes& boxes) {
+    return (now.middle(boxes) >= -now.reach(boxes)) & (then.middle(boxes) <= then.reach(boxes));
+  };
+  visit_vertices(meets, [&](std::uint32_t v) {
+    const Vec3 y = from_x(v);
+    const double now_height = dot(d, y), then_height = dot(end, y);
+    if (now_height < -kTouchHeight || then_height >= -kTouchHeight) return;
+    if (std::find(but.begin(), but.end(), v) != but.end()) return;
+    const double at = std::max(0.0, now_height / (now_height - then_height));
+    if (may_join(v, d + at * (end - d))) found_.push_back({at, v});
+  });
+  std::sort(found_.begin(), found_.end());
+  return found_;
+}
+
+const std::vector<SaddleSearch::Saddle>& SaddleSearch::just_below(const Vec3& x, const Vec3& d) {
+  x_ = x;
+  found_.clear();
+  const PlaneHeights plane(x, d);
+  const auto tilt = static_cast<float>(furthest_);
+  const auto meets = [&](const FourBoxes& boxes) {
+    const Four middle = plane.middle(boxes), reach = plane.reach(boxes);
+    return (middle <= reach) & (middle + reach >= -tilt * PlaneHeights::distance(boxes, x));
+  };
+  visit_vertices(meets, [&](std::uint32_t v) {
+    const Vec3 y = from_x(v);
+    const double height = dot(d, y), square = dot(y, y);
+    if (height >= -kTouchHeight || height * height > furthest_ * furthest_ * square) return;
+    if (may_join(v, d - (height / square) * y)) found_.push_back({-height / std::sqrt(square), v});
+  });
+  std::sort(found_.begin(), found_.end());
+  return found_;
+}
+
+bool SaddleSearch::may_join(std::uint32_t vertex, const Vec3& d) const {
+  if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return true;
+  const auto ring = in_.rings[vertex];
+  int changes = 0;
+  bool before = dot(d, from_x(ring.back())) < 0;
+  for (const std::uint32_t other : ring) {
+    const double height = dot(d, from_x(other));
+    if (std::abs(height) <= 4 * kTouchHeight) return true;
+    changes += (height < 0) != before;
+    before = height < 0;
+  }
+  return changes >= 4;
+}
+
+}  // namespace affskel::core

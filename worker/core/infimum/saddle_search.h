@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/infimum/piece_input.h"
+
+namespace affskel::core {
+
+/// Finds the vertices at which a plane through x that tilts may meet a part of the solid that joins the piece
+/// below it: those whose neighbours below are of several stretches of their ring, or that are not alone in the
+/// plane, or at triangles that pass through others.  Its memory is used again.
+class SaddleSearch {
+ public:
+  struct Saddle {
+    double at = 0;  ///< how far the plane tilts until it touches the vertex, see below
+    std::uint32_t vertex = 0;
+    friend bool operator<(const Saddle& a, const Saddle& b) {
+      return a.at != b.at ? a.at < b.at : a.vertex < b.vertex;
+    }
+  };
+
+  explicit SaddleSearch(const PieceInput& input);
+
+  /// Those above the plane of normal d, or in it, that are below the one of normal `end`, by the share of the
+  /// way from d to `end`.
+  const std::vector<Saddle>& sinking(const Vec3& x, const Vec3& d, const Vec3& end,
+                                     std::span<const std::uint32_t> but);
+
+  /// Those below the plane of normal d that it touches after the least tilts, by the sine of the tilt.
+  /// Looks no further than the tilt that passes some hundred vertices.
+  const std::vector<Saddle>& just_below(const Vec3& x, const Vec3& d);
+
+ private:
+  Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
+  bool may_join(std::uint32_t vertex, const Vec3& d) const;
+  template <class Meets, class Visit>
+  void visit_vertices(Meets meets, Visit visit);
+
+  const PieceInput& in_;
+  double furthest_;  // tilt that just_below() looks at
+  Vec3 x_;
+  std::vector<std::uint32_t> near_;  // triangles
+  std::vector<Saddle> found_;
+};
+
+}  // namespace affskel::core
