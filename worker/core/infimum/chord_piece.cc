@@ -85,7 +85,9 @@ class PieceFinder::Work {
   }
 
   // Numbers of the classes' members: loops, then cut edges, then shells.
-  std::uint32_t cut_member(std::uint32_t cut) const { return static_cast<std::uint32_t>(loops_.size()) + cut; }
+  std::uint32_t cut_member(std::uint32_t cut) const {
+    return static_cast<std::uint32_t>(loops_.size()) + cut;
+  }
   std::uint32_t shell_member(std::uint32_t shell) const {
     return static_cast<std::uint32_t>(loops_.size() + section_.tree_edges().size()) + shell;
   }

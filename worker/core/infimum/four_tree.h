@@ -88,7 +88,8 @@ class FourTree {
  private:
   struct Node {
     FourBoxes boxes;
-    std::array<std::uint32_t, 4> child{};  // nodes, or the items of a leaf; where there are fewer, none is met
+    std::array<std::uint32_t, 4>
+        child{};  // nodes, or the items of a leaf; where there are fewer, none is met
     bool leaf = false;
   };
 

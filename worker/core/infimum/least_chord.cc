@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMostSteps = 60;
-constexpr double kPromise = 2;  // what steps to come may gain, in gains of the next one
+constexpr double kPromise = 4;        // what steps to come may gain, in gains of the next one
 constexpr int kMostShorter = 6;       // of a step
 constexpr double kLongestStep = 0.5;  // of t
 constexpr double kLeastGain = 1e-12;  // of the volume: a lesser decrease is none
@@ -28,8 +28,8 @@ constexpr double kLastGain = 1e-8;    // of the volume: after it, the next would
 constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whether a part joins there
 constexpr double kJump = 1e-9;        // of the volume
 constexpr double kAcross = 1e-6;      // how far below a saddle a descent across it starts
-constexpr double kWorthwhile = 1.3;   // how much more than the least piece one across a saddle may be at first
-constexpr double kParallel = 1e-9;    // sine between two saddles' z
+constexpr double kWorthwhile = 1.3;  // how much more than the least piece one across a saddle may be at first
+constexpr double kParallel = 1e-9;   // sine between two saddles' z
 
 using Flat = std::array<double, 2>;
 
@@ -133,7 +133,7 @@ class ChordDescent::Work {
     piece_.hessian = finder_.hessian();
     for (int n = 0; n < kMostSteps; ++n) {
       const Step step = next_step();
-      if (n > 0 && piece_.volume - kPromise * step.gain > bound.erosion) return {};
+      if (piece_.volume - kPromise * step.gain > bound.erosion) return {};
       if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
       if (step.gain < kLastGain * piece_.volume) break;
     }
@@ -323,7 +323,8 @@ class ChordDescent::Work {
       for (std::size_t n = 0; n < here; ++n) {
         if (hold(meetings_[n].vertex)) return true;
       }
-      return here < meetings_.size() ? go_shorter(step, meetings_[here].at, first_piece) : go_shorter(step, 1, end);
+      return here < meetings_.size() ? go_shorter(step, meetings_[here].at, first_piece)
+                                     : go_shorter(step, 1, end);
     }
     move_to(best, best_piece);
     if (joins_at(meetings_[falling - 1].vertex)) active_.push_back(meetings_[falling - 1].vertex);
@@ -356,8 +357,8 @@ class ChordDescent::Work {
   PieceFinder finder_;
   SaddleSearch saddles_;
   Vec3 x_, d_;
-  std::vector<std::uint32_t> active_;  // saddles, at most two
-  Stand piece_;                        // of d_
+  std::vector<std::uint32_t> active_;               // saddles, at most two
+  Stand piece_;                                     // of d_
   std::span<const SaddleSearch::Saddle> meetings_;  // of the step in hand
   std::uint64_t evaluations_ = 0;
 };

@@ -37,7 +37,8 @@ struct Preorder {
 Preorder preorder_of(const Mesh& mesh) {
   const Adjacency around = neighbours(mesh.points.size(), mesh.triangles);
   Preorder result{{}, std::vector<std::uint32_t>(mesh.points.size(), PieceInput::kNone)};
-  std::vector<std::uint32_t> first_child(mesh.points.size(), PieceInput::kNone), next_sibling(mesh.points.size(), PieceInput::kNone);
+  std::vector<std::uint32_t> first_child(mesh.points.size(), PieceInput::kNone),
+      next_sibling(mesh.points.size(), PieceInput::kNone);
   std::vector<std::uint32_t> queue, stack;
   for (std::uint32_t root = 0; root < mesh.points.size(); ++root) {
     if (result.parent[root] != PieceInput::kNone) continue;

@@ -70,8 +70,8 @@ struct PieceInput {
   std::vector<Shell> shells;
   std::vector<std::uint8_t> at_handle;  ///< per half-edge: of an edge of Shell::handles; empty without any
   FourTree tree;                        ///< over the triangles, which are numbered in its order
-  Groups<std::uint32_t> rings;       ///< per vertex: its neighbours, in their order round it
-  std::vector<std::uint32_t> owner;  ///< per vertex: a triangle of its
+  Groups<std::uint32_t> rings;          ///< per vertex: its neighbours, in their order round it
+  std::vector<std::uint32_t> owner;     ///< per vertex: a triangle of its
   /// Pairs of triangles that pass through each other.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<std::uint8_t> crosses;  ///< per vertex: at such a triangle; empty where there is none

@@ -16,8 +16,9 @@ constexpr double kTriangles = 1000;
 
 SaddleSearch::SaddleSearch(const PieceInput& input)
     : in_(input),
-      furthest_(kFurthestTilt *
-                std::sqrt(kTriangles / std::max(kTriangles, static_cast<double>(input.mesh.triangles.size())))) {}
+      furthest_(
+          kFurthestTilt *
+          std::sqrt(kTriangles / std::max(kTriangles, static_cast<double>(input.mesh.triangles.size())))) {}
 
 template <class Meets, class Visit>
 void SaddleSearch::visit_vertices(Meets meets, Visit visit) {

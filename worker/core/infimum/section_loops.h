@@ -35,7 +35,7 @@ class SectionLoops {
   /// A triangle that the plane cuts, and where its loop leaves it, by the edge that rises from below to above.
   struct Cut {
     std::uint32_t triangle = 0;
-    std::uint32_t edge = 0;  ///< corner that the edge begins at
+    std::uint32_t edge = 0;          ///< corner that the edge begins at
     std::array<double, 3> height{};  ///< within kTouchHeight may be < 0 above, too
     Place leaves;
   };
@@ -62,7 +62,7 @@ class SectionLoops {
   void cut(const Vec3& x, const Vec3& d);
 
   const std::vector<Loop>& loops() const { return loops_; }
-  const std::vector<Cut>& cuts() const { return cuts_; }                 ///< loop by loop, each in order
+  const std::vector<Cut>& cuts() const { return cuts_; }  ///< loop by loop, each in order
   const std::vector<TreeEdge>& tree_edges() const { return tree_edges_; }
   /// Of PieceInput::Shell::handles: the vertex below and the loop.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& handle_edges() const { return handle_edges_; }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/field.h"
+#include "core/infimum/least_chord.h"
+#include "core/infimum/piece_input.h"
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+/// What refine() takes in memory for every sample point, bytes.
+constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 16;
+
+struct RefineOptions {
+  unsigned threads = 1;  ///< >= 1; the result does not depend on it
+  int most_rounds = 64;  ///< of propagation
+};
+
+struct RefineCost {
+  int rounds = 0;
+  std::uint64_t evaluations = 0;  ///< of pieces
+};
+
+/// Per sample point the least piece over all directions, as far as it is found: E as the definition has it
+/// (Zografos 2003, section 2.2.2: an infimum; it is a limit where the optimal plane touches a saddle).
+///
+/// Every point goes down from the direction that its seed was found with (ChordDescent).  Then points offer
+/// their planes to their neighbours on the lattice, in rounds, until no offer leads lower: as in PatchMatch
+/// (Barnes et al. 2009), but all points of a round at once, from what the round before left.  So the result is
+/// a function of solid, lattice and seeds.  It is never above the seeds; that it is the infimum is not proven
+/// at every point.
+///
+/// @param seeds the field over `directions`.  A point that lies outside within rounding keeps its value.
+/// @throws CoreError kCancelled when the context asks to stop.
+std::vector<LeastChord> refine(const PieceInput& input, const Lattice& lattice,
+                               const DirectionSet& directions, const ErosionField& seeds,
+                               const RefineOptions& options, ExecutionContext& context,
+                               RefineCost* cost = nullptr);
+
+}  // namespace affskel::core
