@@ -22,6 +22,8 @@
 #include "core/erosion/erosion.h"
 #include "core/files/field_file.h"
 #include "core/files/read/parse_shape.h"
+#include "core/infimum/piece_input.h"
+#include "core/infimum/refine.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid.h"
 #include "core/solid/solid_frame.h"
@@ -46,6 +48,12 @@ double peak_rss_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::string six_decimals(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6f", value);
+  return text;
 }
 
 // All directions in the order that the service works in, or in a random one.
@@ -114,26 +122,43 @@ core::FileFacts facts_of(const ComputeOptions& options, const std::string& sha25
           number("spacing", lattice.spacing),
           number("sample_points", lattice.points),
           {"directions", options.directions + " (" + std::to_string(directions) + ")"},
-          {"minimum", "over these directions"},
+          {"minimum", options.minimum == "infimum" ? "over all directions" : "over these directions"},
           {"frame", options.frame},
           {"core_version", core::kCoreVersion},
           {"units", core::kFileUnits}};
 }
 
+// A field over a set of directions, or over all.
+struct Field {
+  const core::DirectionSet& directions;
+  const core::ErosionField& set;
+  std::vector<core::LeastChord> infimum;  // empty unless it was asked for
+
+  // Scaled units.
+  core::FieldSample at(std::uint32_t point) const {
+    if (!infimum.empty()) {
+      const core::LeastChord& least = infimum[point];
+      return {least.erosion, least.slope, least.normal, 0, 0, static_cast<std::uint32_t>(least.kind())};
+    }
+    const core::FieldValue value = set.value(point);
+    return {value.erosion, value.area, directions[value.direction], value.direction, 0, 0};
+  }
+};
+
 // In mesh units, in lattice order.
 void write_field(const std::string& path, const core::FileFacts& facts, const core::Solid& solid,
-                 const core::Lattice& lattice, const core::DirectionSet& directions,
-                 const core::ErosionField& field) {
+                 const core::Lattice& lattice, const Field& field) {
   base::AtomicFile file(path);
-  core::FieldFile out(output_format(path), file, grid_of(solid, lattice), solid.volume, facts);
+  core::FieldFile out(output_format(path), file, grid_of(solid, lattice), solid.volume, facts,
+                      {.all_directions = !field.infimum.empty()});
   const double volume_unit = std::ldexp(1.0, 3 * solid.exponent),
                area_unit = std::ldexp(1.0, 2 * solid.exponent);
   for (const core::LatticeRun& run : lattice.axis[2].runs) {
     for (std::uint32_t n = 0; n < run.length; ++n) {
-      const core::FieldValue value = field.value(run.first + n);
-      out.put({run.start[0], run.start[1], run.start[2] + n},
-              {value.erosion * volume_unit, value.area * area_unit, directions[value.direction],
-               value.direction});
+      core::FieldSample sample = field.at(run.first + n);
+      sample.erosion *= volume_unit;
+      sample.slope *= area_unit;
+      out.put({run.start[0], run.start[1], run.start[2] + n}, sample);
     }
   }
   out.finish();
@@ -158,7 +183,8 @@ void compute(const ComputeOptions& options) {
   lattice_options.frame = core::solid_frame(solid, core::parse_frame(options.frame));
   lattice_options.threads = options.threads;
   lattice_options.memory_budget = available_memory();
-  lattice_options.point_bytes = core::kErosionBytesPerPoint;
+  const bool infimum = options.minimum == "infimum";
+  lattice_options.point_bytes = core::kErosionBytesPerPoint + (infimum ? core::kRefineBytesPerPoint : 0);
   const core::Lattice lattice = core::make_lattice(solid, lattice_options);
   if (!options.output.empty()) check_output(options.output, grid_of(solid, lattice));
   core::DirectionOptions direction_options;
@@ -172,16 +198,24 @@ void compute(const ComputeOptions& options) {
   core::ExecutionContext context;
   erosion.run(work_order(directions.size(), options.shuffle), context);
   const core::ErosionCost cost = erosion.cost();
+  Field field{directions, erosion.field(), {}};
+  std::string refine_s;
+  if (infimum) {
+    const core::Stopwatch refining;
+    field.infimum = core::refine(core::PieceInput(solid, options.threads), lattice, directions, field.set,
+                                 {.threads = options.threads}, context);
+    refine_s = " refine_s=" + six_decimals(refining.seconds());
+  }
   const double wall_s = wall.seconds();
   if (!options.output.empty()) {
     write_field(options.output, facts_of(options, read.sha256, solid, lattice, directions.size()), solid,
-                lattice, directions, erosion.field());
+                lattice, field);
   }
-  std::fprintf(
-      stderr,
-      "N=%zu R=%u K=%zu v0=%.17g prepare_s=%.6f trees_s=%.6f sweep_s=%.6f wall_s=%.6f peak_rss_mb=%.1f\n",
-      solid.mesh.triangles.size(), lattice.points, directions.size(), solid.volume, prepare_s, cost.trees_s,
-      cost.sweep_s, wall_s, peak_rss_mb());
+  std::fprintf(stderr,
+               "N=%zu R=%u K=%zu v0=%.17g prepare_s=%.6f trees_s=%.6f sweep_s=%.6f%s wall_s=%.6f "
+               "peak_rss_mb=%.1f\n",
+               solid.mesh.triangles.size(), lattice.points, directions.size(), solid.volume, prepare_s,
+               cost.trees_s, cost.sweep_s, refine_s.c_str(), wall_s, peak_rss_mb());
 }
 
 }  // namespace affskel::worker

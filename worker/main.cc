@@ -188,6 +188,11 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       ->add_option("--directions", flags.compute.directions,
                    "triangles, sphere:N, random:N:SEED, joined by +")
       ->capture_default_str();
+  compute
+      ->add_option("--minimum", flags.compute.minimum,
+                   "E is the least over the directions (set), or over all that there are (infimum)")
+      ->check(CLI::IsMember({"set", "infimum"}))
+      ->capture_default_str();
   compute->add_option("--frame", flags.compute.frame, "axes of the lattice: axis, pca, obb or affine")
       ->check(CLI::IsMember(affskel::wire::words(*affskel::v1::Frame_descriptor())))
       ->capture_default_str();

@@ -16,11 +16,13 @@ class FieldWriter : public FieldReceiver {
   /// @throws as core::FieldFile.
   FieldWriter(core::FileFormat format, base::AtomicFile& file, const LatticePoints& points, double volume,
               const core::FileFacts& facts, std::vector<std::uint32_t> parts = {})
-      : parts_(std::move(parts)), field_(format, file, points.grid(), volume, facts, !parts_.empty()) {}
+      : parts_(std::move(parts)),
+        field_(format, file, points.grid(), volume, facts, {.parts = !parts_.empty()}) {}
 
   void put(const FieldPoint& point) override {
     const std::uint32_t part = parts_.empty() ? 0 : parts_.at(rank_++);
-    field_.put({point.i, point.j, point.k}, {point.erosion, point.area, point.normal, point.direction, part});
+    field_.put({point.i, point.j, point.k},
+               {point.erosion, point.area, point.normal, point.direction, part, 0});
   }
   /// The file is left uncommitted.
   void finish() override { field_.finish(); }

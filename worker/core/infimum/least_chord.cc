@@ -29,6 +29,8 @@ constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whet
 constexpr double kJump = 1e-9;        // of the volume
 constexpr double kAcross = 1e-6;      // how far below a saddle a descent across it starts
 constexpr double kWorthwhile = 1.3;  // how much more than the least piece one across a saddle may be at first
+constexpr double kFlat = 1e-12;      // of the largest second derivative: a lesser one is none
+constexpr double kRaised = 1e-3;     // likewise, what takes its place
 constexpr double kParallel = 1e-9;   // sine between two saddles' z
 
 using Flat = std::array<double, 2>;
@@ -71,8 +73,8 @@ Step step_along(const Stand& at, Flat t) {
 Step free_step(const Stand& at) {
   const auto& [a, b, c] = at.hessian;
   const double mean = 0.5 * (a + c), spread = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
-  const double least = mean - spread, wanted = 1e-3 * std::max(std::abs(mean) + spread, 1e-12 * at.area);
-  const double more = std::max(0.0, wanted - least);
+  const double least = mean - spread, most = std::max(std::abs(mean) + spread, kFlat * at.area);
+  const double more = least > kFlat * most ? 0 : kRaised * most - least;
   const double aa = a + more, cc = c + more, det = aa * cc - b * b;
   const Flat& g = at.gradient;
   if (det > 0) return step_along(at, {-(cc * g[0] - b * g[1]) / det, -(aa * g[1] - b * g[0]) / det});

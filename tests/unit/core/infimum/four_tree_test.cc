@@ -1,0 +1,93 @@
+// Against all boxes, one after another.
+#include "core/infimum/four_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/split_mix64.h"
+#include "core/infimum/samples.h"
+#include "core/mesh/box.h"
+#include "core/shapes/body.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+namespace {
+
+TEST(FourTreeTest, SelectsWhatAPlaneMeets) {
+  for (const std::uint32_t triangles : {1000U, 1234U}) {
+    const Solid solid = make_solid(make_body({.triangles = triangles}));
+    const std::vector<Box> boxes = boxes_of(solid.mesh);
+    FourTree tree;
+    const std::vector<std::uint32_t> order = tree.build(boxes);
+    std::vector<std::uint32_t> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i], i);
+    SplitMix64 random(7);
+    std::vector<std::uint32_t> selected;
+    for (int n = 0; n < 200; ++n) {
+      const Vec3 x = 0.4 * draw_vector(random);
+      const Vec3 d = draw_direction(random);
+      const PlaneHeights plane(x, d);
+      tree.select(
+          [&](const FourBoxes& four) {
+            const Four middle = plane.middle(four), reach = plane.reach(four);
+            return (middle <= reach) & (middle >= -reach);
+          },
+          selected);
+      EXPECT_TRUE(std::is_sorted(selected.begin(), selected.end()));
+      std::size_t met = 0;
+      for (std::uint32_t i = 0; i < order.size(); ++i) {
+        const Box& box = boxes[order[i]];
+        const Vec3 half = 0.5 * box.sides();
+        const double middle = dot(d, 0.5 * (box.lowest() + box.highest()) - x);
+        const double reach = std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z;
+        const bool there = std::binary_search(selected.begin(), selected.end(), i);
+        if (std::abs(middle) <= reach) {
+          EXPECT_TRUE(there) << i;
+        }
+        if (std::abs(middle) > reach + 2 * double(PlaneHeights::kSlack)) {
+          EXPECT_FALSE(there) << i;
+        }
+        met += there;
+      }
+      EXPECT_EQ(met, selected.size());
+    }
+  }
+}
+
+TEST(FourTreeTest, HoldsOneItemAndNone) {
+  for (const std::size_t count : {1U, 2U, 5U, 9U}) {
+    std::vector<Box> boxes(count);
+    for (std::size_t i = 0; i < count; ++i) boxes[i].include(Vec3{0.01 * static_cast<double>(i), 0, 0});
+    FourTree tree;
+    tree.build(boxes);
+    std::vector<std::uint32_t> selected;
+    tree.select([](const FourBoxes& four) { return four.half[0] >= 0; }, selected);
+    EXPECT_EQ(selected.size(), count);
+  }
+}
+
+TEST(PlaneHeightsTest, DistancesAreNoLess) {
+  Box box;
+  box.include(Vec3{0.1, 0.2, 0.3});
+  box.include(Vec3{0.2, -0.1, 0.35});
+  FourTree tree;
+  tree.build({box});
+  const Vec3 x{-0.3, 0.4, 0};
+  std::vector<std::uint32_t> selected;
+  const double furthest = norm(Vec3{0.2, -0.1, 0.35} - x);
+  tree.select(
+      [&](const FourBoxes& four) {
+        EXPECT_GE(double(PlaneHeights::distance(four, x)[0]), furthest);
+        EXPECT_LE(double(PlaneHeights::distance(four, x)[0]), 2 * furthest);
+        return four.half[0] >= 0;
+      },
+      selected);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,156 @@
+// The refined field against closed forms, large sets of directions and its own invariants.
+#include "core/infimum/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/execution_context.h"
+#include "core/erosion/directions.h"
+#include "core/erosion/erosion.h"
+#include "core/infimum/samples.h"
+#include "core/lattice/lattice.h"
+#include "core/shapes/body.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+class Refined {
+ public:
+  Refined(const Mesh& mesh, std::uint64_t points, const std::string& directions, unsigned threads = 1)
+      : solid(make_solid(mesh)), lattice(lattice_of(solid, points)), seeds(minimum_over(directions)) {
+    const PieceInput input(solid);
+    ExecutionContext context;
+    const DirectionSet set = make_directions(solid, directions);
+    Erosion erosion(solid, lattice, set, {});
+    run(erosion, set);
+    values = refine(input, lattice, set, erosion.field(), {.threads = threads}, context);
+  }
+
+  std::vector<double> minimum_over(const std::string& directions) const {
+    const DirectionSet set = make_directions(solid, directions);
+    Erosion erosion(solid, lattice, set, {});
+    run(erosion, set);
+    std::vector<double> values_of_set;
+    for (std::uint32_t p = 0; p < lattice.points; ++p) values_of_set.push_back(erosion.field().erosion(p));
+    return values_of_set;
+  }
+
+  Solid solid;
+  Lattice lattice;
+  std::vector<double> seeds;
+  std::vector<LeastChord> values;
+
+ private:
+  static void run(Erosion& erosion, const DirectionSet& set) {
+    std::vector<std::uint32_t> all(set.size());
+    std::iota(all.begin(), all.end(), 0U);
+    ExecutionContext context;
+    erosion.run(all, context);
+  }
+};
+
+TEST(RefineTest, ABoxHasItsClosedForm) {
+  const Refined refined(make_box(3, 2, 2), 2000, "sphere:100");
+  const std::vector<Vec3> places = places_of(refined.lattice);
+  std::size_t corners = 0;
+  for (std::uint32_t p = 0; p < refined.lattice.points; ++p) {
+    const Vec3 x = refined.solid.centre + refined.solid.scale() * places[p];
+    const Vec3 low = x - refined.solid.bbox_min, high = refined.solid.bbox_max - x;
+    const double a = std::min(low.x, high.x), b = std::min(low.y, high.y), c = std::min(low.z, high.z);
+    const double e = refined.values[p].erosion * std::pow(refined.solid.scale(), 3);
+    // A slab, and a wedge along an edge, are planes too.
+    EXPECT_LE(e, std::min({a * 4, b * 6, c * 6, 2 * a * b * 2, 2 * a * c * 2, 2 * b * c * 3}) * (1 + 1e-9));
+    if (a > 1 || 3 * b > 2 || 3 * c > 2) continue;
+    EXPECT_NEAR(e, 4.5 * a * b * c, 1e-8 * a * b * c);
+    ++corners;
+  }
+  EXPECT_GT(corners, 500U);
+}
+
+TEST(RefineTest, NeverAboveItsSeedsAndMostlyBelowManyMore) {
+  struct Compared {
+    std::string name;
+    Mesh mesh;
+    double most_above;  // share of points above the least of 20,000 directions
+  };
+  const std::vector<Compared> cases = {{"torus", shaken(make_torus(3, 1, 256), 0, 1), 0.002},
+                                       {"cup", shaken(cup(24), 0, 2), 0.004},
+                                       {"hollow ball", hollow_ball(), 0.002},
+                                       {"overlapping boxes", shaken(overlapping_boxes(4, 5, 6), 0, 4), 0.002},
+                                       {"body", make_body({.triangles = 1000}), 0.005}};
+  for (const Compared& c : cases) {
+    SCOPED_TRACE(c.name);
+    const Refined refined(c.mesh, 3000, "triangles+sphere:1000");
+    const std::vector<double> many = refined.minimum_over("sphere:20000");
+    std::size_t above = 0;
+    for (std::uint32_t p = 0; p < refined.lattice.points; ++p) {
+      const LeastChord& least = refined.values[p];
+      EXPECT_LE(least.erosion, refined.seeds[p] * (1 + 1e-9));
+      EXPECT_NEAR(norm(least.normal), 1, 1e-12);
+      above += least.erosion > many[p] * (1 + 1e-6);
+    }
+    EXPECT_LE(above, c.most_above * refined.lattice.points);
+    std::cout << c.name << " above " << above << " of " << refined.lattice.points << "\n";
+  }
+}
+
+TEST(RefineTest, TheSameOnSeveralThreads) {
+  const Mesh mesh = make_body({.triangles = 500});
+  const Refined one(mesh, 3000, "triangles"), three(mesh, 3000, "triangles", 3);
+  for (std::uint32_t p = 0; p < one.lattice.points; ++p) {
+    const LeastChord &a = one.values[p], &b = three.values[p];
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.erosion), std::bit_cast<std::uint64_t>(b.erosion));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.slope), std::bit_cast<std::uint64_t>(b.slope));
+    EXPECT_TRUE(a.normal == b.normal);
+    EXPECT_EQ(a.saddles, b.saddles);
+  }
+}
+
+// Subdivision adds normals to no set and vertices to no edge of the solid.
+TEST(RefineTest, SubdividingChangesNothing) {
+  const Mesh mesh = make_body({.triangles = 292});
+  Mesh finer;
+  finer.points = mesh.points;
+  for (const Triangle& t : mesh.triangles) {
+    const auto middle = static_cast<std::uint32_t>(finer.points.size());
+    finer.points.push_back((1.0 / 3) * (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]));
+    for (std::size_t k = 0; k < 3; ++k) finer.triangles.push_back({t[k], t[(k + 1) % 3], middle});
+  }
+  const Refined coarse(mesh, 2000, "sphere:2000"), fine(finer, 2000, "sphere:2000");
+  ASSERT_EQ(coarse.lattice.points, fine.lattice.points);
+  std::size_t differ = 0;
+  for (std::uint32_t p = 0; p < coarse.lattice.points; ++p) {
+    const double a = coarse.values[p].erosion, b = fine.values[p].erosion;
+    differ += std::abs(a - b) > 1e-6 * std::min(a, b);
+  }
+  std::cout << "differ " << differ << " of " << coarse.lattice.points << "\n";
+  EXPECT_LE(differ, coarse.lattice.points / 100);
+}
+
+class Stopping : public ExecutionContext {
+ public:
+  bool stop_requested() override { return true; }
+};
+
+TEST(RefineTest, StopsWhenAsked) {
+  const Solid solid = make_solid(make_box(1, 1, 1));
+  const Lattice lattice = lattice_of(solid, 100);
+  const DirectionSet set = make_directions(solid, "triangles");
+  ErosionField seeds(lattice.points, false);
+  Stopping context;
+  EXPECT_THROW(refine(PieceInput(solid), lattice, set, seeds, {}, context), CoreError);
+}
+
+}  // namespace
+}  // namespace affskel::core
