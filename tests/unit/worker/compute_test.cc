@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -57,6 +59,58 @@ TEST(ComputeTest, AnOutputThatCannotBeWrittenTellsWhy) {
   const std::vector<std::string> names = directory.names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
             (std::set<std::string>{"box.off", "field.csv", "full.csv", "kept.csv", "link.csv"}));
+}
+
+std::vector<std::vector<double>> rows_of(const std::string& path, const std::string& header) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, header);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    std::vector<double> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Near a corner the least of all planes cuts 4.5 times the product of the distances off.
+TEST(ComputeTest, TheInfimumIsNotAboveTheSetAndHasItsClosedForm) {
+  const tests::TemporaryDirectory directory;
+  ComputeOptions options;
+  options.file = directory / "box.off";
+  options.spacing = 200;
+  std::ofstream(options.file) << core::write_off(core::make_box(2000, 2000, 2000));
+  options.output = directory / "set.csv";
+  compute(options);
+  options.minimum = "infimum";
+  options.output = directory / "infimum.csv";
+  compute(options);
+  const auto set = rows_of(directory / "set.csv", "x,y,z,E,nx,ny,nz,direction");
+  const auto infimum = rows_of(options.output, "x,y,z,E,nx,ny,nz,slope,saddles");
+  ASSERT_EQ(set.size(), 1000U);
+  ASSERT_EQ(infimum.size(), set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    EXPECT_LE(infimum[i][3], set[i][3] * (1 + 1e-9));
+    EXPECT_EQ(infimum[i][8], 0);
+    double product = 1, furthest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double distance = 1000 - std::abs(infimum[i][k] - 1000);
+      product *= distance;
+      furthest = std::max(furthest, distance);
+    }
+    if (furthest > 600) continue;
+    EXPECT_NEAR(infimum[i][3], 4.5 * product, 1e-8 * product);
+    // |grad E| = 4.5 (bc, ca, ab).
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double slope = 4.5 * product / (1000 - std::abs(infimum[i][k] - 1000));
+      square += slope * slope;
+    }
+    EXPECT_NEAR(infimum[i][7], std::sqrt(square), 1e-3 * std::sqrt(square));
+  }
 }
 
 class ComputeFilesTest : public ::testing::Test {

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <iostream>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -101,7 +100,6 @@ TEST(RefineTest, NeverAboveItsSeedsAndMostlyBelowManyMore) {
       above += least.erosion > many[p] * (1 + 1e-6);
     }
     EXPECT_LE(above, c.most_above * refined.lattice.points);
-    std::cout << c.name << " above " << above << " of " << refined.lattice.points << "\n";
   }
 }
 
@@ -134,7 +132,6 @@ TEST(RefineTest, SubdividingChangesNothing) {
     const double a = coarse.values[p].erosion, b = fine.values[p].erosion;
     differ += std::abs(a - b) > 1e-6 * std::min(a, b);
   }
-  std::cout << "differ " << differ << " of " << coarse.lattice.points << "\n";
   EXPECT_LE(differ, coarse.lattice.points / 100);
 }
 
