@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/unit.h"
 #include "core/infimum/chord_piece.h"
 #include "core/infimum/saddle_search.h"
 #include "core/infimum/section_loops.h"

@@ -59,7 +59,7 @@ TEST(FourTreeTest, SelectsWhatAPlaneMeets) {
   }
 }
 
-TEST(FourTreeTest, HoldsOneItemAndNone) {
+TEST(FourTreeTest, HoldsFewItems) {
   for (const std::size_t count : {1U, 2U, 5U, 9U}) {
     std::vector<Box> boxes(count);
     for (std::size_t i = 0; i < count; ++i) boxes[i].include(Vec3{0.01 * static_cast<double>(i), 0, 0});
