@@ -1,7 +1,7 @@
 """What of a mesh is told before anything is sent: that it is open, and that a spacing is not one of its unit."""
 from __future__ import annotations
 
-from typing import List, NamedTuple, Optional, Sequence
+from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -38,21 +38,35 @@ def polygons_of_off(text: bytes) -> Optional[Polygons]:
     return Polygons(numbers[:3 * vertices].reshape(-1, 3), [rows[:, 1:]])
 
 
+def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+    """The different points, and which of them each is.
+
+    As np.unique(axis=0), which compares rows as structures: an interrupt in the midst of that is a TypeError.
+    """
+    order = np.lexsort(points.T)
+    ordered = points[order]
+    first = np.ones(len(points), bool)
+    first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    which = np.empty(len(points), np.int64)
+    which[order] = np.cumsum(first) - 1
+    return ordered[first], which
+
+
 def require_closed(mesh: Polygons) -> None:
     """Every edge needs two faces, where vertices at one place are one, as they are for the server.
 
     Raises:
         BadInputError: with the number of open edges and a place.
     """
-    places, which = np.unique(mesh.points, axis=0, return_inverse=True)
-    which = which.reshape(-1)
+    places, which = _places(mesh.points)
     edges: List[npt.NDArray[np.int64]] = []
     for group in mesh.faces:
         corners = which[group]
         sides = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
-        edges.append(np.sort(sides[sides[:, 0] != sides[:, 1]], axis=1))
-    sides, count = np.unique(np.concatenate(edges), axis=0, return_counts=True)
-    alone = sides[count == 1]
+        low, high = np.sort(sides[sides[:, 0] != sides[:, 1]], axis=1).T
+        edges.append(low * len(places) + high)
+    codes, count = np.unique(np.concatenate(edges), return_counts=True)
+    alone = np.stack(np.divmod(codes[count == 1], len(places)), axis=1)
     if len(alone):
         a, b = (tuple(float(x) for x in places[vertex]) for vertex in alone[0])
         raise BadInputError(f"the mesh does not bound a solid: {len(alone)} open edges (one face only), for example from "
