@@ -77,7 +77,10 @@ TEST_F(WaitingRequests, ComingAndGoingLosesNone) {
     wait_for_waiting(1);
     while (requests() != 1) std::this_thread::yield();
   }
+  // A worker that took the request of who is just going would lose it.
+  while (server_->room().waiting.used() > 0 || requests() > 0) std::this_thread::yield();
   const Waiting last(connect(), id, 3);
+  wait_for_waiting(1);
   const FakeWorker worker(connect(), "worker-a", 10, 20);
   while (server_->room().waiting.used() > 0) std::this_thread::yield();
 }
