@@ -11,6 +11,7 @@ percentile is above a second.
 import argparse
 import asyncio
 import http.client
+import itertools
 import json
 import multiprocessing
 import os
@@ -195,12 +196,15 @@ async def read_answer(reader):
     await reader.readexactly(length)
 
 
-async def attacker(what, host):
+async def attacker(what, host, come):
     name, port = host.rsplit(":", 1)
     while True:
         writer = None
         try:
-            reader, writer = await asyncio.open_connection(name, int(port))
+            try:
+                reader, writer = await asyncio.open_connection(name, int(port))
+            finally:
+                come()
             await what(reader, writer, host)
         except (OSError, asyncio.IncompleteReadError):
             pass
@@ -210,13 +214,20 @@ async def attacker(what, host):
         await asyncio.sleep(0.05)  # a closed one comes again
 
 
-async def attack_forever(what, connections, host):
-    await asyncio.gather(*(attacker(what, host) for _ in range(connections)))
+async def attack_forever(what, connections, host, begun):
+    tries = itertools.count(1)
+
+    def come():
+        if next(tries) == connections:
+            begun.set()
+
+    await asyncio.gather(*(attacker(what, host, come) for _ in range(connections)))
 
 
-def attack(name, host):
+def attack(name, host, begun):
+    """Sets `begun` when as many connections as it holds were opened, or refused."""
     what, connections = {**PAGE, **METRICS}[name]
-    asyncio.run(attack_forever(what, connections, host))
+    asyncio.run(attack_forever(what, connections, host, begun))
 
 
 class Honest:
@@ -310,11 +321,13 @@ def attacked(scene, name, seconds):
     host = scene.host if name in PAGE else scene.metrics
     if name == "heavy":
         os.environ.update(ATTACK_MESH=scene.large, ATTACK_COOKIE=scene.sign_in(scene.tokens[1])[0])
-    process = multiprocessing.Process(target=attack, args=(name, host), daemon=True)
+    begun = multiprocessing.Event()
+    process = multiprocessing.Process(target=attack, args=(name, host, begun), daemon=True)
     process.start()
     honest, sign_in = Honest(), None
     try:
-        time.sleep(0.5)
+        if not begun.wait(60):
+            raise TimeoutError(f"{name} never began")
         cookie = {}
         if name in PAGE:
             secret, sign_in = scene.sign_in(scene.tokens[0])

@@ -11,7 +11,13 @@ namespace affskel::core {
 /// paths are halved on the way).
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  explicit DisjointSets(std::size_t size = 0) { reset(size); }
+
+  /// Every member by itself again; the memory is used again.
+  void reset(std::size_t size) {
+    parent_.resize(size);
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
 
   std::uint32_t find(std::uint32_t a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];

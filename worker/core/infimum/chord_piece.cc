@@ -15,9 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/infimum/section_loops.h"
 
 namespace affskel::core {
@@ -74,16 +74,6 @@ class PieceFinder::Work {
   }
 
  private:
-  std::uint32_t find_class(std::uint32_t a) {
-    while (class_[a] != a) a = class_[a] = class_[class_[a]];
-    return a;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find_class(a);
-    b = find_class(b);
-    class_[std::max(a, b)] = std::min(a, b);
-  }
-
   // Numbers of the classes' members: loops, then cut edges, then shells.
   std::uint32_t cut_member(std::uint32_t cut) const {
     return static_cast<std::uint32_t>(loops_.size()) + cut;
@@ -94,8 +84,7 @@ class PieceFinder::Work {
 
   void join(std::uint32_t own) {
     solid_ = in_.shells[loops_[own].shell].solid;
-    class_.resize(loops_.size() + section_.tree_edges().size() + in_.shells.size());
-    std::iota(class_.begin(), class_.end(), 0U);
+    classes_.reset(loops_.size() + section_.tree_edges().size() + in_.shells.size());
     if (loops_.size() > 1 || solid_shells_[solid_].size() > 1 || !in_.crossings.empty()) {
       join_patches();
       join_lids();
@@ -103,7 +92,7 @@ class PieceFinder::Work {
       join_crossings();
       join_whole_shells();
     } else {
-      unite(own, shell_member(loops_[own].shell));
+      classes_.unite(own, shell_member(loops_[own].shell));
     }
   }
 
@@ -119,9 +108,9 @@ class PieceFinder::Work {
       CutEdge& cut = cuts_[i];
       while (open != kNone && in_.end[cuts_[open].child] <= cut.child) open = cuts_[open].outer;
       cut.outer = open;
-      unite(cut.loop, cut.child_below ? cut_member(i)
-                      : open != kNone ? cut_member(open)
-                                      : shell_member(in_.shell_of[cut.child]));
+      classes_.unite(cut.loop, cut.child_below ? cut_member(i)
+                               : open != kNone ? cut_member(open)
+                                               : shell_member(in_.shell_of[cut.child]));
       open = i;
     }
   }
@@ -140,15 +129,16 @@ class PieceFinder::Work {
       if (!of_solid(loops_[l])) continue;
       const std::uint32_t next = section_.loop_right_of(
           loops_[l].rightmost, [&](std::uint32_t other) { return other != l && of_solid(loops_[other]); });
-      if (next != kNone) unite(l, next);
+      if (next != kNone) classes_.unite(l, next);
     }
   }
 
   void join_handles() {
-    for (const auto& [low, loop] : section_.handle_edges()) unite(loop, member_of(low));
+    for (const auto& [low, loop] : section_.handle_edges()) classes_.unite(loop, member_of(low));
     for (const std::uint32_t s : solid_shells_[solid_]) {
       for (const Segment& edge : in_.shells[s].handles) {
-        if (section_.below(edge[0]) && section_.below(edge[1])) unite(member_of(edge[0]), member_of(edge[1]));
+        if (section_.below(edge[0]) && section_.below(edge[1]))
+          classes_.unite(member_of(edge[0]), member_of(edge[1]));
       }
     }
   }
@@ -164,7 +154,7 @@ class PieceFinder::Work {
   void join_crossings() {
     for (const auto& [i, j] : in_.crossings) {
       const std::uint32_t a = corner_below(i), b = a == kNone ? kNone : corner_below(j);
-      if (b != kNone) unite(member_of(a), member_of(b));
+      if (b != kNone) classes_.unite(member_of(a), member_of(b));
     }
   }
 
@@ -182,20 +172,20 @@ class PieceFinder::Work {
       });
       if (exit == RayShooter::kNone) continue;
       const std::uint32_t corner = corner_below(exit);
-      if (corner != kNone) unite(shell_member(s), member_of(corner));
+      if (corner != kNone) classes_.unite(shell_member(s), member_of(corner));
     }
   }
 
   ChordPiece piece(std::uint32_t own) {
-    const std::uint32_t joined = find_class(own);
+    const std::uint32_t joined = classes_.find(own);
     Sums sums;
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-      if (find_class(l) != joined) continue;
+      if (classes_.find(l) != joined) continue;
       own_loops_.push_back(l);
       add_up(loops_[l], sums);
     }
     for (const SectionLoops::TreeEdge& edge : section_.tree_edges()) {
-      if (find_class(edge.loop) != joined) continue;
+      if (classes_.find(edge.loop) != joined) continue;
       if (edge.child_below) {
         sums.whole += in_.below(edge.child);
       } else {
@@ -204,7 +194,7 @@ class PieceFinder::Work {
     }
     for (const std::uint32_t s : solid_shells_[solid_]) {
       const std::uint32_t root = in_.shells[s].root;
-      if (find_class(shell_member(s)) == joined && section_.below(root)) sums.whole += in_.below(root);
+      if (classes_.find(shell_member(s)) == joined && section_.below(root)) sums.whole += in_.below(root);
     }
     ChordPiece piece;
     piece.found = true;
@@ -280,7 +270,7 @@ class PieceFinder::Work {
   Vec3 x_, d_;
   std::uint32_t solid_ = 0;
   std::vector<CutEdge> cuts_;
-  std::vector<std::uint32_t> class_;      // union-find
+  DisjointSets classes_;
   std::vector<std::uint32_t> own_loops_;  // of the piece
   std::vector<std::uint8_t> cut_shell_;   // per shell
 };

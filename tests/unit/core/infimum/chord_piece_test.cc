@@ -14,8 +14,7 @@
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
 #include "core/infimum/piece_input.h"
-#include "core/lattice/lattice.h"
-#include "core/lattice/lattice_coordinates.h"
+#include "core/infimum/samples.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
@@ -42,14 +41,10 @@ std::vector<Case> cases() {
 void expect_as_the_trees(const Case& c) {
   SCOPED_TRACE(c.name);
   const Solid solid = make_solid(c.mesh);
-  LatticeOptions options;
-  options.target_points = 400;
-  const Lattice lattice = make_lattice(solid, options);
+  const Lattice lattice = lattice_of_points(solid, 400);
+  const std::vector<Vec3> places = places_of(lattice);
   const PieceInput input(solid);
   PieceFinder finder(input);
-  std::vector<std::uint32_t> all(lattice.points);
-  for (std::uint32_t p = 0; p < lattice.points; ++p) all[p] = p;
-  const std::vector<LatticePlace> places = lattice_places(lattice, all);
   for (const Vec3& d : make_directions(solid, "random:60:7")) {
     const DirectionSet one{d};
     Erosion erosion(solid, lattice, one, {});
@@ -57,8 +52,7 @@ void expect_as_the_trees(const Case& c) {
     erosion.run(std::vector<std::uint32_t>{0}, context);
     for (std::uint32_t p = 0; p < lattice.points; ++p) {
       const FieldValue tree = erosion.field().value(p);
-      const auto& [i, j, k] = places[p];
-      const ChordPiece piece = finder.find(grid_place(lattice.grid, i, j, k), d);
+      const ChordPiece piece = finder.find(places[p], d);
       ASSERT_TRUE(piece.found);
       ASSERT_NEAR(piece.volume, tree.erosion, 1e-10 * input.volume + 1e-10 * tree.erosion) << p;
       ASSERT_NEAR(piece.area, tree.area, 1e-7) << p;
@@ -74,14 +68,11 @@ TEST(ChordPieceTest, DerivativesAreThoseOfTheVolume) {
   const Solid solid = make_solid(make_body({.triangles = 1000}));
   const PieceInput input(solid);
   PieceFinder finder(input);
-  LatticeOptions options;
-  options.target_points = 100;
-  const Lattice lattice = make_lattice(solid, options);
-  const std::vector<LatticePlace> places = lattice_places(lattice, std::vector<std::uint32_t>{5, 40, 80});
+  const std::vector<Vec3> places = places_of(lattice_of_points(solid, 100));
   constexpr double kStep = 1e-5;
   int compared = 0;
-  for (const LatticePlace& place : places) {
-    const Vec3 x = grid_place(lattice.grid, place[0], place[1], place[2]);
+  for (const std::size_t p : {5U, 40U, 80U}) {
+    const Vec3& x = places[p];
     for (const Vec3& d : make_directions(solid, "random:40:3")) {
       const ChordPiece at = finder.find(x, d);
       const Hessian hessian = finder.hessian();

@@ -67,7 +67,7 @@ TEST(LeastChordTest, FollowsAffineMaps) {
   const PieceInput input(solid), input_of_map(solid_of_map);
   ChordDescent descent(input), descent_of_map(input_of_map);
   const double ratio = solid_of_map.volume / solid.volume;
-  for (const Vec3& x : places_of(lattice_of(solid, 60))) {
+  for (const Vec3& x : places_of(lattice_of_points(solid, 60))) {
     const Vec3 there = map(solid.centre + solid.scale() * x);
     const LeastChord least = least_of_many(descent, x, 3, 3);
     // Normals go with the inverse transpose: columns of adj(M).
@@ -88,7 +88,7 @@ class BodyTest : public testing::Test {
   }
 
   BodyTest() : solid_(make_solid(body())), input_(solid_), descent_(input_) {
-    points_ = places_of(lattice_of(solid_, 300));
+    points_ = places_of(lattice_of_points(solid_, 300));
   }
 
   Solid solid_;

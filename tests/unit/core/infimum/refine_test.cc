@@ -4,70 +4,62 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/execution_context.h"
+#include "core/erosion/computed.h"
 #include "core/erosion/directions.h"
-#include "core/erosion/erosion.h"
 #include "core/infimum/samples.h"
 #include "core/lattice/lattice.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
 namespace {
 
-class Refined {
- public:
+struct Refined {
   Refined(const Mesh& mesh, std::uint64_t points, const std::string& directions, unsigned threads = 1)
-      : solid(make_solid(mesh)), lattice(lattice_of(solid, points)), seeds(minimum_over(directions)) {
-    const PieceInput input(solid);
+      : solid(make_solid(mesh)),
+        lattice(lattice_of_points(solid, points)),
+        seeds(compute(solid, lattice, directions)),
+        volume_unit(std::pow(solid.scale(), 3)) {
+    ErosionField field(lattice.points, false);
+    for (std::uint32_t p = 0; p < lattice.points; ++p) {
+      FieldValue value = seeds.value[p];
+      value.erosion /= volume_unit;  // a power of two
+      value.area /= solid.scale() * solid.scale();
+      field.offer(p, value);
+    }
     ExecutionContext context;
-    const DirectionSet set = make_directions(solid, directions);
-    Erosion erosion(solid, lattice, set, {});
-    run(erosion, set);
-    values = refine(input, lattice, set, erosion.field(), {.threads = threads}, context);
+    values = refine(PieceInput(solid), lattice, seeds.directions, field, {.threads = threads}, context);
   }
 
-  std::vector<double> minimum_over(const std::string& directions) const {
-    const DirectionSet set = make_directions(solid, directions);
-    Erosion erosion(solid, lattice, set, {});
-    run(erosion, set);
-    std::vector<double> values_of_set;
-    for (std::uint32_t p = 0; p < lattice.points; ++p) values_of_set.push_back(erosion.field().erosion(p));
-    return values_of_set;
-  }
+  /// E at a point, in mesh units.
+  double erosion(std::uint32_t p) const { return values[p].erosion * volume_unit; }
 
   Solid solid;
   Lattice lattice;
-  std::vector<double> seeds;
+  Computed seeds;
+  double volume_unit;
   std::vector<LeastChord> values;
-
- private:
-  static void run(Erosion& erosion, const DirectionSet& set) {
-    std::vector<std::uint32_t> all(set.size());
-    std::iota(all.begin(), all.end(), 0U);
-    ExecutionContext context;
-    erosion.run(all, context);
-  }
 };
 
 TEST(RefineTest, ABoxHasItsClosedForm) {
   const Refined refined(make_box(3, 2, 2), 2000, "sphere:100");
-  const std::vector<Vec3> places = places_of(refined.lattice);
   std::size_t corners = 0;
   for (std::uint32_t p = 0; p < refined.lattice.points; ++p) {
-    const Vec3 x = refined.solid.centre + refined.solid.scale() * places[p];
+    const Vec3& x = refined.seeds.place[p];
     const Vec3 low = x - refined.solid.bbox_min, high = refined.solid.bbox_max - x;
     const double a = std::min(low.x, high.x), b = std::min(low.y, high.y), c = std::min(low.z, high.z);
-    const double e = refined.values[p].erosion * std::pow(refined.solid.scale(), 3);
+    const double e = refined.erosion(p);
     // A slab, and a wedge along an edge, are planes too.
     EXPECT_LE(e, std::min({a * 4, b * 6, c * 6, 2 * a * b * 2, 2 * a * c * 2, 2 * b * c * 3}) * (1 + 1e-9));
     if (a > 1 || 3 * b > 2 || 3 * c > 2) continue;
@@ -91,13 +83,12 @@ TEST(RefineTest, NeverAboveItsSeedsAndMostlyBelowManyMore) {
   for (const Compared& c : cases) {
     SCOPED_TRACE(c.name);
     const Refined refined(c.mesh, 3000, "triangles+sphere:1000");
-    const std::vector<double> many = refined.minimum_over("sphere:20000");
+    const Computed many = compute(refined.solid, refined.lattice, "sphere:20000");
     std::size_t above = 0;
     for (std::uint32_t p = 0; p < refined.lattice.points; ++p) {
-      const LeastChord& least = refined.values[p];
-      EXPECT_LE(least.erosion, refined.seeds[p] * (1 + 1e-9));
-      EXPECT_NEAR(norm(least.normal), 1, 1e-12);
-      above += least.erosion > many[p] * (1 + 1e-6);
+      EXPECT_LE(refined.erosion(p), refined.seeds.value[p].erosion * (1 + 1e-9));
+      EXPECT_NEAR(norm(refined.values[p].normal), 1, 1e-12);
+      above += refined.erosion(p) > many.value[p].erosion * (1 + 1e-6);
     }
     EXPECT_LE(above, c.most_above * refined.lattice.points);
   }
@@ -135,17 +126,53 @@ TEST(RefineTest, SubdividingChangesNothing) {
   EXPECT_LE(differ, coarse.lattice.points / 100);
 }
 
-class Stopping : public ExecutionContext {
- public:
-  bool stop_requested() override { return true; }
-};
+// The closed form of a corner is affine: 27 times the product of the barycentric coordinates.
+TEST(RefineTest, ATetrahedronHasItsClosedForm) {
+  const Refined refined(make_tetrahedron(2), 3000, "sphere:100");
+  const std::vector<Vec3>& corner = refined.solid.mesh.points;
+  const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return std::abs(dot(a, cross(b, c)));
+  };
+  const double whole = volume(corner[1] - corner[0], corner[2] - corner[0], corner[3] - corner[0]);
+  const std::vector<Vec3> places = places_of(refined.lattice);
+  std::size_t corners = 0;
+  for (std::uint32_t p = 0; p < refined.lattice.points; ++p) {
+    std::array<double, 4> share;
+    for (std::size_t k = 0; k < 4; ++k) {
+      share[k] = volume(corner[(k + 1) % 4] - places[p], corner[(k + 2) % 4] - places[p],
+                        corner[(k + 3) % 4] - places[p]) /
+                 whole;
+    }
+    std::sort(share.begin(), share.end());
+    const double expected = 27 * share[0] * share[1] * share[2] * refined.solid.volume;
+    EXPECT_LE(refined.erosion(p), expected * (1 + 1e-8) + (share[2] > 1.0 / 3 ? refined.solid.volume : 0));
+    if (share[2] > 0.2) continue;
+    EXPECT_NEAR(refined.erosion(p), expected, 1e-8 * expected);
+    ++corners;
+  }
+  EXPECT_GT(corners, 200U);
+}
+
+// Whatever a convex solid is begun from, its field is one.
+TEST(RefineTest, ConvexSolidsDoNotDependOnTheSeeds) {
+  for (const Mesh& mesh : {make_sphere(1, 320), make_ellipsoid(1, 2, 0.5, 320), make_cylinder(1, 3, 24),
+                           make_cone(1, 3, 24), make_box(3, 2, 1.5, 3)}) {
+    const Refined few(mesh, 1500, "sphere:300"), many(mesh, 1500, "triangles+sphere:5000");
+    std::size_t differ = 0;
+    for (std::uint32_t p = 0; p < few.lattice.points; ++p) {
+      EXPECT_EQ(few.values[p].kind(), 0);
+      differ += std::abs(few.erosion(p) / many.erosion(p) - 1) > 1e-6;
+    }
+    EXPECT_LE(differ, few.lattice.points / 1000) << mesh.triangles.size();
+  }
+}
 
 TEST(RefineTest, StopsWhenAsked) {
   const Solid solid = make_solid(make_box(1, 1, 1));
-  const Lattice lattice = lattice_of(solid, 100);
+  const Lattice lattice = lattice_of_points(solid, 100);
   const DirectionSet set = make_directions(solid, "triangles");
   ErosionField seeds(lattice.points, false);
-  Stopping context;
+  StoppingContext context(0);
   EXPECT_THROW(refine(PieceInput(solid), lattice, set, seeds, {}, context), CoreError);
 }
 

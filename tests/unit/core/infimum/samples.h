@@ -28,7 +28,7 @@ inline Vec3 draw_direction(SplitMix64& random) {
   return unit(draw_vector(random));
 }
 
-inline Lattice lattice_of(const Solid& solid, std::uint64_t points) {
+inline Lattice lattice_of_points(const Solid& solid, std::uint64_t points) {
   LatticeOptions options;
   options.target_points = points;
   return make_lattice(solid, options);
