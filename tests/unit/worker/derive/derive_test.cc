@@ -9,26 +9,15 @@
 #include <map>
 
 #include "core/mesh/map_mesh.h"
-#include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/stopping_context.h"
 #include "core/text/off_file.h"
+#include "derive/derived.h"
 #include "sample_job.h"
 
 namespace affskel::worker {
 namespace {
-
-v1::Lease lease_of(v1::TaskKind kind) {
-  return other_lease("t", kind);
-}
-
-template <typename Message>
-Message parsed(const Derived& derived) {
-  Message message;
-  EXPECT_TRUE(message.ParseFromString(derived.data));
-  return message;
-}
 
 class DeriveTest : public ::testing::Test {
  protected:
@@ -116,210 +105,6 @@ TEST_F(DeriveTest, ChordsGiveTheTorusItsAnnulus) {
   }
 }
 
-TEST(DeriveRidge, OfATorusIsItsAnnulus) {
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
-  const PreparedJob prepared(sample_mesh(), params);
-  const std::string field = finished_field(prepared);
-  v1::Lease of_points = lease_of(v1::TASK_KIND_SKELETON);
-  of_points.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
-  const auto points = parsed<v1::SkeletonPoints>(derive(of_points, prepared, field));
-  ASSERT_GT(points.point_size(), 20);
-  EXPECT_EQ(points.quality().threshold(), 6);
-  EXPECT_EQ(points.quality().inside_share(), 1);
-  EXPECT_EQ(points.quality().components(), 1U);
-  EXPECT_EQ(points.quality().holes(), 1U);
-  EXPECT_EQ(points.quality().lattice().components(), 1U);
-  EXPECT_EQ(points.quality().lattice().holes(), 1U);
-  EXPECT_EQ(points.quality().fragments(), 0U);
-  EXPECT_EQ(points.quality().limbs(), 0U);
-  EXPECT_EQ(points.quality().unreached_ends(), 0U);
-  EXPECT_EQ(points.quality().tunnels_size(), 0) << "the solid has the lattice's";
-  EXPECT_FALSE(points.quality().has_bridges());
-  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
-  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
-  const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
-  const int vertices = sheet.xyz_size() / 3;
-  ASSERT_EQ(vertices, points.point_size()) << "the sheet's vertices are the skeleton's points";
-  ASSERT_EQ(sheet.normal_a_size(), 3 * vertices);
-  ASSERT_EQ(sheet.normal_b_size(), 3 * vertices);
-  ASSERT_EQ(sheet.erosion_size(), vertices);
-  ASSERT_EQ(sheet.strength_size(), vertices);
-  ASSERT_EQ(sheet.ratio_size(), vertices);
-  ASSERT_EQ(sheet.kind_size(), vertices);
-  ASSERT_EQ(sheet.area_size(), vertices);
-  const double spacing = prepared.lattice().spacing;
-  int on_ridge = 0;
-  for (int v = 0; v < vertices; ++v) {
-    EXPECT_EQ(sheet.xyz(3 * v), points.xyz(3 * v));
-    EXPECT_LT(std::abs(sheet.xyz(3 * v + 2)), 0.1 * spacing);
-    EXPECT_LE(sheet.ratio(v), 1);
-    EXPECT_LE(sheet.kind(v), 3U);
-    if (sheet.kind(v) <= 1) {
-      ++on_ridge;
-      EXPECT_GE(sheet.strength(v), 6 - 1e-9);
-      // The level surfaces mirror each other in the plane z = 0.
-      EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
-    }
-    EXPECT_EQ(sheet.erosion(v), points.erosion(v));
-  }
-  EXPECT_GT(on_ridge, vertices / 2);
-}
-
-// A box of side 400 with a needle of 600 on top, thinner than the spacing and between the lattice's lines.
-TEST(DeriveRidge, NamesTheEndsThatTheLatticeIsTooCoarseFor) {
-  core::Mesh mesh = core::make_box(400, 400, 400);
-  const core::Mesh needle = core::make_box(4, 4, 700);
-  const auto first = static_cast<std::uint32_t>(mesh.points.size());
-  for (const core::Vec3& p : needle.points) mesh.points.push_back(p + core::Vec3{183, 213, 300});
-  for (const core::Triangle& t : needle.triangles)
-    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_spacing(50);
-  const PreparedJob prepared(core::write_off(mesh), params);
-  v1::Lease lease = lease_of(v1::TASK_KIND_SKELETON);
-  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
-  const v1::SkeletonQuality quality =
-      parsed<v1::SkeletonPoints>(derive(lease, prepared, finished_field(prepared))).quality();
-  EXPECT_EQ(quality.unreached_ends(), 1U);
-  ASSERT_EQ(quality.unreached_size(), 1);
-  EXPECT_EQ(quality.unreached(0).z(), 1000);
-  EXPECT_GT(quality.unreached(0).size(), 600);
-  EXPECT_LT(quality.unreached(0).size(), 900);
-  EXPECT_EQ(quality.tunnels_size(), 0);
-}
-
-// One line round, whose quality tells of the curve and of the lattice.
-TEST(DeriveCurve, OfATorusIsItsCircle) {
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
-  const PreparedJob prepared(sample_mesh(), params);
-  const std::string field = finished_field(prepared);
-  v1::Lease of_points = lease_of(v1::TASK_KIND_SKELETON);
-  of_points.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
-  const auto points = parsed<v1::SkeletonPoints>(derive(of_points, prepared, field));
-  const v1::SkeletonQuality& quality = points.quality();
-  EXPECT_EQ(quality.threshold(), 0.9);
-  EXPECT_EQ(quality.components(), 1U);
-  EXPECT_EQ(quality.holes(), 1U);
-  EXPECT_EQ(quality.lattice().holes(), 1U);
-  EXPECT_EQ(quality.branches(), 1U);
-  EXPECT_EQ(quality.ends(), 0U);
-  EXPECT_EQ(quality.opened(), 0U);
-  EXPECT_EQ(quality.inside_share(), 1);
-  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
-  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
-  const v1::TriangleMesh lines = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
-  const int vertices = lines.xyz_size() / 3;
-  ASSERT_EQ(vertices, points.point_size());
-  EXPECT_EQ(lines.corners_size(), 0);
-  EXPECT_EQ(lines.segments_size(), 2 * vertices) << "a loop";
-  ASSERT_EQ(lines.erosion_size(), vertices);
-  ASSERT_EQ(lines.area_size(), vertices);
-  ASSERT_EQ(lines.distance_size(), vertices);
-  ASSERT_EQ(lines.beyond_size(), vertices);
-  for (int v = 0; v < vertices; ++v) {
-    EXPECT_LT(std::abs(lines.xyz(3 * v + 2)), 0.1 * prepared.lattice().spacing);
-    EXPECT_GT(lines.distance(v), 2 * prepared.lattice().spacing);
-    EXPECT_LT(lines.beyond(v), 0.1);
-    EXPECT_GT(lines.erosion(v), 0);
-  }
-}
-
-v1::SolidParts parts_of(const PreparedJob& prepared, const std::string& field, double threshold = 0,
-                        unsigned threads = 1) {
-  v1::Lease lease = lease_of(v1::TASK_KIND_PARTS);
-  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
-  lease.mutable_skeleton()->set_threshold(threshold);
-  return parsed<v1::SolidParts>(derive(lease, prepared, field, nullptr, threads));
-}
-
-// One loop: all of the volume and of the surface; everywhere as thick as its tube.
-TEST(DeriveParts, OfATorusIsOne) {
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
-  const PreparedJob prepared(sample_mesh(), params);
-  const std::string field = finished_field(prepared);
-  const v1::SolidParts solid = parts_of(prepared, field);
-  ASSERT_EQ(solid.parts_size(), 1);
-  const v1::SolidPart& part = solid.parts(0);
-  EXPECT_EQ(part.kind(), v1::PART_KIND_LOOP);
-  EXPECT_FALSE(part.has_angle());
-  EXPECT_NEAR(part.volume(), prepared.solid().volume, 1e-9 * prepared.solid().volume);
-  EXPECT_NEAR(part.surface_area(), solid.surface_area(), 1e-9 * solid.surface_area());
-  const auto& xyz = solid.surface().xyz();
-  double low = xyz[2], high = xyz[2];
-  for (int v = 2; v < xyz.size(); v += 3) low = std::min(low, xyz[v]), high = std::max(high, xyz[v]);
-  const double tube = 0.5 * (high - low);
-  for (const double thickness : solid.thickness()) {
-    EXPECT_GT(thickness, 0.25 * tube);  // the skeleton is an annulus
-    EXPECT_LT(thickness, 1.6 * tube);
-  }
-  EXPECT_EQ(solid.point_part_size(), static_cast<int>(prepared.lattice().points));
-  EXPECT_EQ(parts_of(prepared, field, 0, 3).SerializeAsString(), solid.SerializeAsString());
-  double greatest = 0;
-  for (const core::FieldValue& value : unpack_field(field, prepared.lattice().points))
-    greatest = std::max(greatest, value.erosion);
-  EXPECT_EQ(solid.greatest_erosion(), greatest);
-}
-
-// Three bars that cross at right angles in their middle: six limbs of the same length, and a heavy middle.
-TEST(DeriveParts, OfACrossAreItsArms) {
-  const double arm = 10, half = 1.25;
-  const core::ImplicitFunction cross = [&](const core::Vec3& p) {
-    double least = 1e300;
-    const double reach[] = {arm, 0.9 * arm, 0.8 * arm};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double along = std::clamp(p[axis], -reach[axis], reach[axis]);
-      const core::Vec3 foot{axis == 0 ? along : 0, axis == 1 ? along : 0, axis == 2 ? along : 0};
-      least = std::min(least, core::norm(p - foot) - half);
-    }
-    return least;
-  };
-  const core::Mesh mesh =
-      core::mesh_zero_set(cross, {.low = {-12, -12, -12}, .high = {12, 12, 12}, .spacing = 0.5});
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_spacing(0.3);
-  params.set_directions("sphere:320");
-  const PreparedJob prepared(core::write_off(mesh), params);
-  const std::string field = finished_field(prepared);
-  const v1::SolidParts solid = parts_of(prepared, field);
-  double volume = 0, area = 0;
-  std::vector<double> limbs;
-  for (const v1::SolidPart& part : solid.parts()) {
-    volume += part.volume();
-    area += part.surface_area();
-    if (part.length() < 2) continue;  // between the joints of the middle
-    limbs.push_back(part.length());
-    EXPECT_EQ(part.kind(), v1::PART_KIND_LIMB);
-    EXPECT_NEAR(part.straight_length(), part.length(), 0.3);
-    EXPECT_NEAR(part.mean_radius(), half, 0.15);
-    EXPECT_TRUE(std::abs(part.angle() - 90) < 2 || std::abs(part.angle() - 180) < 2) << part.angle();
-  }
-  EXPECT_NEAR(volume, prepared.solid().volume, 1e-9 * volume);
-  EXPECT_NEAR(area, solid.surface_area(), 1e-9 * area);
-  ASSERT_EQ(limbs.size(), 6U);
-  std::sort(limbs.begin(), limbs.end());
-  for (std::size_t n = 0; n < 6; ++n)
-    EXPECT_NEAR(limbs[n], (0.8 + 0.1 * static_cast<double>(n / 2)) * arm, 0.6);
-  // A triangle belongs to the limb that it lies on: it is as far out as that limb's end, along its axis.
-  for (int t = 0; t < solid.triangle_part_size(); ++t) {
-    core::Vec3 at;
-    for (int k = 0; k < 3; ++k) {
-      const int v = static_cast<int>(solid.surface().corners(3 * t + k));
-      at = at + (1.0 / 3) * core::Vec3{solid.surface().xyz(3 * v), solid.surface().xyz(3 * v + 1),
-                                       solid.surface().xyz(3 * v + 2)};
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(at[axis]) < 2.5) continue;
-      const auto& to = solid.parts(static_cast<int>(solid.triangle_part(t)) - 1).to();
-      EXPECT_GT(to[axis] * at[axis], 0) << t;
-      EXPECT_NEAR(solid.thickness(t), half, std::abs(at[axis]) < 7 ? 0.35 : 2)
-          << at.x << " " << at.y << " " << at.z;
-    }
-  }
-}
-
 // Every sheet's vertex has the part of the sample point that it lies at, whatever the threshold.
 TEST_F(DeriveTest, SheetsHaveParts) {
   const v1::SolidParts solid = parts_of(prepared_, field_);
@@ -334,19 +119,6 @@ TEST_F(DeriveTest, SheetsHaveParts) {
       EXPECT_LE(part, static_cast<std::uint32_t>(solid.parts_size()));
     }
   }
-}
-
-// A cube about one sample point.
-TEST(DeriveParts, OfOnePointIsAPoint) {
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_spacing(1.2);
-  const PreparedJob prepared(core::write_off(core::make_box(1, 1, 1)), params);
-  ASSERT_EQ(prepared.lattice().points, 1U);
-  const v1::SolidParts solid = parts_of(prepared, finished_field(prepared));
-  ASSERT_EQ(solid.parts_size(), 1);
-  EXPECT_EQ(solid.parts(0).kind(), v1::PART_KIND_POINT);
-  EXPECT_EQ(solid.parts(0).volume_share(), 1);
-  EXPECT_NEAR(solid.parts(0).surface_area(), 6, 1e-9);
 }
 
 TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {

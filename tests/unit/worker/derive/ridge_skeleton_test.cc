@@ -1,0 +1,126 @@
+#include "derive/ridge_skeleton.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/shapes/shapes.h"
+#include "core/text/off_file.h"
+#include "derive/derived.h"
+#include "sample_job.h"
+
+namespace affskel::worker {
+namespace {
+
+TEST(DeriveRidge, OfATorusIsItsAnnulus) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
+  const PreparedJob prepared(sample_mesh(), params);
+  const std::string field = finished_field(prepared);
+  v1::Lease of_points = lease_of(v1::TASK_KIND_SKELETON);
+  of_points.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const auto points = parsed<v1::SkeletonPoints>(derive(of_points, prepared, field));
+  ASSERT_GT(points.point_size(), 20);
+  EXPECT_EQ(points.quality().threshold(), 6);
+  EXPECT_EQ(points.quality().inside_share(), 1);
+  EXPECT_EQ(points.quality().components(), 1U);
+  EXPECT_EQ(points.quality().holes(), 1U);
+  EXPECT_EQ(points.quality().lattice().components(), 1U);
+  EXPECT_EQ(points.quality().lattice().holes(), 1U);
+  EXPECT_EQ(points.quality().fragments(), 0U);
+  EXPECT_EQ(points.quality().limbs(), 0U);
+  EXPECT_EQ(points.quality().unreached_ends(), 0U);
+  EXPECT_EQ(points.quality().tunnels_size(), 0) << "the solid has the lattice's";
+  EXPECT_FALSE(points.quality().has_bridges());
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
+  const int vertices = sheet.xyz_size() / 3;
+  ASSERT_EQ(vertices, points.point_size()) << "the sheet's vertices are the skeleton's points";
+  ASSERT_EQ(sheet.normal_a_size(), 3 * vertices);
+  ASSERT_EQ(sheet.normal_b_size(), 3 * vertices);
+  ASSERT_EQ(sheet.erosion_size(), vertices);
+  ASSERT_EQ(sheet.strength_size(), vertices);
+  ASSERT_EQ(sheet.ratio_size(), vertices);
+  ASSERT_EQ(sheet.kind_size(), vertices);
+  ASSERT_EQ(sheet.area_size(), vertices);
+  const double spacing = prepared.lattice().spacing;
+  int on_ridge = 0;
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_EQ(sheet.xyz(3 * v), points.xyz(3 * v));
+    EXPECT_LT(std::abs(sheet.xyz(3 * v + 2)), 0.1 * spacing);
+    EXPECT_LE(sheet.ratio(v), 1);
+    EXPECT_LE(sheet.kind(v), 3U);
+    if (sheet.kind(v) <= 1) {
+      ++on_ridge;
+      EXPECT_GE(sheet.strength(v), 6 - 1e-9);
+      // The level surfaces mirror each other in the plane z = 0.
+      EXPECT_LT(sheet.normal_a(3 * v + 2) * sheet.normal_b(3 * v + 2), 0);
+    }
+    EXPECT_EQ(sheet.erosion(v), points.erosion(v));
+  }
+  EXPECT_GT(on_ridge, vertices / 2);
+}
+
+// A box of side 400 with a needle of 600 on top, thinner than the spacing and between the lattice's lines.
+TEST(DeriveRidge, NamesTheEndsThatTheLatticeIsTooCoarseFor) {
+  core::Mesh mesh = core::make_box(400, 400, 400);
+  const core::Mesh needle = core::make_box(4, 4, 700);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  for (const core::Vec3& p : needle.points) mesh.points.push_back(p + core::Vec3{183, 213, 300});
+  for (const core::Triangle& t : needle.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(50);
+  const PreparedJob prepared(core::write_off(mesh), params);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SKELETON);
+  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const v1::SkeletonQuality quality =
+      parsed<v1::SkeletonPoints>(derive(lease, prepared, finished_field(prepared))).quality();
+  EXPECT_EQ(quality.unreached_ends(), 1U);
+  ASSERT_EQ(quality.unreached_size(), 1);
+  EXPECT_EQ(quality.unreached(0).z(), 1000);
+  EXPECT_GT(quality.unreached(0).size(), 600);
+  EXPECT_LT(quality.unreached(0).size(), 900);
+  EXPECT_EQ(quality.tunnels_size(), 0);
+}
+
+// One line round, whose quality tells of the curve and of the lattice.
+TEST(DeriveCurve, OfATorusIsItsCircle) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.5 * params.sampling().spacing());
+  const PreparedJob prepared(sample_mesh(), params);
+  const std::string field = finished_field(prepared);
+  v1::Lease of_points = lease_of(v1::TASK_KIND_SKELETON);
+  of_points.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  const auto points = parsed<v1::SkeletonPoints>(derive(of_points, prepared, field));
+  const v1::SkeletonQuality& quality = points.quality();
+  EXPECT_EQ(quality.threshold(), 0.9);
+  EXPECT_EQ(quality.components(), 1U);
+  EXPECT_EQ(quality.holes(), 1U);
+  EXPECT_EQ(quality.lattice().holes(), 1U);
+  EXPECT_EQ(quality.branches(), 1U);
+  EXPECT_EQ(quality.ends(), 0U);
+  EXPECT_EQ(quality.opened(), 0U);
+  EXPECT_EQ(quality.inside_share(), 1);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  const v1::TriangleMesh lines = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
+  const int vertices = lines.xyz_size() / 3;
+  ASSERT_EQ(vertices, points.point_size());
+  EXPECT_EQ(lines.corners_size(), 0);
+  EXPECT_EQ(lines.segments_size(), 2 * vertices) << "a loop";
+  ASSERT_EQ(lines.erosion_size(), vertices);
+  ASSERT_EQ(lines.area_size(), vertices);
+  ASSERT_EQ(lines.distance_size(), vertices);
+  ASSERT_EQ(lines.beyond_size(), vertices);
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_LT(std::abs(lines.xyz(3 * v + 2)), 0.1 * prepared.lattice().spacing);
+    EXPECT_GT(lines.distance(v), 2 * prepared.lattice().spacing);
+    EXPECT_LT(lines.beyond(v), 0.1);
+    EXPECT_GT(lines.erosion(v), 0);
+  }
+}
+
+}  // namespace
+}  // namespace affskel::worker
