@@ -1,6 +1,7 @@
 #include "traffic/byte_stream.h"
 
 #include <openssl/ssl.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -38,6 +39,11 @@ class StreamOf : public ByteStream {
 
   asio::awaitable<void> write(asio::const_buffer bytes) override {
     co_await asio::async_write(stream_, bytes, use_awaitable);
+  }
+
+  bool peer_has_ended() override {
+    pollfd socket{stream_.lowest_layer().native_handle(), POLLRDHUP, 0};
+    return poll(&socket, 1, 0) > 0;
   }
 
   void end() override {

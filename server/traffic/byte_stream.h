@@ -28,6 +28,8 @@ class ByteStream {
   virtual boost::asio::awaitable<std::size_t> read(boost::asio::mutable_buffer room) = 0;
   /// All of them.
   virtual boost::asio::awaitable<void> write(boost::asio::const_buffer bytes) = 0;
+  /// Whether the peer has ended, even if bytes that it sent before wait to be read.
+  virtual bool peer_has_ended() = 0;
   /// Tells the peer that nothing more comes.
   virtual void end() = 0;
   /// Ends what is under way.

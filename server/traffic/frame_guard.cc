@@ -1,6 +1,7 @@
 #include "traffic/frame_guard.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace affskel::server {
 namespace {
@@ -20,6 +21,9 @@ enum Type : std::uint8_t {
 constexpr std::uint8_t kEndStream = 1;  // of DATA and HEADERS
 constexpr std::uint8_t kAck = 1;        // of SETTINGS and PING
 constexpr std::uint8_t kEndHeaders = 4;
+
+// Of a message: gRPC keeps about as many bytes beside those of a frame.
+constexpr std::size_t kCrumbBytes = 128;
 
 }  // namespace
 
@@ -77,7 +81,9 @@ std::size_t FrameGuard::on_client_frame(const Frame& frame) {
       return known || frame.stream > last_stream_ ? 1 : 0;  // not of calls that have ended meanwhile
     }
     case kData:
-      return frame.length == 0 && (frame.flags & kEndStream) == 0 ? 1 : 0;
+      if ((frame.flags & kEndStream) != 0) return 0;
+      if (frame.length < kCrumbBytes) on_crumb(frame.stream);
+      return frame.length == 0 ? 1 : 0;
     case kSettings:
     case kPing:
       return (frame.flags & kAck) == 0 ? 1 : 0;
@@ -101,16 +107,25 @@ std::size_t FrameGuard::on_headers(const Frame& frame) {
   if (is_new) {
     last_stream_ = frame.stream;
     ++calls_;
-    open_.emplace(frame.stream, 0);
+    open_.try_emplace(frame.stream);
   }
   const auto call = open_.find(frame.stream);
   if (call == open_.end()) return 0;  // it has ended; gRPC passes over what comes late
-  ++call->second;
-  if (++header_frames_ > limits_.header_frames) {
-    throw FrameFault("more than " + std::to_string(limits_.header_frames) +
-                     " frames of headers of calls under way");
-  }
+  hold(call->second.headers);
   return is_new && open_.size() > limits_.calls ? 1 : 0;
+}
+
+void FrameGuard::on_crumb(std::uint32_t stream) {
+  const auto call = open_.find(stream);
+  if (call != open_.end()) hold(call->second.crumbs);
+}
+
+void FrameGuard::hold(std::size_t& frames) {
+  ++frames;
+  if (++held_frames_ > limits_.held_frames) {
+    throw FrameFault("the calls under way are cut into more than " + std::to_string(limits_.held_frames) +
+                     " frames");
+  }
 }
 
 void FrameGuard::from_server(std::string_view bytes) {
@@ -121,13 +136,19 @@ void FrameGuard::on_server_frame(const Frame& frame) {
   if (frame.type == kData) answered_ += frame.length;
   const bool ends = (frame.type == kData || frame.type == kHeaders) && (frame.flags & kEndStream) != 0;
   if (frame.type == kReset && open_.contains(frame.stream)) ++refused_;
+  if (frame.type == kWindowUpdate) release_crumbs(frame.stream);
   if (ends || frame.type == kReset) end(frame.stream);
+}
+
+void FrameGuard::release_crumbs(std::uint32_t stream) {
+  const auto call = open_.find(stream);
+  if (call != open_.end()) held_frames_ -= std::exchange(call->second.crumbs, 0);
 }
 
 void FrameGuard::end(std::uint32_t stream) {
   const auto call = open_.find(stream);
   if (call == open_.end()) return;
-  header_frames_ -= call->second;
+  held_frames_ -= call->second.headers + call->second.crumbs;
   open_.erase(call);
 }
 

@@ -83,7 +83,7 @@ struct Relay::Shared {
   }
 
   const RelayOptions options;
-  std::atomic<std::size_t> header_frames = 0;
+  std::atomic<std::size_t> held_frames = 0;
   base::Mutex mutex;
   std::unordered_map<std::string, TokenBucket> of_peers ABSL_GUARDED_BY(mutex);
   TokenBucket of_all ABSL_GUARDED_BY(mutex);
@@ -110,7 +110,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   }
 
   ~Connection() override {
-    note_header_frames(0);
+    note_held_frames(0);
     if (guard_.open_calls() > shared_.options.free_calls) shared_.charge(peer_, guard_.open_calls());
     {
       const base::MutexLock lock(shared_.mutex);
@@ -149,8 +149,10 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   /// From the client to gRPC.
   asio::awaitable<void> inward([[maybe_unused]] std::shared_ptr<Connection> self) {
     try {
-      // Peers that hang up on their calls come again at once, and the first words over TLS cost most.
-      co_await pause(std::min<Clock::duration>(shared_.debt(peer_), shared_.options.longest_welcome));
+      // Peers that hang up come again at once, and the beginning costs most, over TLS above all.
+      const Clock::duration owed = shared_.charge(peer_, shared_.options.newcomer);
+      co_await pause(std::min<Clock::duration>(owed, shared_.options.longest_welcome));
+      if (client_->peer_has_ended()) co_return close();
       co_await client_->begin();
       bool more = true;
       while (more) more = co_await pass_inward();
@@ -173,7 +175,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     const std::size_t got = co_await client_->read(piece.room());
     if (got == 0) co_return false;
     std::size_t cost = guard_.from_client(piece.first(got));
-    note_header_frames(guard_.header_frames());
+    note_held_frames(guard_.held_frames());
     // Answers pile up for a client that reads none, of which the shortest are bounded by nothing else.
     if (is_sending_) cost += static_cast<std::size_t>(guard_.calls() - calls_);
     calls_ = guard_.calls();
@@ -218,18 +220,18 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   }
 
   /// The connections that have most of what all have too much of must go.
-  void note_header_frames(std::size_t frames) {
-    const bool fewer = frames <= header_frames_;
-    const std::size_t all = shared_.header_frames += frames - header_frames_;
-    header_frames_ = frames;
-    if (fewer || all <= shared_.options.header_frames) return;
+  void note_held_frames(std::size_t frames) {
+    const bool fewer = frames <= held_frames_;
+    const std::size_t all = shared_.held_frames += frames - held_frames_;
+    held_frames_ = frames;
+    if (fewer || all <= shared_.options.held_frames) return;
     std::size_t connections = 1;
     {
       const base::MutexLock lock(shared_.mutex);
       connections += shared_.connections.size();
     }
-    if (frames > shared_.options.header_frames / connections)
-      throw FrameFault("too many calls are under way, and most of them are its own");
+    if (frames > shared_.options.held_frames / connections)
+      throw FrameFault("too many frames of calls under way are held, and most of them are its own");
   }
 
   /// The client has said the first words.
@@ -265,7 +267,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     const std::size_t got = co_await server_->read(piece.room());
     if (got == 0) co_return false;
     guard_.from_server(piece.first(got));
-    note_header_frames(guard_.header_frames());
+    note_held_frames(guard_.held_frames());
     wait_until(Clock::now() + shared_.options.stall);
     is_sending_ = true;
     co_await client_->write(asio::buffer(piece.first(got)));
@@ -285,7 +287,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   FrameGuard guard_;
   TokenBucket bucket_;
   std::string unsent_;  // less than the first words
-  std::size_t header_frames_ = 0;
+  std::size_t held_frames_ = 0;
   std::uint64_t calls_ = 0;
   bool is_sending_ = false;
   std::atomic<std::uint64_t> answered_ = 0;

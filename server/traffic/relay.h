@@ -21,12 +21,14 @@ struct RelayOptions {
   std::chrono::milliseconds stall{
       20000};  ///< a peer that takes none of the bytes that wait for it is hung up on
   FrameLimits frames;
-  std::size_t header_frames = 16384;  ///< FrameLimits::header_frames, of all connections
+  std::size_t held_frames = 16384;  ///< FrameGuard::held_frames, of all connections
   /// Frames that make work (see FrameGuard) of a connection, of a peer and of all; of a peer and of all also
-  /// the calls that were under way when a connection was closed.
+  /// new connections, and the calls that were under way when one was closed.
   TokenBucketOptions of_connection{.burst = 256, .per_s = 128};
   TokenBucketOptions of_peer{.burst = 1024, .per_s = 512};
   TokenBucketOptions of_all{.burst = 4096, .per_s = 2048};
+  std::size_t newcomer =
+      4;  ///< what a connection costs its peer, in such frames: gRPC takes 1 ms to begin one
   std::chrono::milliseconds longest_welcome{200};  ///< that a new connection waits for what its peer owes
   std::size_t free_calls = 8;                      ///< of a connection under way, and ...
   std::size_t free_frames = 16;  ///< ... frames lately, that do not wait for what others owe

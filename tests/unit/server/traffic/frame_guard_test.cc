@@ -37,7 +37,7 @@ TEST(FrameGuardTest, FramesMayBeCutAnywhere) {
     EXPECT_EQ(cost, 2u) << "the settings, and a call that is taken back";
     EXPECT_EQ(guard.calls(), 2u) << size;
     EXPECT_EQ(guard.open_calls(), 1u) << size;
-    EXPECT_EQ(guard.header_frames(), 2u) << size;
+    EXPECT_EQ(guard.held_frames(), 2u) << size;
   }
 }
 
@@ -100,7 +100,7 @@ TEST(FrameGuardTest, CallsEndWithTheirAnswers) {
   guard.from_server(frame(kHeaders, kEndHeaders | kEndStream, 1, kBlock));
   guard.from_server(frame(kData, kEndStream, 3, "dd"));
   EXPECT_EQ(guard.open_calls(), 1u);
-  EXPECT_EQ(guard.header_frames(), 1u);
+  EXPECT_EQ(guard.held_frames(), 1u);
   EXPECT_EQ(guard.answered(), 502u);
   EXPECT_EQ(guard.from_client(frame(kReset, 0, 1, kFour)), 0u) << "too late to make work";
 }
@@ -116,12 +116,30 @@ TEST(FrameGuardTest, CallsThatTheServerTakesBackCostTheClient) {
 }
 
 TEST(FrameGuardTest, HeadersOfCallsUnderWayAreBounded) {
-  FrameGuard guard = begun({.header_frames = 3});
+  FrameGuard guard = begun({.held_frames = 3});
   guard.from_client(frame(kHeaders, 0, 1, kBlock) + frame(kContinuation, kEndHeaders, 1, kBlock));
   guard.from_client(frame(kHeaders, kEndHeaders, 3, kBlock));
   guard.from_server(frame(kHeaders, kEndHeaders | kEndStream, 3, kBlock));
   guard.from_client(frame(kHeaders, kEndHeaders, 5, kBlock));
   EXPECT_THROW(guard.from_client(frame(kHeaders, kEndHeaders, 7, kBlock)), FrameFault);
+}
+
+TEST(FrameGuardTest, CrumbsOfMessagesAreBoundedUntilTheyAreRead) {
+  FrameGuard guard = begun({.held_frames = 4});
+  guard.from_client(frame(kHeaders, kEndHeaders, 1, kBlock) + frame(kHeaders, kEndHeaders, 3, kBlock));
+  guard.from_client(frame(kData, 0, 1, "d") + frame(kData, 0, 3, std::string(127, 'd')));
+  guard.from_client(frame(kData, 0, 3, std::string(128, 'd')) + frame(kData, kEndStream, 3, "d"));
+  EXPECT_EQ(guard.held_frames(), 4u) << "what is long, and the last of a call, is not held for itself";
+  guard.from_server(frame(kWindowUpdate, 0, 0, kFour));
+  EXPECT_EQ(guard.held_frames(), 4u) << "it says nothing of one call";
+  guard.from_server(frame(kWindowUpdate, 0, 1, kFour));
+  EXPECT_EQ(guard.held_frames(), 3u);
+  guard.from_server(frame(kHeaders, kEndHeaders | kEndStream, 3, kBlock));
+  EXPECT_EQ(guard.held_frames(), 1u);
+  guard.from_client(frame(kData, 0, 3, "late"));
+  EXPECT_EQ(guard.held_frames(), 1u);
+  guard.from_client(frame(kData, 0, 1, "d") + frame(kData, 0, 1, "d") + frame(kData, 0, 1, "d"));
+  EXPECT_THROW(guard.from_client(frame(kData, 0, 1, "d")), FrameFault);
 }
 
 }  // namespace

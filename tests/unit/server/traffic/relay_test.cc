@@ -201,6 +201,39 @@ TEST(RelayTest, FramesThatMakeWorkWaitUntilTheyAreDue) {
   EXPECT_FALSE(server.has_bytes()) << "the eleventh is due in a quarter of an hour";
 }
 
+TEST(RelayTest, NewcomersWaitForWhatTheirPeerOwes) {
+  RelayOptions options = in_order();
+  options.of_peer = {.burst = 4, .per_s = 1e-3};
+  options.newcomer = 4;
+  options.longest_welcome = std::chrono::minutes(15);
+  Relay relay(options);
+  Relayed first(relay), second(relay);
+  first.client->send(kHello);
+  second.client->send(kHello);
+  EXPECT_EQ(first.server.get_future().get().read(kHello.size()), kHello);
+  let_pass(relay);
+  EXPECT_NE(second.server.get_future().wait_for(milliseconds(0)), std::future_status::ready);
+  second.line->hang_up();
+}
+
+TEST(RelayTest, WhoHasLeftIsNotBegun) {
+  Relay relay({});
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends), 0);
+  {
+    const Socket client(ends[0]);
+    client.send(kHello);
+  }
+  std::promise<void> ended;
+  relay.take(ends[1], "a", nullptr)
+      ->start({[](int socket, bool) {
+                 close(socket);
+                 ADD_FAILURE() << "begun";
+               },
+               nullptr, [&] { ended.set_value(); }});
+  ended.get_future().wait();
+}
+
 TEST(RelayTest, CallsThatEndWithTheirConnectionAreOwed) {
   RelayOptions options = in_order();
   options.of_peer = {.burst = 20, .per_s = 1e-3};
