@@ -38,33 +38,48 @@ int Places::rank(const Entry& entry) const {
   return entry.used ? kIdle : kSilent;
 }
 
-bool Places::close_one(const Choice& choice) {
-  auto found = entries_.end();
+std::size_t Places::most_strangers() const {
+  return limits_.connections - std::min(limits_.connections, limits_.for_known);
+}
+
+Places::Entry* Places::next_to_go(const Choice& choice) {
+  Entry* found = nullptr;
   const auto order = [this](const Entry& entry) { return std::make_pair(rank(entry), entry.since); };
-  for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
-    if (entry->closing || !choice(*entry)) continue;
-    if (found == entries_.end() || order(*entry) < order(*found)) found = entry;
+  for (Entry& entry : entries_) {
+    if (entry.closing || !choice(entry)) continue;
+    if (found == nullptr || order(entry) < order(*found)) found = &entry;
   }
-  if (found == entries_.end()) return false;
+  return found;
+}
+
+bool Places::close_one(const Choice& choice) {
+  Entry* const found = next_to_go(choice);
+  if (found == nullptr) return false;
   found->closing = true;
   found->close();
   return true;
 }
 
+Places::Clock::duration Places::pause() {
+  if (count(is_stranger) < most_strangers() && size() < limits_.connections) return {};
+  const Entry* const next = next_to_go(is_stranger);
+  if (next == nullptr) return {};
+  return std::max(Clock::duration::zero(), next->came + limits_.stay - now_());
+}
+
 std::unique_ptr<Places::Place> Places::take(const std::string& peer, std::function<void()> close) {
-  const Choice stranger = [](const Entry& entry) { return entry.owner.empty(); };
   const Choice neighbour = [&](const Entry& entry) { return entry.owner.empty() && entry.peer == peer; };
   const Choice known_idle = [&](const Entry& entry) { return !entry.owner.empty() && rank(entry) < kBusy; };
   const std::size_t neighbours = count(neighbour);
   const bool alone = neighbours == size();
   if (!alone && neighbours >= std::max<std::size_t>(1, limits_.connections / 2) && !close_one(neighbour))
     return nullptr;
-  const std::size_t most_strangers = limits_.connections - std::min(limits_.connections, limits_.for_known);
-  while (count(stranger) >= most_strangers) {
-    if (!close_one(stranger)) return nullptr;
+  while (count(is_stranger) >= most_strangers()) {
+    if (!close_one(is_stranger)) return nullptr;
   }
-  if (size() >= limits_.connections && !close_one(stranger) && !close_one(known_idle)) return nullptr;
-  entries_.push_back({peer, std::move(close), now_()});
+  if (size() >= limits_.connections && !close_one(is_stranger) && !close_one(known_idle)) return nullptr;
+  const Clock::time_point now = now_();
+  entries_.push_back({peer, std::move(close), now, now});
   return std::make_unique<Place>(*this, std::prev(entries_.end()));
 }
 

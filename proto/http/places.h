@@ -29,6 +29,9 @@ class Places {
   explicit Places(PlaceLimits limits, std::function<Clock::time_point()> now = Clock::now)
       : limits_(limits), now_(std::move(now)) {}
 
+  /// How long newcomers are to wait to be accepted: until who would give way to them has stayed long enough.
+  Clock::duration pause();
+
   /// For a new connection.
   /// @param peer see peer_key. @param close is called, once at most, to give the place to another.
   /// @return null when there is no room.
@@ -42,6 +45,7 @@ class Places {
   struct Entry {
     std::string peer;
     std::function<void()> close;
+    Clock::time_point came;
     Clock::time_point since;  // when the stage began
     Stage stage = Stage::kIdle;
     std::string owner = {};  // empty = a stranger's
@@ -51,8 +55,11 @@ class Places {
   using Entries = std::list<Entry>;
   using Choice = std::function<bool(const Entry&)>;
 
+  static bool is_stranger(const Entry& entry) { return entry.owner.empty(); }
   std::size_t count(const Choice& choice) const;
   int rank(const Entry& entry) const;
+  std::size_t most_strangers() const;
+  Entry* next_to_go(const Choice& choice);
   bool close_one(const Choice& choice);
 
   const PlaceLimits limits_;

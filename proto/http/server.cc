@@ -83,6 +83,11 @@ class Server::Impl {
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
+      const Places::Clock::duration wait = places_.pause();
+      if (wait > Places::Clock::duration::zero()) {
+        pause.expires_after(wait);
+        co_await pause.async_wait(use_awaitable);
+      }
       error_code error;
       tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(use_awaitable, error));
       if (error) {

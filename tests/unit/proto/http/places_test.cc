@@ -70,6 +70,24 @@ TEST(Places, WhoHasJustComeIsNotSilentYet) {
   EXPECT_EQ(room.gone, (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(Places, WhoHasJustComeIsHeardBeforeTheNextCome) {
+  PlaceLimits limits = four();
+  limits.stay = milliseconds(250);
+  Room room(limits);
+  for (const char* peer : {"a", "b", "c"}) {
+    EXPECT_EQ(room.places.pause(), milliseconds(0)) << "there is room";
+    room.come(peer);
+    room.now += milliseconds(20);
+  }
+  EXPECT_EQ(room.places.pause(), milliseconds(190)) << "of the 250 of the first";
+  room.now += milliseconds(190);
+  EXPECT_EQ(room.places.pause(), milliseconds(0));
+  room.come("d");
+  EXPECT_EQ(room.places.pause(), milliseconds(20)) << "the second";
+  for (std::size_t i : {1, 2, 3}) room.taken[i]->belongs_to(i == 1 ? "ada" : "eve");
+  EXPECT_EQ(room.places.pause(), milliseconds(0)) << "those who are known give way as ever";
+}
+
 TEST(Places, WhoWaitsForAnAnswerGoesLast) {
   Room room(four());
   for (const char* peer : {"a", "b", "c"}) {
