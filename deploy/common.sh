@@ -4,7 +4,7 @@
 project_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=$project_dir/build/release
 
-# as_root COMMAND...: run it as root, through sudo when we are somebody else.
+# as_root COMMAND...: run it as root, through sudo when another user runs the script.
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then
     "$@"
@@ -89,8 +89,8 @@ build_jobs() {
   echo $((cores < by_memory ? cores : by_memory))
 }
 
-# build [-DNAME=VALUE...] TARGET...: configure and build the release preset; several files at once, unless somebody has
-# built here in another way.
+# build [-DNAME=VALUE...] TARGET...: configure and build the release preset; several files at once, unless the folder
+# was configured in another way.
 build() {
   local settings=()
   [ -e "$build_dir/CMakeCache.txt" ] || settings+=(-DAFFSKEL_UNITY=ON)

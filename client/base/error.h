@@ -40,7 +40,7 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
 /// Error for a file that could not be written, as error_from_errno.
 ClientError error_from_file(const base::FileError& error);
 
-/// Error for a failed system call on `file`, by errno: disk full 8, a pipe that nobody reads 141, no
+/// Error for a failed system call on `file`, by errno: disk full 8, a pipe without a reader 141, no
 /// permission 7, otherwise `otherwise`.
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise = ExitCode::kUsage);

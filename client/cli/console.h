@@ -11,17 +11,16 @@
 namespace affskel::client {
 
 struct ConsoleStyle {
-  bool json = false;        ///< results and errors as JSON documents
-  bool quiet = false;       ///< no notes and no progress; warnings and errors stay
-  bool terminal = false;    ///< standard error is a terminal: progress bars
-  bool colour = false;      ///< ANSI colours on standard error
-  bool out_colour = false;  ///< ANSI colours on standard output
+  bool json = false;         ///< results and errors as JSON documents
+  bool quiet = false;        ///< no notes and no progress; warnings and errors stay
+  bool terminal = false;     ///< standard error is a terminal: progress bars
+  bool colour = false;       ///< ANSI colours on standard error
+  bool out_colour = false;   ///< ANSI colours on standard output
   unsigned out_columns = 0;  ///< of the terminal there; 0 = none
 };
 
 /// Results go to `out`, everything for people to `err`.  Whatever writes to `out` throws ClientError
-/// kClosedPipe when nobody reads it any more.  Notes may come from any thread, everything else from
-/// one.
+/// kClosedPipe when its reader has gone.  Notes may come from any thread, everything else from one.
 class Console {
  public:
   Console(std::ostream& out, std::ostream& err, const ConsoleStyle& style)
@@ -39,7 +38,7 @@ class Console {
 
   void note(std::string_view text);
   void warning(std::string_view text);
-  /// Nothing for kClosedPipe: who closed the pipe knows.
+  /// Nothing for kClosedPipe: the reader has closed the pipe.
   void error(const ClientError& error);
 
   /// @throws ClientError when standard output did not take everything (disk full).

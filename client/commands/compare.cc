@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,10 +23,9 @@ CompareRequest request_of(const CompareOptions& options) {
   CompareRequest request = options.request;
   if (options.radii.empty()) return request;
   const std::optional<std::vector<double>> radii = parse_numbers(options.radii);
-  if (!radii || std::any_of(radii->begin(), radii->end(), [](double r) { return r < 0; })) {
+  if (!radii)
     throw ClientError(ExitCode::kUsage,
-                      "--radii: expected numbers >= 0 separated by commas, not '" + options.radii + "'");
-  }
+                      "--radii: expected numbers separated by commas, not '" + options.radii + "'");
   request.comparison.radii = *radii;
   return request;
 }
@@ -37,13 +35,13 @@ void run_compare(Console& console, const CompareOptions& options) {
   const Comparison comparison = compare(request);
   say(console, comparison.notices);
   nlohmann::ordered_json document = comparison_json(comparison);
-  const auto tell_file = [&](const char* key, const std::string& file) {
+  const auto show_file = [&](const char* key, const std::string& file) {
     if (file.empty()) return;
     console.note("wrote " + file);
     document[key] = file;
   };
-  tell_file("plot", request.plot);
-  tell_file("csv", request.table);
+  show_file("plot", request.plot);
+  show_file("csv", request.table);
   console.result(comparison_text(comparison));
   console.document(document);
 }

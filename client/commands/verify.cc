@@ -7,6 +7,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/shared/job_options.h"
 #include "client/text/message_json.h"
+#include "client/text/printable.h"
 #include "client/text/verification_text.h"
 
 namespace affskel::client {
@@ -41,7 +42,11 @@ void run_verify(Context& context, const VerifyOptions& options) {
   const v1::Verification verification = follow_verification(context, options);
   context.console().result(verification_details(verification));
   context.console().document(to_json(verification));
-  if (const std::string why = difference_text(verification); !why.empty()) {
+  if (const v1::VerifiedSample* sample = first_differing(verification)) {
+    std::string why = difference_text(*sample);
+    if (sample->givers_size() > 0)
+      why += "; affskel-client resume " + verification.job() + " --distrust " +
+             one_line(sample->givers(0).worker()) + " has it computed again";
     throw ClientError(ExitCode::kJobFailed, why);
   }
   if (const std::string why = gap_text(verification); !why.empty()) {

@@ -48,7 +48,7 @@ wire::Address http_address(const WebCommandOptions& options) {
 
 // Whose the page is.  On a loopback address its user's, who acts as the client does, unless the server
 // refuses the client; anywhere else people sign in.
-// @throws ClientError kNotAllowed when they could not, since the server takes everybody.
+// @throws ClientError kNotAllowed when they could not, since the server asks for no token.
 bool is_personal(const Backend& backend, const wire::Address& address) {
   if (address.is_local() && !backend.refuses_us()) return true;
   if (!backend.refuses_strangers()) {

@@ -13,7 +13,7 @@ ExitCode exit_code_of(grpc::StatusCode code) {
     case grpc::StatusCode::DATA_LOSS:  // what was stored is damaged: there is nothing to be had
       return ExitCode::kNotFound;
     case grpc::StatusCode::UNAVAILABLE:
-    case grpc::StatusCode::CANCELLED:  // by a server that closes; on this side nobody cancels
+    case grpc::StatusCode::CANCELLED:  // by a server that closes; the client never cancels
     case grpc::StatusCode::DEADLINE_EXCEEDED:
     case grpc::StatusCode::ABORTED:
       return ExitCode::kUnreachable;

@@ -25,7 +25,7 @@ struct EmbeddedPaths {
 EmbeddedPaths embedded_paths(const Environment& environment);
 
 /// Creates `directory` (and its parents) with mode 0700, or checks that the existing one is a directory of
-/// ours.  With `only_ours`, also that it is no symbolic link and that nobody else can enter it.
+/// ours.  With `only_ours`, also that it is no symbolic link and that no other user can enter it.
 /// @throws ClientError kNotAllowed with the cause.
 void make_private_directory(const std::filesystem::path& directory, bool only_ours);
 

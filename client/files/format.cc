@@ -63,7 +63,7 @@ FileFormat choose_format(const Destination& destination, std::span<const FileFor
   }
   std::string refused = "cannot write the " + what + " as '" + extension + "'";
   if (extension.empty()) refused = "cannot tell from no extension how to write the " + what;
-  if (extension.empty() && destination.is_stdout()) refused = "say by --format how to write the " + what;
+  if (extension.empty() && destination.is_stdout()) refused = "a format is needed for the " + what;
   throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, destination.name());
 }
 

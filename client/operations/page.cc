@@ -17,6 +17,7 @@
 #include "core/chords/chord_sheet.h"
 #include "core/shocks/shock_operator.h"
 #include "wire/params.h"
+#include "wire/words.h"
 
 namespace affskel::client {
 namespace {
@@ -44,19 +45,9 @@ class PointSink : public ArtifactSink {
   FieldDecoder decoder_;
 };
 
-// The operators of H, all but `chords`.
-constexpr std::array<std::pair<v1::Operator, core::ShockOperator>, 5> kShockOperators = {
-    {{v1::OPERATOR_ZUCKER_HUMMEL, core::ShockOperator::kZuckerHummel},
-     {v1::OPERATOR_INTERMEDIATE, core::ShockOperator::kIntermediate},
-     {v1::OPERATOR_CENTRAL, core::ShockOperator::kCentral},
-     {v1::OPERATOR_SOBEL, core::ShockOperator::kSobel},
-     {v1::OPERATOR_FLUX, core::ShockOperator::kFlux}}};
-
 // A server of a later version may know more operators.
 core::ShockOperator shock_operator(v1::Operator which) {
-  for (const auto& [known, shock_operator] : kShockOperators) {
-    if (known == which) return shock_operator;
-  }
+  if (const auto known = core::shock_operator_named(wire::word(which))) return *known;
   throw ClientError(ExitCode::kUsage, "the job's skeleton is by operator " + std::to_string(which) +
                                           " of the protocol, which this version does not know; name another");
 }

@@ -10,7 +10,7 @@
 namespace affskel::client {
 namespace {
 
-constexpr double kMostFilled = 0.2;  // of the surface: beyond, what is computed is hardly what was scanned
+constexpr double kMaxFilled = 0.2;  // of the surface: beyond, what is computed is hardly what was scanned
 
 core::RepairOptions options_for(const RepairChoice& choice, core::ExecutionContext* context) {
   core::RepairOptions options;
@@ -36,7 +36,7 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
       core::RepairedMesh repaired = core::repair_mesh(mesh, options_for(choice, context));
       done.left = repaired.left;
       done.longest_left = repaired.longest_left;
-      if (done.left.empty() && repaired.filled_share > kMostFilled &&
+      if (done.left.empty() && repaired.filled_share > kMaxFilled &&
           choice.kind == RepairChoice::Kind::kAuto) {
         done.left = "what would fill its holes is " + base::rounded(100 * repaired.filled_share, 3) +
                     " % of the surface, too much to be done unasked";

@@ -91,8 +91,7 @@ void require_some_points(const core::Solid& solid, const InputFile& input, doubl
   throw ClientError(ExitCode::kBadInput,
                     "the spacing " + base::to_text(spacing) +
                         " leaves no room for sample points: the mesh measures " + size_text(size, longest) +
-                        "; a spacing of " + base::rounded(good, 2) +
-                        " gives 100000 points, as without --spacing",
+                        "; a spacing of " + base::rounded(good, 2) + " gives 100000 points",
                     input.path);
 }
 

@@ -40,7 +40,7 @@ struct Submitted {
 };
 
 /// Submits the mesh.
-/// @param environment names the user to a server that does not know who calls.
+/// @param environment names the user to a server that does not know its callers.
 /// @throws ClientError kUsage when the protocol has no room for a text; kLimit when the server takes no file
 /// as large; as Session::submit.
 Submitted submit(Session& session, const Environment& environment, const InputFile& input,

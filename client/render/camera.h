@@ -13,7 +13,7 @@ namespace affskel::client {
 /// needed.
 struct Camera {
   std::string name;      ///< stands above the view
-  double azimuth = 0;    ///< degrees: 0 from its front, 90 from the right of who looks at its front
+  double azimuth = 0;    ///< degrees: 0 from its front, 90 from the right of a viewer of its front
   double elevation = 0;  ///< degrees above the horizon, -90 .. 90
 };
 

@@ -57,8 +57,7 @@ struct RenderInput {
 /// Orthographic views at one scale, with a scale bar in mesh units and the scale of colours for E, arranged
 /// so that they fill the picture.
 /// @throws ClientError kUsage when the width or the number of cameras is out of range, kBadInput when the
-/// mesh
-///   is empty.
+///   mesh is empty.
 Image render_scene(const RenderInput& input, const RenderOptions& options = {});
 
 /// The colour of "#RGB", "#RRGGBB", "white", "black" or "dark" (that of pages).

@@ -5,7 +5,7 @@
 
 namespace affskel::client {
 
-/// The text with a question mark for what drives a terminal or deceives who reads it, in job names and the
+/// The text with a question mark for what drives a terminal or deceives its reader, in job names and the
 /// like: control characters, separators of lines, what turns the direction of writing, what is not seen (by
 /// the tables of Unicode; joiners and the selectors of emoji stay); U+FFFD for what is not UTF-8. Line ends
 /// and tabs stay.

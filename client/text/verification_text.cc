@@ -13,7 +13,7 @@ std::string name_of(const v1::Giver& giver) {
   return one_line(giver.worker()) + (giver.host().empty() ? "" : " on " + one_line(giver.host()));
 }
 
-/// Who gave the directions of a sample: one of them, where work was repeated.
+/// The workers that gave the directions of a sample: one of them, where work was repeated.
 std::string givers_text(const v1::VerifiedSample& sample) {
   std::string text;
   for (const v1::Giver& giver : sample.givers()) text += (text.empty() ? "" : " or ") + name_of(giver);
@@ -63,18 +63,15 @@ std::string verification_details(const v1::Verification& verification) {
   return text;
 }
 
-std::string difference_text(const v1::Verification& verification) {
-  for (const v1::VerifiedSample& sample : verification.samples()) {
-    if (sample.differing() == 0) continue;
-    std::string text = "what worker " + givers_text(sample) +
-                       " gave is not what another computed: " + one_line(sample.message());
-    if (sample.givers_size() > 0) {
-      text += "; affskel-client resume " + verification.job() + " --distrust " +
-              one_line(sample.givers(0).worker()) + " has it computed again";
-    }
-    return text;
-  }
-  return {};
+const v1::VerifiedSample* first_differing(const v1::Verification& verification) {
+  for (const v1::VerifiedSample& sample : verification.samples())
+    if (sample.differing() > 0) return &sample;
+  return nullptr;
+}
+
+std::string difference_text(const v1::VerifiedSample& sample) {
+  return "what worker " + givers_text(sample) +
+         " gave is not what another computed: " + one_line(sample.message());
 }
 
 std::string gap_text(const v1::Verification& verification) {

@@ -6,7 +6,7 @@ namespace affskel::client {
 
 // What answers the requests, by route; see web_service.cc.  All throw ClientError, which becomes the answer.
 
-http::Response answer_session(WebCall& call);  ///< who is signed in, and what the page offers
+http::Response answer_session(WebCall& call);  ///< the user, and what the page offers
 http::Response begin_session(WebCall& call);   ///< by a key or a token
 http::Response end_session(WebCall& call);
 http::Response answer_server(WebCall& call);  ///< workers and queue

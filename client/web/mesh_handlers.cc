@@ -120,7 +120,7 @@ nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& nam
 
 }  // namespace
 
-// Made for who asks for it: most look at the picture.
+// Made on request: most users look at the picture.
 http::Response turn_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
   const InputFile input = read_input(call.upload->path().string());

@@ -5,7 +5,7 @@
 namespace affskel::client {
 
 /// Sends the page, its script, its style or its icon, by the request's path.  They are the same for
-/// everybody.
+/// all users.
 http::Response send_page_file(WebCall& call);
 
 }  // namespace affskel::client

@@ -10,8 +10,8 @@
 
 namespace affskel::client {
 
-/// Pictures that were drawn, for who asks again; the longest unused leave.  Whoever asks has been shown to see their
-/// job.  Thread-safe.
+/// Pictures that were drawn, for later requests; the longest unused leave.  Callers check first that the user
+/// may see the job.  Thread-safe.
 class PictureCache {
  public:
   /// @param most bytes of all pictures, but for the newest.
@@ -22,14 +22,14 @@ class PictureCache {
   void put(const std::string& key, std::shared_ptr<const Picture> picture);
 
  private:
-  struct Place {
+  struct Slot {
     std::string key;
     std::shared_ptr<const Picture> picture;
   };
 
   const std::uint64_t most_;
   base::Mutex mutex_;
-  std::list<Place> places_ ABSL_GUARDED_BY(mutex_);  // the last used first
+  std::list<Slot> slots_ ABSL_GUARDED_BY(mutex_);  // the last used first
   std::uint64_t bytes_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 

@@ -26,7 +26,7 @@ WebUser user_of(Session server, std::shared_ptr<const base::MemoryFile> token) {
           info.max_mesh_bytes()};
 }
 
-// By the token that they show.  A server that takes any token would let everybody do everything.
+// By the token that they show.  A server that takes any token would let any caller do everything.
 // @throws ClientError kNotAllowed when the server refuses it, or would refuse none.
 WebUser signed_in_user(const WebState& web, const std::string& text) {
   if (!web.backend.refuses_strangers()) {

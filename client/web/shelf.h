@@ -22,8 +22,8 @@ struct ShelfLimits {
   std::chrono::seconds age{3600};                ///< since it was put there or last asked for
 };
 
-/// Things that belong to sessions and are found by keys that nobody can guess, bounded in number, bytes and
-/// age. Whoever holds a thing keeps it when it leaves the shelf.  Thread-safe.
+/// Things that belong to sessions and are found by keys that cannot be guessed, bounded in number, bytes and
+/// age.  A thing that leaves the shelf lives on with its other holders.  Thread-safe.
 template <typename Thing>
 class Shelf {
  public:
@@ -34,35 +34,35 @@ class Shelf {
 
   /// @param bytes that the thing takes.  @return its key.
   std::string put(const std::string& session, std::shared_ptr<Thing> thing, std::uint64_t bytes) {
-    std::list<Place> gone;  // destroyed when the lock is released
+    std::list<Slot> gone;  // destroyed when the lock is released
     const base::MutexLock lock(mutex_);
-    places_.push_front({random_key(), session, std::move(thing), bytes, now_()});
+    slots_.push_front({random_key(), session, std::move(thing), bytes, now_()});
     trim(gone);
-    return places_.front().key;
+    return slots_.front().key;
   }
 
   /// Null when it is not there (any more), or belongs to another session.
   std::shared_ptr<Thing> find(const std::string& session, const std::string& key) {
-    std::list<Place> gone;
+    std::list<Slot> gone;
     const base::MutexLock lock(mutex_);
     drop_old(gone);
-    const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
-      return place.key == key && place.session == session;
+    const auto found = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& slot) {
+      return slot.key == key && slot.session == session;
     });
-    if (found == places_.end()) return nullptr;
+    if (found == slots_.end()) return nullptr;
     found->used = now_();
-    places_.splice(places_.begin(), places_, found);
+    slots_.splice(slots_.begin(), slots_, found);
     return found->thing;
   }
 
   void drop_session(const std::string& session) {
-    std::list<Place> gone;
+    std::list<Slot> gone;
     const base::MutexLock lock(mutex_);
-    move_if(gone, [&](const Place& place) { return place.session == session; });
+    move_if(gone, [&](const Slot& slot) { return slot.session == session; });
   }
 
  private:
-  struct Place {
+  struct Slot {
     std::string key, session;
     std::shared_ptr<Thing> thing;
     std::uint64_t bytes;
@@ -70,31 +70,31 @@ class Shelf {
   };
 
   template <typename Predicate>
-  void move_if(std::list<Place>& gone, Predicate leaves) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-    for (auto place = places_.begin(); place != places_.end();) {
-      const auto next = std::next(place);
-      if (leaves(*place)) gone.splice(gone.end(), places_, place);
-      place = next;
+  void move_if(std::list<Slot>& gone, Predicate leaves) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    for (auto slot = slots_.begin(); slot != slots_.end();) {
+      const auto next = std::next(slot);
+      if (leaves(*slot)) gone.splice(gone.end(), slots_, slot);
+      slot = next;
     }
   }
 
-  void drop_old(std::list<Place>& gone) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+  void drop_old(std::list<Slot>& gone) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     const Clock::time_point oldest = now_() - limits_.age;
-    move_if(gone, [&](const Place& place) { return place.used < oldest; });
+    move_if(gone, [&](const Slot& slot) { return slot.used < oldest; });
   }
 
-  // The places are ordered by their last use, so that what is beyond a limit are the longest unused.
-  void trim(std::list<Place>& gone) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+  // The slots are ordered by their last use, so that what is beyond a limit are the longest unused.
+  void trim(std::list<Slot>& gone) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     drop_old(gone);
-    const std::string newest = places_.front().session;
+    const std::string newest = slots_.front().session;
     std::size_t of_session = 0, things = 0;
     std::uint64_t bytes = 0;
-    move_if(gone, [&](const Place& place) {
+    move_if(gone, [&](const Slot& slot) {
       const bool first = things == 0;
-      if (place.session == newest && ++of_session > limits_.of_session) return true;
-      if (!first && (things + 1 > limits_.things || bytes + place.bytes > limits_.bytes)) return true;
+      if (slot.session == newest && ++of_session > limits_.of_session) return true;
+      if (!first && (things + 1 > limits_.things || bytes + slot.bytes > limits_.bytes)) return true;
       ++things;
-      bytes += place.bytes;
+      bytes += slot.bytes;
       return false;
     });
   }
@@ -102,7 +102,7 @@ class Shelf {
   const ShelfLimits limits_;
   const std::function<Clock::time_point()> now_;
   base::Mutex mutex_;
-  std::list<Place> places_ ABSL_GUARDED_BY(mutex_);  // the last used first
+  std::list<Slot> slots_ ABSL_GUARDED_BY(mutex_);  // the last used first
 };
 
 }  // namespace affskel::client

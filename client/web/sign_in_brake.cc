@@ -7,7 +7,7 @@
 namespace affskel::client {
 namespace {
 
-// Makes room by the neighbour of the newest.  Where keys are hashes nobody can tell whose that is.
+// Makes room by the neighbour of the newest.  Where keys are hashes no caller can choose which that is.
 template <typename Entries>
 void trim(Entries& entries, typename Entries::iterator newest, std::size_t most) {
   if (entries.size() <= most) return;

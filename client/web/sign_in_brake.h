@@ -26,10 +26,10 @@ struct BrakeLimits {
   std::size_t addresses = 1024, tokens = 4096;  ///< that are remembered
 };
 
-/// Slows down who tries tokens: nothing waits, what comes too early is put off.
+/// Slows down the guessing of tokens: nothing waits, what comes too early is put off.
 ///
 /// From an address that showed too many wrong tokens one is looked at only when it comes a second time, and
-/// then seldom.  So whoever tries one after the other is hardly ever looked at, and somebody else behind the
+/// then seldom.  So a guesser, who tries one after the other, is hardly ever looked at, and a user behind the
 /// same address, who comes again as told, is.  A token that was right once is always looked at.  Keeps no
 /// tokens, only hashes with a secret salt.  Thread-safe.
 class SignInBrake {
@@ -41,8 +41,7 @@ class SignInBrake {
 
   /// @param peer see http::peer_key.
   /// @return after which time it may come again; nothing when it may be looked at now, which is to be
-  /// followed
-  ///   by one of the next three.
+  ///   followed by one of the next three.
   std::optional<Clock::duration> put_off(const std::string& peer, const std::string& token);
   void was_right(const std::string& peer, const std::string& token);
   void was_wrong(const std::string& token);

@@ -7,7 +7,7 @@
 
 namespace affskel::client {
 
-/// The certificate with which an HTTPS service shows who it is, and its key.  Read again when one of the
+/// The certificate by which an HTTPS service is known, and its key.  Read again when one of the
 /// files changes, so that a renewed certificate needs no restart.  Not thread-safe.
 class TlsIdentity {
  public:

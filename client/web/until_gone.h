@@ -7,7 +7,7 @@
 
 namespace affskel::client {
 
-/// Stops a computation when nobody waits for its answer any more.
+/// Stops a computation when the browser no longer waits for its answer.
 class UntilGone final : public core::ExecutionContext {
  public:
   /// @param gone see http::Request.

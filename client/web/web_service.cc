@@ -16,7 +16,7 @@
 namespace affskel::client {
 namespace {
 
-// Who may call.
+// Callers that a route admits.
 enum class Access { kEverybody, kSignedIn, kAdmin };
 
 // What a request may carry.
@@ -154,29 +154,29 @@ std::string upload_extension(const http::Request& head) {
 
 }  // namespace
 
-// One share of the threads that compute or wait for workers, given back when it is destroyed.
-class WebService::Share {
+// One place among the threads that compute or wait for workers, given back when it is destroyed.
+class WebService::Place {
  public:
-  Share(WebService& service, Whose whose) : service_(service), whose_(std::move(whose)) {}
-  ~Share() {
+  Place(WebService& service, Whose whose) : service_(service), whose_(std::move(whose)) {}
+  ~Place() {
     const base::MutexLock lock(service_.mutex_);
-    const auto own = service_.shares_.find(whose_);
-    if (--own->second == 0) service_.shares_.erase(own);
+    const auto own = service_.places_.find(whose_);
+    if (--own->second == 0) service_.places_.erase(own);
   }
-  Share(const Share&) = delete;
-  Share& operator=(const Share&) = delete;
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
 
  private:
   WebService& service_;
   const Whose whose_;
 };
 
-std::shared_ptr<WebService::Share> WebService::take_share(const Whose& whose) {
+std::shared_ptr<WebService::Place> WebService::take_place(const Whose& whose) {
   const base::MutexLock lock(mutex_);
-  unsigned& own = shares_[whose];
+  unsigned& own = places_[whose];
   if (own == (whose.first == http::AnswerKind::kAwaited ? kMaxAwaited : kMaxComputed)) return nullptr;
   ++own;
-  return std::make_shared<Share>(*this, whose);
+  return std::make_shared<Place>(*this, whose);
 }
 
 std::variant<http::Response, http::Reception> WebService::admit(const http::Request& head) {
@@ -207,8 +207,8 @@ std::variant<http::Response, http::Reception> WebService::admit(const http::Requ
     reception.file = state_.folder.new_path(upload_extension(head));
     *upload = std::make_unique<OwnedFile>(reception.file);
   }
-  std::shared_ptr<Share> share;
-  if (route.kind != http::AnswerKind::kQuick && !(share = take_share({route.kind, reception.owner})))
+  std::shared_ptr<Place> place;
+  if (route.kind != http::AnswerKind::kQuick && !(place = take_place({route.kind, reception.owner})))
     return api_error(429, "LIMIT",
                      route.kind == http::AnswerKind::kAwaited
                          ? "wait for the files that are being made for you; " + std::to_string(kMaxAwaited) +
@@ -216,7 +216,7 @@ std::variant<http::Response, http::Reception> WebService::admit(const http::Requ
                          : "wait for the meshes that are being looked at for you; " +
                                std::to_string(kMaxComputed) + " are looked at at a time");
   reception.respond = [this, &route, argument = chosen.argument, session, upload,
-                       share](const http::Request& request) {
+                       place](const http::Request& request) {
     WebCall call{state_, request, session, argument, std::move(*upload)};
     http::Response response = answer(call, route);
     // What a mesh took goes back to the system; by itself the C library keeps it for its threads.

@@ -14,7 +14,7 @@
 
 namespace affskel::client {
 
-/// Who uses the page.
+/// A user of the page.
 struct WebUser {
   std::shared_ptr<const base::MemoryFile>
       token;          ///< passed on with every call; null = the client's own identity

@@ -67,7 +67,7 @@ struct WebState {
 struct WebCall {
   WebState& web;
   const http::Request& request;
-  WebSessions::Found session;         ///< empty where nobody needs to be signed in
+  WebSessions::Found session;         ///< empty where the route asks for no sign-in
   std::string argument;               ///< the part of the path that the route leaves open
   std::unique_ptr<OwnedFile> upload;  ///< the body of an upload
 

@@ -13,7 +13,7 @@
 namespace affskel::http {
 
 /// Whom shares are counted by: "192.0.2.1", of IPv4-mapped addresses, too; "2001:db8::/64" of IPv6, of which
-/// everybody has so many.
+/// one host has so many.
 std::string peer_key(const boost::asio::ip::address& address);
 
 /// All connections of a server: whose they are, and which of them do nothing.  A newcomer for whom there is

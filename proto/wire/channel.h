@@ -23,8 +23,7 @@ struct AccessFiles {
 /// so that a program that runs for weeks can be given a new one.  From then on the process leaves no core
 /// dump. A Unix socket has no TLS: the files of TLS are for TCP.
 /// @throws std::invalid_argument, naming the file, when one cannot be read or has not what it should; and
-/// when
-///   a token would leave this machine in the clear.
+///   when a token would leave this machine in the clear.
 std::shared_ptr<grpc::Channel> make_channel(const Address& address, const AccessFiles& files,
                                             const grpc::ChannelArguments& arguments);
 

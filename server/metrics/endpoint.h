@@ -48,7 +48,7 @@ class MetricsEndpoint {
   std::unique_ptr<Service> service_;
 };
 
-/// Refuses an address that other machines reach, for metrics are shown to everybody, unless that is wanted,
+/// Refuses an address that other machines reach, for metrics are shown to any caller, unless that is wanted,
 /// and a Unix socket, for collectors know none.
 /// @throws std::runtime_error naming the address and the cause.
 void require_local_metrics(const wire::Address& address, bool insecure);

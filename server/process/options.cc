@@ -260,13 +260,13 @@ CLI::App* add_command(CLI::App& app, CLI::App& parent, Options& options, const c
 std::chrono::seconds duration_of(const std::string& text) {
   constexpr std::pair<char, std::int64_t> kUnits[] = {
       {'s', 1}, {'m', 60}, {'h', 3600}, {'d', 86400}, {'w', 604800}};
-  constexpr std::int64_t kMost = std::int64_t{100} * 366 * 86400;
+  constexpr std::int64_t kMax = std::int64_t{100} * 366 * 86400;
   const auto* unit = text.empty() ? std::end(kUnits)
                                   : std::find_if(std::begin(kUnits), std::end(kUnits),
                                                  [&](const auto& one) { return one.first == text.back(); });
   std::int64_t number = 0;
   if (unit == std::end(kUnits) || !CLI::detail::lexical_cast(text.substr(0, text.size() - 1), number) ||
-      number < 1 || number > kMost / unit->second) {
+      number < 1 || number > kMax / unit->second) {
     throw CLI::ValidationError(
         "--expires",
         "expected a number of s, m, h, d or w, at most 100 years, as in 90d; not '" + text + "'");

@@ -153,8 +153,8 @@ void keep_memory_small() {
   mallopt(M_TRIM_THRESHOLD, 32 << 20);
 }
 
-/// A server that does not answer would keep everybody waiting; one that exits is restarted, at the cost of a
-/// second of work: all that was acknowledged is on the disk.
+/// A server that does not answer would keep all clients waiting; one that exits is restarted, at the cost of
+/// a second of work: all that was acknowledged is on the disk.
 void leave_if_deaf() {
   base::leave_at_once("critical",
                       "event=deaf message=\"no answer to its own calls; leaving, to be started again\"",

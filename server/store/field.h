@@ -27,8 +27,7 @@ class RecordBatch {
   RecordBatch(std::int64_t points, std::int64_t directions, double volume, std::uint64_t expected = 0);
 
   /// @throws StoreError kInvalid when arrays differ in length, a point or direction is out of bounds, E is
-  /// not
-  ///   above 0 and at most the volume, the area is negative or not finite, or there are more records than a
+  ///   not above 0 and at most the volume, the area is negative or not finite, or there are more records than a
   ///   report can need.
   void append(const v1::FieldRecords& records);
 

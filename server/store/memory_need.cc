@@ -42,9 +42,9 @@ std::uint64_t memory_need(v1::TaskKind kind, std::uint64_t mesh_bytes, const v1:
 
 std::int64_t rounded_need(std::uint64_t bytes) {
   if (bytes < kSmall) return 0;
-  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / 2);
-  const std::uint64_t step = std::uint64_t{1} << (std::bit_width(std::min(bytes, kMost)) - 1 - kStepsLog);
-  return static_cast<std::int64_t>((std::min(bytes, kMost) + step - 1) / step * step);
+  constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / 2);
+  const std::uint64_t step = std::uint64_t{1} << (std::bit_width(std::min(bytes, kMax)) - 1 - kStepsLog);
+  return static_cast<std::int64_t>((std::min(bytes, kMax) + step - 1) / step * step);
 }
 
 std::int64_t memory_need_of(Database& db, const std::string& job_id, v1::TaskKind kind,

@@ -203,7 +203,7 @@ bool Store::requests_turn(std::int64_t leased_requests, std::int64_t leased_bloc
 }
 
 std::optional<std::int64_t> Store::choose_task(Database& db, const Seeker& seeker) {
-  // A sample is a request that not everybody may take: the older of the two comes first.
+  // A sample is a request that not every worker may take: the older of the two comes first.
   std::optional<std::int64_t> request = task_in_turn(db, seeker, true, options_.owner_order);
   const std::optional<std::int64_t> sample = sample_for(db, seeker);
   if (sample && (!request || *sample < *request)) request = sample;

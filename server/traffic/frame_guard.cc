@@ -29,28 +29,28 @@ constexpr std::size_t kCrumbBytes = 128;
 
 /// Calls on_frame for each head that is complete; contents are passed over.
 template <typename OnFrame>
-void FrameGuard::read(Place& place, std::string_view bytes, OnFrame on_frame) {
+void FrameGuard::read(Position& position, std::string_view bytes, OnFrame on_frame) {
   while (!bytes.empty()) {
-    if (place.rest > 0) {
-      const std::size_t part = std::min(place.rest, bytes.size());
-      place.rest -= part;
+    if (position.rest > 0) {
+      const std::size_t part = std::min(position.rest, bytes.size());
+      position.rest -= part;
       bytes.remove_prefix(part);
       continue;
     }
-    const std::size_t part = std::min(kHeadBytes - place.got, bytes.size());
-    std::copy_n(bytes.begin(), part, place.head.begin() + static_cast<std::ptrdiff_t>(place.got));
-    place.got += part;
+    const std::size_t part = std::min(kHeadBytes - position.got, bytes.size());
+    std::copy_n(bytes.begin(), part, position.head.begin() + static_cast<std::ptrdiff_t>(position.got));
+    position.got += part;
     bytes.remove_prefix(part);
-    if (place.got < kHeadBytes) return;
-    const auto& head = place.head;
+    if (position.got < kHeadBytes) return;
+    const auto& head = position.head;
     const auto number = [&head](std::size_t from, std::size_t to) {
       std::uint32_t value = 0;
       for (std::size_t i = from; i < to; ++i) value = value << 8 | head[i];
       return value;
     };
-    place.got = 0;
-    place.rest = number(0, 3);
-    on_frame(Frame{place.rest, head[3], head[4], number(5, 9) & 0x7fffffffU});
+    position.got = 0;
+    position.rest = number(0, 3);
+    on_frame(Frame{position.rest, head[3], head[4], number(5, 9) & 0x7fffffffU});
   }
 }
 

@@ -34,9 +34,8 @@ class FrameGuard {
 
   /// Bytes from the client, in order, cut anywhere.
   /// @return how many of the frames that begin in them make the server work without waiting for the peer:
-  /// calls
-  ///   that are reset, by the client or because of what it sent, calls beyond the limit, pings, settings, and
-  ///   frames without purpose.
+  ///   calls that are reset, by the client or because of what it sent, calls beyond the limit, pings,
+  ///   settings, and frames without purpose.
   /// @throws FrameFault.
   std::size_t from_client(std::string_view bytes);
 
@@ -72,14 +71,14 @@ class FrameGuard {
     std::size_t crumbs = 0;
   };
   /// Where a direction is: in a frame's head, or in what follows it.
-  struct Place {
+  struct Position {
     std::array<unsigned char, kHeadBytes> head{};
     std::size_t got = 0;   // of the head
     std::size_t rest = 0;  // of the frame's contents
   };
 
   template <typename OnFrame>
-  static void read(Place& place, std::string_view bytes, OnFrame on_frame);
+  static void read(Position& position, std::string_view bytes, OnFrame on_frame);
   std::size_t on_client_frame(const Frame& frame);
   void on_server_frame(const Frame& frame);
   std::size_t on_headers(const Frame& frame);
@@ -90,7 +89,7 @@ class FrameGuard {
 
   const FrameLimits limits_;
   std::size_t preface_ = 0;  // bytes of it so far
-  Place from_client_, from_server_;
+  Position from_client_, from_server_;
   std::uint32_t block_stream_ = 0;  // whose header block is unfinished; 0 = none
   std::size_t block_bytes_ = 0;
   std::size_t block_frames_ = 0;

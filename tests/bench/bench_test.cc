@@ -157,7 +157,7 @@ TEST(Result, DerivedFiguresFollowTheirDefinitions) {
 
 TEST(Result, RatiosAreOfProcessorTime) {
   RowResult r = round_result();
-  r.trees_cpu_s = 1;  // half of the wall time was somebody else's
+  r.trees_cpu_s = 1;  // half of the wall time went to other processes
   r.sweep_cpu_s = 0.25;
   EXPECT_DOUBLE_EQ(r.trees_per_sort().value(), 1.0);
   EXPECT_DOUBLE_EQ(r.plain_per_pruned().value(), 20.0);

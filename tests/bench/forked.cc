@@ -27,7 +27,7 @@ void write_all(int fd, const std::string& text) {
   while (done < text.size()) {
     const ssize_t n = write(fd, text.data() + done, text.size() - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return;  // nobody reads any more
+    if (n < 0) return;  // the reader has gone
     done += static_cast<std::size_t>(n);
   }
 }

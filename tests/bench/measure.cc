@@ -22,7 +22,7 @@ constexpr int kYardstickRepeats = 3;
 constexpr int kTwoThreadRepeats = 3;
 constexpr double kTwoThreadSeconds = 60;
 
-// Processor seconds per second that two threads get when nobody else wants the processors.
+// Processor seconds per second that two threads get when no other process wants the processors.
 constexpr double kTwoProcessors = 1.96;
 
 double peak_mb() {

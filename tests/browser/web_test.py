@@ -459,7 +459,7 @@ class SigningIn(unittest.TestCase):
         other.wait(lambda: other.all("tbody th"))
         self.assertEqual(self.errors(other, [job]), [])
 
-        # Signed out is signed out, also for whoever kept an address.
+        # Signed out is signed out, also for an address that was kept.
         page.find("#sign-out").click()
         page.heading("Sign in")
         page.open(f"{self.lab.service.address}#job/{job}")

@@ -32,7 +32,7 @@ from lab_service import LabService  # noqa: E402
 LONGEST_S = 70
 # Between a signal and the next, which finds the program at its end.
 AGAIN_S = 0.05
-# Nobody's, and each run's own: processes count by user.  The server of a worker's end is another's.
+# No account's, and each run's own: processes count by user.  The server of a worker's end is another's.
 USER = 61_000 + os.getpid() % 1000
 OTHER_USER = USER + 1000
 PROGRAMS = ("affskel-server", "affskel-worker", "affskel-client")

@@ -78,7 +78,7 @@ class Filler {
   off_t size_ = 0;
 };
 
-/// Whether filling the disk disturbs nobody else: it is small, the driver's own.
+/// Whether filling the disk disturbs no other program: it is small, the driver's own.
 bool has_own_disk(const std::string& dir) {
   struct statvfs facts {};
   return statvfs(dir.c_str(), &facts) == 0 && facts.f_blocks * facts.f_frsize < (std::uint64_t{1} << 30);

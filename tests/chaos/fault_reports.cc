@@ -109,7 +109,7 @@ bool late_report(Scene& scene) {
   const grpc::Status renewed = scene.stage.api().worker().RenewLease(&renewal.context, renew, &response);
   if (renewed.error_code() != grpc::StatusCode::ABORTED &&
       renewed.error_code() != grpc::StatusCode::NOT_FOUND) {
-    give_back(scene, lease.token());  // nobody else wanted it: it is still ours, and a lie would be believed
+    give_back(scene, lease.token());  // no worker wanted it: it is still ours, and a lie would be believed
     return false;
   }
   Open call;

@@ -117,7 +117,7 @@ bool cancel_resume_storm(Scene& scene) {
                                               : api.resume(scene.running_job, job, kStormCall));
     }
   });
-  // What it is told when nobody contradicts any more must hold.
+  // What it is told when no call contradicts any more must hold.
   v1::Job job;
   const grpc::Status cancelled =
       until_answered("cancelling", [&] { return api.cancel(scene.running_job, job, kStormCall); });

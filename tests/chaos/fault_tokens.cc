@@ -1,4 +1,4 @@
-// Tokens revoked in mid-stream.  What was acknowledged before holds, whoever it was told to.
+// Tokens revoked in mid-stream.  What was acknowledged before holds, whichever caller it was told to.
 #include "faults.h"
 
 namespace affskel::chaos {

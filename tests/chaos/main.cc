@@ -47,7 +47,7 @@ void describe(CLI::App& app, Options& options) {
   app.add_flag("--list", options.list, "Say what the kinds are");
 }
 
-/// So that a small disk can be mounted that nobody else sees.  Before any thread is started.
+/// So that a small disk can be mounted that no other process sees.  Before any thread is started.
 bool enter_own_mounts() {
   const uid_t user = getuid();
   const gid_t group = getgid();

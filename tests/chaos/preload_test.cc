@@ -1,4 +1,4 @@
-// The preloaded library in a program that everybody has.
+// The preloaded library in a program of every system.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -66,7 +66,7 @@ void Stage::renew_token(const std::string& owner) {
   const std::string role = owner == kWorkerOwner ? "worker" : "user";
   const auto made = nlohmann::json::parse(token_command({"add", "--owner", owner, "--role", role}));
   token_ids_[owner] = std::to_string(made.at("id").get<int>());
-  // In one step: whoever reads it meanwhile finds the one or the other.
+  // In one step: a reader meanwhile finds the one or the other.
   const std::string file = access_of(owner).token_file;
   tests::write_file(file + ".new", made.at("token").get<std::string>() + "\n");
   std::filesystem::rename(file + ".new", file);

@@ -33,7 +33,7 @@ class ControlFile {
   Control* control_;
 };
 
-/// Whoever comes by TCP shows a token of this owner: a client's, a user's; a worker's, a worker's.
+/// Callers by TCP show a token of this owner: clients, a user's; workers, a worker's.
 constexpr const char* kClientOwner = "chaos";
 constexpr const char* kWorkerOwner = "crew";
 
@@ -54,7 +54,7 @@ class Stage {
   /// Waits until each worker was heard from within a lease.  @throws Hang.
   void wait_for_workers();
 
-  /// Makes a new token for an owner; whoever comes with his file shows it from now on.
+  /// Makes a new token for an owner; callers with his file show it from now on.
   void renew_token(const std::string& owner);
   /// Revokes the one that he has.
   void revoke_token(const std::string& owner) const;

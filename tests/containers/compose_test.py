@@ -102,7 +102,7 @@ class Compose(unittest.TestCase):
         self.type(token)
         self.assertIn("done", self.type(use + "affskel-client status @last"))
         self.assertTrue((self.place / "skeleton.ply").read_bytes().startswith(b"ply\n"))
-        # Nobody without a token, nobody without the certificate.
+        # No client without a token, none without the certificate.
         for missing in ("AFFSKEL_TOKEN_FILE", "AFFSKEL_TLS_CA"):
             less = {key: value for key, value in self.settings.items() if key != missing}
             _, code = self.engine.run(PROGRAMS / "affskel-client", "list", env=less, check=False)

@@ -99,7 +99,7 @@ class Image(unittest.TestCase):
         name = self.start_server()
         self.assertTrue(self.engine.health(name))
         process = self.engine.process(name)
-        os.kill(process, signal.SIGSTOP)  # there, with its socket, but answering nobody
+        os.kill(process, signal.SIGSTOP)  # there, with its socket, but without answers
         try:
             self.assertFalse(self.engine.health(name))
         finally:

@@ -1,4 +1,4 @@
-"""Somebody beside the containers, who submits jobs, follows them, and compares their fields with those of one process."""
+"""A client beside the containers: submits jobs, follows them, and compares their fields with those of one process."""
 import json
 import os
 import subprocess
@@ -32,7 +32,7 @@ class Person:
         return job, watch
 
     def assert_undisturbed(self, job, watch, options):
-        """Who follows it sees the job end well, in the very bytes that one process without any server computes."""
+        """Its follower sees the job end well, in the very bytes that one process without any server computes."""
         states = [json.loads(line)["state"] for line in watch.stdout]
         self.test.assertEqual((states[-1], watch.wait()), ("done", 0))
         self.client("--quiet", "fetch", job, "field", "-o", "field.csv")

@@ -30,7 +30,7 @@ try : || { echo "a good machine is refused" >&2; exit 1; }
 refused 'df() { printf "x\nfs 1 1 300 1%% /\n"; }' "has 300 MB free, the build takes 500"
 refused 'awk() { case $1 in *MemTotal*) echo 900 ;; *) command awk "$@" ;; esac; }' "900 MB of memory"
 refused 'dpkg-query() { return 1; }; command() { [ "$2" != sudo ] && builtin command "$@"; }' "installing packages needs root"
-# A program that somebody installed from elsewhere is enough where the list says so.
+# A program that was installed from elsewhere is enough where the list says so.
 for program in kubectl ''; do
   said=$(bash -c "set -euo pipefail; source '$deploy/common.sh'; dpkg-query() { return 1; }
     command() { if [ \"\$2\" = kubectl ]; then [ -n '$program' ]; else builtin command \"\$@\"; fi; }
@@ -51,7 +51,7 @@ touch "$there/build.ninja"
 export there
 try 'df() { printf "x\nfs 1 1 300 1%% /\n"; }; build_dir=$there' ||
   { echo "a second run is refused" >&2; exit 1; }
-# Who asks for help gets it, and nothing is installed.
+# --help prints help, and nothing is installed.
 for script in quickstart run-tests; do
   said=$("$deploy/$script" --help)
   [[ $said == *"Usage: deploy/$script"* && $said != *"#"* && $said != *"=="* ]] || { echo "no help: $said" >&2; exit 1; }

@@ -36,7 +36,7 @@ class Machine:
         self.network.run("ip", "link", "set", "eth0", "up")
 
     def unplug(self):
-        """For good: nobody hears of its connections again."""
+        """For good: no peer hears of its connections again."""
         ip("link", "set", self.plug, "down")
 
     def part(self, other):

@@ -53,7 +53,7 @@ class CrashTest : public testing::Test {
 
 // No lease ends by itself, however slow the machine.
 const std::vector<std::string> kQuickReports = {"--lease-ms", "60000", "--report-interval-ms", "50"};
-// For workers that nobody sees die.
+// For workers whose death the server does not see.
 const std::vector<std::string> kShortLeases = {"--lease-ms", "1000", "--report-interval-ms", "50"};
 
 TEST_F(CrashTest, TheOnlyWorkerIsKilledThreeTimes) {
@@ -73,7 +73,7 @@ TEST_F(CrashTest, OneOfTwoWorkersIsKilledThreeTimes) {
   expect_undisturbed_field(id);
 }
 
-// For longer than its lease, and nobody else takes its work.
+// For longer than its lease, and no other worker takes its work.
 TEST_F(CrashTest, TheOnlyWorkerStandsStillThreeTimes) {
   const Process server = lab_.server(kShortLeases);
   const Process worker = lab_.worker();

@@ -1,4 +1,4 @@
-// Meshes that take minutes to be made ready: who wants to leave or cancel is heard, and there is a bound.
+// Meshes that take minutes to be made ready: leaving and cancelling take effect meanwhile, and there is a bound.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,4 +1,4 @@
-// Servers that stop in order and come back: for everybody else a pause.
+// Servers that stop in order and come back: for clients and workers a pause.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,4 +1,4 @@
-// Two owners, one with a long queue, on real workers: who is granted what, by the server's log.
+// Two owners, one with a long queue, on real workers: which is granted what, by the server's log.
 #include <gtest/gtest.h>
 
 #include <sstream>

@@ -66,7 +66,7 @@ void run_client(const std::string& address, int number, const std::stop_token& s
   }
 }
 
-/// Jobs that nobody works on yet, sent by several at once.
+/// Jobs that no worker has begun, sent by several at once.
 std::vector<std::string> queue_jobs(const std::string& address, int number, Calls& calls) {
   std::vector<std::string> ids(static_cast<std::size_t>(number));
   std::atomic<std::size_t> next = 0;

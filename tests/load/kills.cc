@@ -17,7 +17,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 struct Kill {
-  double unreported = 0;  // seconds of work that nobody heard of
+  double unreported = 0;  // seconds of work that was not reported
   double back = 0;        // seconds from the new worker's start to its first report
 };
 

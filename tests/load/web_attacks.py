@@ -155,7 +155,7 @@ async def guesses(reader, writer, host):
 
 
 async def heavy(reader, writer, host):
-    """Large meshes to be looked at, by somebody who is signed in; every second one is not waited for."""
+    """Large meshes to be looked at, by a user that is signed in; every second one is not waited for."""
     await upload(reader, writer, host)
     writer.transport.abort()
     reader, writer = await connect(host)

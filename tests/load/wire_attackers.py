@@ -125,7 +125,7 @@ def unread_answers(attacker, connection, stop):
 
 @again
 def pings(attacker, connection, stop):
-    """Pings whose answers nobody reads."""
+    """Pings whose answers are not read."""
     attacker.send(connection, attacker.call(1, WATCH, b""))
     piece = http2.frame(PING, 0, 0, b"12345678") * 1000
     while not stop.is_set():
@@ -134,7 +134,7 @@ def pings(attacker, connection, stop):
 
 @again
 def settings_frames(attacker, connection, stop):
-    """Settings whose acknowledgements nobody reads."""
+    """Settings whose acknowledgements are not read."""
     attacker.send(connection, attacker.call(1, WATCH, b""))
     piece = http2.settings() * 1000
     while not stop.is_set():
@@ -152,7 +152,7 @@ def empty_frames(attacker, connection, stop):
 
 @again
 def unknown_calls(attacker, connection, stop):
-    """Calls that there are not, whose answers nobody reads."""
+    """Calls that there are not, whose answers are not read."""
     stream = 1
     while not stop.is_set():
         data = b"".join(attacker.call(one, b"/nothing/Of%d" % one, b"") for one in range(stream, stream + 256, 2))

@@ -74,7 +74,7 @@ class Service:
 
 
 class Honest(threading.Thread):
-    """Somebody who asks for the newest jobs again and again."""
+    """A client that asks for the newest jobs again and again."""
 
     def __init__(self, service, call):
         super().__init__(daemon=True)

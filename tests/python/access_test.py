@@ -1,4 +1,4 @@
-"""A server with TLS and tokens: who is who, tokens that change, certificates of clients.
+"""A server with TLS and tokens: which caller is which, tokens that change, certificates of clients.
 
 Usage: access_test.py PROGRAMS PROJECT"""
 import os

@@ -352,7 +352,7 @@ class Dropped(Ends):
             gc.disable()  # nothing may wait for it
             def settled(most):
                 while any(now > limit for now, limit in zip(held(), most)):
-                    time.sleep(.01)  # the threads of calls end after them; whoever leaks never gets here
+                    time.sleep(.01)  # the threads of calls end after them; a leak never gets here
             use()
             settled((1 << 30, 1))
             before = held()

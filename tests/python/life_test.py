@@ -78,7 +78,7 @@ class Restarts(WithDirectory):
 
 
 class FullServer(grpc.GenericRpcHandler):
-    """A server that answers the first calls of everybody that it has no room."""
+    """A server that answers the first calls of every client that it has no room."""
 
     def __init__(self, refusals):
         self.refusals = refusals

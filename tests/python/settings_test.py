@@ -41,7 +41,7 @@ class SameAsTheCommandLine(unittest.TestCase):
                         affskel.Client(text)
                     theirs, ours = self.assert_same_error(code, said, failure.exception)
                     self.assertEqual(theirs.partition(": ")[2], ours.partition(": ")[2])
-                else:  # nobody is there
+                else:  # no server is there
                     with self.assertRaises(affskel.UnreachableError) as failure:
                         affskel.Client(text).server_info()
                     self.assert_same_error(code, said, failure.exception)

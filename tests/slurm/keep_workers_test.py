@@ -154,7 +154,7 @@ class KeepWorkers(unittest.TestCase):
         self.slurm.completed(job, since)
 
     def gate(self):
-        """A pipe that nobody writes to: who reads it waits."""
+        """A pipe without a writer: its reader waits."""
         pipe = self.place / "gate"
         if not pipe.exists():
             os.mkfifo(pipe)

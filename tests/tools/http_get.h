@@ -14,7 +14,7 @@ struct HttpAnswer {
 int connect_tcp(const std::string& address);
 
 /// One request by a connection of its own, which the server is asked to close.
-/// @throws std::runtime_error when nobody answers.
+/// @throws std::runtime_error when no answer comes.
 HttpAnswer http_get(const std::string& address, const std::string& path);
 
 }  // namespace affskel::tests

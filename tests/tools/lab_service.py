@@ -1,4 +1,4 @@
-"""A lab's server as other machines see it: TLS, and a token for everybody."""
+"""A lab's server as other machines see it: TLS, and a token for every user."""
 import json
 import os
 import signal
@@ -27,7 +27,7 @@ class LabService:
         self.data = directory / "data"
         self.processors = os.sched_getaffinity(0)
         self.certificate = directory / "server.pem"
-        # Nothing of who runs the test is configured.
+        # Nothing of the user that runs the test is configured.
         others = ("AFFSKEL_", "SLURM_", "SBATCH_")
         mine = {key: value for key, value in os.environ.items() if not key.startswith(others)}
         self.environment = dict(mine, HOME=str(directory), XDG_CONFIG_HOME=str(directory / "config"),
@@ -60,7 +60,7 @@ class LabService:
         assert code == 0, code
 
     def access(self, role):
-        """The options by which somebody of that role comes."""
+        """The options by which a caller of that role comes."""
         return ["--server", self.address, "--tls-ca", str(self.certificate), "--token-file", str(self.tokens[role])]
 
     def client(self, *arguments, inside=()):

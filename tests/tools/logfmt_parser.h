@@ -9,7 +9,7 @@ namespace affskel::tests {
 
 /// One line of a log in logfmt, read strictly: fields `key=value` with one space between them, each key once
 /// and of letters, digits and '_', values bare (visible ASCII without '"', '=' and '\') or in quotes with
-/// JSON's escapes. Written from the format alone, so that it shares no mistake with who writes.
+/// JSON's escapes. Written from the format alone, so that it shares no mistake with the writer.
 /// @throws std::runtime_error that names the place.
 class LogfmtParser {
  public:

@@ -1,4 +1,4 @@
-"""Tests that need a machine to themselves: networks, ports and processes that nobody else sees."""
+"""Tests that need a machine to themselves: networks, ports and processes that no other program sees."""
 import os
 import shutil
 import subprocess
@@ -13,7 +13,7 @@ def enter(*tools):
         # The loopback device is down in a new network.
         subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
         return
-    os.environ["PATH"] += ":/usr/sbin:/sbin"  # where daemons are, also for those who are not root
+    os.environ["PATH"] += ":/usr/sbin:/sbin"  # where daemons are, also for users that are not root
     missing = [tool for tool in ("ip", "unshare", *tools) if not shutil.which(tool)]
     if missing:
         skip(f"no {', '.join(missing)}; deploy/run-tests --all installs it")

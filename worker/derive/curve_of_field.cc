@@ -37,7 +37,7 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field_.job().solid(), field_.lattice(), mesh_of(curve), options));
   message.set_threshold(threshold_of(threshold));
-  ridge_.tell_of_lattice(sheet_, message);
+  ridge_.report_lattice(sheet_, message);
   message.set_branches(curve.branches);
   message.set_ends(curve.ends);
   message.set_opened(curve.opened);

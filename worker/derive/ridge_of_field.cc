@@ -32,7 +32,7 @@ core::RidgeSheet RidgeOfField::sheet(double threshold) const {
   return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
 }
 
-void RidgeOfField::tell_of_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const {
+void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const {
   v1::LatticeTopology& lattice = *message.mutable_lattice();
   lattice.set_components(sheet.lattice.components);
   lattice.set_holes(sheet.lattice.holes);

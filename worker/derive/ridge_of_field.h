@@ -22,7 +22,7 @@ class RidgeOfField {
 
   /// What the report of a skeleton on this ridge tells of the lattice: its topology, and where it is too coarse for
   /// the solid, so that the skeleton lacks or adds something.
-  void tell_of_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const;
+  void report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const;
 
  private:
   const FinishedField& field_;

@@ -31,7 +31,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(low);
-  ridge.tell_of_lattice(sheet, message);
+  ridge.report_lattice(sheet, message);
   message.set_limbs(sheet.limbs);
   return message;
 }

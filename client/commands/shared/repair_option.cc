@@ -17,7 +17,7 @@ namespace {
                         "of the mesh");
 }
 
-// What the other ways are, to who has met the end of one.
+// What other ways there are, where one has failed.
 [[noreturn]] void advise(const Context& context, const std::string& file, const Repair& done) {
   const std::string again = "repair " + shell_quoted(file) + " --repair ";
   std::string fill;

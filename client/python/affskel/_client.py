@@ -189,7 +189,7 @@ class Client:
         info = self._session.server_info()
         if 0 < info.max_mesh_bytes < len(text):
             raise LimitError(f"the mesh has {len(text)} bytes; the server takes at most {info.max_mesh_bytes}")
-        if not info.caller.owner:  # a server that does not know who calls is told
+        if not info.caller.owner:  # a server that does not know its callers is told
             header.owner = _short(_user_name(), MAX_OWNER)
         header.mesh_sha256 = hashlib.sha256(text).hexdigest()
         header.mesh_bytes = len(text)

@@ -22,7 +22,7 @@ from .v1 import client_service_pb2_grpc as rpc
 
 
 class _Channel:
-    """A channel and its calls under way; closed or abandoned once, whoever asks first.
+    """A channel and its calls under way; closed or abandoned once, by the first that asks.
 
     Garbage is collected in the midst of anything: nothing here takes a lock of ours.
     """
@@ -100,7 +100,7 @@ def check_process() -> None:
 
 
 class Connection:
-    """A channel, its stub, and what it was made for.  Closed at the latest when nobody holds it."""
+    """A channel, its stub, and what it was made for.  Closed at the latest with its last reference."""
 
     def __init__(self, settings: Settings) -> None:
         assert settings.address is not None

@@ -268,7 +268,7 @@ class _Watch:
     def __iter__(self) -> Iterator[types.Job]:
         yield self._first
         while True:
-            check_process()  # whoever got the state before may have forked: no other would ever come
+            check_process()  # the caller may have forked since the last state: no other would ever come
             now: Optional[types.Job] = next(self._call, None)
             if now is None:
                 return

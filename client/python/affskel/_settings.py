@@ -36,7 +36,7 @@ class Address:
 
     @property
     def is_local(self) -> bool:
-        """Whether nobody outside this machine can reach it."""
+        """Whether other machines cannot reach it."""
         if self.is_unix or self.host == "localhost":
             return True
         try:

@@ -23,7 +23,7 @@ function errorOf(status, text) {
   }
 }
 
-// The session has ended: whoever shows the sign-in listens.
+// The session has ended: the sign-in form listens.
 function tellSignedOut() {
   document.dispatchEvent(new Event('signed-out'));
 }

@@ -199,7 +199,7 @@ export class JobView {
   async remove() {
     const wanted = await confirmed(`Delete ${this.job.name}?`, 'Its mesh, field and skeleton are removed for good.', 'Delete the job');
     if (!wanted) return;
-    this.pause(); // nobody asks for a job that is gone
+    this.pause(); // a deleted job is not asked for
     try {
       await call('DELETE', jobPath(this.id));
       location.hash = '#jobs';

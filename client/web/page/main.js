@@ -81,7 +81,7 @@ async function leave() {
   try {
     await signOut();
   } catch {
-    forget(); // it has ended already, or nobody answers
+    forget(); // it has ended already, or the service is gone
   }
   history.replaceState(null, '', location.pathname); // where this person was is not for the next
   showSignIn();

@@ -311,7 +311,7 @@ class SubmitForm {
     try {
       const found = await call('GET', `/api/meshes/${this.mesh.mesh}/lattice?${query}`, undefined, this.counting.signal);
       const other = which === 'points' ? this.spacing : this.points;
-      // Whoever is in it is about to type: what they have selected must not change below them.
+      // A field that has the focus is about to be typed in: its selection must not change.
       if (other !== document.activeElement) other.value = which === 'points' ? editable(found.spacing) : String(found.points);
       const about = found.counted ? '' : 'about ';
       setText(this.lattice, `${about}${counted(found.points, 'sample point')} at spacing ${measure(found.spacing)}`);

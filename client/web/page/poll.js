@@ -1,4 +1,4 @@
-// Asks again and again: soon while something happens, seldom while nobody looks, ever more seldom after errors.
+// Asks again and again: soon while something happens, seldom while the page is hidden, less and less after errors.
 
 const kSoon = 1000;
 const kIdle = 5000;

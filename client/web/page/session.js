@@ -1,4 +1,4 @@
-// Who is signed in, and what the service offers them.
+// The user that is signed in, and what the service offers them.
 import { call } from './api.js';
 
 /**

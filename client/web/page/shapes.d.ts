@@ -10,7 +10,7 @@ interface Words {
 interface Session {
   mode: 'personal' | 'sign-in';
   signed_in: boolean;
-  // Of who is signed in:
+  // Of the user that is signed in:
   owner?: any;
   admin?: boolean;
   max_mesh_bytes?: any;

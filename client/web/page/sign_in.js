@@ -3,7 +3,7 @@ import { h } from './elements.js';
 import { session, signIn } from './session.js';
 
 /**
- * What stands in the page; `entered` is called once somebody is signed in.
+ * What stands in the page; `entered` is called once a user is signed in.
  * @param {() => void} entered
  * @param {string} [message]
  * @returns {HTMLElement}

@@ -34,7 +34,7 @@ class FakeService final : public v1::ErosionService::Service {
   bool damage = false;  ///< flip a byte of every artefact
   bool existed = false;
   std::uint64_t max_mesh_bytes = 1 << 30;
-  v1::Caller caller;                         ///< who calls without a token, as the server tells
+  v1::Caller caller;                         ///< a caller without a token, as the server tells
   std::map<std::string, v1::Caller> tokens;  ///< when there are any, questions need one of them, "Bearer ..."
 
   v1::SubmitJobHeader submitted;  ///< as it arrived

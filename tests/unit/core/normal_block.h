@@ -14,9 +14,9 @@ namespace affskel::core {
 /// the shock operators.
 class NormalBlock {
  public:
-  using Place = std::array<std::uint32_t, 3>;
+  using Indices = std::array<std::uint32_t, 3>;
 
-  explicit NormalBlock(const Place& dims, double spacing = 1)
+  explicit NormalBlock(const Indices& dims, double spacing = 1)
       : solid(make_solid(make_box(spacing * dims[0], spacing * dims[1], spacing * dims[2]))), dims_(dims) {
     const double step = spacing / solid.scale();
     LatticeGrid grid;
@@ -27,7 +27,7 @@ class NormalBlock {
     lattice.spacing = spacing;
   }
 
-  std::uint32_t at(const Place& p) const { return (p[0] * dims_[1] + p[1]) * dims_[2] + p[2]; }
+  std::uint32_t at(const Indices& p) const { return (p[0] * dims_[1] + p[1]) * dims_[2] + p[2]; }
 
   /// Gives every point the normal of its place.
   template <class Normal>
@@ -38,7 +38,7 @@ class NormalBlock {
       for (std::uint32_t j = 0; j < dims_[1]; ++j) {
         for (std::uint32_t k = 0; k < dims_[2]; ++k) {
           optimal.push_back(static_cast<std::uint32_t>(normals.size()));
-          normals.push_back(normal(Place{i, j, k}));
+          normals.push_back(normal(Indices{i, j, k}));
         }
       }
     }
@@ -51,12 +51,13 @@ class NormalBlock {
   OptimalDirections optimal;
 
  private:
-  Place dims_;
+  Indices dims_;
 };
 
 /// `jump` / 2 along `axis` up to the layer `below`, - `jump` / 2 from the next one on; the rest along the
 /// axis after it: normals that run into a sheet between the two layers.
-inline Vec3 jumping_normal(const NormalBlock::Place& p, std::size_t axis, std::uint32_t below, double jump) {
+inline Vec3 jumping_normal(const NormalBlock::Indices& p, std::size_t axis, std::uint32_t below,
+                           double jump) {
   std::array<double, 3> n{};
   n[axis] = p[axis] <= below ? jump / 2 : -jump / 2;
   n[(axis + 1) % 3] = std::sqrt(1 - jump * jump / 4);

@@ -118,7 +118,7 @@ grpc::Status FakeServer::LeaseTask(grpc::ServerContext*, const v1::LeaseTaskRequ
   lease_requests_.push_back(*request);
   if (!status.ok()) return status;
   if (leases_.empty()) {
-    // Those who look ahead do not wait.
+    // Workers that look ahead do not wait.
     idle_ = idle_ || request->wait_ms() > 0;
     changed_.notify_all();
     return status;

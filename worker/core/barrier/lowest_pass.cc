@@ -21,13 +21,13 @@ void LowestPass::reach(std::span<const float> values, std::uint32_t vertex) {
   seen_[vertex] = flood_;
   shore_.push_back({values[vertex], vertex});
   std::push_heap(shore_.begin(), shore_.end(),
-                 [](const Place& a, const Place& b) { return a.value > b.value; });
+                 [](const ShoreVertex& a, const ShoreVertex& b) { return a.value > b.value; });
 }
 
-LowestPass::Place LowestPass::lowest_of_shore() {
+LowestPass::ShoreVertex LowestPass::lowest_of_shore() {
   std::pop_heap(shore_.begin(), shore_.end(),
-                [](const Place& a, const Place& b) { return a.value > b.value; });
-  const Place lowest = shore_.back();
+                [](const ShoreVertex& a, const ShoreVertex& b) { return a.value > b.value; });
+  const ShoreVertex lowest = shore_.back();
   shore_.pop_back();
   return lowest;
 }
@@ -40,7 +40,7 @@ float LowestPass::between(std::span<const float> values, std::uint32_t from, std
   shore_.clear();
   reach(values, from);
   for (float level = values[from];;) {
-    const Place at = lowest_of_shore();
+    const ShoreVertex at = lowest_of_shore();
     level = std::max(level, at.value);
     if (at.vertex == to) return level;
     for (const std::uint32_t next : graph_[at.vertex]) reach(values, next);

@@ -26,17 +26,17 @@ class LowestPass {
   float between(std::span<const float> values, std::uint32_t from, std::uint32_t to);
 
  private:
-  struct Place {
+  struct ShoreVertex {
     float value;
     std::uint32_t vertex;
   };
 
   void reach(std::span<const float> values, std::uint32_t vertex);
-  Place lowest_of_shore();
+  ShoreVertex lowest_of_shore();
 
   const Adjacency& graph_;
   std::vector<std::uint32_t> seen_;  // per vertex: the flood that reached it last
-  std::vector<Place> shore_;         // a heap, the lowest first
+  std::vector<ShoreVertex> shore_;   // a heap, the lowest first
   std::uint32_t flood_ = 0;
 };
 

@@ -18,7 +18,7 @@ class ExecutionContext {
 };
 
 /// For computations that are all or nothing.
-/// @param context may be null: nobody wants to stop it. @throws CoreError kCancelled when it asks to stop.
+/// @param context may be null: it is never stopped. @throws CoreError kCancelled when it asks to stop.
 void throw_if_stopped(ExecutionContext* context);
 
 /// throw_if_stopped for loops whose rounds are too short to ask in each of them: asks about once a

@@ -4,7 +4,7 @@
 
 namespace affskel::core {
 
-/// What the sheet of `chords` is made with, found by experiments; nobody but tests takes other values.  In
+/// What the sheet of `chords` is made with, found by experiments; only tests take other values.  In
 /// the notation of chord_shocks.h, chord_turns.h and chord_pruning.h; reasons: README.md in worker/core.
 struct ChordConstants {
   // Candidates.

@@ -18,7 +18,7 @@ using Cell = DualComplex::Cell;
 constexpr double kSteep = 0.5;
 
 // Shorter lines are steps of the lattice, spacings.
-constexpr double kLeastLength = 4;
+constexpr double kMinLength = 4;
 
 class Thinning {
  public:
@@ -64,7 +64,7 @@ class Thinning {
       line.lead = birth - fall;
     } else {
       const double way = std::min(line.length() - line.tip_at, now - birth);
-      line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kLeastLength));
+      line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
     }
     line_at_[end] = number;  // of several lines that meet there the longest is the last
   }

@@ -230,9 +230,9 @@ class JoinTreeBuilder::Work {
   }
 
   // Where two triangles cross, the regions on both sides are one.  They are joined at the higher of the two
-  // triangles' lowest corners: only triangles that begin at v can cross one that nobody has joined with them
-  // yet.  That is early by at most a triangle's height.  Single chords become too large, which other
-  // directions put right; none becomes too small, which nothing would.
+  // triangles' lowest corners: only triangles that begin at v can cross one that is not joined with them yet.
+  // That is early by at most a triangle's height.  Single chords become too large, which other directions put
+  // right; none becomes too small, which nothing would.
   std::uint32_t at_crossing(std::uint32_t r) {
     const std::uint32_t v = heights_.order()[r];
     meeting_.clear();

@@ -32,8 +32,7 @@ class LatticeTable {
  public:
   /// @param lattice mesh units.  @param file must outlive it.
   /// @throws CoreError kBadInput for .vti of a lattice whose axes are not those of the mesh; base::FileError,
-  /// CoreError
-  ///   kLimit and kInternal, also from the others.
+  ///   CoreError kLimit and kInternal, also from the others.
   LatticeTable(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice,
                const std::vector<LatticeColumn>& columns, const FileFacts& facts);
   ~LatticeTable();

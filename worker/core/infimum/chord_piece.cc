@@ -30,7 +30,7 @@ constexpr double kSteepest = 1e9;  // of cot(inclination): level triangles have 
 // By sides_of(): the corner that is alone on its side.
 constexpr std::array<std::uint8_t, 8> kAlone = {0, 0, 1, 2, 2, 1, 0, 0};
 
-using Place = SectionLoops::Place;
+using PlanePoint = SectionLoops::PlanePoint;
 using Cut = SectionLoops::Cut;
 using Loop = SectionLoops::Loop;
 
@@ -40,7 +40,7 @@ struct CutEdge : SectionLoops::TreeEdge {
 };
 
 // Not std::hypot, which may differ from machine to machine.
-double length(const Place& from, const Place& to) {
+double length(const PlanePoint& from, const PlanePoint& to) {
   const double a = to.a - from.a, b = to.b - from.b;
   return std::sqrt(a * a + b * b);
 }
@@ -214,11 +214,11 @@ class PieceFinder::Work {
   };
 
   void add_up(const Loop& loop, Sums& sums) const {
-    Place from = section_.cuts()[loop.end - 1].leaves;
+    PlanePoint from = section_.cuts()[loop.end - 1].leaves;
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
       const Cut& cut = section_.cuts()[i];
       add_triangle(cut, sums);
-      const Place& to = cut.leaves;
+      const PlanePoint& to = cut.leaves;
       const double turn = from.a * to.b - to.a * from.b;
       sums.area += 0.5 * turn;
       sums.moment[0] += turn * (from.a + to.a) / 6;
@@ -243,10 +243,10 @@ class PieceFinder::Work {
   }
 
   void add_bend(const Loop& loop, Hessian& sum) const {
-    Place from = section_.cuts()[loop.end - 1].leaves;
+    PlanePoint from = section_.cuts()[loop.end - 1].leaves;
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
       const Cut& cut = section_.cuts()[i];
-      const Place& to = cut.leaves;
+      const PlanePoint& to = cut.leaves;
       const double weight = slope(cut.triangle) * length(from, to) * kThird;
       sum[0] += weight * (from.a * from.a + from.a * to.a + to.a * to.a);
       sum[1] += weight * (from.a * from.b + 0.5 * (from.a * to.b + to.a * from.b) + to.a * to.b);

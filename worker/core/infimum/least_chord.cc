@@ -18,11 +18,11 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 constexpr double kPromise = 4;        // what steps to come may gain, in gains of the next one
-constexpr int kMostShorter = 6;       // of a step
+constexpr int kMaxShorter = 6;        // of a step
 constexpr double kLongestStep = 0.5;  // of t
-constexpr double kLeastGain = 1e-12;  // of the volume: a lesser decrease is none
+constexpr double kMinGain = 1e-12;    // of the volume: a lesser decrease is none
 constexpr double kLastGain = 1e-8;    // of the volume: after it, the next would be below rounding
 constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whether a part joins there
 constexpr double kJump = 1e-9;        // of the volume
@@ -132,10 +132,10 @@ class ChordDescent::Work {
     piece_ = {find(d_), {}};
     if (!valid(piece_) || piece_.volume > bound.first) return {};
     piece_.hessian = finder_.hessian();
-    for (int n = 0; n < kMostSteps; ++n) {
+    for (int n = 0; n < kMaxSteps; ++n) {
       const Step step = next_step();
       if (piece_.volume - kPromise * step.gain > bound.erosion) return {};
-      if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
+      if (!(step.gain > kMinGain * piece_.volume) || !go(step)) break;
       if (step.gain < kLastGain * piece_.volume) break;
     }
     return result(piece_.area + multipliers());
@@ -252,7 +252,7 @@ class ChordDescent::Work {
   }
 
   bool falls(const ChordPiece& piece) const {
-    return valid(piece) && piece.volume < piece_.volume * (1 - kLeastGain);
+    return valid(piece) && piece.volume < piece_.volume * (1 - kMinGain);
   }
 
   // Makes the step, or as much of it as lets f fall; false when none does.
@@ -271,7 +271,7 @@ class ChordDescent::Work {
   bool go_shorter(const Step& step, double share, const ChordPiece& end) {
     if (step.gain < kLastGain * piece_.volume) return false;
     ChordPiece there = end;
-    for (int n = 0; n < kMostShorter; ++n) {
+    for (int n = 0; n < kMaxShorter; ++n) {
       share *= shorter(step, share, there);
       const Vec3 d = touching(tilted(step, share));
       there = find(d);

@@ -79,7 +79,7 @@ void SectionLoops::trace(std::uint32_t start) {
     const double low_height = cut.height[cut.edge], high_height = std::max(cut.height[next], 0.0);
     const Vec3& p = in_.mesh.points[low];
     const Vec3 y = (p - x_) + (low_height / (low_height - high_height)) * (in_.mesh.points[high] - p);
-    const Place at{dot(u_, y), dot(w_, y)};
+    const PlanePoint at{dot(u_, y), dot(w_, y)};
     cut.leaves = at;
     loop.high_a = std::max(loop.high_a, at.a);
     loop.low_b = std::min(loop.low_b, at.b);

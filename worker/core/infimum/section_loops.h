@@ -28,7 +28,7 @@ inline unsigned sides_of(const std::array<double, 3>& height) {
 class SectionLoops {
  public:
   /// A point y of the plane: y - x = a u + b w.
-  struct Place {
+  struct PlanePoint {
     double a = 0, b = 0;
   };
 
@@ -37,7 +37,7 @@ class SectionLoops {
     std::uint32_t triangle = 0;
     std::uint32_t edge = 0;          ///< corner that the edge begins at
     std::array<double, 3> height{};  ///< within kTouchHeight may be < 0 above, too
-    Place leaves;
+    PlanePoint leaves;
   };
 
   struct Loop {
@@ -46,7 +46,7 @@ class SectionLoops {
     double high_a = -std::numeric_limits<double>::infinity();
     double low_b = std::numeric_limits<double>::infinity(), high_b = -low_b;
     /// But for vertices that the plane touches, where loops may meet.
-    Place rightmost{-std::numeric_limits<double>::infinity(), 0};
+    PlanePoint rightmost{-std::numeric_limits<double>::infinity(), 0};
   };
 
   /// An edge of the vertices' tree that the plane cuts, by its end away from the root.
@@ -76,7 +76,7 @@ class SectionLoops {
   /// way in.
   /// @param of_lid which loops there are.
   template <class OfLid>
-  std::uint32_t loop_right_of(const Place& start, OfLid of_lid) const {
+  std::uint32_t loop_right_of(const PlanePoint& start, OfLid of_lid) const {
     std::uint32_t nearest = PieceInput::kNone;
     double least = std::numeric_limits<double>::infinity();
     int winding = 0;
@@ -99,12 +99,12 @@ class SectionLoops {
 
   // Where the loop passes the ray from a place to the right: calls visit(a there, whether b grows).
   template <class Visit>
-  void crossings_right(const Loop& loop, const Place& start, Visit visit) const {
+  void crossings_right(const Loop& loop, const PlanePoint& start, Visit visit) const {
     const double b = start.b;
     if (b < loop.low_b || b > loop.high_b || loop.high_a < start.a) return;
-    Place from = cuts_[loop.end - 1].leaves;
+    PlanePoint from = cuts_[loop.end - 1].leaves;
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
-      const Place to = cuts_[i].leaves;
+      const PlanePoint to = cuts_[i].leaves;
       if ((from.b > b) != (to.b > b)) {
         const double at = from.a + (b - from.b) / (to.b - from.b) * (to.a - from.a);
         if (at > start.a) visit(at, to.b > from.b);

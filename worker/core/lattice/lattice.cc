@@ -122,7 +122,7 @@ class LatticeBuilder {
     });
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
-    // Left uninitialised: filling so much memory can take seconds, in which nobody asks whether to stop.
+    // Left uninitialised: filling so much memory can take seconds, in which the context is not asked.
     const auto run_of = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
     const auto order = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
     const LatticeRun* first_run = lattice_.axis[2].runs.data();

@@ -12,7 +12,7 @@
 namespace affskel::core {
 namespace {
 
-using Place = std::array<std::int64_t, 3>;
+using Indices = std::array<std::int64_t, 3>;
 
 bool has_axis(unsigned step, std::size_t axis) {
   return ((step >> (2 - axis)) & 1U) != 0;
@@ -39,9 +39,9 @@ struct ShearedGrid {
   }
 
   /// The place at coordinate `along` of line number `line` (as in LineCrossings).
-  Place place(std::uint64_t line, std::int64_t along) const {
+  Indices place(std::uint64_t line, std::int64_t along) const {
     const std::size_t u = (main + 1) % 3, v = (main + 2) % 3;
-    Place at{};
+    Indices at{};
     at[main] = along;
     at[u] = static_cast<std::int64_t>(line / grid.dims[v]);
     at[v] = static_cast<std::int64_t>(line % grid.dims[v]);
@@ -86,7 +86,7 @@ void LatticeCuts::add_step(const Solid& solid, const Lattice& lattice, unsigned 
   const ShearedGrid sheared(lattice.grid, step);
   const std::vector<CrossingOnLine> found =
       scan_convert_lines_met(solid.mesh, sheared.grid, static_cast<int>(sheared.main));
-  const auto in_reach = [&](const Place& at) {
+  const auto in_reach = [&](const Indices& at) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (at[a] < (has_axis(step, a) ? -1 : 0) || at[a] > size_[a] - 3) return false;
     }
@@ -100,7 +100,7 @@ void LatticeCuts::add_step(const Solid& solid, const Lattice& lattice, unsigned 
     const double low = std::ceil(found[c].crossing.depth) - 1;
     while (next < found.size() && found[next].line == line && found[next].crossing.depth <= low + 1) ++next;
     LatticeCut cut = cut_of({&found[c], next - c}, low, winding);
-    const Place at = sheared.place(line, static_cast<std::int64_t>(low));
+    const Indices at = sheared.place(line, static_cast<std::int64_t>(low));
     if (!in_reach(at)) continue;
     cut.edge = edge(at[0], at[1], at[2], step);
     cuts_.push_back(cut);

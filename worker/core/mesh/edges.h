@@ -50,7 +50,7 @@ class Edges {
   Groups<EdgeSide> sides_;  // by the smaller vertex
 };
 
-/// Who is a neighbour of whom: of every vertex the others of its triangles, ascending.
+/// The neighbours: of every vertex the others of its triangles, ascending.
 using Adjacency = Groups<std::uint32_t>;
 
 Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles);

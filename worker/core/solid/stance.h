@@ -21,12 +21,12 @@ struct Stance {
   AxisDirection up{2, false};
   AxisDirection front{1, true};  ///< where its front looks, to the viewer; another axis than `up`
 
-  Vec3 right() const;  ///< to the right of who looks at its front: right, up, front are right-handed
+  Vec3 right() const;  ///< to the right of a viewer of its front: right, up, front are right-handed
   friend bool operator==(const Stance&, const Stance&) = default;
 };
 
 struct StanceOptions {
-  std::optional<AxisDirection> up;  ///< what is up, where somebody knows it
+  std::optional<AxisDirection> up;  ///< what is up, where it is known
 };
 
 /// How a solid stands, as its shape tells.  No theorem, but what bodies, animals and busts have in common:

@@ -47,7 +47,7 @@
 namespace affskel::core {
 namespace {
 
-using Place = std::array<std::int64_t, 3>;
+using Indices = std::array<std::int64_t, 3>;
 
 /// The six tetrahedra, positively oriented: det(t1 - t0, t2 - t0, t3 - t0) > 0 in lattice coordinates.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
@@ -122,7 +122,7 @@ class Marcher {
     }
   }
 
-  Place place(unsigned corner) const {
+  Indices place(unsigned corner) const {
     return {at_[0] + ((corner >> 2) & 1), at_[1] + ((corner >> 1) & 1), at_[2] + (corner & 1)};
   }
 
@@ -215,7 +215,7 @@ class Marcher {
     const unsigned p = side[e], q = side[(e + 1) % 3], other = side[(e + 2) % 3];
     const unsigned low = p & q & other, high = p | q | other, middle = p ^ q ^ other ^ low ^ high;
     const unsigned which = other == low ? 0 : other == high ? 1 : 2;
-    const Place at = place(low);
+    const Indices at = place(low);
     const std::uint64_t key = cuts_.edge(at[0], at[1], at[2], high ^ low) * 32 + (middle ^ low) * 4 + which;
     const std::uint32_t a = stop(p, q), b = stop(q, p);
     const auto [name, is_new] = layer(at[0]).rims.try_emplace(key, 0U);
@@ -229,7 +229,7 @@ class Marcher {
   /// The vertex where the eroded solid ends on the way from corner p, which is full, to corner q.
   std::uint32_t stop(unsigned p, unsigned q) {
     const unsigned low = p & q;
-    const Place at = place(low);
+    const Indices at = place(low);
     const std::uint64_t edge = cuts_.edge(at[0], at[1], at[2], p ^ q);
     const auto [name, is_new] = layer(at[0]).stops.try_emplace(edge * 2 + (p == low ? 0 : 1), 0U);
     if (is_new) name->second = add_stop(p, q, cuts_.find(edge));
@@ -245,7 +245,7 @@ class Marcher {
     }
     for (double* t : {&found.share, &found.min_share, &found.max_share})
       *t = std::clamp(*t, kLevelMargin, max_share);
-    const Place from = place(p), to = place(q);
+    const Indices from = place(p), to = place(q);
     const Vec3 start = position(from), along = position(to) - start;
     const std::uint32_t vertex = add_vertex(start + found.share * along);
     if (found.min_share < found.max_share) {
@@ -272,11 +272,11 @@ class Marcher {
   }
 
   std::uint32_t rank(unsigned corner) const {
-    const Place at = place(corner);
+    const Indices at = place(corner);
     return ranks_.at(at[0], at[1], at[2]);
   }
 
-  static Vec3 position(const Place& at) {
+  static Vec3 position(const Indices& at) {
     return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
   }
 
@@ -285,10 +285,10 @@ class Marcher {
   LatticeCuts cuts_;
   ErodedPlaces places_;
   LayerIndex ranks_;  // of layer at_[0] + 1 and the two beside it
-  Place dims_{};
+  Indices dims_{};
   std::array<Layer, 2> layers_;
   // The cube in hand.
-  Place at_{};
+  Indices at_{};
   unsigned corner_full_ = 0;
   std::array<std::uint8_t, 8> corner_gaps_{};
   // The tetrahedron in hand.

@@ -163,7 +163,7 @@ class OffReader {
       }
       corners_.push_back(static_cast<std::uint32_t>(v));
     }
-    // A triangle with a corner twice has no area, which is for whoever uses the mesh to judge.
+    // A triangle with a corner twice has no area, which is for users of the mesh to judge.
     if (sides == 3) return;
     if (const auto twice = repeated_corner()) {
       fail_at_line(rows_.line(),

@@ -44,7 +44,7 @@ TEST(InterruptDeathTest, RemovesTheUnfinishedFile) {
   EXPECT_TRUE(dir.names().empty());
 }
 
-// 0 when an base::AtomicFile into a pipe that nobody reads fails with a message about it.
+// 0 when a base::AtomicFile into a pipe without a reader fails with a message about it.
 [[noreturn]] void write_to_nobody() {
   install_interrupt_handlers();
   std::array<int, 2> ends{};

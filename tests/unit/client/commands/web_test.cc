@@ -27,7 +27,7 @@ TEST_F(WebCommandTest, RefusesWhatIsNoAddressOrHalfAnIdentity) {
   EXPECT_NE(missing.err.find("c.pem"), std::string::npos) << missing.err;
 }
 
-// Whoever reached the page could do what this client may.
+// Any visitor of the page could do what this client may.
 TEST_F(WebCommandTest, IsNoDoorToAServerThatTakesEverybody) {
   const tests::TestAuthority authority(dir_.path(), "authority");
   authority.sign("web");

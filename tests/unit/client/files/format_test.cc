@@ -43,7 +43,7 @@ TEST(ChooseFormat, AFormatStandsAboveTheName) {
     choose_format(Destination{"-"}, skeleton_formats(), "skeleton");
   } catch (const ClientError& error) {
     EXPECT_EQ(error.for_people(),
-              "standard output: say by --format how to write the skeleton; possible are .csv, .ply, .off, "
+              "standard output: a format is needed for the skeleton; possible are .csv, .ply, .off, "
               ".xyz, .vtp");
   }
 }

@@ -1,4 +1,4 @@
-// Who may ask the service for what.
+// Which callers may ask the service for what.
 #include "web/web_service_fixture.h"
 
 namespace affskel::client {

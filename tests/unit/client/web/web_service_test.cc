@@ -260,7 +260,7 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);
 }
 
-// Small pictures stand in the list: drawn once, for who may see the job.
+// Small pictures stand in the list: drawn once, for users that may see the job.
 TEST_F(WebServiceTest, KeepsPicturesThatItHasDrawn) {
   EXPECT_EQ(ask("GET", "/api/jobs/" + service_.job.id() + "/thumbnail").status, 401);
   sign_in();

@@ -239,13 +239,13 @@ double barrier_of(const Chord& chord, const Vec3& a, const Vec3& b) {
   return -1;
 }
 
-struct Place {
+struct JumpPlace {
   Vec3 place, a, b;
 };
 
 // Boxes have no jump: along the middle rectangle f is level from one side's normal to the other's.
 TEST(Barriers, OfABoxAreThoseOfItsFormula) {
-  const std::vector<Place> places = {
+  const std::vector<JumpPlace> places = {
       // The middle rectangle: towards its middle, its short side, its corner.
       {{2, 1.5, 0.5}, {0.2, 0, 1}, {0.2, 0, -1}},
       {{1.2, 1.2, 0.5}, {0.3, 0.2, 1}, {0.3, 0.2, -1}},
@@ -290,10 +290,10 @@ TEST(Barriers, OfATetrahedronAreThoseOfItsFormula) {
 // --- what they depend on ------------------------------------------------------------------------------
 
 // Places round the middle of three arms that nothing is symmetric about, with the normals of two arms.
-std::vector<Place> star_places(int count) {
+std::vector<JumpPlace> star_places(int count) {
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> part(-1, 1);
-  std::vector<Place> places;
+  std::vector<JumpPlace> places;
   for (int n = 0; n < count; ++n) {
     const double t = 2 * kPi / 3 * n, u = t + 2 * kPi / 3;
     places.push_back({{0.5 * part(random), 0.5 * part(random), 0.35 + 0.2 * part(random)},

@@ -12,7 +12,7 @@
 namespace affskel::core {
 namespace {
 
-using Place = std::array<std::int64_t, 3>;
+using Indices = std::array<std::int64_t, 3>;
 
 Lattice lattice_at(const Solid& solid, double spacing) {
   LatticeOptions options;
@@ -22,7 +22,7 @@ Lattice lattice_at(const Solid& solid, double spacing) {
 
 // Visits every edge with both ends' ranks.
 void for_each_edge(const Lattice& lattice,
-                   const std::function<void(const Place&, const Place&, unsigned, bool, bool)>& visit) {
+                   const std::function<void(const Indices&, const Indices&, unsigned, bool, bool)>& visit) {
   const auto dims = lattice.grid.dims;
   LayerIndex ranks(lattice);
   for (std::int64_t i = -1; i < dims[0]; ++i) {
@@ -30,8 +30,8 @@ void for_each_edge(const Lattice& lattice,
     for (std::int64_t j = -1; j < dims[1]; ++j) {
       for (std::int64_t k = -1; k < dims[2]; ++k) {
         for (unsigned step = 1; step < 8; ++step) {
-          const Place from{i, j, k}, to{i + ((step >> 2) & 1), j + ((step >> 1) & 1), k + (step & 1)};
-          const auto inside = [&](const Place& p) {
+          const Indices from{i, j, k}, to{i + ((step >> 2) & 1), j + ((step >> 1) & 1), k + (step & 1)};
+          const auto inside = [&](const Indices& p) {
             return ranks.at(p[0], p[1], p[2]) != LayerIndex::kOutside;
           };
           visit(from, to, step, inside(from), inside(to));
@@ -41,7 +41,7 @@ void for_each_edge(const Lattice& lattice,
   }
 }
 
-Vec3 at(const SamplePlaces& places, const Place& from, const Place& to, double share) {
+Vec3 at(const SamplePlaces& places, const Indices& from, const Indices& to, double share) {
   Vec3 x = places.origin();
   for (std::size_t a = 0; a < 3; ++a) {
     x = x + (static_cast<double>(from[a]) + share * static_cast<double>(to[a] - from[a])) * places.axes()[a];
@@ -56,7 +56,7 @@ TEST(LatticeCutsTest, MeetABallsSurfaceOnEveryEdgeThatLeavesIt) {
   const LatticeCuts cuts(solid, lattice);
   const SamplePlaces places(solid, lattice);
   std::size_t crossed = 0;
-  for_each_edge(lattice, [&](const Place& from, const Place& to, unsigned step, bool in, bool out) {
+  for_each_edge(lattice, [&](const Indices& from, const Indices& to, unsigned step, bool in, bool out) {
     const LatticeCut* cut = cuts.find(cuts.edge(from[0], from[1], from[2], step));
     if (in && out) {
       EXPECT_EQ(cut, nullptr);
@@ -80,7 +80,7 @@ TEST(LatticeCutsTest, FindTheGapBetweenTwoBoxes) {
   const LatticeCuts cuts(solid, lattice);
   const SamplePlaces places(solid, lattice);
   std::size_t gaps = 0;
-  for_each_edge(lattice, [&](const Place& from, const Place& to, unsigned step, bool in, bool out) {
+  for_each_edge(lattice, [&](const Indices& from, const Indices& to, unsigned step, bool in, bool out) {
     if (!in || !out) return;
     const LatticeCut* cut = cuts.find(cuts.edge(from[0], from[1], from[2], step));
     const bool across = at(places, from, to, 0).x < 2.05 && at(places, from, to, 1).x > 2.05;
@@ -113,7 +113,7 @@ TEST(LatticeCutsTest, DependOnTheSolidNotOnTheLengthOfTheLattice) {
     ASSERT_EQ(near.points, far.points);
     const LatticeCuts expected(solid, near), found(solid, far);
     std::size_t met = 0;
-    for_each_edge(near, [&](const Place& from, const Place&, unsigned step, bool, bool) {
+    for_each_edge(near, [&](const Indices& from, const Indices&, unsigned step, bool, bool) {
       const LatticeCut* e = expected.find(expected.edge(from[0], from[1], from[2], step));
       const LatticeCut* f = found.find(found.edge(from[0], from[1], from[2], step));
       ASSERT_EQ(e == nullptr, f == nullptr);

@@ -7,11 +7,11 @@
 namespace affskel::core {
 namespace {
 
-using Place = NormalBlock::Place;
+using Indices = NormalBlock::Indices;
 
 TEST(CentralDifferences, GiveTheDerivativeOfALinearField) {
   NormalBlock block({5, 5, 5}, 0.5);
-  block.fill([](const Place& p) { return Vec3{p[0] / 8.0, 0.5 * p[1] / 8.0, -2.0 * p[2] / 8.0}; });
+  block.fill([](const Indices& p) { return Vec3{p[0] / 8.0, 0.5 * p[1] / 8.0, -2.0 * p[2] / 8.0}; });
   const std::vector<double> h = central_difference_divergence(block.lattice, block.normals, block.optimal);
   EXPECT_NEAR(h[block.at({2, 2, 2})], (1 + 0.5 - 2) / 8 / 0.5, 1e-14);
   // One neighbour of a point at the surface is the point itself: half the difference.
@@ -21,7 +21,7 @@ TEST(CentralDifferences, GiveTheDerivativeOfALinearField) {
 
 TEST(CentralDifferences, GiveHalfTheJumpOnBothSidesOfASheet) {
   NormalBlock block({5, 5, 6}, 0.25);
-  block.fill([](const Place& p) { return jumping_normal(p, 1, 2, 1.5); });
+  block.fill([](const Indices& p) { return jumping_normal(p, 1, 2, 1.5); });
   const std::vector<double> h = central_difference_divergence(block.lattice, block.normals, block.optimal);
   for (std::uint32_t j = 0; j < 5; ++j) {
     EXPECT_NEAR(h[block.at({0, j, 5})], j == 2 || j == 3 ? -1.5 / 0.5 : 0, 1e-13);

@@ -8,11 +8,11 @@
 namespace affskel::core {
 namespace {
 
-using Place = NormalBlock::Place;
+using Indices = NormalBlock::Indices;
 
 TEST(IntermediateDifferences, GiveTheDerivativeOfALinearField) {
   NormalBlock block({5, 5, 5}, 0.5);
-  block.fill([](const Place& p) { return Vec3{p[0] / 8.0, 0.5 * p[1] / 8.0, -2.0 * p[2] / 8.0}; });
+  block.fill([](const Indices& p) { return Vec3{p[0] / 8.0, 0.5 * p[1] / 8.0, -2.0 * p[2] / 8.0}; });
   const std::vector<double> h =
       intermediate_difference_divergence(block.lattice, block.normals, block.optimal);
   EXPECT_NEAR(h[block.at({2, 2, 2})], (1 + 0.5 - 2) / 8 / 0.5, 1e-14);
@@ -23,7 +23,7 @@ TEST(IntermediateDifferences, GiveTheDerivativeOfALinearField) {
 
 TEST(IntermediateDifferences, GiveTheJumpOnTheLowerSideOfASheet) {
   NormalBlock block({5, 5, 6}, 0.25);
-  block.fill([](const Place& p) { return jumping_normal(p, 2, 2, 1.5); });
+  block.fill([](const Indices& p) { return jumping_normal(p, 2, 2, 1.5); });
   const std::vector<double> h =
       intermediate_difference_divergence(block.lattice, block.normals, block.optimal);
   for (std::uint32_t k = 0; k < 6; ++k) EXPECT_NEAR(h[block.at({0, 2, k})], k == 2 ? -1.5 / 0.25 : 0, 1e-13);
@@ -31,7 +31,7 @@ TEST(IntermediateDifferences, GiveTheJumpOnTheLowerSideOfASheet) {
 
 TEST(IntermediateDifferences, TakeAPointWithoutDirectionAsZero) {
   NormalBlock block({3, 1, 1});
-  block.fill([](const Place&) { return Vec3{1, 0, 0}; });
+  block.fill([](const Indices&) { return Vec3{1, 0, 0}; });
   block.optimal[1] = FieldValue::kNoDirection;
   EXPECT_EQ(intermediate_difference_divergence(block.lattice, block.normals, block.optimal),
             (std::vector<double>{-1, 1, 0}));

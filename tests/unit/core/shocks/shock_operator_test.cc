@@ -11,7 +11,7 @@
 namespace affskel::core {
 namespace {
 
-using Place = NormalBlock::Place;
+using Indices = NormalBlock::Indices;
 
 std::vector<ShockOperator> all() {
   std::vector<ShockOperator> list;
@@ -43,12 +43,12 @@ INSTANTIATE_TEST_SUITE_P(All, EveryOperator, testing::ValuesIn(all()), [](const 
 
 TEST_P(EveryOperator, FindsNothingWhereNormalsAreEqual) {
   NormalBlock block({4, 5, 6}, 0.25);
-  for (const double h : of(block.fill([](const Place&) { return Vec3{0.48, 0.6, 0.64}; }))) EXPECT_EQ(h, 0);
+  for (const double h : of(block.fill([](const Indices&) { return Vec3{0.48, 0.6, 0.64}; }))) EXPECT_EQ(h, 0);
 }
 
 TEST_P(EveryOperator, FindsNothingInAShear) {  // divergence-free: n = (y, z, x) / 8
   NormalBlock block({7, 7, 7});
-  const std::vector<double> h = of(block.fill([](const Place& p) {
+  const std::vector<double> h = of(block.fill([](const Indices& p) {
     return Vec3{p[1] / 8.0, p[2] / 8.0, p[0] / 8.0};
   }));
   for (std::uint32_t i = 1; i < 6; ++i) EXPECT_NEAR(h[block.at({i, 3, 4})], 0, 1e-15);
@@ -57,7 +57,7 @@ TEST_P(EveryOperator, FindsNothingInAShear) {  // divergence-free: n = (y, z, x)
 TEST_P(EveryOperator, IsPositiveAtSourcesAndNegativeAtSinks) {
   for (const double sign : {1.0, -1.0}) {
     NormalBlock block({5, 5, 5});
-    const std::vector<double> h = of(block.fill([&](const Place& p) {
+    const std::vector<double> h = of(block.fill([&](const Indices& p) {
       const Vec3 way{p[0] - 2.0, p[1] - 2.0, p[2] - 2.0};
       const double length = norm(way);
       return length == 0 ? Vec3{} : (sign / length) * way;
@@ -71,8 +71,8 @@ TEST_P(EveryOperator, TreatsTheAxesAlike) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> component(-1, 1);
   NormalBlock block({4, 5, 6}), turned({6, 4, 5});
-  block.fill([&](const Place&) { return Vec3{component(random), component(random), component(random)}; });
-  turned.fill([&](const Place& p) {
+  block.fill([&](const Indices&) { return Vec3{component(random), component(random), component(random)}; });
+  turned.fill([&](const Indices& p) {
     const Vec3& n = block.normals[block.at({p[1], p[2], p[0]})];
     return Vec3{n.z, n.x, n.y};
   });
@@ -90,9 +90,9 @@ TEST_P(EveryOperator, ShowsAJumpOnlyBesideIt) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     NormalBlock block({8, 8, 8}, 0.5);
     const std::vector<double> h =
-        of(block.fill([&](const Place& p) { return jumping_normal(p, axis, 3, 1.2); }));
+        of(block.fill([&](const Indices& p) { return jumping_normal(p, axis, 3, 1.2); }));
     for (std::uint32_t layer = 0; layer < 8; ++layer) {
-      Place p{4, 4, 4};
+      Indices p{4, 4, 4};
       p[axis] = layer;
       const bool both_sides = GetParam() != ShockOperator::kIntermediate;
       const bool beside = layer == 3 || (both_sides && layer == 4);
@@ -110,7 +110,7 @@ TEST_P(EveryOperator, DefaultThresholdsStandForTheSameJump) {
     NormalBlock block({5, 5, 6}, spacing);
     const auto height = [&](double j) {
       const std::vector<double> h =
-          of(block.fill([&](const Place& p) { return jumping_normal(p, 2, 2, j); }));
+          of(block.fill([&](const Indices& p) { return jumping_normal(p, 2, 2, j); }));
       return std::abs(h[block.at({2, 2, 2})]);
     };
     const double threshold = default_threshold(GetParam(), spacing);
@@ -127,7 +127,7 @@ TEST(NextThreshold, ContinuesThePublishedLadder) {
 
 TEST(Divergence, IsTheOperatorsOwn) {
   NormalBlock block({4, 4, 4});
-  block.fill([](const Place& p) { return Vec3{p[0] * 0.1, p[1] * p[1] * 0.01, p[2] * 0.2}; });
+  block.fill([](const Indices& p) { return Vec3{p[0] * 0.1, p[1] * p[1] * 0.01, p[2] * 0.2}; });
   EXPECT_EQ(divergence(ShockOperator::kZuckerHummel, block.lattice, block.normals, block.optimal),
             zucker_hummel_divergence(block.lattice, block.normals, block.optimal));
 }

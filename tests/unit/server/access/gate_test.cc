@@ -86,7 +86,7 @@ TEST_F(GateTest, OnASocketTheUserIsTheIdentity) {
   EXPECT_EQ(admit(credentials).identity.owner, user_name(geteuid()));
   credentials.uid = 0;
   EXPECT_EQ(admit(credentials).identity.role, v1::ROLE_ADMIN);
-  credentials.uid = 4'000'000;  // nobody has it
+  credentials.uid = 4'000'000;  // no account's
   EXPECT_EQ(admit(credentials).identity.role, v1::ROLE_USER);
   EXPECT_EQ(admit(credentials).identity.owner, "uid:4000000");
   EXPECT_EQ(admit(credentials, Method::kLeaseTask).status.error_code(), grpc::PERMISSION_DENIED);

@@ -191,7 +191,7 @@ TEST_F(RepairTest, AJobsOwnSheetIsMadeAgain) {
             "a sheet!");
 }
 
-// Clients alone use the lattice: the field is kept, and the lattice made when somebody asks.
+// Clients alone use the lattice: the field is kept, and the lattice made on request.
 TEST_F(RepairTest, ALostLatticeIsMadeOnRequest) {
   const v1::Job job = complete_job(kRepairedPoints, kRepairedDirections);
   v1::FetchArtifactRequest request = artifact_request(job.id(), v1::ARTIFACT_KIND_LATTICE);

@@ -363,7 +363,7 @@ TEST(SupervisorTest, KillsAllForAProcessThatLeavesAtOnce) {
   supervisor.kill_all();
   tick_until(supervisor, [&] { return ended == 1; });
   EXPECT_EQ(supervisor.running(), 0U);
-  supervisor.kill_all();  // nobody
+  supervisor.kill_all();  // no worker
 }
 
 TEST(SupervisorTest, NamesAMissingWorkerBinary) {

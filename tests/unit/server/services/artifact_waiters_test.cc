@@ -62,7 +62,7 @@ TEST(ArtifactWaitersTest, AServerThatClosesLeavesTheTasks) {
   EXPECT_EQ(waiters.count(7), 0U);
 }
 
-// On a full disk, say.  Whoever asks for the same meanwhile keeps it.
+// On a full disk, say.  A caller that asks for the same meanwhile keeps it.
 TEST(ArtifactWaitersTest, WhatCouldNotBeTakenBackIsTriedAgain) {
   bool works = false;
   std::vector<std::int64_t> withdrawn;

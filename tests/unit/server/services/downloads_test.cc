@@ -1,4 +1,4 @@
-// Downloads of clients that read slowly, or nothing, and those who come after them.
+// Downloads of clients that read slowly, or nothing, and calls that come after them.
 #include "service_fixture.h"
 
 namespace affskel::server {

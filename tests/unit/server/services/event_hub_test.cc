@@ -88,7 +88,7 @@ TEST_F(EventHubTest, TellsOfWork) {
   EXPECT_EQ(wait_for(1), (std::vector<std::string>{"work"}));
 }
 
-// The last change of a job must not be the one that nobody hears of.
+// The last change of a job must not be the one that is not told.
 TEST_F(EventHubTest, WhatCouldNotBeReadIsToldLater) {
   const EventHub::Subscription first = subscribe("first"), second = subscribe("second");
   failures_ = 3;

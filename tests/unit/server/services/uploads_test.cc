@@ -1,4 +1,4 @@
-// Submissions of clients that send slowly, or nothing, and those who come after them.
+// Submissions of clients that send slowly, or nothing, and calls that come after them.
 #include <list>
 
 #include "service_fixture.h"

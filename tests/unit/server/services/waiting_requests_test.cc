@@ -4,7 +4,7 @@
 namespace affskel::server {
 namespace {
 
-/// A finished job, and nobody to derive anything from it.
+/// A finished job, and no worker to derive anything from it.
 class WaitingRequests : public ServiceTest {
  protected:
   std::string finished_job() {
@@ -77,7 +77,7 @@ TEST_F(WaitingRequests, ComingAndGoingLosesNone) {
     wait_for_waiting(1);
     while (requests() != 1) std::this_thread::yield();
   }
-  // A worker that took the request of who is just going would lose it.
+  // A worker that took the request of a caller that is just going would lose it.
   while (server_->room().waiting.used() > 0 || requests() > 0) std::this_thread::yield();
   const Waiting last(connect(), id, 3);
   wait_for_waiting(1);

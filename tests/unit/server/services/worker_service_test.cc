@@ -179,7 +179,7 @@ TEST_F(WorkerServiceTest, DeadProcessOfAPredecessorIsNoticed) {
   v1::WorkerIdentity worker = worker_identity();
   worker.set_host(wire::host_name());
   worker.set_pid(static_cast<std::uint32_t>(child));
-  options_.store.lease_ms = 3'600'000;  // nobody waits for this deadline
+  options_.store.lease_ms = 3'600'000;  // the test does not wait for this deadline
   start();
   ASSERT_TRUE(server_->store().lease(worker, "", true));
   ASSERT_EQ(waitpid(child, nullptr, 0), child);

@@ -45,7 +45,7 @@ TEST_F(ArtifactTest, DefaultSkeletonIsStored) {
   EXPECT_EQ(read_all(*store_->open_artifact(skeleton_request(job.id(), 7)).reader), "skeleton");
 }
 
-// Its sheet, with which all show it; its vertices as points are made for who asks.
+// Its sheet, with which every face shows it; its vertices as points are made on request.
 TEST_F(ArtifactTest, AJobWithASheetIsDoneWithItsSurface) {
   v1::SubmitJobHeader header = submit_header("OFF 1");
   header.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);

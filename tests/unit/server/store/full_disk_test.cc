@@ -101,7 +101,7 @@ TEST_F(FullDiskTest, JobsAreCancelledAndDeletedWhereNothingElseCanBeWritten) {
   EXPECT_EQ(submit("OFF 4").state(), v1::JOB_STATE_QUEUED);
 }
 
-/// Holds up everybody who found the disk full until all of them have: a store that finds its disk full asks
+/// Holds up every call that found the disk full until all of them have: a store that finds its disk full asks
 /// for the time before it gives the reserve away.
 class AllFindItFull final : public Clock {
  public:

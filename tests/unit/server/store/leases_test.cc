@@ -50,7 +50,7 @@ TEST_F(LeaseTest, CutsBlocksOfPositions) {
   EXPECT_EQ(covered, 1000U);
 }
 
-// Whoever comes last to the end has little left to do alone.
+// The worker that ends last has little left to do alone.
 TEST_F(LeaseTest, BlocksGetFinerTowardsTheEnd) {
   std::vector<std::uint64_t> sizes;
   std::uint64_t covered = 0;

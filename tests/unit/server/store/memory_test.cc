@@ -74,7 +74,7 @@ TEST_F(MemoryTest, LargeTasksWaitForLargeWorkersAndSmallOnesGoOn) {
   EXPECT_EQ(lease_with(0)->job().id(), large) << "a worker that does not say is offered everything";
 }
 
-// The turn of an owner who can only be served by others is not lost, and not waited for.
+// The turn of an owner that only other workers can serve is not lost, and not waited for.
 TEST_F(MemoryTest, TurnsAreAmongWhatTheWorkerCanDo) {
   const std::string large = large_job("ada");
   v1::SubmitJobHeader header = submit_header("OFF bob");

@@ -132,7 +132,7 @@ TEST_F(QueueTest, CancellingAFinishedJobTakesItsRequestsBack) {
   EXPECT_STORE_ERROR(store_->cancel(done.id()), kPrecondition);
 }
 
-// Nobody waits across a restart; whoever asks again in time keeps the work.
+// No caller waits across a restart; one that asks again in time keeps the work.
 TEST_F(QueueTest, RequestsOfARestartedServerAreDroppedUnlessAskedForAgain) {
   const v1::Job done = complete_job(10, 20);
   const std::int64_t kept = ask(done.id(), 3);

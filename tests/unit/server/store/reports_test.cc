@@ -76,7 +76,7 @@ TEST_F(ReportTest, UnsortedRecordsOfOneReport) {
   EXPECT_EQ(field(job.id()), expected_field(9000, 16));
 }
 
-// Small reports wait in a log; whoever reads the field sees them all the same, also after a restart, and
+// Small reports wait in a log; readers of the field see them all the same, also after a restart, and
 // nothing of the log is left of a finished field.
 TEST_F(ReportTest, LoggedRecordsAreInTheField) {
   constexpr std::uint32_t kPoints = 9000, kDirections = 32;

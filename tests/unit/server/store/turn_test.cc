@@ -64,7 +64,7 @@ TEST_F(TurnTest, OwnersTakeTurnsHoweverManyJobsTheyHave) {
   EXPECT_EQ(owners(12), "abcabcabcabc");
 }
 
-// Whoever comes later is next, and has every second grant from then on.
+// The later owner is next, and has every second grant from then on.
 TEST_F(TurnTest, ANewOwnerIsNext) {
   for (int i = 0; i < 10; ++i) submit_as("ada");
   EXPECT_EQ(owners(3), "aaa");
@@ -97,7 +97,7 @@ TEST_F(TurnTest, PriorityComesBeforeTurns) {
   EXPECT_EQ(owners(5), "aaaaa");
 }
 
-// Everybody could take 9.
+// Every owner could take 9.
 TEST_F(TurnTest, AcrossOwnersAPriorityCountsUpToTheQuota) {
   submit_as("ada", 9);
   submit_as("bob", 5);

@@ -159,7 +159,7 @@ TEST_F(VerifyTest, DistrustComputesAgainAndGivesNoMoreWork) {
   EXPECT_EQ(store_->events(job.id(), 0).givers_size(), 1);
 }
 
-// Others, who knew the lie as a bound, kept silent about what was greater: their directions count again, too.
+// Others, which knew the lie as a bound, kept silent about what was greater: their directions count again, too.
 TEST_F(VerifyTest, WhatALieKeptBackComesOut) {
   const v1::Job job = submit();
   prepare(kPoints, kDirections);

@@ -15,8 +15,7 @@ namespace affskel::core {
 ///   .xyz          x y z or x y z nx ny nz per row;
 ///   .off          Geomview OFF text, with or without faces;
 ///   .ply          ASCII or binary of either byte order, any properties (but those of ply_display.h beside an
-///   E),
-///                 polygons cut into triangles;
+///                 E), polygons cut into triangles;
 ///   .obj          v, f and l, polygons cut, a backslash at a line's end continues it; the rest is
 ///                 passed over and counted;
 ///   .stl          text or binary; corners at the same place become one vertex;
