@@ -15,6 +15,7 @@
 #include "core/contour/edge_cells.h"
 #include "core/lattice/solid_parts.h"
 #include "core/mesh/box.h"
+#include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"
@@ -162,6 +163,11 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   drop(basis.complex, chosen.left_out, left.cells);
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
+  if (basis.topology.holes > 0) {
+    sheet.filled = fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
+                                options.context);
+    sheet.lattice.holes -= sheet.filled;
+  }
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs;
   sheet.opened = left.opened;
