@@ -22,6 +22,7 @@
 #include "core/ridge/ridge_curves.h"
 #include "core/ridge/ridge_values.h"
 #include "core/ridge/skeleton_mesh.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 namespace {
@@ -32,9 +33,19 @@ struct Found {
   std::vector<RidgeCurve> curves;
 };
 
-Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
+// Lattice coordinates.
+Mesh mesh_in_lattice(const Solid& solid, const Lattice& lattice) {
+  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
+  Mesh mesh = solid.mesh;
+  for (Vec3& place : mesh.points) place = transposed_times(to_indices, place - lattice.grid.origin);
+  return mesh;
+}
+
+Found find_ridges(const Solid& solid, const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
                   const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  const RidgeValues values(lattice, field, basis.derivatives, basis.radius,
+  const Mesh surface = mesh_in_lattice(solid, lattice);
+  const DistanceToMesh nearest(surface);
+  const RidgeValues values(lattice, field, basis.derivatives, basis.radius, nearest,
                            constants.weak_share * options.bounds.low, constants);
   throw_if_stopped(options.context);
   Found found;
@@ -61,7 +72,7 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCel
 }
 
 // A way costs a hundred times as much as in the middle at most, so that the queue of ways stays short.
-constexpr double kLeastEase = 1e-4;
+constexpr double kLeastEase = 0.01;
 
 // What a way costs for each spacing of its length: little in the middle of the solid, where E and the distance
 // to the surface are large.
@@ -70,8 +81,9 @@ std::vector<float> costs_of_ways(const FrameField& field, std::span<const float>
   const double widest = static_cast<double>(*std::max_element(radius.begin(), radius.end()));
   std::vector<float> cost(radius.size());
   for (std::size_t p = 0; p < cost.size(); ++p) {
-    const double ease = std::sqrt(field.erosion[p] / deepest) * static_cast<double>(radius[p]) / widest;
-    cost[p] = static_cast<float>(1 / std::sqrt(std::max(kLeastEase, ease)));
+    const double ease =
+        std::sqrt(std::sqrt(field.erosion[p] / deepest)) * static_cast<double>(radius[p]) / widest;
+    cost[p] = static_cast<float>(1 / std::max(kLeastEase, ease));
   }
   return cost;
 }
@@ -139,7 +151,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   if (basis.derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
   const SolidParts parts(solid, lattice);
-  const Found found = find_ridges(lattice, field, basis, options, constants);
+  const Found found = find_ridges(solid, lattice, field, basis, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
   edges.reserve(found.crossings.size());

@@ -17,6 +17,10 @@ double strength_of(double least, double value, double square) {
   return turn < 2 * kMaxRidgeStrength * square ? 0.5 * turn / square : kMaxRidgeStrength;
 }
 
+// A vertex is nearer to the surface than its sample point by a spacing at most, that one than half a spacing and the
+// chamfer distance tell by so much: ways along the three kinds of diagonals are longer than straight ones.
+constexpr double kSpare = 1.75, kChamfer = 1.14;
+
 std::array<float, 3> floats_of(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -49,10 +53,11 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 
 RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
                          std::span<const PointDerivatives> derivatives, std::span<const float> radius,
-                         double min_strength, const RidgeConstants& constants)
+                         const DistanceToMesh& surface, double min_strength, const RidgeConstants& constants)
     : field_(field),
       derivatives_(derivatives),
       radius_(radius),
+      surface_(surface),
       constants_(constants),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
@@ -62,10 +67,12 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
   for (const PointDerivatives& point : derivatives) ridges_.push_back(ridge_at(point, min_strength));
 }
 
-bool RidgeValues::is_deep(std::uint32_t point) const {
-  const double depth = static_cast<double>(derivatives_[point].depth);
-  return static_cast<double>(radius_[point]) >=
-         std::max(constants_.min_radius, constants_.min_radius_share * depth);
+bool RidgeValues::is_deep(const SheetVertex& vertex) const {
+  const auto radius = static_cast<double>(radius_[vertex.point]);
+  const double least = constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
+  if (radius < constants_.min_radius) return false;
+  return (radius - kSpare) / kChamfer >= least ||
+         surface_.nearest((1 / field_.spacing) * vertex.position) >= least;
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

@@ -12,6 +12,7 @@
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/ridge/smoothed_derivatives.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 
@@ -32,10 +33,12 @@ class RidgeValues {
  public:
   /// @param derivatives of this field.
   /// @param radius per sample point: see surface_distance().
+  /// @param surface of the solid, lattice coordinates.
   /// @param min_strength least s that is asked for, radians: points far below it are left out.
   /// @throws CoreError kBadInput when the strength is out of range.
   RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
-              std::span<const float> radius, double min_strength, const RidgeConstants& constants = {});
+              std::span<const float> radius, const DistanceToMesh& surface, double min_strength,
+              const RidgeConstants& constants = {});
 
   const PointRidge& ridge(std::uint32_t point) const { return ridges_[point]; }
 
@@ -44,7 +47,7 @@ class RidgeValues {
 
   /// Whether a strength reaches the bound, at a vertex far enough from the surface.
   bool counts(double strength, const SheetVertex& vertex) const {
-    return strength >= min_strength_ && is_deep(vertex.point);
+    return strength >= min_strength_ && is_deep(vertex);
   }
 
   /// What a strength is that of.
@@ -58,11 +61,12 @@ class RidgeValues {
                  std::span<const double> weights, const Vec3& across) const;
 
  private:
-  bool is_deep(std::uint32_t point) const;
+  bool is_deep(const SheetVertex& vertex) const;
 
   const FrameField& field_;
   std::span<const PointDerivatives> derivatives_;
   std::span<const float> radius_;
+  const DistanceToMesh& surface_;
   RidgeConstants constants_;
   double min_strength_;
   Matrix3 to_mesh_;                 // F^-T
