@@ -41,10 +41,9 @@ Mesh mesh_in_lattice(const Solid& solid, const Lattice& lattice) {
   return mesh;
 }
 
-Found find_ridges(const Solid& solid, const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
-                  const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  const Mesh surface = mesh_in_lattice(solid, lattice);
-  const DistanceToMesh nearest(surface);
+Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
+                  const DistanceToMesh& nearest, const RidgeSheetOptions& options,
+                  const RidgeConstants& constants) {
   const RidgeValues values(lattice, field, basis.derivatives, basis.radius, nearest,
                            constants.weak_share * options.bounds.low, constants);
   throw_if_stopped(options.context);
@@ -151,7 +150,9 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   if (basis.derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
   const SolidParts parts(solid, lattice);
-  const Found found = find_ridges(solid, lattice, field, basis, options, constants);
+  const Mesh walls = mesh_in_lattice(solid, lattice);
+  const DistanceToMesh nearest(walls);
+  const Found found = find_ridges(lattice, field, basis, nearest, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
   edges.reserve(found.crossings.size());
@@ -183,9 +184,17 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs;
   sheet.opened = left.opened;
-  const SkeletonParts from{
-      lattice,           parts, field, cells, surface.vertices, chosen, basis.derivatives, basis.radius,
-      options.bounds.low};
+  const SkeletonParts from{.lattice = lattice,
+                           .parts = parts,
+                           .field = field,
+                           .cells = cells,
+                           .surface = surface.vertices,
+                           .anchors = chosen,
+                           .derivatives = basis.derivatives,
+                           .radius = basis.radius,
+                           .nearest = nearest,
+                           .low = options.bounds.low,
+                           .min_radius_share = constants.min_radius_share};
   static_cast<SheetMesh&>(sheet) = skeleton_mesh(solid, basis.complex, left.cells, from, options.context);
   sheet.unreached =
       unreached_ends(solid, lattice, chosen.left_out, mesh_places(solid, lattice, sheet), options.context);

@@ -17,10 +17,6 @@ double strength_of(double least, double value, double square) {
   return turn < 2 * kMaxRidgeStrength * square ? 0.5 * turn / square : kMaxRidgeStrength;
 }
 
-// A vertex is nearer to the surface than its sample point by a spacing at most, that one than half a spacing and the
-// chamfer distance tell by so much: ways along the three kinds of diagonals are longer than straight ones.
-constexpr double kSpare = 1.75, kChamfer = 1.14;
-
 std::array<float, 3> floats_of(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -71,8 +67,7 @@ bool RidgeValues::is_deep(const SheetVertex& vertex) const {
   const auto radius = static_cast<double>(radius_[vertex.point]);
   const double least = constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
   if (radius < constants_.min_radius) return false;
-  return (radius - kSpare) / kChamfer >= least ||
-         surface_.nearest((1 / field_.spacing) * vertex.position) >= least;
+  return is_surely_deep(radius, least) || surface_.nearest((1 / field_.spacing) * vertex.position) >= least;
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

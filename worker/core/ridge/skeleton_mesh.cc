@@ -257,7 +257,7 @@ class Placing {
           const Vec3 along = mesh_.vertices[around[1]].position - mesh_.vertices[around[0]].position;
           moved[n] = moved[n] + way_to_crest(moving[n], unit(along));
         }
-        if (!bound_[moving[n]]) moved[n] = kept_inside(moving[n], moved[n]);
+        if (!bound_[moving[n]]) moved[n] = kept_off_surface(moving[n], moved[n]);
       }
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
     }
@@ -270,13 +270,22 @@ class Placing {
     }
   }
 
-  // How far a vertex in a thin part of the solid goes towards a place without leaving it.
-  Vec3 kept_inside(std::uint32_t v, const Vec3& to) {
+  // How far a vertex goes towards a place without coming nearer to the surface than a ridge may: along the surface
+  // where it is as near as that, and off it, not far at a time, where it is nearer.
+  Vec3 kept_off_surface(std::uint32_t v, const Vec3& to) {
     walk(v);
     const SheetVertex& vertex = mesh_.vertices[v];
-    if (static_cast<double>(from_.radius[vertex.point]) >= kThin || inside(to)) return to;
-    const Vec3 half = 0.5 * (vertex.position + to);
-    return inside(half) ? half : vertex.position;
+    const auto radius = static_cast<double>(from_.radius[vertex.point]);
+    const double least = from_.min_radius_share * static_cast<double>(from_.derivatives[vertex.point].depth);
+    if (radius >= kThin && is_surely_deep(radius, least)) return to;
+    const Vec3 at = (1 / from_.lattice.spacing) * vertex.position, off = at - from_.nearest.nearest_place(at);
+    const double distance = norm(off);
+    if (distance == 0) return vertex.position;
+    const Vec3 away = (1 / distance) * off;
+    const double given = dot(to - vertex.position, away) / from_.lattice.spacing;
+    const double wanted = std::max(given, std::min(least - distance, kLongestStep));
+    const Vec3 kept = to + (from_.lattice.spacing * (wanted - given)) * away;
+    return radius >= kThin || inside(kept) ? kept : vertex.position;
   }
 
   // Across a line: Newton's step to where P is greatest, not far at a time.
