@@ -98,6 +98,7 @@ class Placing {
   void make_vertices() {
     const std::vector<CellPlace> places = cells_of_vertices(from_.lattice, vertices_);
     bound_.assign(vertices_.size(), 0);
+    clear_.resize(vertices_.size());
     for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
       mesh_.vertices.push_back(free_vertex(vertices_[v], places[v]));
       const Vec3 point =
@@ -278,14 +279,18 @@ class Placing {
     const auto radius = static_cast<double>(from_.radius[vertex.point]);
     const double least = from_.min_radius_share * static_cast<double>(from_.derivatives[vertex.point].depth);
     if (radius >= kThin && is_surely_deep(radius, least)) return to;
+    Clear& known = clear_[v];  // of a vertex that hardly moves any more it holds for many passes
+    if (norm(to - known.about) < known.radius - from_.lattice.spacing * least) return to;
     const Vec3 at = (1 / from_.lattice.spacing) * vertex.position, off = at - from_.nearest.nearest_place(at);
     const double distance = norm(off);
+    known = {vertex.position, from_.lattice.spacing * distance};
     if (distance == 0) return vertex.position;
     const Vec3 away = (1 / distance) * off;
     const double given = dot(to - vertex.position, away) / from_.lattice.spacing;
     const double wanted = std::max(given, std::min(least - distance, kLongestStep));
     const Vec3 kept = to + (from_.lattice.spacing * (wanted - given)) * away;
-    return radius >= kThin || inside(kept) ? kept : vertex.position;
+    // What goes less far than the surface is away stays inside.
+    return norm(kept - vertex.position) < known.radius || inside(kept) ? kept : vertex.position;
   }
 
   // Across a line: Newton's step to where P is greatest, not far at a time.
@@ -352,6 +357,12 @@ class Placing {
       if (squares_at_edge_[e] == 0) mesh_.segments.push_back({segments_[e][0], segments_[e][1]});
   }
 
+  // A ball that the surface does not enter.
+  struct Clear {
+    Vec3 about;
+    double radius = 0;
+  };
+
   const DualComplex& complex_;
   const SkeletonParts& from_;
   SolidMembership membership_;
@@ -362,6 +373,7 @@ class Placing {
   std::vector<std::uint8_t> squares_at_edge_;
   Groups<std::uint32_t> neighbours_, rim_neighbours_;
   std::vector<char> bound_;                         // per vertex: its place and values are known
+  std::vector<Clear> clear_;                        // per vertex, of those near the surface
   std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point
   SheetMesh mesh_;
 };
