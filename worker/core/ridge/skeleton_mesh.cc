@@ -110,13 +110,14 @@ class Placing {
     place_curves();
   }
 
-  // What has a place, and tips.
+  // What has a place, and tips where a line does not end.
   std::vector<char> fixed_of_free() const {
     std::vector<char> fixed = bound_;
     for (const Anchor& anchor : from_.anchors.anchors) {
       if (DualComplex::dimension(anchor.cell) != 0) continue;
       const std::uint32_t v = number(anchor.cell);
-      if (v < vertices_.size() && vertices_[v] == anchor.cell) fixed[v] = 1;  // else of a fragment
+      const bool there = v < vertices_.size() && vertices_[v] == anchor.cell;  // else of a fragment
+      if (there && neighbours_[v].size() != 1) fixed[v] = 1;
     }
     return fixed;
   }
@@ -249,15 +250,7 @@ class Placing {
     for (int pass = 0; pass < passes; ++pass) {
       throw_if_stopped(context);
       for (std::size_t n = 0; n < moving.size(); ++n) {
-        const auto around = neighbours[moving[n]];
-        Vec3 mean;
-        for (const std::uint32_t to : around)
-          mean = mean + (1 / static_cast<double>(around.size())) * mesh_.vertices[to].position;
-        moved[n] = 0.5 * (mesh_.vertices[moving[n]].position + mean);
-        if (to_crest && around.size() == 2) {
-          const Vec3 along = mesh_.vertices[around[1]].position - mesh_.vertices[around[0]].position;
-          moved[n] = moved[n] + way_to_crest(moving[n], unit(along));
-        }
+        moved[n] = drawn(moving[n], neighbours, to_crest);
         if (!bound_[moving[n]]) moved[n] = kept_off_surface(moving[n], moved[n]);
       }
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
@@ -269,6 +262,24 @@ class Placing {
       while (share > 0.2 && !inside(before[n] + share * (moved[n] - before[n]))) share *= 0.5;
       at = share > 0.2 ? before[n] + share * (moved[n] - before[n]) : before[n];
     }
+  }
+
+  // Where its neighbours draw a vertex, and the crest of P.  The end of a line goes on as the line does.
+  Vec3 drawn(std::uint32_t v, const Groups<std::uint32_t>& neighbours, bool to_crest) {
+    const auto place = [&](std::uint32_t vertex) { return mesh_.vertices[vertex].position; };
+    const auto around = neighbours[v];
+    if (around.size() == 1) {
+      const auto beyond = neighbours[around[0]];
+      if (beyond.size() != 2) return place(v);
+      const Vec3 along = unit(place(around[0]) - place(beyond[beyond[0] == v ? 1 : 0]));
+      const Vec3 step = place(v) - place(around[0]);
+      return place(v) + 0.5 * (dot(step, along) * along - step);
+    }
+    Vec3 mean;
+    for (const std::uint32_t to : around) mean = mean + (1 / static_cast<double>(around.size())) * place(to);
+    const Vec3 middle = 0.5 * (place(v) + mean);
+    if (!to_crest || around.size() != 2) return middle;
+    return middle + way_to_crest(v, unit(place(around[1]) - place(around[0])));
   }
 
   // How far a vertex goes towards a place without coming nearer to the surface than a ridge may: along the surface

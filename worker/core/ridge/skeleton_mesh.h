@@ -36,8 +36,8 @@ struct SkeletonParts {
 /// 2. Rims: where a vertex weaker than `low` lies on a rim, it goes back to the line s = low: to the mean of
 ///    its places, by linear interpolation, on the ways to its strong neighbours.  Rims are then evened out.
 /// 3. All others begin in the middle of the sample points about them, and are drawn to the mean of their
-///    neighbours, ways also to where P is greatest across them if that is near, as far as they stay off the surface: they become
-///    smooth, and follow a ridge where there is a weak one.  Their ends stay.
+///    neighbours, ways also to where P is greatest across them if that is near, as far as they stay off the
+///    surface: they become smooth, and follow a ridge where there is a weak one.  A line's end goes on straight.
 /// @param left of the complex: squares, edges and vertices, closed under taking boundaries.
 /// @return a vertex for each of the complex, two triangles for each square, a segment for each edge of no
 ///   square.
