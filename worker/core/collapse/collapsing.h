@@ -20,15 +20,21 @@ class Collapsing {
   /// Times are told apart by this much.
   static constexpr double kStep = 0.125;
 
+  /// Of all cells of a complex.
   /// @throws CoreError kCancelled, here and in run(), when the context asks to stop.
   Collapsing(const DualComplex& complex, ExecutionContext* context)
       : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
     StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
-      state_[cell] |= kThere;
-      complex.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+      put(cell);
       stop.did(20);
     });
+  }
+
+  /// Of some, closed under taking boundaries.
+  Collapsing(const DualComplex& complex, const CellSet& cells, ExecutionContext* context)
+      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
+    cells.for_each([&](Cell cell) { put(cell); });
   }
 
   bool has(Cell cell) const { return (state_[cell] & kThere) != 0; }
@@ -74,6 +80,11 @@ class Collapsing {
 
  private:
   static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40;
+
+  void put(Cell cell) {
+    state_[cell] |= kThere;
+    complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+  }
 
   Cell coface_of(Cell cell) const {
     return complex_.find_coface(cell, [&](Cell coface) { return has(coface); });

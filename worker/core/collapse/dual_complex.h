@@ -253,7 +253,10 @@ class CellSet {
     bits_[DualComplex::cube_of(cell)] |= 1U << DualComplex::place_of(cell);
   }
 
-  /// Leaves out all cells named by a cube.
+  /// Leaves a cell out, or all cells named by a cube.
+  void erase(DualComplex::Cell cell) {
+    bits_[DualComplex::cube_of(cell)] &= ~(1U << DualComplex::place_of(cell));
+  }
   void clear(std::uint32_t cube) { bits_[cube] = 0; }
 
   /// Calls visit(cell) for every one, by cube, then by place.

@@ -48,40 +48,50 @@ class Choice {
     return static_cast<double>(evidence_.radius[vertex.point]);
   }
 
-  // Which vertices of the surface lie in a piece that stays.
-  std::vector<char> vertices_of_pieces() const {
-    const auto& vertices = evidence_.vertices;
-    const auto strong = [&](std::uint32_t v) { return vertices[v].strength >= bounds_.low; };
-    DisjointSets pieces(vertices.size());
-    for (const auto& ring : evidence_.cells.ring) {
+  bool is_strong(std::uint32_t vertex) const { return evidence_.vertices[vertex].strength >= bounds_.low; }
+
+  // The pieces that squares form which share an edge with a strong end: not those that only touch at a corner.
+  DisjointSets pieces() const {
+    struct Side {
+      std::uint32_t low, high, square;
+      auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sides;
+    const auto& rings = evidence_.cells.ring;
+    for (std::uint32_t e = 0; e < rings.size(); ++e) {
       for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t a = ring[k], b = ring[(k + 1) % 4];
-        if (strong(a) && strong(b)) pieces.unite(a, b);
+        const std::uint32_t a = rings[e][k], b = rings[e][(k + 1) % 4];
+        if (is_strong(a) || is_strong(b)) sides.push_back({std::min(a, b), std::max(a, b), e});
       }
     }
-    std::vector<char> founded(vertices.size(), 0);
-    std::vector<double> area(vertices.size(), 0);
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-      if (!strong(v)) continue;
-      const std::uint32_t piece = pieces.find(v);
-      if (founds(vertices[v])) founded[piece] = 1;
-      area[piece] += 1 / (radius_at(vertices[v]) * radius_at(vertices[v]));
+    std::sort(sides.begin(), sides.end());
+    DisjointSets joined(rings.size());
+    for (std::size_t n = 1; n < sides.size(); ++n) {
+      if (sides[n - 1].low == sides[n].low && sides[n - 1].high == sides[n].high)
+        joined.unite(sides[n - 1].square, sides[n].square);
     }
-    std::vector<char> stays(vertices.size(), 0);
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-      const std::uint32_t piece = pieces.find(v);
-      stays[v] = strong(v) && founded[piece] && area[piece] >= constants_.min_area;
-    }
-    return stays;
+    return joined;
   }
 
   void take_surface() {
-    const std::vector<char> stays = vertices_of_pieces();
-    for (std::size_t e = 0; e < evidence_.edges.size(); ++e) {
-      const auto& ring = evidence_.cells.ring[e];
-      if (std::none_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return stays[v] != 0; })) continue;
+    DisjointSets joined = pieces();
+    const auto& rings = evidence_.cells.ring;
+    std::vector<char> founded(rings.size(), 0);
+    std::vector<double> area(rings.size(), 0);  // of pieces; a square's four corners have a quarter each
+    for (std::uint32_t e = 0; e < rings.size(); ++e) {
+      const std::uint32_t piece = joined.find(e);
+      for (const std::uint32_t v : rings[e]) {
+        if (!is_strong(v)) continue;
+        if (founds(evidence_.vertices[v])) founded[piece] = 1;
+        area[piece] += 0.25 / (radius_at(evidence_.vertices[v]) * radius_at(evidence_.vertices[v]));
+      }
+    }
+    for (std::uint32_t e = 0; e < rings.size(); ++e) {
+      if (!founded[joined.find(e)] || area[joined.find(e)] < constants_.min_area) continue;
+      if (std::none_of(rings[e].begin(), rings[e].end(), [&](std::uint32_t v) { return is_strong(v); }))
+        continue;
       double weight = 0;
-      for (const std::uint32_t v : ring) weight += evidence_.vertices[v].strength;
+      for (const std::uint32_t v : rings[e]) weight += evidence_.vertices[v].strength;
       take({complex_.square(evidence_.edges[e].point, evidence_.edges[e].axis), static_cast<float>(weight)});
     }
   }

@@ -15,12 +15,14 @@
 #include "core/contour/edge_cells.h"
 #include "core/lattice/solid_parts.h"
 #include "core/mesh/box.h"
+#include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"
 #include "core/ridge/ridge_curves.h"
 #include "core/ridge/ridge_values.h"
 #include "core/ridge/skeleton_mesh.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 namespace {
@@ -31,9 +33,18 @@ struct Found {
   std::vector<RidgeCurve> curves;
 };
 
+// Lattice coordinates.
+Mesh mesh_in_lattice(const Solid& solid, const Lattice& lattice) {
+  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
+  Mesh mesh = solid.mesh;
+  for (Vec3& place : mesh.points) place = transposed_times(to_indices, place - lattice.grid.origin);
+  return mesh;
+}
+
 Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
-                  const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  const RidgeValues values(lattice, field, basis.derivatives, basis.radius,
+                  const DistanceToMesh& nearest, const RidgeSheetOptions& options,
+                  const RidgeConstants& constants) {
+  const RidgeValues values(lattice, field, basis.derivatives, basis.radius, nearest,
                            constants.weak_share * options.bounds.low, constants);
   throw_if_stopped(options.context);
   Found found;
@@ -60,7 +71,7 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCel
 }
 
 // A way costs a hundred times as much as in the middle at most, so that the queue of ways stays short.
-constexpr double kLeastEase = 1e-4;
+constexpr double kLeastEase = 0.01;
 
 // What a way costs for each spacing of its length: little in the middle of the solid, where E and the distance
 // to the surface are large.
@@ -69,8 +80,9 @@ std::vector<float> costs_of_ways(const FrameField& field, std::span<const float>
   const double widest = static_cast<double>(*std::max_element(radius.begin(), radius.end()));
   std::vector<float> cost(radius.size());
   for (std::size_t p = 0; p < cost.size(); ++p) {
-    const double ease = std::sqrt(field.erosion[p] / deepest) * static_cast<double>(radius[p]) / widest;
-    cost[p] = static_cast<float>(1 / std::sqrt(std::max(kLeastEase, ease)));
+    const double ease =
+        std::sqrt(std::sqrt(field.erosion[p] / deepest)) * static_cast<double>(radius[p]) / widest;
+    cost[p] = static_cast<float>(1 / std::max(kLeastEase, ease));
   }
   return cost;
 }
@@ -138,7 +150,9 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   if (basis.derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
   const SolidParts parts(solid, lattice);
-  const Found found = find_ridges(lattice, field, basis, options, constants);
+  const Mesh walls = mesh_in_lattice(solid, lattice);
+  const DistanceToMesh nearest(walls);
+  const Found found = find_ridges(lattice, field, basis, nearest, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
   edges.reserve(found.crossings.size());
@@ -162,12 +176,25 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   drop(basis.complex, chosen.left_out, left.cells);
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
+  if (basis.topology.holes > 0) {
+    sheet.filled = fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
+                                options.context);
+    sheet.lattice.holes -= sheet.filled;
+  }
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs;
   sheet.opened = left.opened;
-  const SkeletonParts from{
-      lattice,           parts, field, cells, surface.vertices, chosen, basis.derivatives, basis.radius,
-      options.bounds.low};
+  const SkeletonParts from{.lattice = lattice,
+                           .parts = parts,
+                           .field = field,
+                           .cells = cells,
+                           .surface = surface.vertices,
+                           .anchors = chosen,
+                           .derivatives = basis.derivatives,
+                           .radius = basis.radius,
+                           .nearest = nearest,
+                           .low = options.bounds.low,
+                           .min_radius_share = constants.min_radius_share};
   static_cast<SheetMesh&>(sheet) = skeleton_mesh(solid, basis.complex, left.cells, from, options.context);
   sheet.unreached =
       unreached_ends(solid, lattice, chosen.left_out, mesh_places(solid, lattice, sheet), options.context);

@@ -49,8 +49,10 @@ struct RidgeSheetOptions {
 
 /// The ridge of the E field, made a skeleton of the solid: surfaces, and curves (segments).
 struct RidgeSheet : SheetMesh {
-  BettiNumbers
-      lattice;  ///< of the complex dual to the lattice: the skeleton's and its fragments', by theorem
+  /// Of the complex dual to the lattice, with a disc across each tunnel that the solid lacks: the skeleton's and its
+  /// fragments', by theorem.
+  BettiNumbers lattice;
+  std::uint32_t filled = 0;             ///< such discs; see fill_tunnels()
   std::uint32_t fragments = 0;          ///< components of the complex left out, see RidgeAnchors
   std::uint32_t limbs = 0;              ///< tips of limbs that no ridge reaches, which lines lead to
   std::vector<UnreachedEnd> unreached;  ///< see unreached_ends()

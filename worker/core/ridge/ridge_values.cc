@@ -49,10 +49,11 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 
 RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
                          std::span<const PointDerivatives> derivatives, std::span<const float> radius,
-                         double min_strength, const RidgeConstants& constants)
+                         const DistanceToMesh& surface, double min_strength, const RidgeConstants& constants)
     : field_(field),
       derivatives_(derivatives),
       radius_(radius),
+      surface_(surface),
       constants_(constants),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
@@ -62,10 +63,11 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
   for (const PointDerivatives& point : derivatives) ridges_.push_back(ridge_at(point, min_strength));
 }
 
-bool RidgeValues::is_deep(std::uint32_t point) const {
-  const double depth = static_cast<double>(derivatives_[point].depth);
-  return static_cast<double>(radius_[point]) >=
-         std::max(constants_.min_radius, constants_.min_radius_share * depth);
+bool RidgeValues::is_deep(const SheetVertex& vertex) const {
+  const auto radius = static_cast<double>(radius_[vertex.point]);
+  const double least = constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
+  if (radius < constants_.min_radius) return false;
+  return is_surely_deep(radius, least) || surface_.nearest((1 / field_.spacing) * vertex.position) >= least;
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

@@ -12,10 +12,19 @@
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/ridge/smoothed_derivatives.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 
 constexpr double kMaxRidgeStrength = 1000;  ///< where the gradient vanishes, s has no bound
+
+/// Whether no place next to a sample point is nearer to the surface than `least` spacings, as far as its distance by
+/// ways over sample points tells: a place is nearer than the point by a spacing at most, the point than half a
+/// spacing, and ways along the three kinds of diagonals are longer than straight ones by 14 % at most.
+/// @param radius of the sample point, see surface_distance().
+constexpr bool is_surely_deep(double radius, double least) {
+  return radius - 1.75 >= 1.14 * least;
+}
 
 /// The Hessian of P at a sample point, lambda_1 <= lambda_2 <= lambda_3; all 0 where it cannot give a ridge.
 struct PointRidge {
@@ -32,10 +41,12 @@ class RidgeValues {
  public:
   /// @param derivatives of this field.
   /// @param radius per sample point: see surface_distance().
+  /// @param surface of the solid, lattice coordinates.
   /// @param min_strength least s that is asked for, radians: points far below it are left out.
   /// @throws CoreError kBadInput when the strength is out of range.
   RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
-              std::span<const float> radius, double min_strength, const RidgeConstants& constants = {});
+              std::span<const float> radius, const DistanceToMesh& surface, double min_strength,
+              const RidgeConstants& constants = {});
 
   const PointRidge& ridge(std::uint32_t point) const { return ridges_[point]; }
 
@@ -44,7 +55,7 @@ class RidgeValues {
 
   /// Whether a strength reaches the bound, at a vertex far enough from the surface.
   bool counts(double strength, const SheetVertex& vertex) const {
-    return strength >= min_strength_ && is_deep(vertex.point);
+    return strength >= min_strength_ && is_deep(vertex);
   }
 
   /// What a strength is that of.
@@ -58,11 +69,12 @@ class RidgeValues {
                  std::span<const double> weights, const Vec3& across) const;
 
  private:
-  bool is_deep(std::uint32_t point) const;
+  bool is_deep(const SheetVertex& vertex) const;
 
   const FrameField& field_;
   std::span<const PointDerivatives> derivatives_;
   std::span<const float> radius_;
+  const DistanceToMesh& surface_;
   RidgeConstants constants_;
   double min_strength_;
   Matrix3 to_mesh_;                 // F^-T

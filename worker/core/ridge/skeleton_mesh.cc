@@ -98,6 +98,7 @@ class Placing {
   void make_vertices() {
     const std::vector<CellPlace> places = cells_of_vertices(from_.lattice, vertices_);
     bound_.assign(vertices_.size(), 0);
+    clear_.resize(vertices_.size());
     for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
       mesh_.vertices.push_back(free_vertex(vertices_[v], places[v]));
       const Vec3 point =
@@ -109,13 +110,14 @@ class Placing {
     place_curves();
   }
 
-  // What has a place, and tips.
+  // What has a place, and tips where a line does not end.
   std::vector<char> fixed_of_free() const {
     std::vector<char> fixed = bound_;
     for (const Anchor& anchor : from_.anchors.anchors) {
       if (DualComplex::dimension(anchor.cell) != 0) continue;
       const std::uint32_t v = number(anchor.cell);
-      if (v < vertices_.size() && vertices_[v] == anchor.cell) fixed[v] = 1;  // else of a fragment
+      const bool there = v < vertices_.size() && vertices_[v] == anchor.cell;  // else of a fragment
+      if (there && neighbours_[v].size() != 1) fixed[v] = 1;
     }
     return fixed;
   }
@@ -248,16 +250,8 @@ class Placing {
     for (int pass = 0; pass < passes; ++pass) {
       throw_if_stopped(context);
       for (std::size_t n = 0; n < moving.size(); ++n) {
-        const auto around = neighbours[moving[n]];
-        Vec3 mean;
-        for (const std::uint32_t to : around)
-          mean = mean + (1 / static_cast<double>(around.size())) * mesh_.vertices[to].position;
-        moved[n] = 0.5 * (mesh_.vertices[moving[n]].position + mean);
-        if (to_crest && around.size() == 2) {
-          const Vec3 along = mesh_.vertices[around[1]].position - mesh_.vertices[around[0]].position;
-          moved[n] = moved[n] + way_to_crest(moving[n], unit(along));
-        }
-        if (!bound_[moving[n]]) moved[n] = kept_inside(moving[n], moved[n]);
+        moved[n] = drawn(moving[n], neighbours, to_crest);
+        if (!bound_[moving[n]]) moved[n] = kept_off_surface(moving[n], moved[n]);
       }
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
     }
@@ -270,13 +264,44 @@ class Placing {
     }
   }
 
-  // How far a vertex in a thin part of the solid goes towards a place without leaving it.
-  Vec3 kept_inside(std::uint32_t v, const Vec3& to) {
+  // Where its neighbours draw a vertex, and the crest of P.  The end of a line goes on as the line does.
+  Vec3 drawn(std::uint32_t v, const Groups<std::uint32_t>& neighbours, bool to_crest) {
+    const auto place = [&](std::uint32_t vertex) { return mesh_.vertices[vertex].position; };
+    const auto around = neighbours[v];
+    if (around.size() == 1) {
+      const auto beyond = neighbours[around[0]];
+      if (beyond.size() != 2) return place(v);
+      const Vec3 along = unit(place(around[0]) - place(beyond[beyond[0] == v ? 1 : 0]));
+      const Vec3 step = place(v) - place(around[0]);
+      return place(v) + 0.5 * (dot(step, along) * along - step);
+    }
+    Vec3 mean;
+    for (const std::uint32_t to : around) mean = mean + (1 / static_cast<double>(around.size())) * place(to);
+    const Vec3 middle = 0.5 * (place(v) + mean);
+    if (!to_crest || around.size() != 2) return middle;
+    return middle + way_to_crest(v, unit(place(around[1]) - place(around[0])));
+  }
+
+  // How far a vertex goes towards a place without coming nearer to the surface than a ridge may: along the surface
+  // where it is as near as that, and off it, not far at a time, where it is nearer.
+  Vec3 kept_off_surface(std::uint32_t v, const Vec3& to) {
     walk(v);
     const SheetVertex& vertex = mesh_.vertices[v];
-    if (static_cast<double>(from_.radius[vertex.point]) >= kThin || inside(to)) return to;
-    const Vec3 half = 0.5 * (vertex.position + to);
-    return inside(half) ? half : vertex.position;
+    const auto radius = static_cast<double>(from_.radius[vertex.point]);
+    const double least = from_.min_radius_share * static_cast<double>(from_.derivatives[vertex.point].depth);
+    if (radius >= kThin && is_surely_deep(radius, least)) return to;
+    Clear& known = clear_[v];  // of a vertex that hardly moves any more it holds for many passes
+    if (norm(to - known.about) < known.radius - from_.lattice.spacing * least) return to;
+    const Vec3 at = (1 / from_.lattice.spacing) * vertex.position, off = at - from_.nearest.nearest_place(at);
+    const double distance = norm(off);
+    known = {vertex.position, from_.lattice.spacing * distance};
+    if (distance == 0) return vertex.position;
+    const Vec3 away = (1 / distance) * off;
+    const double given = dot(to - vertex.position, away) / from_.lattice.spacing;
+    const double wanted = std::max(given, std::min(least - distance, kLongestStep));
+    const Vec3 kept = to + (from_.lattice.spacing * (wanted - given)) * away;
+    // What goes less far than the surface is away stays inside.
+    return norm(kept - vertex.position) < known.radius || inside(kept) ? kept : vertex.position;
   }
 
   // Across a line: Newton's step to where P is greatest, not far at a time.
@@ -343,6 +368,12 @@ class Placing {
       if (squares_at_edge_[e] == 0) mesh_.segments.push_back({segments_[e][0], segments_[e][1]});
   }
 
+  // A ball that the surface does not enter.
+  struct Clear {
+    Vec3 about;
+    double radius = 0;
+  };
+
   const DualComplex& complex_;
   const SkeletonParts& from_;
   SolidMembership membership_;
@@ -353,6 +384,7 @@ class Placing {
   std::vector<std::uint8_t> squares_at_edge_;
   Groups<std::uint32_t> neighbours_, rim_neighbours_;
   std::vector<char> bound_;                         // per vertex: its place and values are known
+  std::vector<Clear> clear_;                        // per vertex, of those near the surface
   std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point
   SheetMesh mesh_;
 };

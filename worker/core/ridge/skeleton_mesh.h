@@ -12,6 +12,7 @@
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/smoothed_derivatives.h"
 #include "core/solid/solid.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 
@@ -25,7 +26,9 @@ struct SkeletonParts {
   const RidgeAnchors& anchors;
   std::span<const PointDerivatives> derivatives;  ///< of P
   std::span<const float> radius;                  ///< per sample point: see surface_distance()
+  const DistanceToMesh& nearest;                  ///< of the solid's surface, lattice coordinates
   double low;                                     ///< the strength at which the surface ends
+  double min_radius_share;                        ///< see RidgeConstants
 };
 
 /// Gives the cells of a collapsed complex their places in the solid.
@@ -33,8 +36,8 @@ struct SkeletonParts {
 /// 2. Rims: where a vertex weaker than `low` lies on a rim, it goes back to the line s = low: to the mean of
 ///    its places, by linear interpolation, on the ways to its strong neighbours.  Rims are then evened out.
 /// 3. All others begin in the middle of the sample points about them, and are drawn to the mean of their
-///    neighbours, ways also to where P is greatest across them if that is near, as long as they stay in the solid: they become
-///    smooth, and follow a ridge where there is a weak one.  Their ends stay.
+///    neighbours, ways also to where P is greatest across them if that is near, as far as they stay off the
+///    surface: they become smooth, and follow a ridge where there is a weak one.  A line's end goes on straight.
 /// @param left of the complex: squares, edges and vertices, closed under taking boundaries.
 /// @return a vertex for each of the complex, two triangles for each square, a segment for each edge of no
 ///   square.

@@ -9,7 +9,10 @@
 #include "core/base/error.h"
 #include "core/chords/chord_fields.h"
 #include "core/ridge/smoothed_derivatives.h"
+#include "core/shapes/shapes.h"
+#include "core/spatial/distance_to_mesh.h"
 #include "core/stopping_context.h"
+#include "core/test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -45,7 +48,9 @@ std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field
   narrow.min_width = narrow.max_width = 1;
   const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, nullptr, narrow);
   const std::vector<float> everywhere(box.lattice.points, radius);
-  const RidgeValues values(box.lattice, field, derivatives, everywhere, min_strength);
+  const Mesh wall = moved(make_box(1, 1, 1), {-1.5 * radius, 0, 0});  // lattice coordinates
+  const DistanceToMesh nearest(wall);
+  const RidgeValues values(box.lattice, field, derivatives, everywhere, nearest, min_strength);
   return ridge_curves(box.lattice, values, context);
 }
 

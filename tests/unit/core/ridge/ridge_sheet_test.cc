@@ -176,8 +176,8 @@ TEST(RidgeSheet, OfAShortRoundCylinderIsItsAxis) {
 TEST(RidgeSheet, OfAConeIsItsAxis) {
   const double h = 0.1;
   const ErodedSolid cone(make_cone(1, 6, 32), axes(h), "triangles+sphere:320");
-  // The way to its tip ends at a sample point.
-  expect_axis(cone, ridge_sheet(cone.solid, cone.lattice, cone.field), 0.75 * h, 1, 5.5);
+  // The way to its tip goes on straight from where it is thinner than the lattice resolves.
+  expect_axis(cone, ridge_sheet(cone.solid, cone.lattice, cone.field), 0.5 * h, 1, 5.4);
 }
 
 TEST(RidgeSheet, OfTwoCylindersIsTheAxisOfEach) {

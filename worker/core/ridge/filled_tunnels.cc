@@ -1,0 +1,203 @@
+#include "core/ridge/filled_tunnels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/collapse/collapsing.h"
+#include "core/collapse/shortest_loops.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/solid/betti_numbers.h"
+#include "core/solid/surface_loops.h"
+
+namespace affskel::core {
+namespace {
+
+using Cell = DualComplex::Cell;
+
+// What is free goes, in any order.
+struct AnyOrder {
+  static double time(Cell, double) { return 0; }
+  static void removed(Cell, Cell, double) {}
+  static void bared(Cell, double) {}
+};
+
+CellSet collapsed_again(const DualComplex& complex, const CellSet& cells, std::span<const Anchor> anchors,
+                        ExecutionContext* context) {
+  Collapsing collapsing(complex, cells, context);
+  for (const Anchor& anchor : anchors)
+    if (cells.has(anchor.cell)) collapsing.fix(anchor.cell);
+  AnyOrder order;
+  collapsing.run(order);
+  return collapsing.cells();
+}
+
+// A closed way along edges of the complex, or a sum of such ways modulo 2.
+struct Cycle {
+  std::vector<Cell> edges;   // ascending
+  std::vector<char> linked;  // per loop of the solid's surface
+
+  void add(const Cycle& other) {
+    std::vector<Cell> sum;
+    std::set_symmetric_difference(edges.begin(), edges.end(), other.edges.begin(), other.edges.end(),
+                                  std::back_inserter(sum));
+    edges = std::move(sum);
+    for (std::size_t n = 0; n < linked.size(); ++n) linked[n] ^= other.linked[n];
+  }
+  bool has(Cell edge) const { return std::binary_search(edges.begin(), edges.end(), edge); }
+};
+
+class Tunnels {
+ public:
+  Tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
+          std::span<const float> radius)
+      : lattice_(lattice), complex_(complex), radius_(radius) {
+    for (const auto& loop : surface_loops(solid.mesh)) {
+      auto& places = of_surface_.emplace_back();
+      for (const std::uint32_t v : loop) places.push_back(solid.mesh.points[v]);
+    }
+  }
+
+  // @param vertices of a loop of a graph, once round.
+  Cycle cycle_of(const std::vector<Cell>& vertices, const CellSet& graph) const {
+    Cycle cycle;
+    for (std::size_t n = 0; n < vertices.size(); ++n)
+      cycle.edges.push_back(
+          edge_between(vertices[n], vertices[(n + 1) % vertices.size()], graph, cycle.edges));
+    const std::vector<Vec3> places = places_along(vertices, cycle.edges);
+    for (const std::vector<Vec3>& loop : of_surface_) cycle.linked.push_back(is_linked(places, loop));
+    std::sort(cycle.edges.begin(), cycle.edges.end());
+    return cycle;
+  }
+
+  // Of cycles those, and their sums, that bound a surface in the solid: by elimination, each once.
+  static std::vector<Cycle> bounding(std::vector<Cycle> cycles) {
+    std::vector<Cycle> kept, result;
+    for (Cycle& cycle : cycles) {
+      for (const Cycle& other : kept)
+        if (cycle.linked[first_of(other)]) cycle.add(other);
+      (first_of(cycle) < cycle.linked.size() ? kept : result).push_back(std::move(cycle));
+    }
+    return result;
+  }
+
+  // The edge of a cycle nearest to the surface among those of no square that may go; kNoCell.
+  Cell weakest_edge(const Cycle& cycle, const CellSet& left, const CellSet& anchored) const {
+    Cell weakest = kNoCell;
+    float least = 0;
+    for (const Cell edge : cycle.edges) {
+      const auto cofaces = complex_.cofaces(edge);
+      if (anchored.has(edge) ||
+          std::any_of(cofaces.begin(), cofaces.end(), [&](Cell square) { return left.has(square); }))
+        continue;
+      float most = 0;
+      for (const auto& member : complex_.star(edge)) most = std::max(most, radius_[member.cube]);
+      if (weakest != kNoCell && most >= least) continue;
+      weakest = edge;
+      least = most;
+    }
+    return weakest;
+  }
+
+  static constexpr Cell kNoCell = ~Cell{0};
+
+ private:
+  static std::size_t first_of(const Cycle& cycle) {
+    return static_cast<std::size_t>(std::find(cycle.linked.begin(), cycle.linked.end(), 1) -
+                                    cycle.linked.begin());
+  }
+
+  Cell edge_between(Cell a, Cell b, const CellSet& graph, const std::vector<Cell>& taken) const {
+    const auto at_a = complex_.cofaces(a), at_b = complex_.cofaces(b);
+    return *std::find_if(at_a.begin(), at_a.end(), [&](Cell edge) {
+      return graph.has(edge) && std::find(at_b.begin(), at_b.end(), edge) != at_b.end() &&
+             std::find(taken.begin(), taken.end(), edge) == taken.end();
+    });
+  }
+
+  // The same loop along sample points and lattice edges, which lie in the solid.  Scaled coordinates.
+  std::vector<Vec3> places_along(const std::vector<Cell>& vertices, const std::vector<Cell>& edges) const {
+    std::vector<std::uint32_t> points;
+    for (std::size_t n = 0; n < edges.size(); ++n) {
+      const std::size_t next = (n + 1) % edges.size();
+      append_way(vertices[next], complex_.star(edges[n]).members[0].cube,
+                 complex_.star(edges[next]).members[0].cube, points);
+    }
+    std::vector<std::uint32_t> sorted = points;
+    std::sort(sorted.begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    const std::vector<LatticePlace> known = lattice_places(lattice_, sorted);
+    std::vector<Vec3> places;
+    for (const std::uint32_t point : points) {
+      const auto& [i, j, k] = known[static_cast<std::size_t>(
+          std::lower_bound(sorted.begin(), sorted.end(), point) - sorted.begin())];
+      places.push_back(scaled_place(lattice_, {double(i), double(j), double(k)}));
+    }
+    return places;
+  }
+
+  // From one of the cubes about a vertex to another over squares; without the last.
+  void append_way(Cell vertex, std::uint32_t from, std::uint32_t to,
+                  std::vector<std::uint32_t>& points) const {
+    const auto star = complex_.star(vertex);
+    std::array<std::uint32_t, 8> queue{to}, next_to{to};  // where the way from there leads on
+    for (std::size_t n = 0, end = 1; queue[n] != from; ++n) {
+      for (std::size_t side = 0; side < 6; ++side) {
+        const std::uint32_t beside = complex_.neighbour(queue[n], side / 2, side % 2 == 0 ? 0 : 2);
+        if (std::none_of(star.begin(), star.end(),
+                         [&](const auto& member) { return member.cube == beside; }) ||
+            std::find(queue.begin(), queue.begin() + end, beside) != queue.begin() + end)
+          continue;
+        next_to[end] = queue[n];
+        queue[end++] = beside;
+      }
+    }
+    for (std::uint32_t at = from; at != to;) {
+      points.push_back(at);
+      at = next_to[static_cast<std::size_t>(std::find(queue.begin(), queue.end(), at) - queue.begin())];
+    }
+  }
+
+  const Lattice& lattice_;
+  const DualComplex& complex_;
+  std::span<const float> radius_;
+  std::vector<std::vector<Vec3>> of_surface_;
+};
+
+}  // namespace
+
+std::uint32_t fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
+                           std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
+                           ExecutionContext* context) {
+  if (solid.self_intersecting) return 0;
+  const CellSet graph = collapsed_again(complex, left, {}, context);
+  bool encloses = false;
+  graph.for_each([&](Cell cell) { encloses = encloses || DualComplex::dimension(cell) > 1; });
+  if (encloses) return 0;
+  const auto loops = shortest_loops(complex, graph, kMostTunnels + 1, context);
+  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return 0;
+  const Tunnels tunnels(solid, lattice, complex, radius);
+  std::vector<Cycle> cycles;
+  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
+  cycles = Tunnels::bounding(std::move(cycles));
+  CellSet anchored(complex);
+  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
+  std::uint32_t filled = 0;
+  for (std::size_t n = 0; n < cycles.size(); ++n) {
+    throw_if_stopped(context);
+    const Cell edge = tunnels.weakest_edge(cycles[n], left, anchored);
+    if (edge == Tunnels::kNoCell) continue;
+    left.erase(edge);
+    ++filled;
+    for (std::size_t other = n + 1; other < cycles.size(); ++other)
+      if (cycles[other].has(edge)) cycles[other].add(cycles[n]);
+  }
+  if (filled > 0) left = collapsed_again(complex, left, anchors, context);
+  return filled;
+}
+
+}  // namespace affskel::core
