@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/chords/chord_fields.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/box.h"
 #include "core/quality/sheet_topology.h"
+#include "core/ridge/local_depth.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid_membership.h"
+#include "core/spatial/distance_to_mesh.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -264,6 +268,24 @@ TEST(RidgeSheet, OfABodyReachesAllItsEnds) {
   EXPECT_LT(high.x - x.high, 0.035 * height);
   EXPECT_LT(z.low - low.z, 0.03 * height);
   EXPECT_LT(high.z - z.high, 0.08 * height);  // the radius of the head
+}
+
+// What lies nearer to the surface than 0.3 of the local depth is a corner cut at a bend, or a ridge in a hollow; a
+// square that stands on a sheet at a corner is drawn together to nothing.
+TEST(RidgeSheet, KeepsOffTheSurfaceAndHasNoTriangleWithoutArea) {
+  const Mesh body = make_body({.triangles = 2000}), ring = make_torus(1.5, 1, 1024);
+  for (const auto& [mesh, steps] : {std::pair{body, 150}, {ring, 40}}) {
+    const double h = box_of(mesh).longest_side() / steps;
+    const ErodedSolid solid(mesh, axes(h), "triangles");
+    const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+    const std::vector<float> depth = local_depth(solid.lattice, solid.field);
+    const DistanceToMesh surface(mesh);
+    std::size_t near = 0;
+    for (const SheetVertex& v : sheet.vertices)
+      near += surface.nearest(solid.place(v.position)) < 0.3 * h * static_cast<double>(depth[v.point]);
+    EXPECT_LE(near, sheet.vertices.size() / 100);
+    for (const Triangle& t : sheet.triangles) EXPECT_GT(triangle_area(sheet, t), 1e-5 * h * h);
+  }
 }
 
 // Strengths are angles and widths go with the depth: a mesh twice as large with twice the spacing is the
