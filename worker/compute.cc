@@ -58,11 +58,7 @@ std::string six_decimals(double value) {
 
 // All directions in the order that the service works in, or in a random one.
 std::vector<std::uint32_t> work_order(std::size_t count, bool shuffle) {
-  const std::uint64_t stride = wire::direction_stride(count);
-  std::vector<std::uint32_t> list(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    list[p] = static_cast<std::uint32_t>(wire::direction_at(p, stride, count));
-  }
+  std::vector<std::uint32_t> list = wire::directions_in_order(count);
   if (shuffle) std::shuffle(list.begin(), list.end(), std::mt19937_64(std::random_device{}()));
   return list;
 }

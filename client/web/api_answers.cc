@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/utf8.h"
+#include "client/text/message_json.h"
 
 namespace affskel::client {
 namespace {
@@ -55,6 +56,17 @@ http::Response api_error(const ClientError& error) {
   nlohmann::ordered_json body = {{"code", exit_code_name(error.exit_code())}, {"message", error.what()}};
   if (error.line() > 0) body["line"] = error.line();
   return api_answer({{"error", body}}, status_of(error.exit_code()));
+}
+
+nlohmann::ordered_json warnings_json(const Notices& notices) {
+  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  for (const Notice& notice : notices) {
+    if (notice.kind != Notice::Kind::kWarning) continue;
+    nlohmann::ordered_json to_try = nlohmann::ordered_json::array();
+    for (const v1::Setting& setting : notice.to_try) to_try.push_back(to_json(setting));
+    warnings.push_back({{"code", notice.code}, {"message", notice.message}, {"to_try", to_try}});
+  }
+  return warnings;
 }
 
 nlohmann::json json_body(const http::Request& request) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/base/error.h"
+#include "client/base/notice.h"
 #include "client/operations/skeleton_choice.h"
 #include "http/message.h"
 
@@ -18,6 +19,9 @@ http::Response api_error(int status, const std::string& code, const std::string&
 /// The same for a failed operation, with the line of the file where there is one; its status follows the
 /// code.
 http::Response api_error(const ClientError& error);
+
+/// The warnings among them: code, message and settings to try of each.
+nlohmann::ordered_json warnings_json(const Notices& notices);
 
 /// The request's body as a JSON object.  @throws ClientError kUsage when it is none.
 nlohmann::json json_body(const http::Request& request);

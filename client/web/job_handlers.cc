@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "client/operations/artifact_calls.h"
+#include "client/operations/job_notices.h"
 #include "client/operations/kept_stance.h"
 #include "client/text/message_json.h"
 #include "client/web/api_answers.h"
@@ -12,11 +13,13 @@ namespace {
 
 constexpr std::uint32_t kListed = 50, kMaxListed = 1000;
 
-// Without what only programs read, which may be long.
+// Without what only programs read, which may be long; of a done job with what to know of its result.
 nlohmann::ordered_json job_json(v1::Job job) {
   job.clear_done_positions();
   job.clear_counters();
-  return to_json(job);
+  nlohmann::ordered_json json = to_json(job);
+  if (job.state() == v1::JOB_STATE_DONE) json["warnings"] = warnings_json(end_notices(job));
+  return json;
 }
 
 std::uint32_t limit_of(const http::Request& request) {

@@ -9,7 +9,6 @@
 #include "client/operations/page.h"
 #include "client/operations/picture.h"
 #include "client/render/scene.h"
-#include "client/text/message_json.h"
 #include "client/text/portable_name.h"
 #include "client/view/page.h"
 #include "client/web/api_answers.h"
@@ -135,17 +134,6 @@ Made make_artifact(Session& server, const nlohmann::json& body, const std::strin
   made.facts[fetched.unit + "s"] = fetched.items;
   if (fetched.volume) made.facts["volume"] = *fetched.volume;
   return made;
-}
-
-nlohmann::ordered_json warnings_json(const Notices& notices) {
-  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
-  for (const Notice& notice : notices) {
-    if (notice.kind != Notice::Kind::kWarning) continue;
-    nlohmann::ordered_json to_try = nlohmann::ordered_json::array();
-    for (const v1::Setting& setting : notice.to_try) to_try.push_back(to_json(setting));
-    warnings.push_back({{"code", notice.code}, {"message", notice.message}, {"to_try", to_try}});
-  }
-  return warnings;
 }
 
 // The extension of what is asked for.

@@ -14,4 +14,12 @@ std::uint64_t direction_stride(std::uint64_t count) {
   }
 }
 
+std::vector<std::uint32_t> directions_in_order(std::size_t count) {
+  const std::uint64_t stride = direction_stride(count);
+  std::vector<std::uint32_t> list(count);
+  for (std::size_t p = 0; p < count; ++p)
+    list[p] = static_cast<std::uint32_t>(direction_at(p, stride, count));
+  return list;
+}
+
 }  // namespace affskel::wire

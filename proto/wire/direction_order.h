@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace affskel::wire {
 
@@ -14,5 +16,8 @@ std::uint64_t direction_stride(std::uint64_t count);
 inline std::uint64_t direction_at(std::uint64_t position, std::uint64_t stride, std::uint64_t count) {
   return position * stride % count;
 }
+
+/// All directions in that order.
+std::vector<std::uint32_t> directions_in_order(std::size_t count);
 
 }  // namespace affskel::wire

@@ -33,11 +33,8 @@ core::Lattice lattice_of(const core::Solid& solid, const RowSpec& row, unsigned 
 }
 
 std::vector<std::uint32_t> work_order(std::size_t count, std::uint64_t at_most) {
-  const std::uint64_t stride = wire::direction_stride(count);
-  std::vector<std::uint32_t> list(at_most > 0 ? std::min<std::size_t>(count, at_most) : count);
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    list[p] = static_cast<std::uint32_t>(wire::direction_at(p, stride, count));
-  }
+  std::vector<std::uint32_t> list = wire::directions_in_order(count);
+  if (at_most > 0 && at_most < count) list.resize(at_most);
   return list;
 }
 

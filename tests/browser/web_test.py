@@ -470,6 +470,7 @@ class SigningIn(unittest.TestCase):
         self.sign_in(page, "bob")
         page.submit(bench.path("box.off"), 1000, "box of bob")
         page.wait(lambda: "Its results will be removed on" in page.find(".notes").text)
+        self.assertIn("the lattice is coarse", page.find(".notes").text)
         page.screenshot("lab-3-removal")
         page.shown("#pin").click()
         page.shown("#unpin")

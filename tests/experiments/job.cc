@@ -19,22 +19,12 @@ namespace {
 
 using core::Vec3;
 
-// All directions in the order that the service works in.
-std::vector<std::uint32_t> work_order(std::size_t count) {
-  const std::uint64_t stride = wire::direction_stride(count);
-  std::vector<std::uint32_t> list(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    list[p] = static_cast<std::uint32_t>(wire::direction_at(p, stride, count));
-  }
-  return list;
-}
-
 std::vector<core::FieldValue> eroded(const Job& job, unsigned threads) {
   core::ErosionOptions options;
   options.threads = threads;
   core::Erosion erosion(job.solid, job.lattice, job.directions, options);
   core::ExecutionContext context;
-  erosion.run(work_order(job.directions.size()), context);
+  erosion.run(wire::directions_in_order(job.directions.size()), context);
   const double area_unit = std::ldexp(1.0, 2 * job.solid.exponent);
   const double volume_unit = std::ldexp(1.0, 3 * job.solid.exponent);
   std::vector<core::FieldValue> values(job.lattice.points);

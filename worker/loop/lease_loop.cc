@@ -32,6 +32,7 @@
 #include "tasks/erode_task.h"
 #include "tasks/failure.h"
 #include "tasks/sample_task.h"
+#include "wire/artifact_kinds.h"
 #include "wire/direction_order.h"
 #include "wire/identity.h"
 #include "wire/words.h"
@@ -258,16 +259,10 @@ class LeaseLoop {
         return prepare(lease, context);
       case v1::TASK_KIND_ERODE:
         return erode_block(lease, context);
-      case v1::TASK_KIND_SKELETON:
-      case v1::TASK_KIND_SURFACE:
-      case v1::TASK_KIND_DIVERGENCE:
-      case v1::TASK_KIND_ERODED_POINTS:
-      case v1::TASK_KIND_ERODED_SURFACE:
-      case v1::TASK_KIND_PARTS:
-        return derive(lease, context);
       case v1::TASK_KIND_VERIFY:
         return verify(lease, context);
       default:
+        if (wire::find_derived_kind(lease.kind()) != nullptr) return derive(lease, context);
         throw std::runtime_error("the server speaks of a task this worker does not know; update the worker");
     }
   }

@@ -148,12 +148,14 @@ export class JobView {
 
   /** @param {Job} job */
   showFacts(job) {
-    const advice = job.quality?.advice;
     const removal = expiry(job);
+    const warning = (message) => h('li', { class: 'warning' }, message);
+    // The warnings of a done job are those of its mesh, too.
+    const notes = (job.prepared?.notes || []).filter((note) => !job.warnings || note.severity !== 'warning');
     this.notes.replaceChildren(
-      ...(job.prepared?.notes || []).map((note) => h('li', { class: note.severity }, note.message)),
-      ...(advice ? [h('li', { class: 'warning' }, advice)] : []),
-      ...(removal ? [h('li', { class: 'warning' }, removal)] : []),
+      ...notes.map((note) => h('li', { class: note.severity }, note.message)),
+      ...(job.warnings || []).map((one) => warning(one.message)),
+      ...(removal ? [warning(removal)] : []),
     );
     this.facts.replaceChildren(facts([...prepared(job), ...asked(job)]));
   }

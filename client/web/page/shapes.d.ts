@@ -43,7 +43,8 @@ interface Job {
   params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null };
   skeleton: { operator: string | null };
   prepared?: { triangles: number; points: number; spacing: number; volume: number; solids: number; notes?: Note[] };
-  quality?: { advice?: string; components: number };
+  quality?: { components: number };
+  warnings?: { code: string; message: string }[]; // of a done job
   error?: { message: string; line: number };
   directions_done: number;
   directions_total: number;

@@ -28,12 +28,6 @@ SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t) {
   return v;
 }
 
-double triangle_area(const SheetMesh& mesh, const Triangle& triangle) {
-  const Vec3& corner = mesh.vertices[triangle[0]].position;
-  return 0.5 * norm(cross(mesh.vertices[triangle[1]].position - corner,
-                          mesh.vertices[triangle[2]].position - corner));
-}
-
 void drop_unused_vertices(SheetMesh& mesh) {
   constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
   std::vector<std::uint32_t> index(mesh.vertices.size(), kUnused);

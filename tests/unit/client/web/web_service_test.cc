@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "client/operations/job_notices.h"
 #include "client/view/page.h"
 #include "core/shapes/shapes.h"
 #include "core/text/off_file.h"
@@ -82,6 +83,23 @@ TEST_F(WebServiceTest, AnArchiveHoldsTheFilesOfJobs) {
   json many = {{"jobs", json::array()}};
   for (int i = 0; i < 101; ++i) many["jobs"].push_back(id);
   EXPECT_EQ(ask("POST", "/api/archives", many.dump()).status, 507);
+}
+
+TEST_F(WebServiceTest, TellsOfADoneJobTheWarningsThatTheCommandLineTells) {
+  sign_in();
+  service_.job.mutable_quality()->set_advice("most of it is flat");
+  service_.job.mutable_prepared()->set_points(1500);
+  const std::string job = "/api/jobs/" + service_.job.id();
+  const json warnings = ask("GET", job).object()["warnings"];
+  const Notices notices = end_notices(service_.job);
+  ASSERT_EQ(notices.size(), 2u);
+  ASSERT_EQ(warnings.size(), 2u);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(warnings[n]["code"], notices[n].code);
+    EXPECT_EQ(warnings[n]["message"], notices[n].message);
+  }
+  service_.job.set_state(v1::JOB_STATE_RUNNING);
+  EXPECT_FALSE(ask("GET", job).object().contains("warnings"));
 }
 
 TEST_F(WebServiceTest, PassesOnWhatTheServerSays) {
