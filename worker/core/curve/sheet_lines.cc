@@ -14,6 +14,7 @@
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
 #include "core/base/parity_rows.h"
+#include "core/curve/loops_to_open.h"
 
 namespace affskel::core {
 namespace {
@@ -24,9 +25,9 @@ constexpr double kStraight = 0.1;
 
 class Collapse {
  public:
-  Collapse(const SheetMesh& sheet, std::span<const char> ends, ExecutionContext* context)
+  Collapse(const SheetMesh& sheet, std::span<const char> ends, const SheetLinesOptions& options)
       : sheet_(sheet),
-        context_(context),
+        options_(options),
         pieces_(sheet.vertices.size()),
         stays_(ends.begin(), ends.end()),
         triangles_left_(sheet.triangles.size(), 1) {
@@ -39,6 +40,7 @@ class Collapse {
       eat_sheets();
       if (!open_closed_ones()) break;
     }
+    if (options_.windings != nullptr) open_loops(*options_.windings);
     drop_centres_on_loops();
     return lines();
   }
@@ -165,7 +167,7 @@ class Collapse {
     for (std::uint32_t v = 0; v < edges_at_.size(); ++v) eat_from(v);
     time_ = times();
     for (std::uint32_t e = 0; e < edges_.size(); ++e) offer(e);
-    StopCheck stop(context_);
+    StopCheck stop(options_.context);
     while (!front_.empty()) {
       stop.did(20);
       const std::uint32_t edge = std::get<2>(front_.top());
@@ -267,6 +269,28 @@ class Collapse {
     }
   }
 
+  // Those that go round nothing, of what is left: lines alone.
+  void open_loops(const SolidWindings& windings) {
+    std::vector<std::uint32_t> left;
+    std::vector<Segment> segments;
+    std::vector<double> erosion;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!edge_left_[e]) continue;
+      const auto& [a, b] = edges_[e];
+      left.push_back(e);
+      segments.push_back(edges_[e]);
+      erosion.push_back(std::min(sheet_.vertices[a].erosion, sheet_.vertices[b].erosion));
+    }
+    const auto along = [&](std::uint32_t n) {
+      return windings.along(options_.places[segments[n][0]], options_.places[segments[n][1]]);
+    };
+    for (const std::uint32_t n :
+         loops_to_open(sheet_.vertices.size(), segments, erosion, windings.size(), along)) {
+      if (edge_left_[left[n]]) remove_edge(left[n]);
+      ++opened_loops_;
+    }
+  }
+
   void drop_centres_on_loops() {
     std::map<std::uint32_t, std::int64_t> euler;  // per piece: of what is left
     for (const std::uint32_t centre : centres_) euler[pieces_.find(centre)] = 0;
@@ -294,6 +318,7 @@ class Collapse {
   SheetLines lines() const {
     SheetLines result;
     result.opened = opened_;
+    result.loops = opened_loops_;
     const std::vector<char> there = vertices_left();
     std::vector<std::uint32_t> number(there.size(), 0);
     for (std::uint32_t v = 0; v < there.size(); ++v) {
@@ -310,7 +335,7 @@ class Collapse {
   using Offer = std::tuple<double, double, std::uint32_t>;
 
   const SheetMesh& sheet_;
-  ExecutionContext* context_;
+  const SheetLinesOptions& options_;
   DisjointSets pieces_;  // of vertices
   std::vector<char> stays_;
   std::vector<Segment> edges_;                          // smaller vertex first, ascending
@@ -321,13 +346,13 @@ class Collapse {
   std::vector<double> time_;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> front_;
   std::vector<std::uint32_t> gone_, centres_;
-  std::uint32_t opened_ = 0;
+  std::uint32_t opened_ = 0, opened_loops_ = 0;
 };
 
 }  // namespace
 
-SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends, ExecutionContext* context) {
-  return Collapse(sheet, ends, context).run();
+SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends, const SheetLinesOptions& options) {
+  return Collapse(sheet, ends, options).run();
 }
 
 }  // namespace affskel::core

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/vec3.h"
 #include "core/contour/sheet_mesh.h"
+#include "core/solid/solid_windings.h"
 
 namespace affskel::core {
 
@@ -14,6 +16,14 @@ struct SheetLines {
   std::vector<std::uint32_t> vertices;  ///< of the sheet, ascending
   std::vector<Segment> segments;        ///< by numbers in `vertices`
   std::uint32_t opened = 0;             ///< closed surfaces, opened
+  std::uint32_t loops = 0;              ///< loops that bound in the solid, opened
+};
+
+struct SheetLinesOptions {
+  /// Of the solid: loops that go round none of its tunnels are opened, where E is least; null: all stay.
+  const SolidWindings* windings = nullptr;
+  std::span<const Vec3> places;  ///< with `windings`: per vertex, in the coordinates of these
+  ExecutionContext* context = nullptr;
 };
 
 /// Collapses a sheet with its curves onto lines: triangles leave from the rims inwards, the nearest to a rim
@@ -22,11 +32,15 @@ struct SheetLines {
 /// ends that are not in `ends`.  Elementary collapses keep pieces and tunnels (Whitehead 1939).  A closed surface
 /// has no line: it is opened where E is least, and no longer encloses anything.
 ///
+/// The lattice may have tunnels that the solid lacks: two fingers joined by a web that is thinner than the spacing at
+/// their roots and thicker at their tips.  Such loops are opened where E is least (loops_to_open()); what is then left
+/// without an end is eaten, too.
+///
 /// A piece with less than two of `ends`, and no tunnel, also keeps the vertex where E is greatest: a ball is that
 /// vertex, a drop the line from there to its tip.  A function of its arguments alone.
 /// @param ends per vertex: not 0 where a line ends that stays.
 /// @throws CoreError kCancelled when the context asks to stop.
 SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends,
-                       ExecutionContext* context = nullptr);
+                       const SheetLinesOptions& options = {});
 
 }  // namespace affskel::core
