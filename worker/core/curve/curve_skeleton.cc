@@ -9,12 +9,12 @@
 #include "core/base/groups.h"
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
+#include "core/curve/lattice_windings.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
-#include "core/solid/solid_windings.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 
@@ -51,14 +51,6 @@ std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis,
     if (end.distance < (kNearTip + limb.width) * lattice.spacing) ends[end.number] = 1;
   }
   return ends;
-}
-
-std::vector<Vec3> scaled_places(const Lattice& lattice, const SheetMesh& sheet) {
-  std::vector<Vec3> places;
-  places.reserve(sheet.vertices.size());
-  for (const SheetVertex& vertex : sheet.vertices)
-    places.push_back(scaled_place(lattice, (1 / lattice.spacing) * vertex.position));
-  return places;
 }
 
 Groups<std::uint32_t> neighbours_along(std::size_t vertices, std::span<const Segment> segments) {
@@ -150,8 +142,10 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
 
 void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
-  for (const Vec3& place : scaled_places(lattice, curve))
+  for (const SheetVertex& vertex : curve.vertices) {
+    const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
     curve.distance.push_back(solid.scale() * surface.nearest(place));
+  }
   give_the_rest(lattice, curve);
   curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
@@ -165,10 +159,11 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
                              const RidgeSheet& ridge, const CurveOptions& options) {
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
-  const SolidWindings windings(solid.mesh);
-  const std::vector<Vec3> places = scaled_places(lattice, ridge);
+  std::vector<std::uint32_t> points;
+  for (const SheetVertex& vertex : ridge.vertices) points.push_back(vertex.point);
+  const LatticeWindings windings(solid, lattice, basis.complex, std::move(points));
   const SheetLines lines = sheet_lines(ridge, ends_of_limbs(lattice, basis, ridge, options.least_reach),
-                                       {&windings, places, options.context});
+                                       {&windings, options.context});
   CurveSkeleton curve;
   curve.opened = lines.opened;
   curve.loops = lines.loops;

@@ -29,7 +29,7 @@ struct CurveSkeleton : SheetMesh {
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone
   std::uint32_t opened = 0;    ///< closed surfaces of the ridge, opened: a cavity has no line round it
-  std::uint32_t loops = 0;     ///< round no tunnel of the solid, opened: the lattice has them, see sheet_lines()
+  std::uint32_t loops = 0;  ///< round no tunnel of the solid, opened: the lattice has them, see sheet_lines()
 };
 
 /// The curve skeleton: the skeleton of `ridge`, collapsed on to the middle of its surfaces (see sheet_lines()),

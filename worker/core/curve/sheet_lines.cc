@@ -270,7 +270,7 @@ class Collapse {
   }
 
   // Those that go round nothing, of what is left: lines alone.
-  void open_loops(const SolidWindings& windings) {
+  void open_loops(const LatticeWindings& windings) {
     std::vector<std::uint32_t> left;
     std::vector<Segment> segments;
     std::vector<double> erosion;
@@ -281,11 +281,9 @@ class Collapse {
       segments.push_back(edges_[e]);
       erosion.push_back(std::min(sheet_.vertices[a].erosion, sheet_.vertices[b].erosion));
     }
-    const auto along = [&](std::uint32_t n) {
-      return windings.along(options_.places[segments[n][0]], options_.places[segments[n][1]]);
-    };
+    const auto along = [&](std::uint32_t n) { return windings.between(segments[n][0], segments[n][1]); };
     for (const std::uint32_t n :
-         loops_to_open(sheet_.vertices.size(), segments, erosion, windings.size(), along)) {
+         loops_to_open(sheet_.vertices.size(), segments, erosion, windings.loops(), along)) {
       if (edge_left_[left[n]]) remove_edge(left[n]);
       ++opened_loops_;
     }

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
-#include "core/base/vec3.h"
 #include "core/contour/sheet_mesh.h"
-#include "core/solid/solid_windings.h"
+#include "core/curve/lattice_windings.h"
 
 namespace affskel::core {
 
@@ -21,8 +20,7 @@ struct SheetLines {
 
 struct SheetLinesOptions {
   /// Of the solid: loops that go round none of its tunnels are opened, where E is least; null: all stay.
-  const SolidWindings* windings = nullptr;
-  std::span<const Vec3> places;  ///< with `windings`: per vertex, in the coordinates of these
+  const LatticeWindings* windings = nullptr;
   ExecutionContext* context = nullptr;
 };
 
