@@ -10,6 +10,8 @@
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/lattice_windings.h"
+#include "core/curve/limb_joints.h"
+#include "core/curve/limb_middles.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -29,10 +31,15 @@ constexpr double kStep = 0.5, kStepBack = -0.51;
 // A tip that the ridge reaches lies no farther from it than half its limb's width and so many spacings.
 constexpr double kNearTip = 2;
 
-// Which vertices of the ridge are the ends of limbs.
-std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
-                                double least_reach) {
-  std::vector<char> ends(ridge.vertices.size(), 0);
+// Which vertices of the ridge are the ends of limbs, and where the tips of these are, frame coordinates.
+struct LimbEnds {
+  std::vector<char> is_end;
+  std::vector<Vec3> tip;
+};
+
+LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
+                       double least_reach) {
+  LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size())};
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   const PointIndex index(places);
@@ -48,7 +55,11 @@ std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis,
         lattice.spacing * Vec3{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
                                static_cast<double>(cell[2]) + 0.5};
     const PointIndex::Found end = index.find(tip);
-    if (end.distance < (kNearTip + limb.width) * lattice.spacing) ends[end.number] = 1;
+    if (end.distance >= (kNearTip + limb.width) * lattice.spacing) continue;
+    const Vec3 before = ridge.vertices[end.number].position;
+    if (ends.is_end[end.number] && norm(ends.tip[end.number] - before) > end.distance) continue;
+    ends.is_end[end.number] = 1;
+    ends.tip[end.number] = tip;
   }
   return ends;
 }
@@ -140,12 +151,54 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
     if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
 }
 
-void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
+// The ridge ends before its limb does.  Half way to the tip it must still be in the solid.
+void move_to_tips(const Solid& solid, const Lattice& lattice, const LimbEnds& ends,
+                  std::span<const std::uint32_t> lines, CurveSkeleton& curve) {
+  const SolidMembership membership(solid.mesh);
+  const auto inside = [&](const Vec3& place) {
+    return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * place));
+  };
+  for (std::size_t v = 0; v < lines.size(); ++v) {
+    if (!ends.is_end[lines[v]]) continue;
+    Vec3& at = curve.vertices[v].position;
+    const Vec3 tip = ends.tip[lines[v]];
+    if (inside(tip) && inside(0.5 * (at + tip))) at = tip;
+  }
+}
+
+void move_to_middles(const Lattice& lattice, const RidgeBasis& basis, CurveSkeleton& curve,
+                     ExecutionContext* context) {
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : curve.vertices) places.push_back((1 / lattice.spacing) * vertex.position);
+  places = limb_middles({lattice, basis.radius, curve.segments, curve.nearest, context}, std::move(places));
+  for (std::size_t v = 0; v < places.size(); ++v) curve.vertices[v].position = lattice.spacing * places[v];
+}
+
+// Where all that has moved is in the solid.
+void move_joints(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
+  const SolidMembership membership(solid.mesh);
+  std::vector<Vec3> places;
+  std::vector<double> ball;
+  for (std::size_t v = 0; v < curve.vertices.size(); ++v) {
+    places.push_back(curve.vertices[v].position);
+    ball.push_back(curve.distance[v]);
+  }
+  const std::vector<Vec3> moved = limb_joints(curve.segments, ball, places);
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (membership.contains(scaled_place(lattice, (1 / lattice.spacing) * moved[v])))
+      curve.vertices[v].position = moved[v];
+}
+
+void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
+  curve.distance.clear();
   for (const SheetVertex& vertex : curve.vertices) {
     const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
     curve.distance.push_back(solid.scale() * surface.nearest(place));
   }
+}
+
+void measure(const Lattice& lattice, CurveSkeleton& curve) {
   give_the_rest(lattice, curve);
   curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
@@ -160,10 +213,15 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
   std::vector<std::uint32_t> points;
-  for (const SheetVertex& vertex : ridge.vertices) points.push_back(vertex.point);
+  std::vector<double> radius;
+  for (const SheetVertex& vertex : ridge.vertices) {
+    points.push_back(vertex.point);
+    radius.push_back(lattice.spacing * static_cast<double>(basis.radius[vertex.point]));
+  }
   const LatticeWindings windings(solid, lattice, basis.complex, std::move(points));
-  const SheetLines lines = sheet_lines(ridge, ends_of_limbs(lattice, basis, ridge, options.least_reach),
-                                       {&windings, options.context});
+  const LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
+  const SheetLines lines =
+      sheet_lines(ridge, ends.is_end, {&windings, radius, options.least_reach, options.context});
   CurveSkeleton curve;
   curve.opened = lines.opened;
   curve.loops = lines.loops;
@@ -172,9 +230,14 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
     curve.vertices.push_back(ridge.vertices[v]);
     curve.part.push_back(ridge.part[v]);
   }
-  make_smooth(solid, lattice, curve, options.context);
   give_points(basis, ridge, lines.vertices, curve, options.context);
-  measure(solid, lattice, curve);
+  move_to_tips(solid, lattice, ends, lines.vertices, curve);
+  move_to_middles(lattice, basis, curve, options.context);
+  make_smooth(solid, lattice, curve, options.context);
+  find_distances(solid, lattice, curve);
+  move_joints(solid, lattice, curve);
+  find_distances(solid, lattice, curve);
+  measure(lattice, curve);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
   std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
   for (const Segment& segment : curve.segments)

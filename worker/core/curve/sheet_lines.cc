@@ -271,7 +271,7 @@ class Collapse {
 
   // Those that go round nothing, of what is left: lines alone.
   void open_loops(const LatticeWindings& windings) {
-    std::vector<std::uint32_t> left;
+    std::vector<std::uint32_t> left, ends;
     std::vector<Segment> segments;
     std::vector<double> erosion;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -284,9 +284,58 @@ class Collapse {
     const auto along = [&](std::uint32_t n) { return windings.between(segments[n][0], segments[n][1]); };
     for (const std::uint32_t n :
          loops_to_open(sheet_.vertices.size(), segments, erosion, windings.loops(), along)) {
-      if (edge_left_[left[n]]) remove_edge(left[n]);
+      edge_left_[left[n]] = 0;
+      for (const std::uint32_t v : edges_[left[n]]) {
+        --edges_at_[v];
+        ends.push_back(v);
+      }
       ++opened_loops_;
     }
+    eat_short(std::move(ends));
+  }
+
+  // Lines from open ends that are no limbs, the shortest first: at a joint the longest goes on through it.
+  void eat_short(std::vector<std::uint32_t> ends) {
+    while (!ends.empty()) {
+      std::size_t shortest = 0;
+      OpenLine least;
+      for (std::size_t n = 0; n < ends.size(); ++n) {
+        const OpenLine line = open_line(ends[n]);
+        if (n > 0 && line.length >= least.length) continue;
+        shortest = n;
+        least = line;
+      }
+      if (least.is_limb) stays_[ends[shortest]] = 1;
+      eat_from(ends[shortest]);
+      ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(shortest));
+    }
+  }
+
+  struct OpenLine {
+    double length = 0;
+    bool is_limb = false;
+  };
+
+  // What leads from an open end to where lines meet.
+  OpenLine open_line(std::uint32_t end) const {
+    if (edges_at_[end] != 1) return {};
+    std::vector<std::uint32_t> line{end};
+    OpenLine result;
+    do {
+      const std::uint32_t at = line.back(), before = line.size() > 1 ? line[line.size() - 2] : kNoNode;
+      for (const std::uint32_t e : edges_round_[at]) {
+        const std::uint32_t to = edges_[e][edges_[e][0] == at ? 1 : 0];
+        if (!edge_left_[e] || to == before) continue;
+        result.length += length(at, to);
+        line.push_back(to);
+        break;
+      }
+    } while (edges_at_[line.back()] == 2);
+    const double ball = edges_at_[line.back()] > 2 ? options_.radius[line.back()] : 0;
+    std::size_t root = line.size() - 1;
+    for (double way = 0; root > 0 && way < ball; --root) way += length(line[root], line[root - 1]);
+    result.is_limb = result.length - ball >= options_.least_reach * options_.radius[line[root]];
+    return result;
   }
 
   void drop_centres_on_loops() {

@@ -21,6 +21,9 @@ struct SheetLines {
 struct SheetLinesOptions {
   /// Of the solid: loops that go round none of its tunnels are opened, where E is least; null: all stay.
   const LatticeWindings* windings = nullptr;
+  std::span<const double>
+      radius;              ///< with `windings`, per vertex: distance to the surface, frame coordinates
+  double least_reach = 0;  ///< with `windings`: see CurveOptions
   ExecutionContext* context = nullptr;
 };
 
@@ -31,8 +34,9 @@ struct SheetLinesOptions {
 /// has no line: it is opened where E is least, and no longer encloses anything.
 ///
 /// The lattice may have tunnels that the solid lacks: two fingers joined by a web that is thinner than the spacing at
-/// their roots and thicker at their tips.  Such loops are opened where E is least (loops_to_open()); what is then left
-/// without an end is eaten, too.
+/// their roots and thicker at their tips.  Such loops are opened where E is least (loops_to_open()).  What then ends
+/// there is a limb when it is long enough, by its radius where it leaves the largest ball about its joint; else it is
+/// eaten, too.
 ///
 /// A piece with less than two of `ends`, and no tunnel, also keeps the vertex where E is greatest: a ball is that
 /// vertex, a drop the line from there to its tip.  A function of its arguments alone.
