@@ -151,17 +151,36 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
     if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
 }
 
-// The ridge ends before its limb does.  Half way to the tip it must still be in the solid.
+// The direction of a line at its end, by a stretch of about a length; 0 where it has none.
+Vec3 direction_at_end(const CurveSkeleton& curve, const Groups<std::uint32_t>& neighbours, std::uint32_t end,
+                      double length) {
+  const Vec3 at = curve.vertices[end].position;
+  std::uint32_t before = end, v = end;
+  while (norm(curve.vertices[v].position - at) < length && (v == end || neighbours[v].size() == 2)) {
+    const auto around = neighbours[v];
+    const std::uint32_t next = around[0] == before && around.size() == 2 ? around[1] : around[0];
+    before = v;
+    v = next;
+  }
+  const Vec3 way = at - curve.vertices[v].position;
+  return norm(way) > 0 ? (1 / norm(way)) * way : Vec3{};
+}
+
+// The ridge ends before its limb does: the line goes straight on as far as the tip.  Half way there it must still be in
+// the solid.
 void move_to_tips(const Solid& solid, const Lattice& lattice, const LimbEnds& ends,
                   std::span<const std::uint32_t> lines, CurveSkeleton& curve) {
   const SolidMembership membership(solid.mesh);
   const auto inside = [&](const Vec3& place) {
     return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * place));
   };
-  for (std::size_t v = 0; v < lines.size(); ++v) {
-    if (!ends.is_end[lines[v]]) continue;
+  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
+  for (std::uint32_t v = 0; v < lines.size(); ++v) {
+    if (!ends.is_end[lines[v]] || neighbours[v].size() != 1) continue;
     Vec3& at = curve.vertices[v].position;
-    const Vec3 tip = ends.tip[lines[v]];
+    const Vec3 way = ends.tip[lines[v]] - at;
+    const Vec3 along = direction_at_end(curve, neighbours, v, norm(way) + kNearTip * lattice.spacing);
+    const Vec3 tip = at + std::max(dot(way, along), 0.0) * along;
     if (inside(tip) && inside(0.5 * (at + tip))) at = tip;
   }
 }

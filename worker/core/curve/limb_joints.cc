@@ -13,7 +13,7 @@ namespace {
 
 // Radii of the joint's ball: as far as a limb that leaves the trunk askew is still in it, and how much of it then tells
 // its axis.
-constexpr double kLeave = 1.5, kStretch = 2;
+constexpr double kLeave = 1.5, kAxis = 2;
 
 // Lines that are nearly parallel say nothing of where along them they meet: the place that was, by this weight of a
 // line's, does.
@@ -82,7 +82,7 @@ class Joints {
     if (!may_go(n) || !may_go(n + 1)) return;
     const Vec3 from = places_[branch.vertex(n)];
     std::size_t to = n + 1;
-    while (may_go(to + 1) && norm(places_[branch.vertex(to)] - from) < kStretch * ball_[joint]) ++to;
+    while (may_go(to + 1) && norm(places_[branch.vertex(to)] - from) < kAxis * ball_[joint]) ++to;
     const Vec3 way = places_[branch.vertex(to)] - from;
     if (norm(way) > 0) branch.along = (1 / norm(way)) * way;
   }

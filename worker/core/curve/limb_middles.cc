@@ -16,9 +16,6 @@ namespace {
 // The ball about a vertex, by its local radius; see the header.
 constexpr double kBall = 1.6;
 
-// Of large balls only every so many of the points are asked: one more for each so many spacings.
-constexpr double kFewer = 5;
-
 // On a torus three times as wide as its tube what is left to go falls by a sixth each round.
 constexpr int kRounds = 20;
 
@@ -81,13 +78,11 @@ class Middles {
   Vec3 middle(std::uint32_t v) {
     const Vec3 at = places_[v];
     const double ball = kBall * radius_[v];
-    const auto stride = static_cast<std::size_t>(1 + ball / kFewer);
     gather(v, 2 * ball);
     Vec3 sum;
     double count = 0, nearest = std::numeric_limits<double>::infinity();
     for (const auto& [along, way] : stretch_) {
-      for (std::size_t n = 0; n < points_[along].size(); n += stride) {
-        const std::uint32_t p = points_[along][n];
+      for (const std::uint32_t p : points_[along]) {
         const Vec3 off = Vec3{point_places_[p][0], point_places_[p][1], point_places_[p][2]} - at;
         const double square = dot(off, off);
         if (square < nearest) {

@@ -257,7 +257,7 @@ class Collapse {
     return !least.empty();
   }
 
-  // Calls visit(triangles) with those about each edge that are left, if there are any.
+  // Calls visit(triangles) with those left about each edge.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
     std::vector<std::uint32_t> round;
@@ -298,35 +298,30 @@ class Collapse {
   void eat_short(std::vector<std::uint32_t> ends) {
     while (!ends.empty()) {
       std::size_t shortest = 0;
-      OpenLine least;
+      std::pair<double, bool> least;
       for (std::size_t n = 0; n < ends.size(); ++n) {
-        const OpenLine line = open_line(ends[n]);
-        if (n > 0 && line.length >= least.length) continue;
+        const auto line = open_line(ends[n]);
+        if (n > 0 && line.first >= least.first) continue;
         shortest = n;
         least = line;
       }
-      if (least.is_limb) stays_[ends[shortest]] = 1;
+      if (least.second) stays_[ends[shortest]] = 1;
       eat_from(ends[shortest]);
       ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(shortest));
     }
   }
 
-  struct OpenLine {
-    double length = 0;
-    bool is_limb = false;
-  };
-
-  // What leads from an open end to where lines meet.
-  OpenLine open_line(std::uint32_t end) const {
+  // The length of what leads from an open end to where lines meet, and whether it is a limb.
+  std::pair<double, bool> open_line(std::uint32_t end) const {
     if (edges_at_[end] != 1) return {};
     std::vector<std::uint32_t> line{end};
-    OpenLine result;
+    double whole = 0;
     do {
       const std::uint32_t at = line.back(), before = line.size() > 1 ? line[line.size() - 2] : kNoNode;
       for (const std::uint32_t e : edges_round_[at]) {
         const std::uint32_t to = edges_[e][edges_[e][0] == at ? 1 : 0];
         if (!edge_left_[e] || to == before) continue;
-        result.length += length(at, to);
+        whole += length(at, to);
         line.push_back(to);
         break;
       }
@@ -334,8 +329,7 @@ class Collapse {
     const double ball = edges_at_[line.back()] > 2 ? options_.radius[line.back()] : 0;
     std::size_t root = line.size() - 1;
     for (double way = 0; root > 0 && way < ball; --root) way += length(line[root], line[root - 1]);
-    result.is_limb = result.length - ball >= options_.least_reach * options_.radius[line[root]];
-    return result;
+    return {whole, whole - ball >= options_.least_reach * options_.radius[line[root]]};
   }
 
   void drop_centres_on_loops() {
