@@ -193,14 +193,28 @@ void move_to_middles(const Lattice& lattice, const RidgeBasis& basis, CurveSkele
   for (std::size_t v = 0; v < places.size(); ++v) curve.vertices[v].position = lattice.spacing * places[v];
 }
 
+// The boundary in frame coordinates: distances there follow the solid under affine maps, as the lattice does.
+Mesh boundary_in_frame(const Solid& solid, const Lattice& lattice) {
+  const auto& [a, b, c] = lattice.grid.axes;
+  const double det = dot(a, cross(b, c));
+  Mesh mesh = solid.mesh;
+  for (Vec3& p : mesh.points) {
+    const Vec3 off = p - lattice.grid.origin;
+    p = (lattice.spacing / det) * Vec3{dot(off, cross(b, c)), dot(off, cross(c, a)), dot(off, cross(a, b))};
+  }
+  return mesh;
+}
+
 // Where all that has moved is in the solid.
 void move_joints(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
+  const Mesh boundary = boundary_in_frame(solid, lattice);
+  const DistanceToMesh surface(boundary);
   const SolidMembership membership(solid.mesh);
   std::vector<Vec3> places;
   std::vector<double> ball;
   for (std::size_t v = 0; v < curve.vertices.size(); ++v) {
     places.push_back(curve.vertices[v].position);
-    ball.push_back(curve.distance[v]);
+    ball.push_back(surface.nearest(curve.vertices[v].position));
   }
   const std::vector<Vec3> moved = limb_joints(curve.segments, ball, places);
   for (std::size_t v = 0; v < places.size(); ++v)
@@ -210,7 +224,6 @@ void move_joints(const Solid& solid, const Lattice& lattice, CurveSkeleton& curv
 
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
-  curve.distance.clear();
   for (const SheetVertex& vertex : curve.vertices) {
     const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
     curve.distance.push_back(solid.scale() * surface.nearest(place));
@@ -253,7 +266,6 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   move_to_tips(solid, lattice, ends, lines.vertices, curve);
   move_to_middles(lattice, basis, curve, options.context);
   make_smooth(solid, lattice, curve, options.context);
-  find_distances(solid, lattice, curve);
   move_joints(solid, lattice, curve);
   find_distances(solid, lattice, curve);
   measure(lattice, curve);
