@@ -9,6 +9,8 @@
 #include "core/base/groups.h"
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
+#include "core/curve/limb_joints.h"
+#include "core/curve/limb_middles.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -28,10 +30,15 @@ constexpr double kStep = 0.5, kStepBack = -0.51;
 // A tip that the ridge reaches lies no farther from it than half its limb's width and so many spacings.
 constexpr double kNearTip = 2;
 
-// Which vertices of the ridge are the ends of limbs.
-std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
-                                double least_reach) {
-  std::vector<char> ends(ridge.vertices.size(), 0);
+// Which vertices of the ridge are the ends of limbs, and where the tips of these are, frame coordinates.
+struct LimbEnds {
+  std::vector<char> is_end;
+  std::vector<Vec3> tip;
+};
+
+LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
+                       double least_reach) {
+  LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size())};
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   const PointIndex index(places);
@@ -47,7 +54,11 @@ std::vector<char> ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis,
         lattice.spacing * Vec3{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
                                static_cast<double>(cell[2]) + 0.5};
     const PointIndex::Found end = index.find(tip);
-    if (end.distance < (kNearTip + limb.width) * lattice.spacing) ends[end.number] = 1;
+    if (end.distance >= (kNearTip + limb.width) * lattice.spacing) continue;
+    const Vec3 before = ridge.vertices[end.number].position;
+    if (ends.is_end[end.number] && norm(ends.tip[end.number] - before) > end.distance) continue;
+    ends.is_end[end.number] = 1;
+    ends.tip[end.number] = tip;
   }
   return ends;
 }
@@ -139,12 +150,86 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
     if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
 }
 
-void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
+// The direction of a line at its end, by a stretch of about a length; 0 where it has none.
+Vec3 direction_at_end(const CurveSkeleton& curve, const Groups<std::uint32_t>& neighbours, std::uint32_t end,
+                      double length) {
+  const Vec3 at = curve.vertices[end].position;
+  std::uint32_t before = end, v = end;
+  while (norm(curve.vertices[v].position - at) < length && (v == end || neighbours[v].size() == 2)) {
+    const auto around = neighbours[v];
+    const std::uint32_t next = around[0] == before && around.size() == 2 ? around[1] : around[0];
+    before = v;
+    v = next;
+  }
+  const Vec3 way = at - curve.vertices[v].position;
+  return norm(way) > 0 ? (1 / norm(way)) * way : Vec3{};
+}
+
+// The ridge ends before its limb does: the line goes straight on as far as the tip.  Half way there it must still be in
+// the solid.
+void move_to_tips(const Solid& solid, const Lattice& lattice, const LimbEnds& ends,
+                  std::span<const std::uint32_t> lines, CurveSkeleton& curve) {
+  const SolidMembership membership(solid.mesh);
+  const auto inside = [&](const Vec3& place) {
+    return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * place));
+  };
+  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
+  for (std::uint32_t v = 0; v < lines.size(); ++v) {
+    if (!ends.is_end[lines[v]] || neighbours[v].size() != 1) continue;
+    Vec3& at = curve.vertices[v].position;
+    const Vec3 way = ends.tip[lines[v]] - at;
+    const Vec3 along = direction_at_end(curve, neighbours, v, norm(way) + kNearTip * lattice.spacing);
+    const Vec3 tip = at + std::max(dot(way, along), 0.0) * along;
+    if (inside(tip) && inside(0.5 * (at + tip))) at = tip;
+  }
+}
+
+void move_to_middles(const Lattice& lattice, const RidgeBasis& basis, CurveSkeleton& curve,
+                     ExecutionContext* context) {
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : curve.vertices) places.push_back((1 / lattice.spacing) * vertex.position);
+  places = limb_middles({lattice, basis.radius, curve.segments, curve.nearest, context}, std::move(places));
+  for (std::size_t v = 0; v < places.size(); ++v) curve.vertices[v].position = lattice.spacing * places[v];
+}
+
+// The boundary in frame coordinates: distances there follow the solid under affine maps, as the lattice does.
+Mesh boundary_in_frame(const Solid& solid, const Lattice& lattice) {
+  const auto& [a, b, c] = lattice.grid.axes;
+  const double det = dot(a, cross(b, c));
+  Mesh mesh = solid.mesh;
+  for (Vec3& p : mesh.points) {
+    const Vec3 off = p - lattice.grid.origin;
+    p = (lattice.spacing / det) * Vec3{dot(off, cross(b, c)), dot(off, cross(c, a)), dot(off, cross(a, b))};
+  }
+  return mesh;
+}
+
+// Where all that has moved is in the solid.
+void move_joints(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
+  const Mesh boundary = boundary_in_frame(solid, lattice);
+  const DistanceToMesh surface(boundary);
+  const SolidMembership membership(solid.mesh);
+  std::vector<Vec3> places;
+  std::vector<double> ball;
+  for (std::size_t v = 0; v < curve.vertices.size(); ++v) {
+    places.push_back(curve.vertices[v].position);
+    ball.push_back(surface.nearest(curve.vertices[v].position));
+  }
+  const std::vector<Vec3> moved = limb_joints(curve.segments, ball, places);
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (membership.contains(scaled_place(lattice, (1 / lattice.spacing) * moved[v])))
+      curve.vertices[v].position = moved[v];
+}
+
+void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
   for (const SheetVertex& vertex : curve.vertices) {
     const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
     curve.distance.push_back(solid.scale() * surface.nearest(place));
   }
+}
+
+void measure(const Lattice& lattice, CurveSkeleton& curve) {
   give_the_rest(lattice, curve);
   curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
@@ -158,8 +243,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
                              const RidgeSheet& ridge, const CurveOptions& options) {
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
-  const SheetLines lines =
-      sheet_lines(ridge, ends_of_limbs(lattice, basis, ridge, options.least_reach), options.context);
+  const LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
+  const SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
   CurveSkeleton curve;
   curve.opened = lines.opened;
   curve.segments = lines.segments;
@@ -167,9 +252,13 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
     curve.vertices.push_back(ridge.vertices[v]);
     curve.part.push_back(ridge.part[v]);
   }
-  make_smooth(solid, lattice, curve, options.context);
   give_points(basis, ridge, lines.vertices, curve, options.context);
-  measure(solid, lattice, curve);
+  move_to_tips(solid, lattice, ends, lines.vertices, curve);
+  move_to_middles(lattice, basis, curve, options.context);
+  make_smooth(solid, lattice, curve, options.context);
+  move_joints(solid, lattice, curve);
+  find_distances(solid, lattice, curve);
+  measure(lattice, curve);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
   std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
   for (const Segment& segment : curve.segments)
