@@ -42,11 +42,13 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   const PointIndex index(places);
+  std::vector<LimbTip> limbs = basis.limbs;
+  limbs.insert(limbs.end(), ridge.filled.limbs.begin(), ridge.filled.limbs.end());
   std::vector<DualComplex::Cell> tips;
-  for (const LimbTip& limb : basis.limbs) tips.push_back(limb.vertex);
+  for (const LimbTip& limb : limbs) tips.push_back(limb.vertex);
   std::sort(tips.begin(), tips.end());
   const std::vector<CellPlace> cells = cells_of_vertices(lattice, tips);
-  for (const LimbTip& limb : basis.limbs) {
+  for (const LimbTip& limb : limbs) {
     if (limb.reach < least_reach) continue;
     const CellPlace& cell = cells[static_cast<std::size_t>(
         std::lower_bound(tips.begin(), tips.end(), limb.vertex) - tips.begin())];

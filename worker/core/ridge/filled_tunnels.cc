@@ -10,6 +10,7 @@
 
 #include "core/collapse/collapsing.h"
 #include "core/collapse/shortest_loops.h"
+#include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/surface_loops.h"
@@ -168,35 +169,113 @@ class Tunnels {
   std::vector<std::vector<Vec3>> of_surface_;
 };
 
+// The lines that opened loops leave: from their open ends to what stays without them.
+class OpenLines {
+ public:
+  // @param loose with the lines, `rest` without.
+  OpenLines(const Lattice& lattice, const DualComplex& complex, const CellSet& loose, const CellSet& rest,
+            std::span<const float> radius)
+      : lattice_(lattice), complex_(complex), loose_(loose), rest_(rest), radius_(radius) {}
+
+  // A line reaches as far as it goes on beyond the largest ball about where it begins.
+  LimbTip tip_at(Cell end) const {
+    const std::vector<Cell> line = line_to(end);
+    const std::vector<Vec3> places = places_of(line);
+    const double ball = radius_at(line.front());
+    const auto from = [&](std::size_t n) { return norm(places[n] - places.front()); };
+    std::size_t root = 0;
+    while (root + 1 < line.size() && from(root) < ball) ++root;
+    const double width = radius_at(line[root]);
+    return {end, line[root], width, width, (from(line.size() - 1) - ball) / width};
+  }
+
+ private:
+  // Vertices from where it begins.
+  std::vector<Cell> line_to(Cell end) const {
+    std::unordered_map<Cell, Cell> next{{end, end}};  // towards the end
+    std::vector<Cell> queue{end};
+    std::size_t n = 0;
+    for (; n < queue.size() && !rest_.has(queue[n]); ++n) {
+      for (const Cell edge : complex_.cofaces(queue[n])) {
+        if (!loose_.has(edge)) continue;
+        complex_.for_each_face(edge, [&](Cell to) {
+          if (next.try_emplace(to, queue[n]).second) queue.push_back(to);
+        });
+      }
+    }
+    std::vector<Cell> line{queue[std::min(n, queue.size() - 1)]};
+    while (line.back() != end) line.push_back(next.at(line.back()));
+    return line;
+  }
+
+  // Spacings.
+  std::vector<Vec3> places_of(const std::vector<Cell>& line) const {
+    std::vector<Cell> sorted = line;
+    std::sort(sorted.begin(), sorted.end());
+    const std::vector<CellPlace> cells = cells_of_vertices(lattice_, sorted);
+    std::vector<Vec3> places;
+    for (const Cell vertex : line) {
+      const auto& [i, j, k] = cells[static_cast<std::size_t>(
+          std::lower_bound(sorted.begin(), sorted.end(), vertex) - sorted.begin())];
+      places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    }
+    return places;
+  }
+
+  double radius_at(Cell vertex) const {
+    float most = 0;
+    for (const auto& member : complex_.star(vertex)) most = std::max(most, radius_[member.cube]);
+    return static_cast<double>(most);
+  }
+
+  const Lattice& lattice_;
+  const DualComplex& complex_;
+  const CellSet &loose_, &rest_;
+  std::span<const float> radius_;
+};
+
 }  // namespace
 
-std::uint32_t fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
+FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
                            std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
-                           ExecutionContext* context) {
-  if (solid.self_intersecting) return 0;
+                           const FillOptions& options) {
+  ExecutionContext* const context = options.context;
+  if (solid.self_intersecting) return {};
   const CellSet graph = collapsed_again(complex, left, {}, context);
   bool encloses = false;
   graph.for_each([&](Cell cell) { encloses = encloses || DualComplex::dimension(cell) > 1; });
-  if (encloses) return 0;
+  if (encloses) return {};
   const auto loops = shortest_loops(complex, graph, kMostTunnels + 1, context);
-  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return 0;
+  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return {};
   const Tunnels tunnels(solid, lattice, complex, radius);
   std::vector<Cycle> cycles;
   for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
   cycles = Tunnels::bounding(std::move(cycles));
   CellSet anchored(complex);
   for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
-  std::uint32_t filled = 0;
+  FilledTunnels filled;
+  std::vector<Cell> ends;
   for (std::size_t n = 0; n < cycles.size(); ++n) {
     throw_if_stopped(context);
     const Cell edge = tunnels.weakest_edge(cycles[n], left, anchored);
     if (edge == Tunnels::kNoCell) continue;
     left.erase(edge);
-    ++filled;
+    complex.for_each_face(edge, [&](Cell vertex) { ends.push_back(vertex); });
+    ++filled.number;
     for (std::size_t other = n + 1; other < cycles.size(); ++other)
       if (cycles[other].has(edge)) cycles[other].add(cycles[n]);
   }
-  if (filled > 0) left = collapsed_again(complex, left, anchors, context);
+  if (filled.number == 0) return filled;
+  const CellSet rest = collapsed_again(complex, left, anchors, context);
+  const OpenLines lines(lattice, complex, left, rest, radius);
+  std::vector<Anchor> stay(anchors.begin(), anchors.end());
+  for (const Cell end : ends) {
+    const LimbTip tip = lines.tip_at(end);
+    if (tip.reach < options.limb_reach) continue;
+    stay.push_back({end});
+    filled.limbs.push_back(tip);
+  }
+  left = collapsed_again(complex, left, stay, context);
   return filled;
 }
 

@@ -178,11 +178,11 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   sheet.lattice = basis.topology;
   if (basis.topology.holes > 0) {
     sheet.filled = fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
-                                options.context);
-    sheet.lattice.holes -= sheet.filled;
+                                {.limb_reach = constants.limb_reach, .context = options.context});
+    sheet.lattice.holes -= sheet.filled.number;
   }
   sheet.fragments = chosen.fragments;
-  sheet.limbs = chosen.limbs;
+  sheet.limbs = chosen.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
   sheet.opened = left.opened;
   const SkeletonParts from{.lattice = lattice,
                            .parts = parts,

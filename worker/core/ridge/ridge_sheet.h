@@ -9,6 +9,7 @@
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
+#include "core/ridge/filled_tunnels.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/ridge/smoothed_derivatives.h"
 #include "core/ridge/unreached_ends.h"
@@ -52,7 +53,7 @@ struct RidgeSheet : SheetMesh {
   /// Of the complex dual to the lattice, with a disc across each tunnel that the solid lacks: the skeleton's and its
   /// fragments', by theorem.
   BettiNumbers lattice;
-  std::uint32_t filled = 0;             ///< such discs; see fill_tunnels()
+  FilledTunnels filled;                 ///< by such discs
   std::uint32_t fragments = 0;          ///< components of the complex left out, see RidgeAnchors
   std::uint32_t limbs = 0;              ///< tips of limbs that no ridge reaches, which lines lead to
   std::vector<UnreachedEnd> unreached;  ///< see unreached_ends()

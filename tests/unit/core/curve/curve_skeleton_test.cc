@@ -151,8 +151,29 @@ Mesh webbed_ring() {
 TEST(CurveSkeleton, HasNoLoopRoundAWebThinnerThanTheSpacing) {
   const Curved ring(webbed_ring(), 0.15, "triangles");
   ASSERT_EQ(betti_numbers(ring.solid().solid), (BettiNumbers{1, 0, 0}));
-  ASSERT_EQ(ring.ridge().filled, 1U) << "the lattice has the loop";
+  ASSERT_EQ(ring.ridge().filled.number, 1U) << "the lattice has the loop";
   EXPECT_EQ(betti(ring.at()), (BettiNumbers{1, 0, 0}));
+}
+
+// A flat ball with a web 0.04 thick between two fingers, which are joined at their tips.
+TEST(CurveSkeleton, KeepsFingersThatTheLatticeJoinsAtTheirTips) {
+  Mesh mitten = make_sphere(1, 5120);
+  for (Vec3& p : mitten.points) {
+    const bool is_web = p.x > -0.3 && std::abs(p.y) < 0.25;
+    p = {2 * p.x, p.y, p.z * (!is_web ? 0.4 : p.x < 0.6 ? 0.02 : 0.25)};
+  }
+  const Curved solid(mitten, 0.097, "triangles");
+  ASSERT_EQ(solid.ridge().filled.number, 1U);
+  const CurveSkeleton curve = solid.at();
+  EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
+  double left = 0, right = 0;
+  for (const SheetVertex& vertex : curve.vertices) {
+    const Vec3 at = solid.place(vertex);
+    if (at.y > 0.25) left = std::max(left, at.x);
+    if (at.y < -0.25) right = std::max(right, at.x);
+  }
+  EXPECT_GT(left, 0.8);
+  EXPECT_GT(right, 0.8);
 }
 
 TEST(CurveSkeleton, HasThePiecesAndTunnelsOfTheRidge) {

@@ -36,7 +36,7 @@ Filled filled(const Mesh& mesh, double spacing) {
   CellSet left = collapse(complex, {}).cells;
   Filled result;
   result.complex = betti_numbers(complex);
-  result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left);
+  result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left).number;
   const CellMesh cells = mesh_of_cells(complex, left);
   result.skeleton = sheet_topology(cells.mesh, cells.segments).betti;
   return result;
