@@ -9,8 +9,6 @@
 #include "core/base/groups.h"
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
-#include "core/curve/limb_joints.h"
-#include "core/curve/limb_middles.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -186,43 +184,6 @@ void move_to_tips(const Solid& solid, const Lattice& lattice, const LimbEnds& en
   }
 }
 
-void move_to_middles(const Lattice& lattice, const RidgeBasis& basis, CurveSkeleton& curve,
-                     ExecutionContext* context) {
-  std::vector<Vec3> places;
-  for (const SheetVertex& vertex : curve.vertices) places.push_back((1 / lattice.spacing) * vertex.position);
-  places = limb_middles({lattice, basis.radius, curve.segments, curve.nearest, context}, std::move(places));
-  for (std::size_t v = 0; v < places.size(); ++v) curve.vertices[v].position = lattice.spacing * places[v];
-}
-
-// The boundary in frame coordinates: distances there follow the solid under affine maps, as the lattice does.
-Mesh boundary_in_frame(const Solid& solid, const Lattice& lattice) {
-  const auto& [a, b, c] = lattice.grid.axes;
-  const double det = dot(a, cross(b, c));
-  Mesh mesh = solid.mesh;
-  for (Vec3& p : mesh.points) {
-    const Vec3 off = p - lattice.grid.origin;
-    p = (lattice.spacing / det) * Vec3{dot(off, cross(b, c)), dot(off, cross(c, a)), dot(off, cross(a, b))};
-  }
-  return mesh;
-}
-
-// Where all that has moved is in the solid.
-void move_joints(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
-  const Mesh boundary = boundary_in_frame(solid, lattice);
-  const DistanceToMesh surface(boundary);
-  const SolidMembership membership(solid.mesh);
-  std::vector<Vec3> places;
-  std::vector<double> ball;
-  for (std::size_t v = 0; v < curve.vertices.size(); ++v) {
-    places.push_back(curve.vertices[v].position);
-    ball.push_back(surface.nearest(curve.vertices[v].position));
-  }
-  const std::vector<Vec3> moved = limb_joints(curve.segments, ball, places);
-  for (std::size_t v = 0; v < places.size(); ++v)
-    if (membership.contains(scaled_place(lattice, (1 / lattice.spacing) * moved[v])))
-      curve.vertices[v].position = moved[v];
-}
-
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
   for (const SheetVertex& vertex : curve.vertices) {
@@ -256,9 +217,7 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   }
   give_points(basis, ridge, lines.vertices, curve, options.context);
   move_to_tips(solid, lattice, ends, lines.vertices, curve);
-  move_to_middles(lattice, basis, curve, options.context);
   make_smooth(solid, lattice, curve, options.context);
-  move_joints(solid, lattice, curve);
   find_distances(solid, lattice, curve);
   measure(lattice, curve);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
