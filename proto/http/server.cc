@@ -83,7 +83,8 @@ class Server::Impl {
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
-      const Places::Clock::duration wait = places_.pause();
+      // Without TLS a newcomer is heard before many others come.
+      const Places::Clock::duration wait = tls_ ? places_.pause() : Places::Clock::duration::zero();
       if (wait > Places::Clock::duration::zero()) {
         pause.expires_after(wait);
         co_await pause.async_wait(use_awaitable);
