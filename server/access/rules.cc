@@ -33,6 +33,11 @@ constexpr MethodRule kMethods[] = {
     {Method::kFetchInput, "FetchInput", Side::kWorker, false, true, true},
 };
 
+struct JobsRule {
+  v1::Role role;
+  Jobs jobs;
+};
+
 constexpr JobsRule kJobs[] = {
     {v1::ROLE_USER, Jobs::kOwn},
     {v1::ROLE_ADMIN, Jobs::kAll},
@@ -79,10 +84,6 @@ const MethodRule& rule_of(Method method) {
                                  [&](const MethodRule& rule) { return rule.method == method; });
   if (row == std::end(kMethods)) throw std::logic_error("a method without a rule");
   return *row;
-}
-
-std::span<const JobsRule> jobs_rules() {
-  return kJobs;
 }
 
 Jobs jobs_of(v1::Role role) {

@@ -59,14 +59,7 @@ const MethodRule& rule_of(Method method);
 /// The jobs that a role sees.
 enum class Jobs { kNone, kOwn, kAll };
 
-struct JobsRule {
-  v1::Role role;
-  Jobs jobs;
-};
-
-/// One row for each role.  A role without one sees no job.
-std::span<const JobsRule> jobs_rules();
-
+/// A role without a row sees no job.
 Jobs jobs_of(v1::Role role);
 
 /// What is known of a caller before anything is decided.
