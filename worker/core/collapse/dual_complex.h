@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/execution_context.h"
@@ -240,6 +242,15 @@ class DualComplex {
   // to each other; set for one axis and none.
   std::vector<std::uint8_t> full_;
 };
+
+/// The greatest distance to the surface among the cubes about a cell.
+/// @param radius per cube.
+inline double radius_about(const DualComplex& complex, std::span<const float> radius,
+                           DualComplex::Cell cell) {
+  float most = 0;
+  for (const auto& member : complex.star(cell)) most = std::max(most, radius[member.cube]);
+  return static_cast<double>(most);
+}
 
 /// Cells of a complex.
 class CellSet {

@@ -115,11 +115,7 @@ class Thinning {
     return number;
   }
 
-  double radius_at(Cell vertex) const {
-    float result = 0;
-    for (const auto& member : complex_.star(vertex)) result = std::max(result, depth_[member.cube]);
-    return static_cast<double>(result);
-  }
+  double radius_at(Cell vertex) const { return radius_about(complex_, depth_, vertex); }
 
   const DualComplex& complex_;
   std::span<const float> depth_;

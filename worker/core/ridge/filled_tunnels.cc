@@ -89,14 +89,13 @@ class Tunnels {
   // The edge of a cycle nearest to the surface among those of no square that may go; kNoCell.
   Cell weakest_edge(const Cycle& cycle, const CellSet& left, const CellSet& anchored) const {
     Cell weakest = kNoCell;
-    float least = 0;
+    double least = 0;
     for (const Cell edge : cycle.edges) {
       const auto cofaces = complex_.cofaces(edge);
       if (anchored.has(edge) ||
           std::any_of(cofaces.begin(), cofaces.end(), [&](Cell square) { return left.has(square); }))
         continue;
-      float most = 0;
-      for (const auto& member : complex_.star(edge)) most = std::max(most, radius_[member.cube]);
+      const double most = radius_about(complex_, radius_, edge);
       if (weakest != kNoCell && most >= least) continue;
       weakest = edge;
       least = most;
@@ -222,11 +221,7 @@ class OpenLines {
     return places;
   }
 
-  double radius_at(Cell vertex) const {
-    float most = 0;
-    for (const auto& member : complex_.star(vertex)) most = std::max(most, radius_[member.cube]);
-    return static_cast<double>(most);
-  }
+  double radius_at(Cell vertex) const { return radius_about(complex_, radius_, vertex); }
 
   const Lattice& lattice_;
   const DualComplex& complex_;
