@@ -62,7 +62,11 @@ class Visitor:
         def tried(_):
             with contextlib.suppress(StaleElementReferenceException):
                 return condition()
-        return WebDriverWait(self.driver, PATIENCE, 0.02).until(tried, message)
+        try:
+            return WebDriverWait(self.driver, PATIENCE, 0.02).until(tried, message)
+        except TimeoutException as ended:
+            ended.msg = f"{message}: the page says:\n{self.text()}"
+            raise
 
     def shown(self, selector):
         """The first element of that kind that is seen, once there is one."""

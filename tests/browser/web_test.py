@@ -77,20 +77,31 @@ class Desktop(OnThePage):
         found = page.shown("#found").text
         self.assertIn("5,000", found)
         # The number of points follows the spacing, and the spacing the points.
+        page.script("const go = window.fetch; let count; window.held = new Promise((done) => { count = done; });"
+                    "window.fetch = (url, ...more) => url.includes('/lattice')"
+                    " ? window.held.then(() => go(url, ...more)) : go(url, ...more);"
+                    "window.letCount = () => { window.fetch = go; count(); };")
         page.type("#points", 20000)
-        page.wait(lambda: "sample points at spacing" in page.find("#lattice").text)
+        self.assertIn("about 20,000 sample points at spacing", page.find("#lattice").text)
+        # The button does not move when the count comes.
+        place = page.find("#submit").rect
+        page.script("window.letCount()")
+        page.wait(lambda: "about" not in page.find("#lattice").text)
+        self.assertEqual(page.find("#submit").rect, place)
         spacing = float(page.find("#spacing").get_attribute("value"))
         volume = json.loads(bench.run("--json", "inspect", bench.path("body.off")))["volume"]
         self.assertAlmostEqual(volume / spacing ** 3 / 20000, 1, delta=0.1)
         page.screenshot("desktop-2-new")
         page.type("#spacing", 2 * spacing)
-        page.wait(lambda: 2000 < float(page.find("#points").get_attribute("value")) < 3000)
+        page.wait(lambda: "about" not in page.find("#lattice").text)
+        self.assertTrue(2000 < float(page.find("#points").get_attribute("value")) < 3000)
         # The lattice is counted later, and leaves alone what is selected to be typed over.
         counted = page.find("#lattice").text
         page.script("const [spacing, points] = ['spacing', 'points'].map((id) => document.getElementById(id));"
                     f"spacing.value = {1.5 * spacing}; spacing.dispatchEvent(new Event('input'));"
                     "points.focus(); points.select();")
-        page.wait(lambda: page.find("#lattice").text != counted)
+        page.wait(lambda: "about" not in page.find("#lattice").text)
+        self.assertNotEqual(page.find("#lattice").text, counted)
         page.find("#points").send_keys("100000")
         self.assertEqual(page.find("#points").get_attribute("value"), "100000")
         page.type("#name", "Subject <b>7</b> ü")

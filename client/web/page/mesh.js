@@ -27,6 +27,14 @@ function meshFacts(f) {
   ]);
 }
 
+// Loaded before it is shown, so that nothing below it moves from under a finger.
+async function loadedPicture(mesh) {
+  if (!mesh.picture) return null;
+  const image = h('img', { class: 'picture', src: mesh.picture, alt: `${mesh.name} from the front, the side and above` });
+  await image.decode().catch(() => {}); // the text beside it stands for one that does not load
+  return image;
+}
+
 /** What is seen at #new. */
 export class NewJob {
   /** @param {string} [job] whose mesh it is, to be computed with other parameters */
@@ -154,7 +162,7 @@ export class NewJob {
     this.form.replaceChildren();
     try {
       const mesh = await this.sentFile(file, repair);
-      if (mesh.facts) this.show(mesh, file);
+      if (mesh.facts) this.show(mesh, file, await loadedPicture(mesh));
       else this.complain(`${file.name} cannot be read: ${mesh.error}`);
     } catch (error) {
       this.complain(`${file.name} cannot be read: ${error.message}`);
@@ -172,7 +180,7 @@ export class NewJob {
     }
   }
 
-  show(mesh, file) {
+  show(mesh, file, picture) {
     const { facts: f } = mesh;
     const defects = (f.defects || []).map((defect) => h('li', { class: 'defect' }, defect.message));
     const notes = (f.notes || []).map((note) => h('li', { class: note.severity }, note.message));
@@ -195,7 +203,7 @@ export class NewJob {
             button('Fill its holes', () => this.take(file, 'fill'), { id: 'fill-holes', class: 'primary' }),
             button('Wrap it in a new surface', () => this.take(file, 'wrap'), { id: 'wrap' }),
           ),
-        mesh.picture && h('img', { class: 'picture', src: mesh.picture, alt: `${mesh.name} from the front, the side and above` }),
+        picture,
         meshFacts(f),
       ),
     );
@@ -289,7 +297,8 @@ class SubmitForm {
     });
   }
 
-  // The other of the two follows at once by the volume, and then as the lattice counts.
+  // The other of the two follows at once by the volume, and then as the lattice counts: in the same words, so
+  // that the button below does not move when the count comes.
   typed(which) {
     this.given = which;
     const value = parseFloat(this[which].value);
@@ -302,7 +311,12 @@ class SubmitForm {
     const { volume } = this.mesh.facts;
     if (which === 'points') this.spacing.value = editable(Math.cbrt(volume / value));
     else this.points.value = String(Math.max(0, Math.round(volume / value ** 3)));
+    this.say('about ', parseFloat(this.points.value), parseFloat(this.spacing.value));
     this.timer = setTimeout(() => this.count(which, value), kTyping);
+  }
+
+  say(about, points, spacing) {
+    setText(this.lattice, `${about}${counted(points, 'sample point')} at spacing ${measure(spacing)}`);
   }
 
   async count(which, value) {
@@ -313,8 +327,7 @@ class SubmitForm {
       const other = which === 'points' ? this.spacing : this.points;
       // A field that has the focus is about to be typed in: its selection must not change.
       if (other !== document.activeElement) other.value = which === 'points' ? editable(found.spacing) : String(found.points);
-      const about = found.counted ? '' : 'about ';
-      setText(this.lattice, `${about}${counted(found.points, 'sample point')} at spacing ${measure(found.spacing)}`);
+      this.say(found.counted ? '' : 'about ', found.points, found.spacing);
     } catch (error) {
       if (error.status === kNoPlace) this.timer = setTimeout(() => this.count(which, value), kAgain);
       else if (error.name !== 'AbortError') setText(this.lattice, error.message);
