@@ -14,7 +14,7 @@ v1::SkeletonParams skeleton_params(const SkeletonChoice& choice) {
 
 v1::SkeletonParams skeleton_params(const SkeletonChoice& choice, const v1::Job& job) {
   v1::SkeletonParams params = choice.operator_name.empty() ? job.skeleton() : skeleton_params(choice);
-  if (choice.threshold > 0) params.set_threshold(choice.threshold);
+  if (choice.threshold != 0) params.set_threshold(choice.threshold);
   if (params.operator_() == v1::OPERATOR_UNSPECIFIED) params.set_operator_(wire::kDefaultOperator);
   return params;
 }

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "client/render/raster.h"
+#include "core/base/unit.h"
 
 namespace affskel::client {
 namespace {
 
+using core::unit;
 using core::Vec3;
 
 constexpr double kCreaseCosine = 0.643;       // of 50 degrees
@@ -16,11 +18,6 @@ constexpr double kSheetShade = 0.65;          // where no light falls: colours m
 constexpr double kProfile = Panel::kSamples;  // thickness of a line of one pixel, in samples
 constexpr double kEdgeOn = 0.2;      // cosine between view and normal: below, it is seen from its edge
 constexpr float kCurveLight = 0.9f;  // a curve has no side to be lit
-
-Vec3 unit(const Vec3& v) {
-  const double length = core::norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{};
-}
 
 float clamp01(double v) {
   return static_cast<float>(std::min(1.0, std::max(0.0, v)));

@@ -92,9 +92,7 @@ double number_member(const nlohmann::json& object, const char* name, double fall
 }
 
 SkeletonChoice skeleton_member(const nlohmann::json& object, const std::string& usual) {
-  SkeletonChoice skeleton{text_member(object, "operator", usual), number_member(object, "threshold")};
-  if (skeleton.threshold < 0) throw ClientError(ExitCode::kUsage, "'threshold' must not be below 0");
-  return skeleton;
+  return {text_member(object, "operator", usual), number_member(object, "threshold")};
 }
 
 }  // namespace affskel::client

@@ -62,10 +62,7 @@ std::string disposition(const ResultFile& result) {
 v1::ErodedParams eroded_of(const nlohmann::json& body) {
   v1::ErodedParams eroded;
   const double fraction = number_member(body, "fraction");
-  if (fraction == 0) return eroded;
-  if (!(fraction > 0 && fraction < 1))
-    throw ClientError(ExitCode::kUsage, "'fraction' must be above 0 and below 1");
-  eroded.set_fraction(fraction);
+  if (fraction != 0) eroded.set_fraction(fraction);
   return eroded;
 }
 

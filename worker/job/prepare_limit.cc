@@ -25,8 +25,8 @@ core::CoreError PrepareLimit::reason(const core::CoreError& error) {
   return {
       core::CoreError::Code::kLimit,
       "making the mesh ready takes more than " + std::to_string(limit_.count()) +
-          " s of processor time, the limit of this worker (--prepare-limit): very many surfaces or triangles "
-          "lie on or across each other, or the lattice is very fine"};
+          " s of processor time, the limit of this worker: very many surfaces or triangles lie on or across "
+          "each other, or the lattice is very fine"};
 }
 
 }  // namespace affskel::worker

@@ -9,11 +9,13 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "tools/temporary_directory.h"
+#include "wire/params.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -51,7 +53,10 @@ class FakeService final : public v1::ErosionService::Service {
     mesh.clear();
     v1::SubmitJobRequest message;
     while (reader->Read(&message)) {
-      if (message.has_header()) submitted = message.header();
+      if (message.has_header()) {
+        submitted = message.header();
+        if (grpc::Status no = refused(submitted.params(), submitted.skeleton()); !no.ok()) return no;
+      }
       mesh += message.data();
     }
     *response->mutable_job() = job;
@@ -125,6 +130,10 @@ class FakeService final : public v1::ErosionService::Service {
   grpc::Status FetchArtifact(grpc::ServerContext*, const v1::FetchArtifactRequest* request,
                              grpc::ServerWriter<v1::FetchArtifactResponse>* writer) override {
     fetches.push_back(*request);
+    if (request->has_skeleton())
+      if (grpc::Status no = refused(request->skeleton()); !no.ok()) return no;
+    if (request->has_eroded())
+      if (grpc::Status no = refused(request->eroded()); !no.ok()) return no;
     const auto found = artifacts.find(request->kind());
     if (found == artifacts.end()) return {grpc::StatusCode::FAILED_PRECONDITION, "the job is still running"};
     std::string bytes = found->second;
@@ -155,6 +164,17 @@ class FakeService final : public v1::ErosionService::Service {
 
  private:
   inline static const grpc::Status kNoToken{grpc::StatusCode::UNAUTHENTICATED, "no such token"};
+
+  // What a server says of parameters that it refuses; OK for the others.
+  template <class... Params>
+  static grpc::Status refused(const Params&... params) {
+    try {
+      (static_cast<void>(wire::canonical(params)), ...);
+      return grpc::Status::OK;
+    } catch (const std::invalid_argument& error) {
+      return {grpc::StatusCode::INVALID_ARGUMENT, error.what()};
+    }
+  }
 
   std::optional<v1::Caller> caller_of(const grpc::ServerContext& context) const {
     if (tokens.empty()) return caller;
