@@ -1,22 +1,34 @@
 #include "report.h"
 
-#include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "targets.h"
+#include "tools/report_text.h"
 
 namespace affskel::bench {
 namespace {
 
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[512];
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text, sizeof text, pattern, values);
-  va_end(values);
-  return text;
-}
+using tests::format;
+using tests::Table;
+
+const std::vector<std::string> kColumns{"row",
+                                        "N",
+                                        "R",
+                                        "K",
+                                        "prepare s",
+                                        "trees s",
+                                        "sweep s",
+                                        "wall s",
+                                        "peak MB",
+                                        "sweep ns/(pt,dir)",
+                                        "pt-dir/s",
+                                        "tree ns/triangle",
+                                        "trees/sort",
+                                        "plain/pruned",
+                                        "2 threads",
+                                        "reference s",
+                                        "reference/wall"};
 
 std::string number(const std::optional<double>& value, const char* pattern = "%.2f") {
   if (!value) return "-";
@@ -33,33 +45,39 @@ std::string directions(const RowResult& r) {
   return r.directions == r.directions_all ? used : used + " of " + std::to_string(r.directions_all);
 }
 
-std::string reference(const RowResult& r) {
-  if (!r.reference) return "- | -";
-  return format("%.4g (%llu timed) | %.0f", r.reference->seconds,
-                static_cast<unsigned long long>(r.reference->triangles_timed), *r.reference_per_wall());
+std::vector<std::string> speed_row(const RowResult& r) {
+  if (!r.error.empty()) {
+    std::vector<std::string> cells{r.name, "failed: " + r.error};
+    cells.resize(kColumns.size());
+    return cells;
+  }
+  return {r.name,
+          std::to_string(r.triangles),
+          std::to_string(r.points),
+          directions(r),
+          format("%.3f", r.prepare_s),
+          format("%.3f", r.trees_s),
+          format("%.3f", r.sweep_s),
+          format("%.3f", r.wall_s),
+          format("%.0f", r.peak_mb),
+          format("%.3f", r.sweep_ns()),
+          format("%.2e", r.rate()),
+          format("%.0f", r.tree_ns_per_triangle()),
+          number(r.trees_per_sort()),
+          number(r.plain_per_pruned(), "%.1f"),
+          number(r.two_thread_speed_up()),
+          r.reference ? format("%.4g (%llu timed)", r.reference->seconds,
+                               static_cast<unsigned long long>(r.reference->triangles_timed))
+                      : "-",
+          number(r.reference_per_wall(), "%.0f")};
 }
-
-std::string speed_row(const RowResult& r) {
-  if (!r.error.empty()) return "| " + r.name + " | failed: " + r.error + " |\n";
-  return "| " + r.name + " | " + std::to_string(r.triangles) + " | " + std::to_string(r.points) + " | " +
-         directions(r) + " | " +
-         format("%.3f | %.3f | %.3f | %.3f | %.0f | %.3f | %.2e | %.0f | ", r.prepare_s, r.trees_s, r.sweep_s,
-                r.wall_s, r.peak_mb, r.sweep_ns(), r.rate(), r.tree_ns_per_triangle()) +
-         number(r.trees_per_sort()) + " | " + number(r.plain_per_pruned(), "%.1f") + " | " +
-         number(r.two_thread_speed_up()) + " | " + reference(r) + " |\n";
-}
-
-constexpr const char* kTableHead =
-    "| row | N | R | K | prepare s | trees s | sweep s | wall s | peak MB | sweep ns/(pt,dir) "
-    "| pt-dir/s | tree ns/triangle | trees/sort | plain/pruned | 2 threads | reference s | reference/wall |\n"
-    "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
 
 std::string table(std::span<const RowResult> results, Section section) {
-  std::string rows;
+  Table rows{kColumns, {}};
   for (const RowResult& r : results) {
-    if (r.section == section) rows += speed_row(r);
+    if (r.section == section) rows.rows.push_back(speed_row(r));
   }
-  return rows.empty() ? rows : kTableHead + rows;
+  return rows.rows.empty() ? "" : rows.markdown();
 }
 
 std::string section(const char* title, const std::string& body) {
@@ -77,16 +95,16 @@ std::string growth_text(std::span<const RowResult> results) {
 }
 
 std::string target_text(std::span<const RowResult> results) {
-  std::string text = "| target | bound | measured | met | row |\n|---|--:|--:|---|---|\n";
+  Table table{{"target", "bound", "measured", "met", "row"}, {}};
   for (const Target& t : targets_of(results)) {
-    text += "| " + t.what + " | " + (t.at_least ? ">= " : "<= ") + format("%g", t.bound) + " | " +
-            number(t.measured, "%.3g") + " | " +
-            (!t.measured ? "not measured"
-             : t.met()   ? "yes"
-                         : "no") +
-            " | " + t.row + " |\n";
+    table.rows.push_back({t.what, (t.at_least ? ">= " : "<= ") + format("%g", t.bound),
+                          number(t.measured, "%.3g"),
+                          !t.measured ? "not measured"
+                          : t.met()   ? "yes"
+                                      : "no",
+                          t.row});
   }
-  return text;
+  return table.markdown();
 }
 
 std::string machine_text(const Machine& m) {

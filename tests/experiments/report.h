@@ -6,25 +6,14 @@
 #include <vector>
 
 #include "client/render/image.h"
+#include "tools/report_text.h"
 
 namespace affskel::experiments {
 
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
-
-/// "1 piece", "2 pieces".
-std::string count_of(std::size_t count, const char* noun);
-
-/// Seconds as people say them: "14 ms", "0.42 s", "35 min 41 s", "180 h".
-std::string duration(double seconds);
-
-/// A Markdown table.  Columns after the first are set flush right.
-struct Table {
-  std::vector<std::string> head;
-  std::vector<std::vector<std::string>> rows;  ///< each as long as the head
-
-  std::string markdown() const;
-};
+using tests::count_of;
+using tests::duration;
+using tests::format;
+using tests::Table;
 
 /// A published figure beside ours, for the summary.
 struct Comparison {
