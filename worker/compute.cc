@@ -22,6 +22,7 @@
 #include "core/erosion/erosion.h"
 #include "core/files/field_file.h"
 #include "core/files/read/parse_shape.h"
+#include "core/files/read/unpack.h"
 #include "core/infimum/piece_input.h"
 #include "core/infimum/refine.h"
 #include "core/lattice/lattice.h"
@@ -86,10 +87,10 @@ struct ReadMesh {
 };
 
 ReadMesh read_mesh(const std::string& path) {
-  const std::string bytes = read(path);
-  core::MeshFile file = core::parse_mesh_file(extension_of(path), bytes);
-  const bool off = file.format == core::FileFormat::kOff;
-  const std::string sha256 = wire::sha256_hex(off ? bytes : core::write_off(file.off.mesh));
+  std::string bytes = read(path);
+  if (!core::compression_of(bytes).empty()) bytes = core::unpack(bytes);
+  core::MeshFile file = core::parse_mesh_file(extension_of(std::string(core::unpacked_name(path))), bytes);
+  const std::string sha256 = wire::sha256_hex(file.off_text ? bytes : core::write_off(file.off.mesh));
   return {std::move(file.off), sha256};
 }
 

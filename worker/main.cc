@@ -171,7 +171,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
   compute
       ->add_option("FILE", flags.compute.file,
-                   "closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp")
+                   "closed triangle mesh, as affskel-client reads it")
       ->required();
   compute->add_option("--spacing", flags.compute.spacing, "lattice spacing in mesh units")
       ->check([](const std::string& text) {

@@ -9,6 +9,7 @@
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
+#include "client/commands/shared/shape_options.h"
 #include "client/files/read/input_file.h"
 #include "client/operations/inspection.h"
 #include "client/operations/mesh_picture.h"
@@ -134,9 +135,7 @@ void add_inspect(CommandLine& line) {
                                "  affskel-client --json inspect scan.stl\n"
                                "  affskel-client inspect scan.off --render defects.png",
                                [options](Context& context) { run_inspect(context.console(), *options); });
-  command
-      ->add_option("FILE", options->file,
-                   "Geomview OFF text, .ply, .obj, .stl or .vtp; - reads it from stdin")
+  command->add_option("FILE", options->file, std::string(kMeshKinds) + "; - reads it from stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

@@ -8,6 +8,7 @@
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/repair_option.h"
+#include "client/commands/shared/shape_options.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
@@ -82,8 +83,7 @@ void add_repair(CommandLine& line) {
       "stays as it is",
       [options](Context& context) { run_repair(context, *options); });
   command
-      ->add_option("FILE", options->file,
-                   "Geomview OFF text, .ply, .obj, .stl or .vtp; for a wrap points, too (.xyz, .ply)")
+      ->add_option("FILE", options->file, std::string(kMeshKinds) + "; for a wrap points, too (.xyz, .ply)")
       ->required()
       ->type_name("");
   add_repair_option(

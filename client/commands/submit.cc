@@ -10,6 +10,7 @@
 #include "client/commands/shared/follow.h"
 #include "client/commands/shared/notices.h"
 #include "client/commands/shared/repair_option.h"
+#include "client/commands/shared/shape_options.h"
 #include "client/commands/shared/skeleton_options.h"
 #include "client/commands/shared/written.h"
 #include "client/operations/submission.h"
@@ -187,9 +188,8 @@ void add_submit(CommandLine& line) {
                [options](Context& context) { run_submit(context, *options); });
   command
       ->add_option("FILE", o.file,
-                   "Closed triangle mesh: Geomview OFF text, or .ply .obj .stl .vtp, which are submitted as "
-                   "OFF text;\n"
-                   "- reads it from stdin and knows its format by its content")
+                   "Closed triangle mesh: " + std::string(kMeshKinds) +
+                       ";\nsubmitted as OFF text. - reads it from stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

@@ -5,6 +5,10 @@
 
 namespace affskel::client {
 
+/// The files that a mesh is read from, for the help.
+inline constexpr const char* kMeshKinds =
+    "Geomview OFF, .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd";
+
 /// A required file to read. @param name of the operand, e.g. "FILE"; @param what it is, for the help.
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what);
 

@@ -11,6 +11,7 @@
 #include "client/files/format.h"
 #include "client/files/read/read_file.h"
 #include "core/files/read/parse_shape.h"
+#include "core/files/read/unpack.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -30,10 +31,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kMeanings
 
 // The server stores OFF text: what the file holds beside its surface (colours, normals) has no place there.
 void parse(InputFile& input, std::string_view extension) {
+  input.packed = core::compression_of(input.bytes);
+  if (!input.packed.empty()) input.bytes = core::unpack(input.bytes);
   core::MeshFile file = core::parse_mesh_file(extension, input.bytes);
-  input.format = extension_of(file.format).substr(1);
+  input.format = std::move(file.format);
+  input.off_text = file.off_text;
   input.off = std::move(file.off);
-  if (input.converted()) input.bytes = core::write_off(input.off.mesh);
+  if (!input.off_text) input.bytes = core::write_off(input.off.mesh);
 }
 
 InputFile parsed_input(const std::string& path, std::string bytes, const std::string& extension) {
@@ -65,14 +69,12 @@ core::OffMesh parse_mesh(const std::string& bytes, const std::string& path) {
 }
 
 InputFile read_input(const std::string& path) {
-  return parsed_input(path, read_file(path), lower_extension(path));
+  return parsed_input(path, read_file(path), lower_extension(core::unpacked_name(path)));
 }
 
 InputFile read_named_input(const std::string& name) {
   if (name != "-") return read_input(name);
-  std::string bytes = read_standard_input("stdin");
-  const std::string extension(core::extension_of_content(bytes));
-  return parsed_input("stdin", std::move(bytes), extension);
+  return parsed_input("stdin", read_standard_input("stdin"), "");
 }
 
 std::string passed_over_text(const core::OffMesh& off) {
@@ -90,7 +92,10 @@ Notices conversion_notices(const InputFile& input) {
   Notices notices;
   if (const std::string text = passed_over_text(input.off); !text.empty())
     notices.push_back(note("PASSED_OVER", "passed over " + text, input.path));
-  if (input.converted()) {
+  if (!input.packed.empty()) {
+    notices.push_back(note("UNPACKED", "unpacked by " + input.packed, input.path));
+  }
+  if (!input.off_text) {
     notices.push_back(note("CONVERTED",
                            "read as " + input.format + " and submitted as OFF text, " +
                                std::to_string(input.off.mesh.points.size()) + " vertices and " +

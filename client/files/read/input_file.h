@@ -13,21 +13,22 @@ namespace affskel::client {
 /// A mesh file that was read and parsed.
 struct InputFile {
   std::string path;
-  std::string bytes;           ///< OFF text: the file's own bytes, or what was made of another format
+  std::string bytes;           ///< OFF text: the file's own, or what was made of another format
   core::OffMesh off;           ///< with the lines of the file, where it is text
-  std::string format = "off";  ///< of the file: off, ply, obj, stl or vtp
+  std::string format = "off";  ///< of the file, see core::MeshFile
+  bool off_text = true;        ///< of the file, unpacked
+  std::string packed;          ///< how the file is compressed, see core::compression_of
   std::uint64_t file_bytes = 0;
   std::string file_sha256;  ///< hexadecimal
-  bool converted() const { return format != "off"; }
+  bool converted() const { return !off_text || !packed.empty(); }
 };
 
-/// Reads and parses a mesh: .ply, .obj, .stl and .vtp as read_shape does, after which `bytes` are the OFF
-/// text of their surface; everything else as OFF text, kept byte for byte.
+/// Reads and parses a mesh, see core::parse_mesh_file, unpacked where it is compressed.  OFF text is kept byte for
+/// byte; of everything else `bytes` are the OFF text of the surface.
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path);
 
-/// The same of what a command line names: "-" is standard input, whose format its content tells (see
-/// core::extension_of_content) and whose path becomes "stdin".
+/// The same of what a command line names: "-" is standard input, whose path becomes "stdin".
 InputFile read_named_input(const std::string& name);
 
 /// Parses bytes that came from `path`, or from the server when `path` names no file.

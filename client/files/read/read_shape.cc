@@ -6,6 +6,7 @@
 #include "client/files/format.h"
 #include "client/files/read/read_file.h"
 #include "core/files/read/parse_shape.h"
+#include "core/files/read/unpack.h"
 
 namespace affskel::client {
 
@@ -15,7 +16,9 @@ ShapeFile read_shape(const std::string& path) {
 
 ShapeFile parse_shape(const std::string& path, std::string_view bytes) {
   try {
-    ShapeFile file = core::parse_shape(lower_extension(path), bytes);
+    std::string unpacked;
+    if (!core::compression_of(bytes).empty()) bytes = unpacked = core::unpack(bytes);
+    ShapeFile file = core::parse_shape(lower_extension(core::unpacked_name(path)), bytes);
     file.path = path;
     return file;
   } catch (const core::CoreError& error) {

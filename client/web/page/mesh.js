@@ -6,7 +6,7 @@ import { announce, button, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
 
-const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp'];
+const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.gz', '.zst'];
 const kUsualPoints = 100000;
 const kTyping = 300; // milliseconds after a key until the lattice is counted
 const kAgain = 500; // milliseconds until a count that found no place is tried again

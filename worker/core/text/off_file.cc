@@ -1,6 +1,7 @@
 #include "core/text/off_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/number_text.h"
@@ -46,17 +47,21 @@ class OffReader {
       normal_ = true;
       word.remove_prefix(1);
     }
-    if (word == "4OFF" || word == "nOFF" || word == "4nOFF") {
-      fail_at_line(rows_.line(), "homogeneous or higher-dimensional coordinates (" + std::string(word) +
-                                     ") are not supported; expected [ST][C][N]OFF");
+    if (word == "4OFF") {
+      homogeneous_ = true;
+      word.remove_prefix(1);
+    }
+    if (word == "nOFF" || word == "4nOFF") {
+      fail_at_line(rows_.line(), "points of any number of coordinates (" + std::string(word) +
+                                     ") are not read; expected [ST][C][N][4]OFF");
     }
     if (word != "OFF") {
       fail_at_line(rows_.line(), "not an OFF file: starts with " + quoted_excerpt(rows_.words()[0]) +
-                                     ", expected the header [ST][C][N]OFF");
+                                     ", expected the header [ST][C][N][4]OFF");
     }
     rows_.drop_first_word();
     if (!rows_.words().empty() && rows_.words()[0] == "BINARY") {
-      fail_at_line(rows_.line(), "binary OFF is not supported; write the mesh as text");
+      fail_at_line(rows_.line(), "binary OFF where text is wanted");
     }
   }
 
@@ -91,22 +96,41 @@ class OffReader {
   void read_vertices() {
     result_.mesh.points.reserve(vertex_count_);
     result_.vertex_line.reserve(vertex_count_);
-    const std::size_t base = 3 + (normal_ ? 3U : 0U) + (texture_ ? 2U : 0U);
+    const std::size_t base = coordinates() + (normal_ ? 3U : 0U) + (texture_ ? 2U : 0U);
     for (std::uint64_t v = 0; v < vertex_count_; ++v) {
       stop_.did(kStepsPerRow);
       if (!rows_.next()) ends_early("vertex", v, vertex_count_);
       const auto& words = rows_.words();
-      const bool fits = colour_ ? words.size() == base + 3 || words.size() == base + 4 : words.size() == base;
+      if (v == 0 && is_plain() && (words.size() == 6 || words.size() == 7)) unpromised_ = words.size() - 3;
+      const bool fits =
+          colour_ ? words.size() == base + 3 || words.size() == base + 4 : words.size() == base + unpromised_;
       if (!fits) {
         fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " has " + std::to_string(words.size()) +
-                                       " numbers, the header promises " +
-                                       std::to_string(base + (colour_ ? 3 : 0)) +
+                                       (unpromised_ > 0 ? " numbers, those before have "
+                                                        : " numbers, the header promises ") +
+                                       std::to_string(base + unpromised_ + (colour_ ? 3 : 0)) +
                                        (colour_ ? " or " + std::to_string(base + 4) : std::string()));
       }
-      for (std::size_t i = 3; i < words.size(); ++i) parse_finite(words[i], rows_.line(), "vertex attribute");
-      result_.mesh.points.push_back({coordinate(0), coordinate(1), coordinate(2)});
+      for (std::size_t i = coordinates(); i < words.size(); ++i)
+        parse_finite(words[i], rows_.line(), "vertex attribute");
+      result_.mesh.points.push_back(place(v));
       result_.vertex_line.push_back(static_cast<std::uint32_t>(rows_.line()));
     }
+    if (unpromised_ > 0)
+      result_.passed_over.push_back({"numbers after the coordinates", vertex_count_, result_.vertex_line[0]});
+  }
+
+  bool is_plain() const { return !colour_ && !normal_ && !texture_ && !homogeneous_; }
+  std::size_t coordinates() const { return homogeneous_ ? 4 : 3; }
+
+  Vec3 place(std::uint64_t v) const {
+    const Vec3 p{coordinate(0), coordinate(1), coordinate(2)};
+    if (!homogeneous_) return p;
+    const double w = coordinate(3);
+    const Vec3 at{p.x / w, p.y / w, p.z / w};
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z))
+      fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " lies at infinity");
+    return at;
   }
 
   double coordinate(std::size_t i) const {
@@ -188,7 +212,8 @@ class OffReader {
   TextRows rows_;
   ReadOffOptions options_;
   StopCheck stop_;
-  bool texture_ = false, colour_ = false, normal_ = false;
+  bool texture_ = false, colour_ = false, normal_ = false, homogeneous_ = false;
+  std::size_t unpromised_ = 0;  // numbers per vertex that the header does not promise
   std::uint64_t vertex_count_ = 0, face_count_ = 0;
   std::vector<std::uint32_t> corners_, sorted_;
   std::vector<std::uint32_t> quads_;  // first triangles of the faces with four sides

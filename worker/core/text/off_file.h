@@ -34,13 +34,14 @@ struct OffMesh {
   std::vector<PassedOver> passed_over;       ///< of formats that hold more than a mesh, in the file's order
 };
 
-/// Reads a Geomview OFF file in text form, strictly: header [ST][C][N]OFF, counts on the same or on the
-/// next line (the edge count may be absent), `#` comments, LF or CRLF; per vertex three finite numbers
-/// plus what the header promises; per face its size, indices and optional colours.  Polygons are cut into
+/// Reads a Geomview OFF file in text form, strictly: header [ST][C][N][4]OFF, counts on the same or on the
+/// next line (the edge count may be absent), `#` comments, lines as TextRows has them; per vertex three finite
+/// numbers (x y z w under 4OFF, where x/w y/w z/w is the place) plus what the header promises, or under the header OFF three or four more on every row, which several
+/// viewers write for colours; per face its size, indices and optional colours.  Polygons are cut into
 /// triangles (see cut_polygon).  A triangle may name a vertex twice, a larger polygon not.  The file must end
 /// after the last face.
-/// @throws CoreError kBadInput with line and cause for everything else (binary, 4OFF, nOFF, decimal
-///   commas, NUL bytes, lone CR, trailing rows, indices out of range or not integral, NaN, infinity);
+/// @throws CoreError kBadInput with line and cause for everything else (binary, nOFF, decimal
+///   commas, NUL bytes, line ends of two kinds, trailing rows, indices out of range or not integral, NaN, infinity);
 ///   kLimit when a count exceeds the options; kCancelled when the context asks to stop.
 OffMesh read_off(std::string_view bytes, const ReadOffOptions& options = {});
 

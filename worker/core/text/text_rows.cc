@@ -29,7 +29,7 @@ inline Kind kind_of(char c) {
 bool TextRows::next() {
   while (!rest_.empty()) {
     ++line_;
-    const std::size_t end = rest_.find('\n');
+    const std::size_t end = rest_.find(end_);
     const std::string_view text = rest_.substr(0, end);
     rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
     split(text);
@@ -60,7 +60,7 @@ void TextRows::split_carefully(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) fail_at_line(line_, "a NUL byte in what should be text");
   text = text.substr(0, text.find('#'));
   if (text.find('\r') != std::string_view::npos) {
-    fail_at_line(line_, "a carriage return inside the line (old Macintosh line ends are not supported)");
+    fail_at_line(line_, "a carriage return inside the line: line ends of two kinds");
   }
   text_ = text;
   std::size_t at = 0;

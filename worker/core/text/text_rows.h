@@ -7,7 +7,7 @@
 
 namespace affskel::core {
 
-/// Rows of a text file: lines (LF or CRLF) without `#` comments, blank ones skipped, cut into words.  A byte
+/// Rows of a text file: lines (LF or CRLF, CR where the bytes have no LF) without `#` comments, blank ones skipped, cut into words.  A byte
 /// order mark of UTF-8, which some editors and spreadsheets put first, is passed over.  The bytes must
 /// outlive the rows.
 class TextRows {
@@ -15,6 +15,7 @@ class TextRows {
   /// @param lines_before lines of the file in front of `bytes`, counted by `line` too.
   explicit TextRows(std::string_view bytes, std::uint64_t lines_before = 0)
       : rest_(bytes), line_(lines_before) {
+    if (rest_.find('\n') == std::string_view::npos && rest_.find('\r') != std::string_view::npos) end_ = '\r';
     if (lines_before == 0 && rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
   }
 
@@ -34,6 +35,7 @@ class TextRows {
   void split_carefully(std::string_view text);
 
   std::string_view rest_;
+  char end_ = '\n';  // of a line
   std::string_view text_;
   std::uint64_t line_;
   std::vector<std::string_view> words_;

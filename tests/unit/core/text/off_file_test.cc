@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/base/error.h"
@@ -52,6 +53,12 @@ TEST(ReadOff, AcceptsCarriageReturnsBeforeLineFeeds) {
   expect_tetrahedron(text);
 }
 
+TEST(ReadOff, AcceptsCarriageReturnsAlone) {
+  std::string text = kTetrahedron;
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  expect_tetrahedron(text);
+}
+
 TEST(ReadOff, PassesOverAByteOrderMarkAtTheStartAlone) {
   expect_tetrahedron("\xEF\xBB\xBF" + kTetrahedron);
   EXPECT_EQ(line_refused("\n\xEF\xBB\xBF" + kTetrahedron), 2U);
@@ -67,8 +74,27 @@ TEST(ReadOff, SkipsTheAttributesThatTheHeaderPromises) {
   expect_tetrahedron(with("NOFF", " 0 0 1"));
   expect_tetrahedron(with("STOFF", " 0.5 0.5"));
   expect_tetrahedron(with("STCNOFF", " 0 0 1 10 20 30 255 0.5 0.5"));
-  EXPECT_EQ(line_refused(with("OFF", " 0 0 1")), 3U);
+  expect_tetrahedron("4OFF\n4 4 6\n0 0 0 2\n2 0 0 2\n0 -3 0 -3\n0 0 1 1\n" + kFaces);
+  EXPECT_EQ(line_refused("4OFF\n4 4 6\n0 0 0 2\n2 0 0 0\n0 -3 0 -3\n0 0 1 1\n" + kFaces), 4U);
   EXPECT_EQ(line_refused(with("CNOFF", "")), 3U);
+}
+
+// As several viewers write them.
+TEST(ReadOff, SkipsColoursThatTheHeaderDoesNotPromise) {
+  const auto with = [](const std::string& first, const std::string& others) {
+    return "OFF\n4 4 6\n0 0 0" + first + "\n1 0 0" + others + "\n0 1 0" + others + "\n0 0 1" + others + "\n" +
+           kFaces;
+  };
+  for (const char* extra : {" 10 20 30 255", " 0.1 0.2 0.3"}) {
+    expect_tetrahedron(with(extra, extra));
+    const OffMesh off = read_off(with(extra, extra));
+    ASSERT_EQ(off.passed_over.size(), 1U);
+    EXPECT_EQ(off.passed_over[0].rows, 4U);
+    EXPECT_EQ(off.passed_over[0].first_line, 3U);
+  }
+  EXPECT_EQ(line_refused(with(" 1 1 1", " 1 1 1 1")), 4U);
+  EXPECT_EQ(line_refused(with("", " 1 1 1")), 4U);
+  EXPECT_EQ(line_refused(with(" 1 1", " 1 1")), 3U);
 }
 
 TEST(ReadOff, SkipsFaceColours) {
@@ -89,7 +115,7 @@ TEST(ReadOff, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(line_refused(""), 1U);
   EXPECT_EQ(line_refused("ply\n"), 1U);
   EXPECT_EQ(line_refused("OFF BINARY\n"), 1U);
-  EXPECT_EQ(line_refused("4OFF\n4 4 6\n"), 1U);
+  EXPECT_EQ(line_refused("nOFF\n3\n4 4 6\n"), 1U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "4 4 6", "4")), 2U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "4 4 6", "-4 4 6")), 2U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "1 0 0", "1,5 0 0")), 4U);
@@ -106,7 +132,10 @@ TEST(ReadOff, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "2 0 1")), 8U);
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "3 0 1 3", "4 0 1 3")), 8U);
   EXPECT_EQ(line_refused(kTetrahedron + "3 0 1 2\n"), 11U);
-  EXPECT_EQ(line_refused("OFF\r4 4 6\r"), 1U);
+  std::string macintosh = replaced(kTetrahedron, "1 0 0", "1 0");
+  std::replace(macintosh.begin(), macintosh.end(), '\n', '\r');
+  EXPECT_EQ(line_refused(macintosh), 4U);
+  EXPECT_EQ(line_refused(replaced(kTetrahedron, "1 0 0", "1 0\r0")), 4U) << "line ends of two kinds";
 }
 
 TEST(ReadOff, TakesTrianglesWithoutArea) {

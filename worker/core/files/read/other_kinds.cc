@@ -11,23 +11,18 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view kExport = "; export its triangles as .off, .ply, .obj, .stl or .vtp";
+constexpr std::string_view kExport = "; export its triangles as .off, .ply, .obj, .stl or .glb";
 
 struct OtherKind {
   std::string_view begins, is, advice;
 };
 
-constexpr std::array<OtherKind, 15> kOthers = {{
-    {"glTF"sv, "binary glTF (.glb)", kExport},
-    {"PK\x03\x04"sv, "an archive (.zip, .3mf)",
-     "; unpack it first, or export triangles as .off, .ply, .obj, .stl or .vtp"},
+constexpr std::array<OtherKind, 11> kOthers = {{
     {"ISO-10303-21"sv, "STEP, which holds exact surfaces", kExport},
     {"Kaydara FBX"sv, "FBX", kExport},
     {"BLENDER"sv, "a scene of Blender", kExport},
     {"#VRML"sv, "VRML", kExport},
     {"\x89HDF\r\n\x1a\n"sv, "HDF5, which holds no mesh here", ""},
-    {"\x1f\x8b"sv, "compressed by gzip", "; unpack it first, with gunzip"},
-    {"\x28\xb5\x2f\xfd"sv, "compressed by zstd", "; unpack it first, with unzstd"},
     {"\xfd"
      "7zXZ\0"sv,
      "compressed by xz", "; unpack it first, with unxz"},

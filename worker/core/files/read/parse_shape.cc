@@ -7,9 +7,9 @@
 
 #include "base/number_text.h"
 #include "core/base/error.h"
-#include "core/files/file_format.h"
 #include "core/files/read/other_kinds.h"
 #include "core/files/read/shape_parsers.h"
+#include "core/mesh/coincident_points.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 
@@ -17,6 +17,7 @@ namespace affskel::core {
 namespace {
 
 ShapeFile parse_off(std::string_view bytes) {
+  if (is_binary_off(bytes)) return parse_binary_off(bytes);
   ShapeFile file;
   file.off = read_off(bytes);
   return file;
@@ -24,24 +25,25 @@ ShapeFile parse_off(std::string_view bytes) {
 
 using Parser = ShapeFile (*)(std::string_view);
 
-constexpr std::array<std::pair<std::string_view, Parser>, 8> kParsers = {{{".csv", parse_csv},
-                                                                          {".dat", parse_dat},
-                                                                          {".xyz", parse_xyz},
-                                                                          {".off", parse_off},
-                                                                          {".ply", parse_ply},
-                                                                          {".obj", parse_obj},
-                                                                          {".stl", parse_stl},
-                                                                          {".vtp", parse_vtp}}};
+constexpr std::array<std::pair<std::string_view, Parser>, 11> kParsers = {{{".csv", parse_csv},
+                                                                           {".dat", parse_dat},
+                                                                           {".xyz", parse_xyz},
+                                                                           {".off", parse_off},
+                                                                           {".ply", parse_ply},
+                                                                           {".obj", parse_obj},
+                                                                           {".stl", parse_stl},
+                                                                           {".vtp", parse_vtp},
+                                                                           {".glb", parse_gltf},
+                                                                           {".gltf", parse_gltf},
+                                                                           {".3mf", parse_3mf}}};
 
-Parser parser_for(std::string_view extension, std::string_view bytes) {
+Parser parser_for(std::string_view extension) {
   for (const auto& [name, parser] : kParsers) {
     if (extension == name) return parser;
   }
-  if (bytes.starts_with("ply")) return parse_ply;
-  if (bytes.starts_with("OFF")) return parse_off;
   throw CoreError(CoreError::Code::kBadInput,
                   "not a known kind of file; points are read from .csv .ply .off .xyz .vtp .dat, "
-                  "surfaces from .off .ply .obj .stl .vtp");
+                  "surfaces from .off .ply .obj .stl .vtp .glb .gltf .3mf");
 }
 
 void check_finite(const ShapeFile& file) {
@@ -56,15 +58,6 @@ void check_finite(const ShapeFile& file) {
   }
 }
 
-// Of a file that holds a mesh: by the extension; PLY also by the first bytes of a file without a known one.
-FileFormat mesh_format(std::string_view extension, std::string_view bytes) {
-  for (const FileFormat format : {FileFormat::kPly, FileFormat::kObj, FileFormat::kStl, FileFormat::kVtp}) {
-    if (extension == extension_of(format)) return format;
-  }
-  return extension != extension_of(FileFormat::kOff) && bytes.starts_with("ply") ? FileFormat::kPly
-                                                                                 : FileFormat::kOff;
-}
-
 // Of the first line that is neither blank nor a comment.
 std::string_view first_word(std::string_view bytes) {
   constexpr std::string_view kBlank = " \t\r\n\v\f";
@@ -76,11 +69,35 @@ std::string_view first_word(std::string_view bytes) {
   }
 }
 
+bool holds_mesh(std::string_view extension) {
+  constexpr std::array<std::string_view, 8> kMeshes = {".off", ".ply", ".obj",  ".stl",
+                                                       ".vtp", ".glb", ".gltf", ".3mf"};
+  return std::find(kMeshes.begin(), kMeshes.end(), extension) != kMeshes.end();
+}
+
+// The extension that the content stands for; empty where it says nothing, as of rows of numbers.
+std::string_view told_extension(std::string_view bytes) {
+  // First, for its 80 bytes of header may say anything.
+  if (is_binary_stl(bytes)) return ".stl";
+  if (bytes.starts_with("ply")) return ".ply";
+  if (bytes.starts_with("glTF")) return ".glb";
+  if (bytes.starts_with("PK\x03\x04")) return ".3mf";
+  const std::string_view word = first_word(bytes);
+  if (word == "solid") return ".stl";
+  if (word.ends_with("OFF")) return ".off";
+  if (word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--")) return ".vtp";
+  if (word.starts_with('{')) return ".gltf";
+  constexpr std::array<std::string_view, 12> kObjWords = {"v",      "vn",     "vt", "vp", "f", "l",
+                                                          "mtllib", "usemtl", "o",  "g",  "s", "p"};
+  return std::find(kObjWords.begin(), kObjWords.end(), word) != kObjWords.end() ? ".obj" : "";
+}
+
 }  // namespace
 
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
   refuse_other_kinds(bytes);
-  ShapeFile file = parser_for(extension, bytes)(bytes);
+  const std::string_view told = told_extension(bytes);
+  ShapeFile file = parser_for(told.empty() ? extension : told)(bytes);
   turn_doubled_diagonals(file.quads, file.off.mesh.triangles);
   check_finite(file);
   return file;
@@ -88,25 +105,14 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
 
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes) {
   refuse_other_kinds(bytes);
-  const FileFormat format = mesh_format(extension, bytes);
-  if (format == FileFormat::kOff) return {format, read_off(bytes)};
-  ShapeFile shape = parse_shape(extension, bytes);
+  const std::string_view told = told_extension(bytes);
+  const std::string_view kind = !told.empty() ? told : holds_mesh(extension) ? extension : ".off";
+  if (kind == ".off" && !is_binary_off(bytes)) return {"off", true, read_off(bytes)};
+  ShapeFile shape = parse_shape(kind, bytes);
   if (shape.mesh().triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "has no triangles; a mesh that bounds a solid is wanted");
   if (!shape.segments.empty()) shape.off.passed_over.push_back({"curves", shape.segments.size(), 0});
-  return {format, std::move(shape.off)};
-}
-
-std::string_view extension_of_content(std::string_view bytes) {
-  // First, for its 80 bytes of header may say anything.
-  if (is_binary_stl(bytes)) return ".stl";
-  if (bytes.starts_with("ply")) return ".ply";
-  if (bytes.starts_with("solid")) return ".stl";
-  const std::string_view word = first_word(bytes);
-  if (word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--")) return ".vtp";
-  constexpr std::array<std::string_view, 12> kObjWords = {"v",      "vn",     "vt", "vp", "f", "l",
-                                                          "mtllib", "usemtl", "o",  "g",  "s", "p"};
-  return std::find(kObjWords.begin(), kObjWords.end(), word) != kObjWords.end() ? ".obj" : ".off";
+  return {kind == ".off" ? "binary off" : std::string(kind.substr(1)), false, std::move(shape.off)};
 }
 
 bool is_normal_column(std::string_view name) {
@@ -145,6 +151,26 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
   }
   if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
   cut_polygon(mesh.points, indices, mesh.triangles);
+}
+
+ShapeFile of_corners(const std::vector<Vec3>& corners) {
+  const std::vector<std::uint32_t> first = first_coincident_point(corners);
+  ShapeFile file;
+  Mesh& mesh = file.off.mesh;
+  std::vector<std::uint32_t> vertex(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (first[i] == i) {
+      vertex[i] = static_cast<std::uint32_t>(mesh.points.size());
+      mesh.points.push_back(corners[i]);
+    } else {
+      vertex[i] = vertex[first[i]];
+    }
+  }
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    mesh.triangles.push_back({vertex[i], vertex[i + 1], vertex[i + 2]});
+  }
+  file.off.polygons = mesh.triangles.size();
+  return file;
 }
 
 void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,

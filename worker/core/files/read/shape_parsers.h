@@ -16,6 +16,12 @@ ShapeFile parse_ply(std::string_view bytes);
 ShapeFile parse_obj(std::string_view bytes);
 ShapeFile parse_stl(std::string_view bytes);
 ShapeFile parse_vtp(std::string_view bytes);
+ShapeFile parse_binary_off(std::string_view bytes);
+ShapeFile parse_gltf(std::string_view bytes);
+ShapeFile parse_3mf(std::string_view bytes);
+
+/// Whether the first line is that of a binary OFF file.
+bool is_binary_off(std::string_view bytes);
 
 /// Whether the size is what the count of triangles in a binary STL file makes it.
 bool is_binary_stl(std::string_view bytes);
@@ -30,6 +36,10 @@ bool is_normal_column(std::string_view name);
 ///   one twice.
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line);
+
+/// A surface of triangles by three corners each: corners at one place become one vertex, in the order in which
+/// they come first.  For formats that repeat vertices.
+ShapeFile of_corners(const std::vector<Vec3>& corners);
 
 /// Adds the segments of a polyline to `file`; those of no length by index are left out.
 /// @param place names it in messages, @param line of it, 0 = none.

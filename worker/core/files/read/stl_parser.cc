@@ -3,32 +3,10 @@
 
 #include "base/coding.h"
 #include "core/files/read/shape_parsers.h"
-#include "core/mesh/coincident_points.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
-
-// STL repeats every corner; equal ones become one vertex, in the order of their first appearance.
-ShapeFile joined(const std::vector<Vec3>& corners) {
-  const std::vector<std::uint32_t> first = first_coincident_point(corners);
-  ShapeFile file;
-  Mesh& mesh = file.off.mesh;
-  std::vector<std::uint32_t> vertex(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (first[i] == i) {
-      vertex[i] = static_cast<std::uint32_t>(mesh.points.size());
-      mesh.points.push_back(corners[i]);
-    } else {
-      vertex[i] = vertex[first[i]];
-    }
-  }
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    mesh.triangles.push_back({vertex[i], vertex[i + 1], vertex[i + 2]});
-  }
-  file.off.polygons = mesh.triangles.size();
-  return file;
-}
 
 constexpr std::size_t kHeader = 84, kFacet = 50;
 
@@ -47,7 +25,7 @@ ShapeFile parse_binary(std::string_view bytes) {
       }
     }
   }
-  return joined(corners);
+  return of_corners(corners);
 }
 
 // The rows of a text file in the only order that they may have:
@@ -70,7 +48,7 @@ class TextReader {
       }
     }
     if (!outside_) fail_at(rows_.line(), "the file ends before endsolid");
-    return joined(corners_);
+    return of_corners(corners_);
   }
 
  private:

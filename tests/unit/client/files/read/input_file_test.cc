@@ -11,9 +11,11 @@
 
 #include "client/base/error.h"
 #include "client/files/read/read_file.h"
+#include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
 #include "core/shapes/shapes.h"
 #include "tools/files.h"
+#include "tools/gzipped.h"
 #include "tools/temporary_directory.h"
 #include "wire/sha256.h"
 
@@ -126,15 +128,25 @@ TEST(ReadInput, KeepsTheBytesOfOffText) {
   }
 }
 
-TEST(ReadInput, KnowsAFormatByItsNameOrItsFirstBytes) {
+TEST(ReadInput, KnowsAFormatByItsContent) {
   const tests::TemporaryDirectory dir;
   const std::string ply = bytes_as(FileFormat::kPly, core::make_box(3, 2, 1));
   tests::write_file(dir / "scan", ply);
   EXPECT_EQ(read_input(dir / "scan").format, "ply");
   tests::write_file(dir / "scan.off", ply);
-  EXPECT_EQ(exit_of([&] { read_input(dir / "scan.off"); }), ExitCode::kBadInput);
+  EXPECT_EQ(read_input(dir / "scan.off").format, "ply");
   tests::write_file(dir / "scan.STL", ply);
-  EXPECT_EQ(exit_of([&] { read_input(dir / "scan.STL"); }), ExitCode::kBadInput);
+  EXPECT_EQ(read_input(dir / "scan.STL").format, "ply");
+  // Packed: the text within is submitted, whatever the name says.
+  const std::string text = core::write_off(core::make_box(3, 2, 1));
+  tests::write_file(dir / "box.off.gz", tests::gzipped(text));
+  const InputFile packed = read_input(dir / "box.off.gz");
+  EXPECT_EQ(packed.bytes, text);
+  EXPECT_EQ(packed.file_bytes, tests::gzipped(text).size());
+  EXPECT_TRUE(packed.converted());
+  EXPECT_EQ(conversion_notices(packed).at(0).code, "UNPACKED");
+  tests::write_file(dir / "points.csv.gz", tests::gzipped("x,y,z\n1,2,3\n"));
+  EXPECT_EQ(read_shape(dir / "points.csv.gz").mesh().points.size(), 1U);
   tests::write_file(dir / "points.obj", "v 0 0 0\nv 1 0 0\n");
   EXPECT_EQ(exit_of([&] { read_input(dir / "points.obj"); }), ExitCode::kBadInput) << "no triangles";
 }

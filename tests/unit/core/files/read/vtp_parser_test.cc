@@ -171,7 +171,7 @@ void expect_bad_pieces(const std::string& pieces, std::uint64_t line, const std:
 
 TEST(VtpParser, ErrorsNameThePlace) {
   expect_bad("", 1, "not a VTK XML file");
-  expect_bad("ply\n", 1, "not a VTK XML file");
+  expect_bad("1 2 3\n", 1, "not a VTK XML file");
   expect_bad("\n<VTKFile type=\"ImageData\">", 2, "only PolyData");
   expect_bad("<VTKFile type=\"PolyData", 1, "does not end");
   expect_bad("<!-- ", 1, "does not end");

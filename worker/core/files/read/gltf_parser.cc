@@ -1,0 +1,281 @@
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/coding.h"
+#include "core/base/affine_map.h"
+#include "core/files/base64.h"
+#include "core/files/read/shape_parsers.h"
+
+// glTF 2.0 (Khronos, ISO/IEC 12113): a JSON text with numbers in buffers.  A scene's nodes place meshes by affine
+// maps; a mesh has primitives, each with an accessor for its positions and mostly one for its indices.  What is said
+// of materials, skins and animations is passed over.
+namespace affskel::core {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kAsGlb = "; export it as .glb without compression, or as .ply or .stl";
+constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives; 1 to 3 are lines
+constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // types of components, unsigned
+
+std::string numbered(const char* what, std::size_t i) {
+  return std::string(what) + " " + std::to_string(i);
+}
+
+class Gltf {
+ public:
+  Gltf(json text, std::string_view binary) : text_(std::move(text)), binary_(binary) {}
+
+  ShapeFile run() {
+    for (const json& needed : list(text_, "extensionsRequired")) {
+      if (needed.is_string() && needed != "KHR_texture_transform")
+        fail_at(0, "needs " + needed.get<std::string>() + ", which is not read" + kAsGlb);
+    }
+    drawn_.assign(list(text_, "nodes").size(), false);
+    for (const std::size_t root : roots()) draw(root, AffineMap());
+    ShapeFile file = of_corners(corners_);
+    if (others_ > 0) file.off.passed_over.push_back({"points and lines", others_, 0});
+    return file;
+  }
+
+ private:
+  // A member that is a list; an empty one where there is none.
+  static const json& list(const json& object, const char* name) {
+    static const json kEmpty = json::array();
+    const auto found = object.find(name);
+    return found != object.end() && found->is_array() ? *found : kEmpty;
+  }
+  static std::optional<std::size_t> index(const json& object, const char* name) {
+    const auto found = object.find(name);
+    if (found == object.end()) return std::nullopt;
+    if (!found->is_number_unsigned()) fail_at(0, std::string("'") + name + "' must be a whole number");
+    return found->get<std::size_t>();
+  }
+  static std::size_t needed(const json& object, const char* name, const std::string& place) {
+    const std::optional<std::size_t> found = index(object, name);
+    if (!found) fail_at(0, place + " has no '" + name + "'");
+    return *found;
+  }
+  static const json& item(const json& items, std::size_t i, const char* what) {
+    if (i >= items.size() || !items[i].is_object()) fail_at(0, "there is no " + numbered(what, i));
+    return items[i];
+  }
+  template <std::size_t kCount>
+  static std::array<double, kCount> numbers(const json& object, const char* name,
+                                            std::array<double, kCount> usual) {
+    const auto found = object.find(name);
+    if (found == object.end()) return usual;
+    if (!found->is_array() || found->size() != kCount)
+      fail_at(0, std::string("'") + name + "' must have " + std::to_string(kCount) + " numbers");
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (!(*found)[i].is_number()) fail_at(0, std::string("'") + name + "' holds what is no number");
+      usual[i] = (*found)[i].template get<double>();
+    }
+    return usual;
+  }
+
+  // Of the scene that is shown; without scenes all nodes that are no others' children.
+  std::vector<std::size_t> roots() const {
+    const json& scenes = list(text_, "scenes");
+    const json& nodes = list(text_, "nodes");
+    std::vector<std::size_t> found;
+    if (!scenes.empty()) {
+      for (const json& node : list(item(scenes, index(text_, "scene").value_or(0), "scene"), "nodes"))
+        if (node.is_number_unsigned()) found.push_back(node.get<std::size_t>());
+      return found;
+    }
+    std::vector<char> child(nodes.size(), 0);
+    for (const json& node : nodes)
+      for (const json& one : list(node, "children"))
+        if (one.is_number_unsigned() && one.get<std::size_t>() < child.size())
+          child[one.get<std::size_t>()] = 1;
+    for (std::size_t i = 0; i < child.size(); ++i)
+      if (child[i] == 0) found.push_back(i);
+    return found;
+  }
+
+  static AffineMap map_of(const json& node) {
+    AffineMap map;
+    if (node.contains("matrix")) {
+      const auto m =
+          numbers<16>(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});  // columns
+      map.rows = {Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}, Vec3{m[2], m[6], m[10]}};
+      map.shift = {m[12], m[13], m[14]};
+      return map;
+    }
+    const auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
+    const auto scale = numbers<3>(node, "scale", {1, 1, 1});
+    const auto shift = numbers<3>(node, "translation", {0, 0, 0});
+    AffineMap turned;
+    turned.rows = {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                   Vec3{2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                   Vec3{2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+    return then(then(scaling(scale[0], scale[1], scale[2]), turned),
+                translation({shift[0], shift[1], shift[2]}));
+  }
+
+  // Nodes form trees: each has one parent, so that none is drawn twice.
+  void draw(std::size_t root, const AffineMap& above) {
+    std::vector<std::pair<std::size_t, AffineMap>> open{{root, above}};
+    while (!open.empty()) {
+      const auto [i, outer] = open.back();
+      open.pop_back();
+      const json& node = item(list(text_, "nodes"), i, "node");
+      if (drawn_[i]) fail_at(0, numbered("node", i) + " stands in the tree of nodes twice");
+      drawn_[i] = true;
+      const AffineMap map = then(map_of(node), outer);
+      if (const auto mesh = index(node, "mesh")) draw_mesh(*mesh, map);
+      for (const json& child : list(node, "children"))
+        if (child.is_number_unsigned()) open.emplace_back(child.get<std::size_t>(), map);
+    }
+  }
+
+  void draw_mesh(std::size_t i, const AffineMap& map) {
+    const json& primitives = list(item(list(text_, "meshes"), i, "mesh"), "primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const std::string place = numbered("mesh", i) + ", " + numbered("primitive", p);
+      const json& primitive = item(primitives, p, "primitive");
+      const std::size_t mode = index(primitive, "mode").value_or(kTriangles);
+      if (mode < kTriangles || mode > kFan) {
+        ++others_;
+        continue;
+      }
+      const auto attributes = primitive.find("attributes");
+      if (attributes == primitive.end() || !attributes->is_object()) fail_at(0, place + " has no attributes");
+      const std::vector<Vec3> points = positions(needed(*attributes, "POSITION", place), map, place);
+      add(points, indices(index(primitive, "indices"), points.size(), place), mode, determinant(map) < 0);
+    }
+  }
+
+  void add(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& at, std::size_t mode,
+           bool mirrored) {
+    if (at.size() < 3) return;
+    const std::size_t step = mode == kTriangles ? 3 : 1;
+    for (std::size_t i = 0; i + 2 < at.size(); i += step) {
+      std::uint32_t a = at[mode == kFan ? 0 : i], b = at[i + 1], c = at[i + 2];
+      if (mirrored != (mode == kStrip && i % 2 == 1)) std::swap(b, c);
+      for (const std::uint32_t corner : {a, b, c}) corners_.push_back(points[corner]);
+    }
+  }
+
+  struct View {
+    const char* data;
+    std::size_t count, stride;
+    std::size_t component;
+  };
+
+  // The bytes of an accessor whose items have `items` components.
+  View view(std::size_t i, const char* type, std::size_t items, const std::string& place) {
+    const std::string name = place + ": " + numbered("accessor", i);
+    const json& accessor = item(list(text_, "accessors"), i, "accessor");
+    if (accessor.contains("sparse")) fail_at(0, name + " is sparse, which is not read" + kAsGlb);
+    if (accessor.value("type", json()) != type) fail_at(0, name + " must be of the type " + type);
+    const std::size_t component = needed(accessor, "componentType", name);
+    const std::size_t size = component == kByte ? 1 : component == kShort ? 2 : 4;
+    const std::size_t count = needed(accessor, "count", name);
+    const json& part = item(list(text_, "bufferViews"), needed(accessor, "bufferView", name), "bufferView");
+    const std::string_view bytes = buffer(needed(part, "buffer", name));
+    const std::size_t begin = index(part, "byteOffset").value_or(0),
+                      length = needed(part, "byteLength", name);
+    const std::size_t first = index(accessor, "byteOffset").value_or(0);
+    const std::size_t stride = index(part, "byteStride").value_or(size * items);
+    constexpr std::size_t kMax = std::size_t{1} << 40;  // so that no sum below overflows
+    if (begin > bytes.size() || length > bytes.size() - begin || first > length || count > kMax ||
+        stride > 255 || stride == 0 || (count > 0 && (count - 1) * stride + size * items > length - first))
+      fail_at(0, name + " reaches behind its bytes");
+    return {bytes.data() + begin + first, count, stride, component};
+  }
+
+  std::vector<Vec3> positions(std::size_t accessor, const AffineMap& map, const std::string& place) {
+    const View from = view(accessor, "VEC3", 3, place);
+    if (from.component != kFloat) fail_at(0, place + ": its positions are no float numbers" + kAsGlb);
+    std::vector<Vec3> points(from.count);
+    for (std::size_t i = 0; i < from.count; ++i) {
+      const auto at = [&](std::size_t k) {
+        return double{base::decode<float>(from.data + i * from.stride + 4 * k)};
+      };
+      points[i] = map({at(0), at(1), at(2)});
+      if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
+        fail_at(0, place + ", " + numbered("vertex", i) + " is not finite");
+    }
+    return points;
+  }
+
+  std::vector<std::uint32_t> indices(std::optional<std::size_t> accessor, std::size_t points,
+                                     const std::string& place) {
+    std::vector<std::uint32_t> found;
+    if (!accessor) {
+      for (std::size_t i = 0; i < points; ++i) found.push_back(static_cast<std::uint32_t>(i));
+      return found;
+    }
+    const View from = view(*accessor, "SCALAR", 1, place);
+    if (from.component != kByte && from.component != kShort && from.component != kInt)
+      fail_at(0, place + ": its indices are no whole numbers");
+    for (std::size_t i = 0; i < from.count; ++i) {
+      const char* at = from.data + i * from.stride;
+      const std::uint32_t one = from.component == kByte    ? base::decode<std::uint8_t>(at)
+                                : from.component == kShort ? base::decode<std::uint16_t>(at)
+                                                           : base::decode<std::uint32_t>(at);
+      if (one >= points)
+        fail_at(0, place + " uses " + numbered("vertex", one) + " of " + std::to_string(points));
+      found.push_back(one);
+    }
+    return found;
+  }
+
+  std::string_view buffer(std::size_t i) {
+    const json& told = item(list(text_, "buffers"), i, "buffer");
+    const auto uri = told.find("uri");
+    if (uri == told.end()) {
+      if (i > 0 || binary_.empty()) fail_at(0, numbered("buffer", i) + " has no bytes");
+      return binary_;
+    }
+    const std::string name = uri->is_string() ? uri->get<std::string>() : "";
+    const std::size_t comma = name.find(";base64,");
+    if (!name.starts_with("data:") || comma == std::string::npos)
+      fail_at(0, "has its numbers in another file, '" + name.substr(0, 60) + "'" + kAsGlb);
+    if (decoded_.size() <= i) decoded_.resize(i + 1);
+    if (!decoded_[i]) decoded_[i] = bytes_of_base64(std::string_view(name).substr(comma + 8));
+    if (!decoded_[i]) fail_at(0, numbered("buffer", i) + " is not base64");
+    return *decoded_[i];
+  }
+
+  json text_;
+  std::string_view binary_;  // the binary part of a .glb
+  std::vector<std::optional<std::string>> decoded_;
+  std::vector<bool> drawn_;  // by node
+  std::vector<Vec3> corners_;
+  std::uint64_t others_ = 0;  // primitives of points and lines
+};
+
+constexpr std::uint32_t kJsonPart = 0x4E4F534A, kBinaryPart = 0x004E4942;
+
+}  // namespace
+
+ShapeFile parse_gltf(std::string_view bytes) {
+  std::string_view text = bytes, binary;
+  if (bytes.starts_with("glTF")) {
+    if (bytes.size() < 20 || base::decode<std::uint32_t>(bytes.data() + 4) != 2)
+      fail_at(0, std::string("is no binary glTF of version 2") + kAsGlb);
+    text = {};
+    for (std::size_t at = 12; bytes.size() - at >= 8;) {
+      const std::size_t size = base::decode<std::uint32_t>(bytes.data() + at);
+      const auto kind = base::decode<std::uint32_t>(bytes.data() + at + 4);
+      at += 8;
+      if (size > bytes.size() - at)
+        fail_at(0, "the file ends within a part of " + std::to_string(size) + " bytes");
+      if (kind == kJsonPart && text.empty()) text = bytes.substr(at, size);
+      if (kind == kBinaryPart && binary.empty()) binary = bytes.substr(at, size);
+      at += size;
+    }
+  }
+  json parsed = json::parse(text.begin(), text.end(), nullptr, false);
+  if (!parsed.is_object() || !parsed.contains("asset")) fail_at(0, "is no glTF: its JSON has no 'asset'");
+  return Gltf(std::move(parsed), binary).run();
+}
+
+}  // namespace affskel::core

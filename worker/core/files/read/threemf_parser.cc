@@ -1,0 +1,188 @@
+#include <zip.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/affine_map.h"
+#include "core/base/error.h"
+#include "core/files/read/shape_parsers.h"
+#include "core/files/read/unpack.h"
+#include "core/files/read/xml_reader.h"
+#include "core/text/text_rows.h"
+
+// 3MF (3MF Consortium, core specification 1.3): a zip archive with an XML text of objects, which are meshes or consist
+// of others placed by affine maps, and of the items that are built.
+namespace affskel::core {
+namespace {
+
+constexpr const char* kInstead = "; export its triangles as .ply or .stl";
+constexpr std::uint64_t kFewItems = std::uint64_t{1} << 20;  // triangles, vertices and placed objects, ...
+constexpr std::uint64_t kMaxCopies = 10;  // ... and above these so many times what the file holds
+constexpr int kMaxNesting = 32;           // of components in components
+
+struct Component {
+  std::string object;
+  AffineMap map;
+  std::uint64_t line = 0;
+};
+
+struct Object {
+  Mesh mesh;
+  std::vector<Component> components;
+};
+
+double number(const XmlElement& element, const char* name) {
+  return parse_finite(element.attribute(name), element.line(), name);
+}
+
+// "m00 m01 m02 m10 ... m32" of row vectors: x' = m00 x + m10 y + m20 z + m30.
+AffineMap map_of(const XmlElement& element) {
+  AffineMap map;
+  const std::string text = element.attribute("transform");
+  if (text.empty()) return map;
+  TextRows row(text);
+  if (!row.next() || row.words().size() != 12) fail_at(element.line(), "a transform needs 12 numbers");
+  const auto m = [&](std::size_t i) { return parse_finite(row.words()[i], element.line(), "transform"); };
+  map.rows = {Vec3{m(0), m(3), m(6)}, Vec3{m(1), m(4), m(7)}, Vec3{m(2), m(5), m(8)}};
+  map.shift = {m(9), m(10), m(11)};
+  return map;
+}
+
+class Model final : public XmlHandler {
+ public:
+  Next open(const XmlElement& element) override {
+    std::string_view name = element.name();
+    name.remove_prefix(std::min(name.find(':') + 1, name.size()));
+    if (name == "object") {
+      object_ = &objects_[element.attribute("id")];
+    } else if (name == "vertex") {
+      mesh(element).points.push_back({number(element, "x"), number(element, "y"), number(element, "z")});
+    } else if (name == "triangle") {
+      mesh(element).triangles.push_back(
+          {corner(element, "v1"), corner(element, "v2"), corner(element, "v3")});
+    } else if (name == "component" || name == "item") {
+      if (!element.attribute("p:path").empty())
+        fail_at(element.line(),
+                std::string("has objects in other files of the archive, which are not read") + kInstead);
+      Component component{element.attribute("objectid"), map_of(element), element.line()};
+      (name == "item" ? built_ : held(element).components).push_back(std::move(component));
+    }
+    return Next::kReadOn;
+  }
+  Next close(std::string_view, std::uint64_t) override { return Next::kReadOn; }
+  void text(std::string_view, bool) override {}
+
+  ShapeFile take() {
+    ShapeFile file;
+    for (const auto& [id, object] : objects_)
+      held_ += std::max(object.mesh.points.size(), object.mesh.triangles.size());
+    for (const Component& item : built_) add(item, AffineMap(), 0, file.off.mesh);
+    file.off.polygons = file.off.mesh.triangles.size();
+    return file;
+  }
+
+ private:
+  Object& held(const XmlElement& element) {
+    if (object_ == nullptr) fail_at(element.line(), std::string(element.name()) + " outside of an object");
+    return *object_;
+  }
+  Mesh& mesh(const XmlElement& element) { return held(element).mesh; }
+  std::uint32_t corner(const XmlElement& element, const char* name) {
+    const std::uint64_t vertex = parse_count(element.attribute(name), element.line(), name);
+    const std::size_t known = mesh(element).points.size();
+    if (vertex >= known)
+      fail_at(element.line(),
+              "a triangle uses vertex " + std::to_string(vertex) + " of " + std::to_string(known));
+    return static_cast<std::uint32_t>(vertex);
+  }
+
+  void add(const Component& component, const AffineMap& outer, int depth, Mesh& whole) {
+    const auto found = objects_.find(component.object);
+    if (found == objects_.end())
+      fail_at(component.line, "there is no object " + quoted_excerpt(component.object));
+    if (depth > kMaxNesting)
+      fail_at(component.line, "objects lie in each other more than " + std::to_string(kMaxNesting) + " deep");
+    const AffineMap map = then(component.map, outer);
+    const Mesh& mesh = found->second.mesh;
+    placed_ += 1 + std::max(mesh.points.size(), mesh.triangles.size());
+    if (placed_ > kFewItems + kMaxCopies * held_)
+      throw CoreError(CoreError::Code::kLimit, "is built of more than " + std::to_string(kMaxCopies) +
+                                                   " times the triangles that it holds" + kInstead);
+    const auto first = static_cast<std::uint32_t>(whole.points.size());
+    for (const Vec3& point : mesh.points) whole.points.push_back(map(point));
+    const bool mirrored = determinant(map) < 0;
+    for (const Triangle& t : mesh.triangles)
+      whole.triangles.push_back({first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]});
+    for (const Component& inner : found->second.components) add(inner, map, depth + 1, whole);
+  }
+
+  std::map<std::string, Object> objects_;
+  Object* object_ = nullptr;  // the one that is read
+  std::vector<Component> built_;
+  std::uint64_t placed_ = 0, held_ = 0;
+};
+
+// The archive's text of a name; empty when there is none.
+std::string entry(zip_t* archive, const char* name, std::uint64_t max_bytes) {
+  zip_stat_t told;
+  if (zip_stat(archive, name, ZIP_FL_NOCASE, &told) != 0) return "";
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(zip_fopen_index(archive, told.index, 0),
+                                                                zip_fclose);
+  if (file == nullptr) fail_at(0, std::string(name) + " within the archive cannot be read" + kInstead);
+  std::string text;
+  std::array<char, 1 << 16> piece;
+  zip_int64_t got = 0;
+  while ((got = zip_fread(file.get(), piece.data(), piece.size())) > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(got));
+    if (text.size() > max_bytes)
+      throw CoreError(CoreError::Code::kLimit, std::string(name) + " within the archive is too long");
+  }
+  if (got < 0) fail_at(0, std::string(name) + " within the archive is damaged");
+  return text;
+}
+
+// Where the package says that its model is.
+class Relationships final : public XmlHandler {
+ public:
+  Next open(const XmlElement& element) override {
+    if (element.attribute("Type").ends_with("/3dmodel")) model = element.attribute("Target");
+    return Next::kReadOn;
+  }
+  Next close(std::string_view, std::uint64_t) override { return Next::kReadOn; }
+  void text(std::string_view, bool) override {}
+
+  std::string model = "/3D/3dmodel.model";
+};
+
+}  // namespace
+
+ShapeFile parse_3mf(std::string_view bytes) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  if (source == nullptr) throw std::bad_alloc();
+  const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(
+      zip_open_from_source(source, ZIP_RDONLY, &error), zip_discard);
+  if (archive == nullptr) {
+    zip_source_free(source);
+    fail_at(0, std::string("is an archive that cannot be opened: ") + zip_error_strerror(&error));
+  }
+  const std::uint64_t max_bytes = max_unpacked(bytes.size());
+  Relationships told;
+  if (const std::string text = entry(archive.get(), "_rels/.rels", max_bytes); !text.empty())
+    read_xml(text, told);
+  const std::string name = told.model.substr(std::min(told.model.find_first_not_of('/'), told.model.size()));
+  const std::string text = entry(archive.get(), name.c_str(), max_bytes);
+  if (text.empty())
+    fail_at(0, "is an archive without a 3D model; unpack it, and take the mesh that is in it");
+  Model model;
+  if (read_xml(text, model) != XmlEnd::kComplete) fail_at(0, name + " within the archive is cut off");
+  return model.take();
+}
+
+}  // namespace affskel::core
