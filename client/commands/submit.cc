@@ -116,7 +116,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   document["existed"] = submitted.existed;
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
     document["files"] =
-        paths_of(fetch_results(context, job, options.output_dir, fs::path(input.path).stem()));
+        paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
   }
   console.document(document);
   if (wait) show_end(context, job, said);

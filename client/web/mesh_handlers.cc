@@ -196,7 +196,7 @@ http::Response submit_mesh(WebCall& call) {
   const nlohmann::json body = json_body(call.request);
   const auto mesh = mesh_of(call, text_member(body, "mesh"));
   Submission submission = submission_of(body);
-  if (submission.name.empty()) submission.name = std::filesystem::path(mesh->name).stem().string();
+  if (submission.name.empty()) submission.name = job_name(mesh->name);
   const InputFile input = read_input(mesh->file->path().string());
   check_submission(mesh->solid, input, submission);
   Session server = call.server();

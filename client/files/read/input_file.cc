@@ -77,6 +77,10 @@ InputFile read_named_input(const std::string& name) {
   return parsed_input("stdin", read_standard_input("stdin"), "");
 }
 
+std::string job_name(const std::filesystem::path& file) {
+  return std::filesystem::path(core::unpacked_name(file.native())).stem().string();
+}
+
 std::string passed_over_text(const core::OffMesh& off) {
   std::string text;
   for (const core::PassedOver& one : off.passed_over) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "client/base/error.h"
@@ -30,6 +31,9 @@ InputFile read_input(const std::string& path);
 
 /// The same of what a command line names: "-" is standard input, whose path becomes "stdin".
 InputFile read_named_input(const std::string& name);
+
+/// What a job of a file is called: "body" of "scans/body.off.gz".
+std::string job_name(const std::filesystem::path& file);
 
 /// Parses bytes that came from `path`, or from the server when `path` names no file.
 core::OffMesh parse_mesh(const std::string& bytes, const std::string& path);

@@ -12,6 +12,9 @@ const kTyping = 300; // milliseconds after a key until the lattice is counted
 const kAgain = 500; // milliseconds until a count that found no place is tried again
 const kNoPlace = 429; // status: what was asked for before is still worked on
 
+// "body" of "body.off.gz".
+const jobName = (file) => file.replace(/\.(gz|zst)$/i, '').replace(/\.[^.]*$/, '');
+
 function meshFacts(f) {
   const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
   const solid = f.computable
@@ -116,7 +119,7 @@ export class NewJob {
     try {
       const mesh = await this.sentFile(file);
       if (!mesh.mesh) throw new Error(mesh.error);
-      const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: file.name.replace(/\.[^.]*$/, '') });
+      const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: jobName(file.name) });
       return [h('a', { href: `#job/${answer.id}` }, answer.name), answer.existed ? ' was there already' : ' is submitted'];
     } catch (error) {
       return [h('span', { class: 'error' }, `${file.name}: ${error.message}`)];
@@ -230,7 +233,7 @@ class SubmitForm {
     this.mesh = mesh;
     this.requestId = newRequest();
     this.given = 'points'; // which of the two was typed
-    this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: mesh.name.replace(/\.[^.]*$/, '') });
+    this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: jobName(mesh.name) });
     this.points = numberField('points', { step: 1, value: kUsualPoints });
     this.spacing = numberField('spacing', {});
     this.lattice = h('p', { id: 'lattice', role: 'status' });

@@ -144,6 +144,7 @@ TEST(ReadInput, KnowsAFormatByItsContent) {
   EXPECT_EQ(packed.bytes, text);
   EXPECT_EQ(packed.file_bytes, tests::gzipped(text).size());
   EXPECT_TRUE(packed.converted());
+  EXPECT_EQ(job_name(packed.path), "box");
   EXPECT_EQ(conversion_notices(packed).at(0).code, "UNPACKED");
   tests::write_file(dir / "points.csv.gz", tests::gzipped("x,y,z\n1,2,3\n"));
   EXPECT_EQ(read_shape(dir / "points.csv.gz").mesh().points.size(), 1U);
