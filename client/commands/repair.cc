@@ -35,13 +35,6 @@ std::string steps_text(const Repair& done) {
   return text + key_line("volume", base::plain(done.volume, base::kMeasureDigits));
 }
 
-nlohmann::ordered_json steps_json(const Repair& done) {
-  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-  for (const core::RepairStep& step : done.steps)
-    steps.push_back({{"code", step.code}, {"count", step.count}, {"message", step.message}});
-  return steps;
-}
-
 void run_repair(Context& context, const RepairOptions& options) {
   Console& console = context.console();
   const RepairChoice choice = chosen_repair(options.how);
@@ -63,7 +56,7 @@ void run_repair(Context& context, const RepairOptions& options) {
   }
   console.document({{"file", options.output},
                     {"repair", options.how},
-                    {"steps", steps_json(done)},
+                    {"steps", steps_json(done.steps)},
                     {"filled_share", done.filled_share},
                     {"points", done.mesh.points.size()},
                     {"triangles", done.mesh.triangles.size()},

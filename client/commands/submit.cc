@@ -71,9 +71,8 @@ double spacing_of(const std::string& text, const core::Solid& solid) {
 
 // What a worker would refuse, before anything is sent.  Returns what was said of the mesh.
 // @param submission gets the spacing.
-Notices check_mesh(const InputFile& input, const std::string& spacing, Submission& submission,
-                   Console& console) {
-  const core::Solid solid = check_solid(input, submission.repair);
+Notices check_mesh(const InputFile& input, const core::Solid& solid, const std::string& spacing,
+                   Submission& submission, Console& console) {
   submission.spacing = spacing_of(spacing, solid);
   if (spacing.ends_with('%')) console.note("spacing " + base::to_text(submission.spacing));
   check_submission(solid, input, submission);
@@ -83,7 +82,9 @@ Notices check_mesh(const InputFile& input, const std::string& spacing, Submissio
 }
 
 // What is mended beyond what workers mend is another mesh.
-void replace_mesh(Context& context, const std::string& file, const RepairChoice& choice, InputFile& input) {
+// Returns the steps.
+std::vector<core::RepairStep> replace_mesh(Context& context, const std::string& file,
+                                           const RepairChoice& choice, InputFile& input) {
   Repair done = repaired(context, input.off.mesh, file, choice);
   Notices notices;
   for (const core::RepairStep& step : done.steps)
@@ -92,19 +93,41 @@ void replace_mesh(Context& context, const std::string& file, const RepairChoice&
   input.off = core::OffMesh();
   input.off.mesh = std::move(done.mesh);
   input.bytes = core::write_off(input.off.mesh);
+  return std::move(done.steps);
+}
+
+struct SubmittedSolid {
+  core::Solid solid;
+  std::vector<core::RepairStep> steps;  // by which its mesh came of the file's
+};
+
+// Unasked, only a mesh that bounds no solid is replaced: what workers mend is sent as it is.
+SubmittedSolid solid_of(Context& context, const std::string& file, const RepairChoice& repair,
+                        InputFile& input) {
+  using Kind = RepairChoice::Kind;
+  SubmittedSolid found;
+  if (repair.kind == Kind::kFill || repair.kind == Kind::kWrap)
+    found.steps = replace_mesh(context, file, repair, input);
+  try {
+    found.solid = check_solid(input, repair.kind != Kind::kNone);
+    return found;
+  } catch (const ClientError& error) {
+    if (repair.kind != Kind::kAuto || error.exit_code() != ExitCode::kBadInput) throw;
+  }
+  found.steps = replace_mesh(context, file, repair, input);
+  found.solid = check_solid(input, true);
+  return found;
 }
 
 void run_submit(Context& context, const SubmitOptions& options) {
-  using Kind = RepairChoice::Kind;
   Console& console = context.console();
   const RepairChoice repair = chosen_repair(options.repair);
   InputFile input = read_named_input(options.file);
   say(console, conversion_notices(input));
-  if (repair.kind == Kind::kFill || repair.kind == Kind::kWrap)
-    replace_mesh(context, options.file, repair, input);
+  const SubmittedSolid found = solid_of(context, options.file, repair, input);
   Submission asked = options.asked;
-  asked.repair = repair.kind != Kind::kNone;
-  const Notices said = check_mesh(input, options.spacing, asked, console);
+  asked.repair = repair.kind != RepairChoice::Kind::kNone;
+  const Notices said = check_mesh(input, found.solid, options.spacing, asked, console);
   prepare_output_dir(options.output_dir);
   const Submitted submitted = submit(context.session(), context.environment(), input, asked);
   v1::Job job = submitted.job;
@@ -114,9 +137,9 @@ void run_submit(Context& context, const SubmitOptions& options) {
   if (wait) job = follow(context, job.id(), false, !options.output_dir.empty());
   nlohmann::ordered_json document = to_json(job);
   document["existed"] = submitted.existed;
+  if (!found.steps.empty()) document["repaired"] = steps_json(found.steps);
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
-    document["files"] =
-        paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
+    document["files"] = paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
   }
   console.document(document);
   if (wait) show_end(context, job, said);
@@ -170,7 +193,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
       ->type_name("KEY");
   add_repair_option(
       command, o.repair,
-      "What is mended: what workers mend (auto), nothing (none), or all that repair\nmends, by fill=LENGTH, wrap or wrap=ALPHA");
+      "auto submits a mesh that bounds a solid as it is, of others what repair makes of them;\nnone refuses these; fill=LENGTH, wrap and wrap=ALPHA submit what repair makes by them");
 }
 
 }  // namespace

@@ -101,9 +101,11 @@ Submission submission_of(const nlohmann::json& body) {
 nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& name, InputFile& input,
                                            core::ExecutionContext* context) {
   const std::string how = call.request.parameter("repair");
-  RepairChoice choice{RepairChoice::Kind::kFill, HUGE_VAL};
+  RepairChoice choice;
+  if (how == "fill") choice = {RepairChoice::Kind::kFill, HUGE_VAL};
   if (how == "wrap") choice = {RepairChoice::Kind::kWrap};
-  if (how != "wrap" && how != "fill") throw ClientError(ExitCode::kUsage, "'repair' must be fill or wrap");
+  if (how != "auto" && how != "fill" && how != "wrap")
+    throw ClientError(ExitCode::kUsage, "'repair' must be auto, fill or wrap");
   Repair done = repair(input.off.mesh, name, choice, context);
   if (!done.left.empty()) throw ClientError(ExitCode::kBadInput, done.left);
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".off"));

@@ -1,6 +1,7 @@
 #include "client/commands/shared/repair_option.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "base/number_text.h"
 #include "client/base/error.h"
@@ -60,6 +61,13 @@ RepairChoice chosen_repair(const std::string& text) {
   if (text.starts_with("fill=")) return {Kind::kFill, *value};
   if (text.starts_with("wrap=")) return {Kind::kWrap, 0, *value};
   no_repair(text);
+}
+
+nlohmann::ordered_json steps_json(const std::vector<core::RepairStep>& steps) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const core::RepairStep& step : steps)
+    list.push_back({{"code", step.code}, {"count", step.count}, {"message", step.message}});
+  return list;
 }
 
 Repair repaired(const Context& context, const core::Mesh& mesh, const std::string& file,

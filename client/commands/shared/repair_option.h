@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "client/commands/shared/context.h"
 #include "client/operations/repair.h"
@@ -14,6 +16,9 @@ void add_repair_option(CLI::App* command, std::string& how, const std::string& w
 /// What it says: "auto", "none", "fill=LENGTH", "wrap" or "wrap=ALPHA".
 /// @throws ClientError kUsage for anything else.
 RepairChoice chosen_repair(const std::string& text);
+
+/// Steps of a repair as JSON: code, count, message.
+nlohmann::ordered_json steps_json(const std::vector<core::RepairStep>& steps);
 
 /// The repaired mesh, which bounds a solid.
 /// @param file as the user named it.

@@ -117,7 +117,8 @@ export class NewJob {
   // What came of one of several files.
   async submitted(file) {
     try {
-      const mesh = await this.sentFile(file);
+      let mesh = await this.sentFile(file);
+      if (!mesh.mesh) mesh = await this.sentFile(file, 'auto');
       if (!mesh.mesh) throw new Error(mesh.error);
       const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: jobName(file.name) });
       return [h('a', { href: `#job/${answer.id}` }, answer.name), answer.existed ? ' was there already' : ' is submitted'];

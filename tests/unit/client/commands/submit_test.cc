@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client_fixture.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
 #include "core/text/off_file.h"
 #include "tools/files.h"
 #include "wire/sha256.h"
@@ -109,6 +111,28 @@ TEST_F(ClientTest, SubmitAimsAtAHundredThousandPointsByDefault) {
   EXPECT_EQ(service_.submitted.params().frame(), v1::FRAME_AXIS);
   EXPECT_EQ(service_.submitted.priority(), 5u);
   EXPECT_TRUE(service_.submitted.params().repair());
+}
+
+// Unasked, what bounds no solid is repaired and told of, or refused with the command that would do it.
+TEST_F(ClientTest, SubmitRepairsWhatBoundsNoSolid) {
+  core::Mesh cube = core::make_box(2000, 2000, 2000, 8);
+  cube.triangles.erase(cube.triangles.begin(), cube.triangles.begin() + 2);
+  tests::write_file(dir_ / "hole.off", core::write_off(cube));
+  const Outcome done = run({"--json", "submit", dir_ / "hole.off", "--spacing", "200"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("repaired before it was sent: 1 hole filled"), std::string::npos) << done.err;
+  EXPECT_EQ(json::parse(done.out).at("repaired")[0].at("code"), "filled-holes");
+  const core::OffMesh sent = core::read_off(service_.mesh);
+  EXPECT_NEAR(core::make_solid(sent.mesh).volume, 8e9, 8e5);
+  EXPECT_EQ(run({"submit", dir_ / "hole.off", "--repair", "none"}, "unix:/nowhere/s").exit_code, 3);
+
+  // Half of it is too much.
+  cube.triangles.resize(cube.triangles.size() / 2);
+  tests::write_file(dir_ / "half.off", core::write_off(cube));
+  const Outcome refused = run({"submit", dir_ / "half.off"}, "unix:/nowhere/s");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("repair " + std::string(dir_ / "half.off") + " --repair fill="), std::string::npos)
+      << refused.err;
 }
 
 TEST_F(ClientTest, SubmitRefusesBadMeshesWithoutTheServer) {

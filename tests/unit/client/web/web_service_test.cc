@@ -166,9 +166,9 @@ TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   EXPECT_TRUE(open.contains("picture"));
   const Answer turned = ask("POST", "/api/meshes/view?name=open.off", tests::read_file(dir_ / "open.off"));
   EXPECT_NE(ask("GET", turned.object()["href"]).body.find("open.off"), std::string::npos);
-  core::Mesh cube = core::make_box(2000, 2000, 2000, 2);
+  core::Mesh cube = core::make_box(2000, 2000, 2000, 4);
   cube.triangles.pop_back();
-  for (const char* how : {"fill", "wrap"}) {
+  for (const char* how : {"auto", "fill", "wrap"}) {
     const json repaired =
         ask("POST", std::string("/api/meshes?name=o.off&repair=") + how, core::write_off(cube)).object();
     EXPECT_TRUE(repaired.contains("mesh")) << how << repaired;
