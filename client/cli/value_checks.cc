@@ -29,6 +29,14 @@ CLI::Validator one_of(std::vector<std::string> words) {
       list);
 }
 
+CLI::Validator finite_number() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        return parse_number(text) ? "" : "must be a number, not '" + text + "'";
+      },
+      "");
+}
+
 CLI::Validator positive_number() {
   return CLI::Validator(
       [](std::string& text) -> std::string {

@@ -11,6 +11,8 @@ namespace affskel::client {
 
 /// One of `words`, which its description lists as "{a,b,c}"; a word that is not is refused with the nearest.
 CLI::Validator one_of(std::vector<std::string> words);
+/// A finite number.
+CLI::Validator finite_number();
 /// A finite number above 0.
 CLI::Validator positive_number();
 /// The same, or a share between 0 and 1 with its sign: "1%".

@@ -105,6 +105,7 @@ struct InspectOptions {
   std::string file;
   std::string picture;  // file, or empty
   bool all = false;
+  core::MeshFileOptions reading;
 };
 
 void draw(Console& console, const InspectOptions& options, const InputFile& input) {
@@ -118,7 +119,7 @@ void draw(Console& console, const InspectOptions& options, const InputFile& inpu
 
 void run_inspect(Console& console, const InspectOptions& options) {
   const std::size_t places = options.all ? std::numeric_limits<std::size_t>::max() : kFewPlaces;
-  const InputFile input = read_named_input(options.file);
+  const InputFile input = read_named_input(options.file, options.reading);
   const Inspection inspection = inspect(input, places);
   if (!options.picture.empty()) draw(console, options, input);
   console.result(facts_text(inspection.facts, options.all));
@@ -143,6 +144,7 @@ void add_inspect(CommandLine& line) {
       ->add_option("--render", options->picture,
                    "PNG file to write: the mesh from the front, the side and above, its defects\nmarked")
       ->type_name("FILE");
+  add_isovalue(command, options->reading);
   command->add_flag("--all", options->all,
                     "Every place of every defect, each on a line; else the first five");
 }

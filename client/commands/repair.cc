@@ -19,12 +19,14 @@ namespace {
 
 struct RepairOptions {
   std::string file, output, format, how = "auto";
+  core::MeshFileOptions reading;
 };
 
 // A wrap takes points, too.
-core::Mesh mesh_of(const std::string& file, const RepairChoice& choice) {
-  if (choice.kind == RepairChoice::Kind::kWrap && file != "-") return read_shape(file).mesh();
-  return read_named_input(file).off.mesh;
+core::Mesh mesh_of(const RepairOptions& options, const RepairChoice& choice) {
+  const bool points = choice.kind == RepairChoice::Kind::kWrap && !options.reading.isovalue;
+  if (points && options.file != "-") return read_shape(options.file).mesh();
+  return read_named_input(options.file, options.reading).off.mesh;
 }
 
 std::string steps_text(const Repair& done) {
@@ -39,7 +41,7 @@ void run_repair(Context& context, const RepairOptions& options) {
   Console& console = context.console();
   const RepairChoice choice = chosen_repair(options.how);
   const Destination destination = destination_of(options.output, options.format, console);
-  const Repair done = repaired(context, mesh_of(options.file, choice), options.file, choice);
+  const Repair done = repaired(context, mesh_of(options, choice), options.file, choice);
   ShapeFile shape;
   shape.off.mesh = done.mesh;
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");
@@ -82,6 +84,7 @@ void add_repair(CommandLine& line) {
   add_repair_option(
       command, options->how,
       "auto fills holes up to 0.6 of the box's diagonal round, fill=LENGTH up to that\nlength; wrap, or wrap=ALPHA, takes a new surface round all of it, which closes\nhollows narrower than a 220th of the diagonal; none only checks");
+  add_isovalue(command, options->reading);
   add_format(command, options->format);
   add_output(command, options->output, "Mesh file to write, or -");
 }

@@ -27,6 +27,7 @@ struct SubmitOptions {
   Submission asked;
   std::string spacing;  // mesh units, or a share of the mesh's length in %
   std::string repair = "auto";
+  core::MeshFileOptions reading;
 };
 
 namespace fs = std::filesystem;
@@ -122,7 +123,7 @@ SubmittedSolid solid_of(Context& context, const std::string& file, const RepairC
 void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const RepairChoice repair = chosen_repair(options.repair);
-  InputFile input = read_named_input(options.file);
+  InputFile input = read_named_input(options.file, options.reading);
   say(console, conversion_notices(input));
   const SubmittedSolid found = solid_of(context, options.file, repair, input);
   Submission asked = options.asked;
@@ -191,6 +192,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
                    "Submitting again with the same key and content gives the same job")
       ->check(utf8_text())
       ->type_name("KEY");
+  add_isovalue(command, o.reading);
   add_repair_option(
       command, o.repair,
       "auto submits a mesh that bounds a solid as it is, of others what repair makes of them;\nnone refuses these; fill=LENGTH, wrap and wrap=ALPHA submit what repair makes by them");

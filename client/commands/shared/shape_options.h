@@ -3,11 +3,16 @@
 #include <CLI/App.hpp>
 #include <string>
 
+#include "core/files/read/parse_shape.h"
+
 namespace affskel::client {
 
 /// The files that a mesh is read from, for the help.
 inline constexpr const char* kMeshKinds =
-    "Geomview OFF, .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd";
+    "Geomview OFF, .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd;\nvoxels in .nrrd .mha .nii";
+
+/// --isovalue.
+void add_isovalue(CLI::App* command, core::MeshFileOptions& options);
 
 /// A required file to read. @param name of the operand, e.g. "FILE"; @param what it is, for the help.
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what);

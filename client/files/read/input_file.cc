@@ -30,24 +30,26 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kMeanings
      {"p", "points"}}};
 
 // The server stores OFF text: what the file holds beside its surface (colours, normals) has no place there.
-void parse(InputFile& input, std::string_view extension) {
+void parse(InputFile& input, std::string_view extension, const core::MeshFileOptions& options) {
   input.packed = core::compression_of(input.bytes);
   if (!input.packed.empty()) input.bytes = core::unpack(input.bytes);
-  core::MeshFile file = core::parse_mesh_file(extension, input.bytes);
+  core::MeshFile file = core::parse_mesh_file(extension, input.bytes, options);
   input.format = std::move(file.format);
   input.off_text = file.off_text;
+  input.told = std::move(file.told);
   input.off = std::move(file.off);
   if (!input.off_text) input.bytes = core::write_off(input.off.mesh);
 }
 
-InputFile parsed_input(const std::string& path, std::string bytes, const std::string& extension) {
+InputFile parsed_input(const std::string& path, std::string bytes, const std::string& extension,
+                       const core::MeshFileOptions& options) {
   InputFile input;
   input.path = path;
   input.bytes = std::move(bytes);
   input.file_bytes = input.bytes.size();
   input.file_sha256 = wire::sha256_hex(input.bytes);
   try {
-    parse(input, extension);
+    parse(input, extension, options);
   } catch (const core::CoreError& error) {
     throw error_from_core(error, path);
   } catch (const std::bad_alloc&) {
@@ -68,13 +70,13 @@ core::OffMesh parse_mesh(const std::string& bytes, const std::string& path) {
   }
 }
 
-InputFile read_input(const std::string& path) {
-  return parsed_input(path, read_file(path), lower_extension(core::unpacked_name(path)));
+InputFile read_input(const std::string& path, const core::MeshFileOptions& options) {
+  return parsed_input(path, read_file(path), lower_extension(core::unpacked_name(path)), options);
 }
 
-InputFile read_named_input(const std::string& name) {
-  if (name != "-") return read_input(name);
-  return parsed_input("stdin", read_standard_input("stdin"), "");
+InputFile read_named_input(const std::string& name, const core::MeshFileOptions& options) {
+  if (name != "-") return read_input(name, options);
+  return parsed_input("stdin", read_standard_input("stdin"), "", options);
 }
 
 std::string job_name(const std::filesystem::path& file) {
@@ -99,6 +101,7 @@ Notices conversion_notices(const InputFile& input) {
   if (!input.packed.empty()) {
     notices.push_back(note("UNPACKED", "unpacked by " + input.packed, input.path));
   }
+  if (!input.told.empty()) notices.push_back(note("ISOSURFACE", input.told, input.path));
   if (!input.off_text) {
     notices.push_back(note("CONVERTED",
                            "read as " + input.format + " and submitted as OFF text, " +

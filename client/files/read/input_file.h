@@ -6,6 +6,7 @@
 
 #include "client/base/error.h"
 #include "client/base/notice.h"
+#include "core/files/read/parse_shape.h"
 #include "core/solid/solid.h"
 #include "core/text/off_file.h"
 
@@ -18,6 +19,7 @@ struct InputFile {
   core::OffMesh off;           ///< with the lines of the file, where it is text
   std::string format = "off";  ///< of the file, see core::MeshFile
   bool off_text = true;        ///< of the file, unpacked
+  std::string told;            ///< of an image of voxels: how its surface was made
   std::string packed;          ///< how the file is compressed, see core::compression_of
   std::uint64_t file_bytes = 0;
   std::string file_sha256;  ///< hexadecimal
@@ -27,10 +29,10 @@ struct InputFile {
 /// Reads and parses a mesh, see core::parse_mesh_file, unpacked where it is compressed.  OFF text is kept byte for
 /// byte; of everything else `bytes` are the OFF text of the surface.
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
-InputFile read_input(const std::string& path);
+InputFile read_input(const std::string& path, const core::MeshFileOptions& options = {});
 
 /// The same of what a command line names: "-" is standard input, whose path becomes "stdin".
-InputFile read_named_input(const std::string& name);
+InputFile read_named_input(const std::string& name, const core::MeshFileOptions& options = {});
 
 /// What a job of a file is called: "body" of "scans/body.off.gz".
 std::string job_name(const std::filesystem::path& file);

@@ -175,14 +175,14 @@ class Marcher {
   Mesh mesh_;
 };
 
-/// Two Newton steps onto the zero set.
-Vec3 project(const ImplicitFunction& f, double step, Vec3 p) {
+/// Two Newton steps onto the zero set, none longer than max_move.
+Vec3 project(const ImplicitFunction& f, double step, double max_move, Vec3 p) {
   for (int i = 0; i < 2; ++i) {
     const double value = f(p);
     const Vec3 gradient{(f(p + Vec3{step, 0, 0}) - value) / step, (f(p + Vec3{0, step, 0}) - value) / step,
                         (f(p + Vec3{0, 0, step}) - value) / step};
     const double square = dot(gradient, gradient);
-    if (square > 0) p = p - (value / square) * gradient;
+    if (square > 0 && std::abs(value) <= max_move * std::sqrt(square)) p = p - (value / square) * gradient;
   }
   return p;
 }
@@ -193,7 +193,7 @@ Mesh mesh_zero_set(const ImplicitFunction& f, const ImplicitMeshOptions& options
   return Marcher(f, options).run();
 }
 
-void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh) {
+void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh, double max_move) {
   std::vector<Vec3> sum(mesh.points.size());
   std::vector<std::uint32_t> count(mesh.points.size());
   for (int round = 0; round < rounds; ++round) {
@@ -208,7 +208,7 @@ void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh) {
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       if (count[v] == 0) continue;
       const Vec3 mean = (1.0 / count[v]) * sum[v];
-      mesh.points[v] = project(f, step, 0.5 * (mesh.points[v] + mean));
+      mesh.points[v] = project(f, step, max_move, 0.5 * (mesh.points[v] + mean));
     }
   }
 }

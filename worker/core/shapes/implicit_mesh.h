@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "core/mesh/mesh.h"
 
@@ -25,6 +26,8 @@ Mesh mesh_zero_set(const ImplicitFunction& f, const ImplicitMeshOptions& options
 /// Evens out a mesh of the zero set of `f`: each round moves every vertex half way to the mean of its
 /// neighbours and back onto the zero set along the gradient.
 /// @param step length used for the difference quotients of the gradient, mesh units.
-void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh);
+/// @param max_move where f is so flat that the zero set seems farther away, the vertex stays at the mean.
+void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh,
+               double max_move = std::numeric_limits<double>::infinity());
 
 }  // namespace affskel::core

@@ -23,15 +23,23 @@ class OffReader {
     read_counts();
     read_vertices();
     read_faces();
-    if (rows_.next()) {
-      fail_at_line(rows_.line(), "more rows than the " + std::to_string(vertex_count_) + " vertices and " +
-                                     std::to_string(face_count_) +
-                                     " faces announced: " + quoted_excerpt(rows_.words()[0]));
-    }
+    refuse_more_rows();
     return std::move(result_);
   }
 
  private:
+  void refuse_more_rows() {
+    if (!rows_.next()) return;
+    const std::uint64_t line = rows_.line();
+    const std::string first = quoted_excerpt(rows_.words()[0]);
+    std::uint64_t more = 1;
+    while (rows_.next()) ++more;
+    fail_at_line(line, "more rows than the " + std::to_string(vertex_count_) + " vertices and " +
+                           std::to_string(face_count_) + " faces announced: " + first +
+                           "; if they are faces, announce " + std::to_string(face_count_ + more) +
+                           " in line " + std::to_string(counts_line_));
+  }
+
   void read_header() {
     if (!rows_.next()) fail_at_line(1, "the file is empty; expected an OFF header");
     std::string_view word = rows_.words()[0];
@@ -75,6 +83,7 @@ class OffReader {
     vertex_count_ = parse_count(words[0], rows_.line(), "the vertex count");
     face_count_ = parse_count(words[1], rows_.line(), "the face count");
     if (words.size() == 3) parse_count(words[2], rows_.line(), "the edge count");
+    counts_line_ = rows_.line();
     check_count(vertex_count_, "vertices", 6);
     check_count(face_count_, "faces", 8);
   }
@@ -214,7 +223,7 @@ class OffReader {
   StopCheck stop_;
   bool texture_ = false, colour_ = false, normal_ = false, homogeneous_ = false;
   std::size_t unpromised_ = 0;  // numbers per vertex that the header does not promise
-  std::uint64_t vertex_count_ = 0, face_count_ = 0;
+  std::uint64_t vertex_count_ = 0, face_count_ = 0, counts_line_ = 0;
   std::vector<std::uint32_t> corners_, sorted_;
   std::vector<std::uint32_t> quads_;  // first triangles of the faces with four sides
   OffMesh result_;

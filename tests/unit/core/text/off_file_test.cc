@@ -138,6 +138,15 @@ TEST(ReadOff, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(line_refused(replaced(kTetrahedron, "1 0 0", "1 0\r0")), 4U) << "line ends of two kinds";
 }
 
+TEST(ReadOff, SaysHowManyFacesThereAre) {
+  try {
+    read_off(kTetrahedron + "3 0 1 2\n3 0 2 3\n");
+    ADD_FAILURE();
+  } catch (const CoreError& error) {
+    EXPECT_NE(std::string(error.what()).find("announce 6 in line 2"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ReadOff, TakesTrianglesWithoutArea) {
   const OffMesh off = read_off(replaced(kTetrahedron, "3 0 1 3", "3 0 1 1"));
   EXPECT_EQ(off.mesh.triangles.size(), 4U);

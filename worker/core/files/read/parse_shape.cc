@@ -9,9 +9,11 @@
 #include "core/base/error.h"
 #include "core/files/read/other_kinds.h"
 #include "core/files/read/shape_parsers.h"
+#include "core/files/read/voxel_parsers.h"
 #include "core/mesh/coincident_points.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
+#include "core/voxels/isosurface.h"
 
 namespace affskel::core {
 namespace {
@@ -92,6 +94,27 @@ std::string_view told_extension(std::string_view bytes) {
   return std::find(kObjWords.begin(), kObjWords.end(), word) != kObjWords.end() ? ".obj" : "";
 }
 
+MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) {
+  const VoxelImage image = parse_voxels(bytes);
+  if (!options.isovalue) {
+    const auto [least, greatest] = std::minmax_element(image.values.begin(), image.values.end());
+    throw CoreError(
+        CoreError::Code::kBadInput,
+        "is an image of " + std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
+            std::to_string(image.size[2]) + " voxels with values from " + base::to_text(*least) + " to " +
+            base::to_text(*greatest) + "; the isovalue, which they have at the surface, must be given");
+  }
+  Isosurface surface = isosurface(image, {*options.isovalue});
+  MeshFile file{"voxels", false, {}, {}};
+  file.told = "the surface at " + base::to_text(*options.isovalue) + " of " +
+              std::to_string(image.values.size()) + " voxels, sought in cubes of " +
+              base::rounded(surface.resolution, 3) + " voxels; the solid is where values are " +
+              (surface.below ? "below" : "above");
+  file.off.mesh = std::move(surface.mesh);
+  file.off.polygons = file.off.mesh.triangles.size();
+  return file;
+}
+
 }  // namespace
 
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
@@ -103,16 +126,17 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
   return file;
 }
 
-MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes) {
+MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, const MeshFileOptions& options) {
+  if (is_voxel_image(bytes)) return mesh_of_voxels(bytes, options);
   refuse_other_kinds(bytes);
   const std::string_view told = told_extension(bytes);
   const std::string_view kind = !told.empty() ? told : holds_mesh(extension) ? extension : ".off";
-  if (kind == ".off" && !is_binary_off(bytes)) return {"off", true, read_off(bytes)};
+  if (kind == ".off" && !is_binary_off(bytes)) return {"off", true, read_off(bytes), {}};
   ShapeFile shape = parse_shape(kind, bytes);
   if (shape.mesh().triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "has no triangles; a mesh that bounds a solid is wanted");
   if (!shape.segments.empty()) shape.off.passed_over.push_back({"curves", shape.segments.size(), 0});
-  return {kind == ".off" ? "binary off" : std::string(kind.substr(1)), false, std::move(shape.off)};
+  return {kind == ".off" ? "binary off" : std::string(kind.substr(1)), false, std::move(shape.off), {}};
 }
 
 bool is_normal_column(std::string_view name) {

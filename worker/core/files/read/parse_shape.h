@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,16 +29,23 @@ namespace affskel::core {
 /// @throws CoreError kBadInput with the line where there is one.
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes);
 
+struct MeshFileOptions {
+  std::optional<double> isovalue;  ///< of an image of voxels: at its surface, see isosurface
+};
+
 /// A mesh that was read from a file.
 struct MeshFile {
-  std::string format;     ///< off, ply, obj, stl, vtp, glb, gltf, 3mf or "binary off"
+  std::string format;     ///< off, ply, obj, stl, vtp, glb, gltf, 3mf, "binary off" or "voxels"
   bool off_text = false;  ///< whether the bytes are OFF text
   OffMesh off;
+  std::string told;  ///< of voxels: how the surface was made
 };
 
 /// Reads the mesh of a file that is to bound a solid as parse_shape does; what neither content nor extension
-/// tells is OFF text.
-/// @throws CoreError as parse_shape, and when there are no triangles.
-MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes);
+/// tells is OFF text.  Of an image of voxels (see parse_voxels) it is the surface at a value.
+/// @throws CoreError as parse_shape, parse_voxels and isosurface; kBadInput when there are no triangles, or no value
+///   for an image of voxels.
+MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes,
+                         const MeshFileOptions& options = {});
 
 }  // namespace affskel::core

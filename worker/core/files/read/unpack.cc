@@ -41,10 +41,10 @@ class Unpacked {
 };
 
 void inflate_members(std::string_view bytes, Unpacked& out) {
-  constexpr int kGzip = 15 + 16;  // the largest window, and a header of gzip
+  constexpr int kEither = 15 + 32;  // the largest window, and a header of gzip or zlib
   std::vector<char> piece(kUnpackedAtOnce);
   z_stream stream{};
-  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
+  if (inflateInit2(&stream, kEither) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, decltype(&inflateEnd)> ended(&stream, inflateEnd);
   while (!bytes.empty()) {
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
@@ -108,10 +108,10 @@ std::string_view unpacked_name(std::string_view name) {
 
 std::string unpack(std::string_view bytes, const UnpackOptions& options) {
   Unpacked out(max_unpacked(bytes.size(), options));
-  if (compression_of(bytes) == "gzip")
-    inflate_members(bytes, out);
-  else
+  if (compression_of(bytes) == "zstd")
     decompress_frames(bytes, out);
+  else
+    inflate_members(bytes, out);
   return out.take();
 }
 

@@ -22,7 +22,7 @@ std::string_view compression_of(std::string_view bytes);
 /// A file's name without the ending of a compression: "body.off" of "body.off.gz" and "body.off.zst".
 std::string_view unpacked_name(std::string_view name);
 
-/// The bytes that were compressed by gzip or zstd, of all members and frames.  Takes at most 40 MiB beside them.
+/// The bytes that were compressed by gzip, zlib or zstd, of all members and frames.  Takes at most 40 MiB beside them.
 /// @throws CoreError kBadInput for bytes that are damaged or cut off, kLimit for more than the options allow.
 std::string unpack(std::string_view bytes, const UnpackOptions& options = {});
 

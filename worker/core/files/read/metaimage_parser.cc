@@ -1,0 +1,61 @@
+// MetaImage, see ITK's documentation of MetaIO.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/files/read/shape_parsers.h"
+#include "core/files/read/unpack.h"
+#include "core/files/read/voxel_header.h"
+#include "core/files/read/voxel_numbers.h"
+
+namespace affskel::core {
+
+bool is_metaimage(std::string_view bytes) {
+  const std::string head = lower_case(bytes.substr(0, 4096));
+  return (head.starts_with("objecttype") || head.starts_with("ndims") || head.starts_with("comment")) &&
+         head.find("dimsize") != std::string::npos;
+}
+
+VoxelImage parse_metaimage(std::string_view bytes) {
+  static const std::map<std::string, Scalar> kTypes = {
+      {"met_char", Scalar::kInt8},       {"met_uchar", Scalar::kUint8},       {"met_short", Scalar::kInt16},
+      {"met_ushort", Scalar::kUint16},   {"met_int", Scalar::kInt32},         {"met_uint", Scalar::kUint32},
+      {"met_long_long", Scalar::kInt64}, {"met_ulong_long", Scalar::kUint64}, {"met_float", Scalar::kFloat},
+      {"met_double", Scalar::kDouble}};
+  VoxelHeader header;
+  const std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string_view::npos) return true;
+    header.set(text.substr(0, sign), text.substr(sign + 1), line);
+    return lower_case(without_blanks(text.substr(0, sign))) != "elementdatafile";
+  });
+  if (lower_case(header.word("elementdatafile")) != "local")
+    fail_at(header.line("elementdatafile"), std::string("has its numbers in another file") + kInOneFile);
+  VoxelImage image;
+  image.size = sizes_of(header.numbers("dimsize"), header.line("dimsize"));
+  if (header.has("elementnumberofchannels") && header.word("elementnumberofchannels") != "1")
+    fail_at(header.line("elementnumberofchannels"), "the image has more than one value at a place");
+  const auto scalar = kTypes.find(lower_case(header.word("elementtype")));
+  if (scalar == kTypes.end())
+    fail_at(header.line("elementtype"), "unknown type of values '" + header.word("elementtype") + "'");
+  const char* spacing_name = header.has("elementspacing") ? "elementspacing" : "elementsize";
+  const auto s = header.has(spacing_name) ? header.numbers(spacing_name, 3) : std::vector<double>(3, 1);
+  std::vector<double> o(3, 0), m{1, 0, 0, 0, 1, 0, 0, 0, 1};  // m: a row per axis
+  for (const char* name : {"offset", "origin", "position"})
+    if (header.has(name)) o = header.numbers(name, 3);
+  for (const char* name : {"transformmatrix", "rotation", "orientation"})
+    if (header.has(name)) m = header.numbers(name, 9);
+  image.place =
+      place_of({s[0] * Vec3{m[0], m[1], m[2]}, s[1] * Vec3{m[3], m[4], m[5]}, s[2] * Vec3{m[6], m[7], m[8]}},
+               {o[0], o[1], o[2]});
+  const bool big =
+      lower_case(header.word("elementbyteordermsb", header.word("binarydatabyteordermsb").c_str())) == "true";
+  const Numbers numbers{scalar->second, big};
+  if (lower_case(header.word("compresseddata")) == "true")
+    take_numbers(unpack(data), numbers, image);
+  else
+    take_numbers(data, numbers, image);
+  return image;
+}
+
+}  // namespace affskel::core

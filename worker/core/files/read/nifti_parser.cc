@@ -1,0 +1,117 @@
+// NIfTI-1, see nifti1.h of the NIfTI Data Format Working Group.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/coding.h"
+#include "core/files/read/shape_parsers.h"
+#include "core/files/read/voxel_numbers.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::size_t kNiftiHeader = 348;
+
+class Nifti {
+ public:
+  explicit Nifti(std::string_view bytes) : bytes_(bytes) {
+    big_ = base::decode<std::int32_t>(bytes.data()) != static_cast<std::int32_t>(kNiftiHeader);
+  }
+
+  VoxelImage run() const {
+    if (bytes_.substr(344, 3) != "n+1")
+      fail_at(0, std::string("has its numbers in another file") + kInOneFile);
+    std::vector<double> sizes;
+    for (int a = 1; a <= std::clamp<int>(number<std::int16_t>(40), 0, 7); ++a)
+      sizes.push_back(number<std::int16_t>(40 + 2 * static_cast<std::size_t>(a)));
+    VoxelImage image;
+    image.size = sizes_of(sizes, 0);
+    image.place = place();
+    Numbers numbers{scalar(), big_};
+    if (const float slope = number<float>(112); slope != 0 && std::isfinite(slope)) {
+      numbers.scale = slope;
+      numbers.offset = number<float>(116);
+    }
+    const float begin = number<float>(108);
+    if (!(begin >= kNiftiHeader && begin <= static_cast<float>(bytes_.size())))
+      fail_at(0, "its numbers begin behind the file's end");
+    take_numbers(bytes_.substr(static_cast<std::size_t>(begin)), numbers, image);
+    return image;
+  }
+
+ private:
+  template <class Number>
+  Number number(std::size_t at) const {
+    std::array<char, sizeof(Number)> raw;
+    std::copy_n(bytes_.data() + at, sizeof(Number), raw.begin());
+    if (big_) std::reverse(raw.begin(), raw.end());
+    return base::decode<Number>(raw.data());
+  }
+  double at(std::size_t place) const { return number<float>(place); }
+
+  Scalar scalar() const {
+    switch (number<std::int16_t>(70)) {
+      case 2:
+        return Scalar::kUint8;
+      case 4:
+        return Scalar::kInt16;
+      case 8:
+        return Scalar::kInt32;
+      case 16:
+        return Scalar::kFloat;
+      case 64:
+        return Scalar::kDouble;
+      case 256:
+        return Scalar::kInt8;
+      case 512:
+        return Scalar::kUint16;
+      case 768:
+        return Scalar::kUint32;
+      case 1024:
+        return Scalar::kInt64;
+      case 1280:
+        return Scalar::kUint64;
+      default:
+        fail_at(0, "type of values " + std::to_string(number<std::int16_t>(70)) + " is not read");
+    }
+  }
+
+  // The affine form, else the rotation of a quaternion, else the spacings alone.
+  AffineMap place() const {
+    if (number<std::int16_t>(254) > 0) {
+      AffineMap map;
+      for (std::size_t row = 0; row < 3; ++row)
+        map.rows[row] = {at(280 + 16 * row), at(284 + 16 * row), at(288 + 16 * row)};
+      map.shift = {at(292), at(308), at(324)};
+      return map;
+    }
+    const Vec3 s{at(80), at(84), at(88)};
+    if (number<std::int16_t>(252) <= 0) return place_of({{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}}, {0, 0, 0});
+    const double b = at(256), c = at(260), d = at(264),
+                 a = std::sqrt(std::max(0.0, 1 - b * b - c * c - d * d));
+    const double turn = at(76) < 0 ? -1 : 1;
+    return place_of(
+        {s.x * Vec3{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
+         s.y * Vec3{2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)},
+         turn * s.z * Vec3{2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b}},
+        {at(268), at(272), at(276)});
+  }
+
+  std::string_view bytes_;
+  bool big_ = false;
+};
+
+}  // namespace
+
+bool is_nifti(std::string_view bytes) {
+  return bytes.size() >= kNiftiHeader && (bytes.substr(344, 4) == std::string_view("n+1\0", 4) ||
+                                          bytes.substr(344, 4) == std::string_view("ni1\0", 4));
+}
+
+VoxelImage parse_nifti(std::string_view bytes) {
+  return Nifti(bytes).run();
+}
+
+}  // namespace affskel::core

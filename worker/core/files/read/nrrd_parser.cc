@@ -1,0 +1,100 @@
+// NRRD, see teem.sourceforge.net/nrrd/format.html.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/files/read/shape_parsers.h"
+#include "core/files/read/unpack.h"
+#include "core/files/read/voxel_header.h"
+#include "core/files/read/voxel_numbers.h"
+#include "core/text/text_rows.h"
+
+namespace affskel::core {
+namespace {
+
+Scalar nrrd_scalar(const VoxelHeader& header) {
+  static const std::map<std::string, Scalar> kNames = {
+      {"signed char", Scalar::kInt8},    {"int8", Scalar::kInt8},
+      {"int8_t", Scalar::kInt8},         {"uchar", Scalar::kUint8},
+      {"unsigned char", Scalar::kUint8}, {"uint8", Scalar::kUint8},
+      {"uint8_t", Scalar::kUint8},       {"short", Scalar::kInt16},
+      {"short int", Scalar::kInt16},     {"int16", Scalar::kInt16},
+      {"int16_t", Scalar::kInt16},       {"signed short", Scalar::kInt16},
+      {"ushort", Scalar::kUint16},       {"unsigned short", Scalar::kUint16},
+      {"uint16", Scalar::kUint16},       {"uint16_t", Scalar::kUint16},
+      {"int", Scalar::kInt32},           {"signed int", Scalar::kInt32},
+      {"int32", Scalar::kInt32},         {"int32_t", Scalar::kInt32},
+      {"uint", Scalar::kUint32},         {"unsigned int", Scalar::kUint32},
+      {"uint32", Scalar::kUint32},       {"uint32_t", Scalar::kUint32},
+      {"int64", Scalar::kInt64},         {"int64_t", Scalar::kInt64},
+      {"longlong", Scalar::kInt64},      {"uint64", Scalar::kUint64},
+      {"uint64_t", Scalar::kUint64},     {"ulonglong", Scalar::kUint64},
+      {"float", Scalar::kFloat},         {"double", Scalar::kDouble}};
+  const auto found = kNames.find(lower_case(header.word("type")));
+  if (found == kNames.end())
+    fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
+  return found->second;
+}
+
+AffineMap nrrd_place(const VoxelHeader& header) {
+  const std::vector<double> origin =
+      header.has("space origin") ? header.numbers("space origin", 3) : std::vector<double>(3, 0);
+  const Vec3 shift{origin[0], origin[1], origin[2]};
+  if (header.has("space directions")) {
+    const auto d = header.numbers("space directions", 9);
+    return place_of({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, {d[6], d[7], d[8]}}, shift);
+  }
+  const auto s = header.has("spacings") ? header.numbers("spacings", 3) : std::vector<double>(3, 1);
+  return place_of({{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}}, shift);
+}
+
+}  // namespace
+
+bool is_nrrd(std::string_view bytes) {
+  return bytes.starts_with("NRRD000");
+}
+
+VoxelImage parse_nrrd(std::string_view bytes) {
+  VoxelHeader header;
+  std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
+    if (text.empty()) return false;
+    const std::size_t colon = text.find(':');
+    if (text.front() == '#' || colon == std::string_view::npos) return true;
+    if (colon + 1 < text.size() && text[colon + 1] == '=') return true;  // a key of somebody's own
+    header.set(text.substr(0, colon), text.substr(colon + 1), line);
+    return true;
+  });
+  if (header.has("data file") || header.has("datafile"))
+    fail_at(0, std::string("has its numbers in another file") + kInOneFile);
+  VoxelImage image;
+  image.size = sizes_of(header.numbers("sizes"), header.line("sizes"));
+  image.place = nrrd_place(header);
+  Numbers numbers{nrrd_scalar(header), lower_case(header.word("endian")) == "big"};
+  const std::string encoding = lower_case(header.word("encoding", "raw"));
+  if (header.has("line skip") || header.has("lineskip") || header.has("byte skip") || header.has("byteskip"))
+    fail_at(0, "skips lines or bytes before its numbers, which is not read");
+  if (encoding == "raw") {
+    take_numbers(data, numbers, image);
+  } else if (encoding == "gz" || encoding == "gzip") {
+    take_numbers(unpack(data), numbers, image);
+  } else if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
+    const std::size_t count = voxels_of(image.size);
+    if (count > data.size())
+      fail_at(0, std::to_string(count) + " voxels announced, but only " + std::to_string(data.size()) +
+                     " bytes follow");
+    TextRows rows(data, static_cast<std::uint64_t>(std::count(
+                            bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(data.size()), '\n')));
+    while (rows.next())
+      for (const std::string_view word : rows.words())
+        image.values.push_back(static_cast<float>(parse_finite(word, rows.line(), "value")));
+    if (image.values.size() != count)
+      fail_at(rows.line(),
+              std::to_string(image.values.size()) + " values for " + std::to_string(count) + " voxels");
+  } else {
+    fail_at(header.line("encoding"), "the encoding '" + encoding + "' is not read; write raw or gzip");
+  }
+  return image;
+}
+
+}  // namespace affskel::core

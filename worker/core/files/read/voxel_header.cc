@@ -1,0 +1,69 @@
+#include "core/files/read/voxel_header.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
+
+namespace affskel::core {
+
+std::string lower_case(std::string_view text) {
+  std::string made(text);
+  std::transform(made.begin(), made.end(), made.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return made;
+}
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(" \t\r"), text.size());
+  text.remove_prefix(begin);
+  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
+}
+
+void VoxelHeader::set(std::string_view name, std::string_view value, std::uint64_t line) {
+  fields_[lower_case(without_blanks(name))] = {std::string(without_blanks(value)), line};
+}
+
+std::string VoxelHeader::word(const char* name, const char* usual) const {
+  const auto found = fields_.find(name);
+  return found == fields_.end() ? usual : found->second.value;
+}
+
+std::uint64_t VoxelHeader::line(const char* name) const {
+  const auto found = fields_.find(name);
+  return found == fields_.end() ? 0 : found->second.line;
+}
+
+std::vector<double> VoxelHeader::numbers(const char* name) const {
+  std::string text = word(name);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  std::vector<double> found;
+  TextRows row(text);
+  if (row.next())
+    for (const std::string_view one : row.words()) found.push_back(parse_finite(one, line(name), name));
+  return found;
+}
+
+std::vector<double> VoxelHeader::numbers(const char* name, std::size_t count) const {
+  const std::vector<double> found = numbers(name);
+  if (found.size() != count)
+    fail_at(line(name), std::string(name) + " needs " + std::to_string(count) + " numbers");
+  return found;
+}
+
+std::string_view read_header_lines(std::string_view bytes,
+                                   const std::function<bool(std::string_view, std::uint64_t)>& take) {
+  std::uint64_t line = 0;
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find('\n');
+    if (end == std::string_view::npos || end > 65536) break;
+    const bool more = take(without_blanks(bytes.substr(0, end)), ++line);
+    bytes.remove_prefix(end + 1);
+    if (!more) return bytes;
+  }
+  fail_at(line + 1, "the header does not end");
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace affskel::core {
+
+/// The text in small letters.
+std::string lower_case(std::string_view text);
+
+/// The text without blanks around it.
+std::string_view without_blanks(std::string_view text);
+
+/// Fields of a header in text, each with its line; names in small letters.
+class VoxelHeader {
+ public:
+  void set(std::string_view name, std::string_view value, std::uint64_t line);
+  bool has(const char* name) const { return fields_.contains(name); }
+  std::string word(const char* name, const char* usual = "") const;
+  std::uint64_t line(const char* name) const;  ///< 0 where there is no such field
+  /// All numbers of a field; parentheses and commas part them, too.
+  /// @throws CoreError kBadInput with the line.
+  std::vector<double> numbers(const char* name) const;
+  std::vector<double> numbers(const char* name, std::size_t count) const;
+
+ private:
+  struct Field {
+    std::string value;
+    std::uint64_t line;
+  };
+  std::map<std::string, Field, std::less<>> fields_;
+};
+
+/// Gives the lines of a header to `take`, up to one of which this says false; returns what is behind that.
+/// @throws CoreError kBadInput when there is none.
+std::string_view read_header_lines(
+    std::string_view bytes, const std::function<bool(std::string_view text, std::uint64_t line)>& take);
+
+}  // namespace affskel::core

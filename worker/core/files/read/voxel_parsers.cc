@@ -1,0 +1,31 @@
+#include "core/files/read/voxel_parsers.h"
+
+#include <cmath>
+
+#include "core/files/read/shape_parsers.h"
+#include "core/files/read/voxel_numbers.h"
+
+namespace affskel::core {
+namespace {
+
+void check_image(const VoxelImage& image) {
+  for (const float value : image.values)
+    if (!std::isfinite(value)) fail_at(0, "the image holds values that are not finite");
+  require_regular(image.place);
+}
+
+}  // namespace
+
+bool is_voxel_image(std::string_view bytes) {
+  return is_nrrd(bytes) || is_metaimage(bytes) || is_nifti(bytes);
+}
+
+VoxelImage parse_voxels(std::string_view bytes) {
+  VoxelImage image = is_nrrd(bytes)    ? parse_nrrd(bytes)
+                     : is_nifti(bytes) ? parse_nifti(bytes)
+                                       : parse_metaimage(bytes);
+  check_image(image);
+  return image;
+}
+
+}  // namespace affskel::core

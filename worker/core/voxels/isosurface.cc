@@ -1,0 +1,132 @@
+#include "core/voxels/isosurface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/number_text.h"
+#include "core/base/error.h"
+#include "core/shapes/implicit_mesh.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kCellsAlongTheSolid = 100;
+constexpr int kFairingRounds = 3;
+constexpr double kMaxCubes = 16777216;
+
+// The image with a layer of voxels around it that lie outside of the solid, as a function of indices: negative within,
+// and scaled so that it falls by no more than 1 per voxel.
+class Inside {
+ public:
+  Inside(const VoxelImage& image, double isovalue) : image_(image), isovalue_(isovalue) {
+    const auto [least, greatest] = std::minmax_element(image.values.begin(), image.values.end());
+    const double low = *least, high = *greatest;
+    if (!(low <= isovalue && isovalue < high)) {
+      throw CoreError(CoreError::Code::kBadInput, "has no surface at the value " + base::to_text(isovalue) +
+                                                      ": its values run from " + base::to_text(low) + " to " +
+                                                      base::to_text(high));
+    }
+    below_ = most_of_the_border_is_above();
+    outside_ = below_ ? high : low;
+    for (std::size_t a = 0; a < 3; ++a) reach_[a] = {std::numeric_limits<double>::max(), -1};
+    for_each_voxel([&](std::size_t i, std::size_t j, std::size_t k, double value) {
+      steepest_ = std::max({steepest_, std::abs(value - voxel(i + 1, j, k)),
+                            std::abs(value - voxel(i, j + 1, k)), std::abs(value - voxel(i, j, k + 1)),
+                            on_border(i, j, k) ? std::abs(value - outside_) : 0.0});
+      if ((value < isovalue_) != below_) return;
+      const std::array<double, 3> at{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+      for (std::size_t a = 0; a < 3; ++a)
+        reach_[a] = {std::min(reach_[a].low, at[a]), std::max(reach_[a].high, at[a])};
+    });
+    if (reach_[0].high < 0)
+      throw CoreError(CoreError::Code::kBadInput,
+                      "has no voxel on the inner side of " + base::to_text(isovalue));
+    steepest_ *= std::sqrt(3.0);  // the slope along each axis at once
+  }
+
+  double operator()(const Vec3& p) const {
+    const double x = std::floor(p.x), y = std::floor(p.y), z = std::floor(p.z);
+    const double u = p.x - x, v = p.y - y, w = p.z - z;
+    double value = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const bool a = (corner & 1) != 0, b = (corner & 2) != 0, c = (corner & 4) != 0;
+      value += (a ? u : 1 - u) * (b ? v : 1 - v) * (c ? w : 1 - w) * voxel_at(x + a, y + b, z + c);
+    }
+    return (below_ ? value - isovalue_ : isovalue_ - value) / steepest_;
+  }
+
+  bool below() const { return below_; }
+  Vec3 low() const { return {reach_[0].low, reach_[1].low, reach_[2].low}; }
+  Vec3 high() const { return {reach_[0].high, reach_[1].high, reach_[2].high}; }
+
+ private:
+  struct Reach {
+    double low, high;
+  };
+
+  // Behind the last voxels lies the outside.
+  double voxel(std::size_t i, std::size_t j, std::size_t k) const {
+    return i < image_.size[0] && j < image_.size[1] && k < image_.size[2] ? image_.at(i, j, k) : outside_;
+  }
+  double voxel_at(double i, double j, double k) const {
+    if (i < 0 || j < 0 || k < 0 || !(i < static_cast<double>(image_.size[0])) ||
+        !(j < static_cast<double>(image_.size[1])) || !(k < static_cast<double>(image_.size[2])))
+      return outside_;
+    return image_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j), static_cast<std::size_t>(k));
+  }
+  bool on_border(std::size_t i, std::size_t j, std::size_t k) const {
+    return i == 0 || j == 0 || k == 0 || i + 1 == image_.size[0] || j + 1 == image_.size[1] ||
+           k + 1 == image_.size[2];
+  }
+  template <class Body>
+  void for_each_voxel(const Body& body) const {
+    const float* value = image_.values.data();
+    for (std::size_t k = 0; k < image_.size[2]; ++k)
+      for (std::size_t j = 0; j < image_.size[1]; ++j)
+        for (std::size_t i = 0; i < image_.size[0]; ++i) body(i, j, k, double{*value++});
+  }
+  bool most_of_the_border_is_above() const {
+    std::int64_t above = 0;
+    for_each_voxel([&](std::size_t i, std::size_t j, std::size_t k, double value) {
+      if (on_border(i, j, k)) above += value >= isovalue_ ? 1 : -1;
+    });
+    return above > 0;
+  }
+
+  const VoxelImage& image_;
+  double isovalue_;
+  bool below_ = false;
+  double outside_ = 0;
+  double steepest_ = 0;
+  std::array<Reach, 3> reach_;  // indices of the inner voxels
+};
+
+}  // namespace
+
+Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options) {
+  const Inside inside(image, options.isovalue);
+  Isosurface found;
+  found.below = inside.below();
+  const Vec3 sides = inside.high() - inside.low();
+  const double longest = std::max({sides.x, sides.y, sides.z}) + 1;
+  found.resolution =
+      options.resolution > 0 ? options.resolution : std::max(1.0, longest / kCellsAlongTheSolid);
+  const double margin = 1 + 1.5 * found.resolution;
+  ImplicitMeshOptions cubes;
+  cubes.low = inside.low() - Vec3{margin, margin, margin};
+  cubes.high = inside.high() + Vec3{margin, margin, margin};
+  cubes.spacing = found.resolution;
+  const Vec3 box = cubes.high - cubes.low;
+  if (box.x / cubes.spacing * (box.y / cubes.spacing) * (box.z / cubes.spacing) > kMaxCubes)
+    throw CoreError(CoreError::Code::kLimit, "the resolution is too fine for so large an image");
+  found.mesh = mesh_zero_set(inside, cubes);
+  fair_onto(inside, 0.25 * found.resolution, kFairingRounds, found.mesh, found.resolution);
+  for (Vec3& p : found.mesh.points) p = image.place(p);
+  if (determinant(image.place) < 0)
+    for (Triangle& t : found.mesh.triangles) std::swap(t[1], t[2]);
+  return found;
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/mesh/mesh.h"
+#include "core/voxels/voxel_image.h"
+
+namespace affskel::core {
+
+struct IsosurfaceOptions {
+  double isovalue = 0;  ///< at the surface
+  double resolution =
+      0;  ///< edge of the cubes that the surface is sought in, voxels; 0: a hundredth of the longest
+          ///< side of the solid's box, but no less than one
+};
+
+struct Isosurface {
+  Mesh mesh;              ///< closed, manifold, outward; in the units of the image's places
+  bool below = false;     ///< whether the solid is where values are below the isovalue
+  double resolution = 0;  ///< as used, voxels
+};
+
+/// The surface at which the image, interpolated linearly along each axis between the voxels' places, has a value.
+/// The solid is the side that most of the image's outermost voxels are not on; where it reaches them it ends within
+/// a voxel behind.  Vertices are moved onto the surface and along it to even triangles (mesh_zero_set, fair_onto).
+/// @throws CoreError kBadInput when the image has no such value, or one side has no voxel, kLimit for more than 2^24
+///   cubes.
+Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options);
+
+}  // namespace affskel::core
