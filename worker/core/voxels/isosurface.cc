@@ -7,12 +7,13 @@
 
 #include "base/number_text.h"
 #include "core/base/error.h"
+#include "core/shapes/edge_collapse.h"
 #include "core/shapes/implicit_mesh.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr double kCellsAlongTheSolid = 100;
+constexpr double kCellsAlongTheSolid = 200;
 constexpr int kFairingRounds = 3;
 constexpr double kMaxCubes = 16777216;
 
@@ -123,6 +124,13 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
     throw CoreError(CoreError::Code::kLimit, "the resolution is too fine for so large an image");
   found.mesh = mesh_zero_set(inside, cubes);
   fair_onto(inside, 0.25 * found.resolution, kFairingRounds, found.mesh, found.resolution);
+  if (found.mesh.triangles.size() > options.max_triangles) {
+    // collapse_edges works on meshes in x > 0.
+    const Vec3 shift{1 - cubes.low.x, 0, 0};
+    for (Vec3& p : found.mesh.points) p = p + shift;
+    found.mesh = collapse_edges(found.mesh, options.max_triangles);
+    for (Vec3& p : found.mesh.points) p = p - shift;
+  }
   for (Vec3& p : found.mesh.points) p = image.place(p);
   if (determinant(image.place) < 0)
     for (Triangle& t : found.mesh.triangles) std::swap(t[1], t[2]);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/mesh/mesh.h"
 #include "core/voxels/voxel_image.h"
 
@@ -8,8 +10,9 @@ namespace affskel::core {
 struct IsosurfaceOptions {
   double isovalue = 0;  ///< at the surface
   double resolution =
-      0;  ///< edge of the cubes that the surface is sought in, voxels; 0: a hundredth of the longest
+      0;  ///< edge of the cubes that the surface is sought in, voxels; 0: a 200th of the longest
           ///< side of the solid's box, but no less than one
+  std::size_t max_triangles = 20000;  ///< of a finer surface edges are collapsed (collapse_edges)
 };
 
 struct Isosurface {

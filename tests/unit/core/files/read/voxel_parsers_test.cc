@@ -1,0 +1,183 @@
+// Images of one grid in three formats, written here by the formats' rules.
+#include "core/files/read/voxel_parsers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/coding.h"
+#include "core/base/error.h"
+#include "core/files/read/parse_shape.h"
+#include "tools/gzipped.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr std::array<std::size_t, 3> kSize{3, 4, 2};
+
+std::vector<float> grey_values() {
+  std::vector<float> values;
+  for (int i = 0; i < 24; ++i) values.push_back(static_cast<float>(i * i - 40));
+  return values;
+}
+
+template <class Number>
+std::string bytes_of(bool big_endian) {
+  std::string bytes;
+  for (const float value : grey_values()) {
+    std::string one;
+    base::append(one, static_cast<Number>(value));
+    bytes += big_endian ? std::string(one.rbegin(), one.rend()) : one;
+  }
+  return bytes;
+}
+
+std::string nrrd(const std::string& type, const std::string& more, const std::string& data) {
+  return "NRRD0005\n# made by hand\ntype: " + type +
+         "\ndimension: 3\nsizes: 3 4 2\nspace: left-posterior-superior\n"
+         "space directions: (0,2,0) (3,0,0) (0,0,-4)\nspace origin: (10,20,30)\nowner:=someone\n" +
+         more + "\n" + data;
+}
+
+std::string metaimage(const std::string& type, const std::string& more, const std::string& data) {
+  return "ObjectType = Image\nNDims = 3\nDimSize = 3 4 2\nElementSpacing = 2 3 4\nOffset = 10 20 30\n"
+         "TransformMatrix = 0 1 0 1 0 0 0 0 -1\nElementType = " +
+         type + "\n" + more + "ElementDataFile = LOCAL\n" + data;
+}
+
+// The header of an affine form, or of a quaternion.
+std::string nifti(bool affine, bool big_endian) {
+  std::string bytes(352, '\0');
+  const auto put = [&](std::size_t at, auto value) {
+    std::string one;
+    base::append(one, value);
+    if (big_endian) one = std::string(one.rbegin(), one.rend());
+    bytes.replace(at, one.size(), one);
+  };
+  const auto put_all = [&](std::size_t at, const std::vector<float>& values) {
+    for (const float value : values) {
+      put(at, value);
+      at += sizeof value;
+    }
+  };
+  put(0, std::int32_t{348});
+  for (const auto& [at, value] :
+       std::vector<std::pair<std::size_t, int>>{{40, 3}, {42, 3}, {44, 4}, {46, 2}, {70, 4}})
+    put(at, static_cast<std::int16_t>(value));
+  put_all(76, {-1, 2, 3, 4});
+  put_all(108, {352, 0.5F, 7});
+  put(affine ? 254 : 252, std::int16_t{1});
+  // A quarter turn about z and, by the sign of the first spacing, a mirror.
+  put_all(256, {0, 0, static_cast<float>(std::sqrt(0.5)), 10, 20, 30});
+  put_all(280, {0, -3, 0, 10, 2, 0, 0, 20, 0, 0, -4, 30});
+  bytes.replace(344, 4, std::string("n+1\0", 4));
+  return bytes + bytes_of<std::int16_t>(big_endian);
+}
+
+void expect_image(const VoxelImage& image, double mirrored = 1, double scale = 1, double offset = 0) {
+  EXPECT_EQ(image.size, kSize);
+  ASSERT_EQ(image.values.size(), 24U);
+  for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(image.values[i], scale * double{grey_values()[i]} + offset);
+  EXPECT_EQ(image.at(1, 2, 1), image.values[1 + 3 * 2 + 12]);
+  // Two along y, three along x, four against z.
+  EXPECT_LT(norm(image.place({1, 2, 1}) - Vec3{10 + mirrored * 6, 22, 26}), 1e-5);
+}
+
+TEST(ParseVoxels, OfEveryTypeAndOrder) {
+  for (const bool big : {false, true}) {
+    const std::string endian = std::string("endian: ") + (big ? "big" : "little") + "\nencoding: raw\n";
+    const std::string msb = std::string("BinaryDataByteOrderMSB = ") + (big ? "True" : "False") + "\n";
+    expect_image(parse_voxels(nrrd("short", endian, bytes_of<std::int16_t>(big))));
+    expect_image(parse_voxels(nrrd("int32_t", endian, bytes_of<std::int32_t>(big))));
+    expect_image(parse_voxels(nrrd("float", endian, bytes_of<float>(big))));
+    expect_image(parse_voxels(nrrd("double", endian, bytes_of<double>(big))));
+    expect_image(parse_voxels(metaimage("MET_SHORT", msb, bytes_of<std::int16_t>(big))));
+    expect_image(parse_voxels(metaimage("MET_DOUBLE", msb, bytes_of<double>(big))));
+    expect_image(parse_voxels(nifti(true, big)), -1, 0.5, 7);
+    expect_image(parse_voxels(nifti(false, big)), -1, 0.5, 7);
+  }
+}
+
+TEST(ParseVoxels, PackedAndAsText) {
+  const std::string data = bytes_of<float>(false);
+  expect_image(parse_voxels(nrrd("float", "encoding: gzip\n", tests::gzipped(data))));
+  std::string text;
+  for (const float value : grey_values()) text += std::to_string(value) + "\n";
+  expect_image(parse_voxels(nrrd("float", "encoding: ascii\n", text)));
+  expect_image(parse_voxels(metaimage("MET_FLOAT", "CompressedData = True\n", tests::gzipped(data))));
+}
+
+std::string image_refusal(const std::string& bytes) {
+  try {
+    parse_voxels(bytes);
+  } catch (const CoreError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ParseVoxels, SaysWhatIsWrong) {
+  const std::string raw = "encoding: raw\n", data = bytes_of<float>(false);
+  EXPECT_NE(image_refusal(nrrd("float", raw, data.substr(1))).find("24 voxels announced, but only"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("colour", raw, data)).find("unknown type of values 'colour'"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", "data file: body.raw\n", data)).find("another file"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", "encoding: bzip2\n", data)).find("line 10"), std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", "sizes: 3 4\n" + raw, data)).find("has 2 axes"), std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", "sizes: 3 4 2 2\n" + raw, data)).find("more than one value"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", "sizes: 30000 30000 30000\n" + raw, data)).find("more than"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", raw, std::string(96, '\xff'))).find("not finite"), std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("float", "space directions: (1,0,0) (2,0,0) (0,0,1)\n" + raw, data)), "");
+  EXPECT_NE(
+      image_refusal("ObjectType = Image\nDimSize = 3 4 2\nElementType = MET_FLOAT\nElementDataFile = a.raw\n")
+          .find("another file"),
+      std::string::npos);
+  std::string pair = nifti(true, false);
+  pair[345] = 'i';
+  EXPECT_NE(image_refusal(pair), "");
+}
+
+// Cut off anywhere, and with any byte another, a file is read or refused.
+TEST(ParseVoxels, DamagedFilesAreReadOrRefused) {
+  for (const std::string& bytes :
+       {nrrd("short", "encoding: raw\n", bytes_of<std::int16_t>(false)),
+        metaimage("MET_SHORT", "", bytes_of<std::int16_t>(false)), nifti(true, true)}) {
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      if (is_voxel_image(bytes.substr(0, size))) {
+        EXPECT_NE(image_refusal(bytes.substr(0, size)), "") << size;
+      }
+    }
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      for (const int flip : {1, 4, 0x80, 0xff}) {
+        std::string other = bytes;
+        other[at] = static_cast<char>(other[at] ^ flip);
+        if (is_voxel_image(other)) image_refusal(other);
+      }
+    }
+  }
+}
+
+TEST(ParseVoxels, AMeshNeedsTheValueAtItsSurface) {
+  const std::string bytes = nrrd("float", "encoding: raw\n", bytes_of<float>(false));
+  try {
+    parse_mesh_file(".nrrd", bytes);
+    ADD_FAILURE();
+  } catch (const CoreError& error) {
+    EXPECT_NE(std::string(error.what()).find("3 x 4 x 2 voxels with values from -40 to 489"),
+              std::string::npos)
+        << error.what();
+  }
+  const MeshFile file = parse_mesh_file("", bytes, {100});
+  EXPECT_EQ(file.format, "voxels");
+  EXPECT_GT(file.off.mesh.triangles.size(), 10U);
+  EXPECT_NE(file.told.find("24 voxels"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace affskel::core

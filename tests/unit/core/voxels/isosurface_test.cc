@@ -1,0 +1,91 @@
+#include "core/voxels/isosurface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/base/error.h"
+#include "core/shapes/body_shape.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+namespace {
+
+// A function of places at the voxels of a grid.
+VoxelImage sampled(const std::array<std::size_t, 3>& size, const AffineMap& place,
+                   const std::function<double(const Vec3&)>& f) {
+  VoxelImage image{size, place, {}};
+  for (std::size_t k = 0; k < size[2]; ++k)
+    for (std::size_t j = 0; j < size[1]; ++j)
+      for (std::size_t i = 0; i < size[0]; ++i)
+        image.values.push_back(static_cast<float>(
+            f(place({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}))));
+  return image;
+}
+
+AffineMap grid(const Vec3& low, double step) {
+  AffineMap map = scaling(step, step, step);
+  map.shift = low;
+  return map;
+}
+
+double ball(const Vec3& p) {
+  return norm(p - Vec3{3, -2, 1}) - 10;
+}
+
+// Whichever side is the solid, and whatever the grid's axes are: the volume is the ball's, the surface faces outward.
+TEST(Isosurface, OfABallHasItsVolume) {
+  const double volume = 4.0 / 3 * M_PI * 1000;
+  AffineMap mirrored = grid({-9, -14, 13}, 1);
+  mirrored.rows[2].z = -1;
+  AffineMap sheared = then(grid({-13, -15, -12}, 1), shear(0, 2, 0.3));
+  for (const AffineMap& place : {grid({-9, -14, -11}, 1), mirrored, sheared}) {
+    for (const double sign : {1.0, -1.0}) {
+      const VoxelImage image =
+          sampled({33, 27, 26}, place, [&](const Vec3& p) { return 5 + sign * ball(p); });
+      const Isosurface found = isosurface(image, {5});
+      EXPECT_EQ(found.below, sign > 0);
+      const Solid solid = make_solid(found.mesh);
+      EXPECT_TRUE(solid.notes.empty());
+      EXPECT_NEAR(solid.volume / volume, 1, 0.01);
+      for (const Vec3& p : found.mesh.points) EXPECT_LT(std::abs(ball(p)), 0.15);
+    }
+  }
+}
+
+// What the image's border cuts off is closed there.
+TEST(Isosurface, IsClosedWhereTheSolidLeavesTheImage) {
+  const VoxelImage image = sampled({31, 31, 14}, grid({-12, -17, -14}, 1), ball);
+  const Isosurface found = isosurface(image, {0});
+  const Solid solid = make_solid(found.mesh);
+  EXPECT_TRUE(solid.notes.empty());
+  EXPECT_LT(solid.volume, 4.0 / 3 * M_PI * 1000 * 0.6);
+}
+
+TEST(Isosurface, OfAMaskIsASolid) {
+  const VoxelImage image =
+      sampled({31, 31, 31}, grid({-12, -17, -14}, 1), [](const Vec3& p) { return ball(p) < 0 ? 1.0 : 0.0; });
+  const Solid solid = make_solid(isosurface(image, {0.5}).mesh);
+  EXPECT_NEAR(solid.volume / (4.0 / 3 * M_PI * 1000), 1, 0.02);
+}
+
+TEST(Isosurface, OfABodyIsTheBodyAtFewerTriangles) {
+  const VoxelImage image = sampled({80, 36, 96}, grid(kBodyLow, 20), body_function);
+  const Isosurface fine = isosurface(image, {0, 0, 1000000}), coarse = isosurface(image, {0, 0, 5000});
+  EXPECT_GT(fine.mesh.triangles.size(), 15000U);
+  EXPECT_EQ(coarse.mesh.triangles.size(), 5000U);
+  const Solid whole = make_solid(fine.mesh), fewer = make_solid(coarse.mesh);
+  EXPECT_NEAR(fewer.volume / whole.volume, 1, 0.002);
+  for (const Vec3& p : coarse.mesh.points) EXPECT_LT(std::abs(body_function(p)), 20);
+}
+
+TEST(Isosurface, SaysThatThereIsNoSuchValue) {
+  const VoxelImage image = sampled({8, 8, 8}, AffineMap(), ball);
+  EXPECT_THROW(isosurface(image, {1000}), CoreError);
+  EXPECT_THROW(isosurface(image, {-1000}), CoreError);
+  EXPECT_THROW(isosurface(image, {0, 1e-3}), CoreError) << "too fine";
+}
+
+}  // namespace
+}  // namespace affskel::core
