@@ -97,6 +97,21 @@ Submission submission_of(const nlohmann::json& body) {
   return submission;
 }
 
+// The upload becomes OFF text.
+void replace_upload(WebCall& call, const std::string& text) {
+  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".off"));
+  base::AtomicFile out(file->path());
+  out.write(text);
+  out.commit();
+  call.upload = std::move(file);
+}
+
+// How an upload is read.
+core::MeshFileOptions reading_of(const WebCall& call) {
+  if (call.request.parameter("isovalue").empty()) return {};
+  return {number_of(call.request, "isovalue")};
+}
+
 // The upload becomes what repair makes of it; the steps as notes of a mesh.
 nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& name, InputFile& input,
                                            core::ExecutionContext* context) {
@@ -108,11 +123,7 @@ nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& nam
     throw ClientError(ExitCode::kUsage, "'repair' must be auto, fill or wrap");
   Repair done = repair(input.off.mesh, name, choice, context);
   if (!done.left.empty()) throw ClientError(ExitCode::kBadInput, done.left);
-  auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".off"));
-  base::AtomicFile out(file->path());
-  out.write(core::write_off(done.mesh));
-  out.commit();
-  call.upload = std::move(file);
+  replace_upload(call, core::write_off(done.mesh));
   input = read_input(call.upload->path().string());
   nlohmann::ordered_json notes = nlohmann::ordered_json::array();
   for (const core::RepairStep& step : done.steps)
@@ -125,7 +136,7 @@ nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& nam
 // Made on request: most users look at the picture.
 http::Response turn_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
-  const InputFile input = read_input(call.upload->path().string());
+  const InputFile input = read_input(call.upload->path().string(), reading_of(call));
   if (input.off.mesh.triangles.size() > kMaxTurned)
     throw ClientError(ExitCode::kLimit,
                       "meshes of up to " + std::to_string(kMaxTurned) + " triangles can be turned");
@@ -139,8 +150,14 @@ http::Response take_mesh(WebCall& call) {
   InputFile input;
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   try {
-    input = read_input(call.upload->path().string());
-    if (!call.request.parameter("repair").empty()) steps = replace_by_repaired(call, name, input, &context);
+    input = read_input(call.upload->path().string(), reading_of(call));
+    if (!input.told.empty()) {
+      steps.push_back({{"severity", "note"}, {"code", "isosurface"}, {"message", input.told}});
+      replace_upload(call, input.bytes);
+    }
+    if (!call.request.parameter("repair").empty()) {
+      for (auto& step : replace_by_repaired(call, name, input, &context)) steps.push_back(std::move(step));
+    }
   } catch (const ClientError& error) {
     if (error.exit_code() != ExitCode::kBadInput) throw;
     return api_answer({{"name", name}, {"error", error.what()}, {"line", error.line()}});

@@ -265,7 +265,7 @@ class Desktop(OnThePage):
         texts = [line.text for line in page.all("#several li")]
         self.assertRegex(texts[0], "^box (is submitted|was there already)$")
         self.assertEqual(texts[1], "nothing.off: the file is empty")
-        self.assertIn("open edges", texts[2])
+        self.assertIn("hole is left", texts[2])
         page.screenshot("desktop-10-several")
         self.choose("nothing.off")
         page.wait(lambda: "nothing.off cannot be read: the file is empty" in page.text())
@@ -322,6 +322,26 @@ class Desktop(OnThePage):
         self.page.shown("#close-interactive").click()
         self.page.wait(lambda: not self.page.all("dialog"))
         self.assertEqual(self.page.script("return document.activeElement.id"), "interactive")
+
+    def test_an_image_of_voxels_is_asked_for_the_value_at_its_surface(self):
+        def inner(n):
+            return 2 < n < 9
+        voxels = bytes(200 if inner(i) and inner(j) and inner(k) else 0
+                       for k in range(12) for j in range(12) for i in range(12))
+        with open(bench.path("ct.nrrd"), "wb") as file:
+            file.write(b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 12 12\nencoding: raw\n\n" + voxels)
+        self.page.shown("a.button[href='#new']").click()
+        self.choose("ct.nrrd")
+        self.page.type("#isovalue", 100)
+        self.assertIn("values from 0 to 200", self.page.text())
+        self.page.screenshot("desktop-14-voxels")
+        self.page.shown("#make-surface").click()
+        self.page.picture_is_drawn("#found img")
+        self.assertIn("the solid is where values are above", self.page.find("#found").text)
+        self.page.screenshot("desktop-15-surface")
+        self.page.type("#points", 500)
+        self.page.shown("#submit").click()
+        self.page.heading("ct")
 
     def test_says_what_is_wrong_with_a_mesh(self):
         self.page.shown("a.button[href='#new']").click()

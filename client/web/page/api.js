@@ -71,13 +71,14 @@ export const jobPath = (id, rest = '') => `/api/jobs/${encodeURIComponent(id)}${
  * @param {File} file
  * @param {(share: number) => void} progress
  * @param {string} path
- * @param {string} repair what is made of it: 'fill', 'wrap', or nothing
+ * @param {Asked} asked
  * @returns {Promise<any>}
  */
-export function upload(file, progress, path = '/api/meshes', repair = '') {
+export function upload(file, progress, path = '/api/meshes', asked = {}) {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
-    request.open('POST', `${path}?name=${encodeURIComponent(file.name)}&background=${background()}&repair=${repair}`);
+    const query = new URLSearchParams({ name: file.name, background: background(), ...asked });
+    request.open('POST', `${path}?${query}`);
     request.upload.onprogress = (event) => progress(event.lengthComputable ? event.loaded / event.total : 0);
     request.onerror = () => reject(new ApiError(0, 'UNREACHABLE', kNoAnswer));
     request.onload = () => {

@@ -6,7 +6,8 @@ import { announce, button, byId, facts, h, setText } from './elements.js';
 import { bytes, count, counted, editable, measure } from './numbers.js';
 import { session } from './session.js';
 
-const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.gz', '.zst'];
+const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.nrrd', '.mha', '.nii', '.gz', '.zst'];
+const kVoxels = /\.(nrrd|mha|nii)(\.gz|\.zst)?$/i;
 const kUsualPoints = 100000;
 const kTyping = 300; // milliseconds after a key until the lattice is counted
 const kAgain = 500; // milliseconds until a count that found no place is tried again
@@ -118,7 +119,7 @@ export class NewJob {
   async submitted(file) {
     try {
       let mesh = await this.sentFile(file);
-      if (!mesh.mesh) mesh = await this.sentFile(file, 'auto');
+      if (!mesh.mesh) mesh = await this.sentFile(file, { repair: 'auto' });
       if (!mesh.mesh) throw new Error(mesh.error);
       const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: jobName(file.name) });
       return [h('a', { href: `#job/${answer.id}` }, answer.name), answer.existed ? ' was there already' : ' is submitted'];
@@ -129,21 +130,21 @@ export class NewJob {
 
   /**
    * @param {File} file
-   * @param {string} repair see upload
+   * @param {Asked} asked
    */
-  async sentFile(file, repair = '') {
+  async sentFile(file, asked = {}) {
     if (file.size === 0) throw new Error('the file is empty');
     const most = session.max_mesh_bytes;
     if (file.size > most) throw new Error(`it has ${bytes(file.size)}; the server takes at most ${bytes(most)}`);
     this.sent.hidden = false;
     this.status.textContent = `Sending ${file.name} …`;
     try {
-      const told = repair ? 'Repairing the mesh …' : 'Looking at the mesh …';
+      const told = asked.repair ? 'Repairing the mesh …' : 'Looking at the mesh …';
       const progress = (share) => {
         this.sent.value = share;
         if (share === 1) setText(this.status, told);
       };
-      return await upload(file, progress, '/api/meshes', repair);
+      return await upload(file, progress, '/api/meshes', asked);
     } finally {
       this.status.textContent = '';
       this.sent.hidden = true;
@@ -158,33 +159,63 @@ export class NewJob {
 
   /**
    * @param {File} file
-   * @param {string} repair see upload
+   * @param {Asked} asked
    */
-  async take(file, repair = '') {
+  async take(file, asked = {}) {
     this.complain('');
     this.found.replaceChildren();
     this.form.replaceChildren();
     try {
-      const mesh = await this.sentFile(file, repair);
-      if (mesh.facts) this.show(mesh, file, await loadedPicture(mesh));
-      else this.complain(`${file.name} cannot be read: ${mesh.error}`);
+      const mesh = await this.sentFile(file, asked);
+      if (mesh.facts) {
+        this.show(mesh, file, asked, await loadedPicture(mesh));
+        return;
+      }
+      this.complain(`${file.name} cannot be read: ${mesh.error}`);
+      if (kVoxels.test(file.name)) this.askIsovalue(file, asked);
     } catch (error) {
       this.complain(`${file.name} cannot be read: ${error.message}`);
     }
+  }
+
+  // Of an image of voxels.
+  askIsovalue(file, asked) {
+    const value = numberField('isovalue', { min: undefined, value: asked.isovalue });
+    const take = () => {
+      if (value.value) this.take(file, { isovalue: value.value });
+    };
+    this.found.replaceChildren(
+      h(
+        'form',
+        {
+          class: 'card',
+          novalidate: true,
+          onsubmit: (event) => {
+            event.preventDefault();
+            take();
+          },
+        },
+        h('h2', {}, 'An image of voxels'),
+        field('isovalue', 'Value at the surface of the solid', value),
+        h('div', { class: 'row end' }, h('button', { type: 'submit', class: 'primary', id: 'make-surface' }, 'Make its surface')),
+      ),
+    );
+    value.focus();
   }
 
   /** @param {File} file */
   async turn(file) {
     this.complain('');
     try {
-      const { href } = await upload(file, () => {}, '/api/meshes/view');
+      const { href } = await upload(file, () => {}, '/api/meshes/view', this.asked);
       showInteractive(href, file.name, []);
     } catch (error) {
       this.complain(error.message);
     }
   }
 
-  show(mesh, file, picture) {
+  show(mesh, file, asked, picture) {
+    this.asked = asked;
     const { facts: f } = mesh;
     const defects = (f.defects || []).map((defect) => h('li', { class: 'defect' }, defect.message));
     const notes = (f.notes || []).map((note) => h('li', { class: note.severity }, note.message));
@@ -204,8 +235,8 @@ export class NewJob {
           h(
             'div',
             { class: 'row wrap' },
-            button('Fill its holes', () => this.take(file, 'fill'), { id: 'fill-holes', class: 'primary' }),
-            button('Wrap it in a new surface', () => this.take(file, 'wrap'), { id: 'wrap' }),
+            button('Fill its holes', () => this.take(file, { ...asked, repair: 'fill' }), { id: 'fill-holes', class: 'primary' }),
+            button('Wrap it in a new surface', () => this.take(file, { ...asked, repair: 'wrap' }), { id: 'wrap' }),
           ),
         picture,
         meshFacts(f),

@@ -63,3 +63,8 @@ interface Job {
 interface Rate {
   perSecond: number;
 }
+/** How an upload is read, and what is made of it. */
+interface Asked {
+  repair?: 'auto' | 'fill' | 'wrap';
+  isovalue?: string;
+}

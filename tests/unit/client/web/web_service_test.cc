@@ -157,6 +157,26 @@ TEST_F(WebServiceTest, ComputesNothingForWhoHasGone) {
   EXPECT_EQ(ask("GET", "/api/meshes/" + mesh + "/lattice?points=8000").error(), "stopped before the end");
 }
 
+// An image of voxels is asked for the value at its surface, and is a mesh from then on.
+TEST_F(WebServiceTest, TakesImagesOfVoxels) {
+  sign_in();
+  std::string image =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 8 8 8\nspacings: 100 100 100\nencoding: raw\n\n";
+  for (int i = 0; i < 512; ++i) {
+    const auto inner = [](int n) { return n % 8 > 1 && n % 8 < 6; };
+    image += static_cast<char>(inner(i) && inner(i / 8) && inner(i / 64) ? 200 : 0);
+  }
+  EXPECT_NE(
+      ask("POST", "/api/meshes?name=ct.nrrd", image).object()["error"].get<std::string>().find("isovalue"),
+      std::string::npos);
+  EXPECT_EQ(ask("POST", "/api/meshes?name=ct.nrrd&isovalue=x", image).status, 400);
+  const json mesh = ask("POST", "/api/meshes?name=ct.nrrd&isovalue=100", image).object();
+  EXPECT_EQ(mesh["facts"]["notes"][0]["code"], "isosurface");
+  EXPECT_NEAR(mesh["facts"]["volume"].get<double>() / 64e6, 1, 0.1);
+  ask("POST", "/api/jobs", json{{"mesh", mesh["mesh"]}, {"spacing", 50}, {"name", "ct"}}.dump());
+  EXPECT_EQ(service_.mesh.substr(0, 4), "OFF\n");
+}
+
 TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   sign_in();
   const json open = uploaded("open.off", tests::read_file(dir_ / "open.off"));
