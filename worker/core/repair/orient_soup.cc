@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/repair/surface_mesh.h"
+#include "core/repair/t_junctions.h"
 
 namespace affskel::core {
 namespace {
@@ -41,6 +42,19 @@ std::size_t drop_degenerate(Soup& soup) {
   return before - soup.triangles.size();
 }
 
+std::uint64_t split_junctions(Soup& soup) {
+  std::vector<Vec3> points;
+  for (const Point& p : soup.points) points.push_back({p.x(), p.y(), p.z()});
+  std::vector<Triangle> triangles;
+  for (const Polygon& t : soup.triangles)
+    triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                         static_cast<std::uint32_t>(t[2])});
+  const std::uint64_t junctions = split_t_junctions(points, triangles);
+  soup.triangles.clear();
+  for (const Triangle& t : triangles) soup.triangles.push_back({t[0], t[1], t[2]});
+  return junctions;
+}
+
 // The lesser of those turned and those left: a part may have been turned as a whole.
 std::uint64_t turned_since(const std::vector<Polygon>& before, const Soup& soup) {
   std::uint64_t turned = 0;
@@ -68,6 +82,7 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
   if (soup.triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "no triangle with three different corners");
+  oriented.junctions = split_junctions(soup);
   const std::size_t points = soup.points.size();
   const std::vector<Polygon> before = soup.triangles;
   PMP::orient_polygon_soup(soup.points, soup.triangles);

@@ -13,6 +13,7 @@ struct OrientedSoup {
   std::uint64_t unused_points = 0;  ///< that no triangle names
   std::uint64_t degenerate = 0;     ///< triangles that name a point twice, or have no area as a line has none
   std::uint64_t repeated = 0;       ///< triangles beside another of the same corners
+  std::uint64_t junctions = 0;      ///< points put into open edges that they lie on, see split_t_junctions
   std::uint64_t turned = 0;         ///< triangles that disagreed with most of their part
   std::uint64_t separated_points =
       0;  ///< points that were doubled: where more than two triangles meet at an edge, or

@@ -63,6 +63,8 @@ class Mending {
          base::counted(soup.degenerate, "triangle") + " with two corners at one place left out");
     tell("repeated-triangles", soup.repeated,
          base::counted(soup.repeated, "triangle") + " beside another of the same corners left out");
+    tell("t-junctions", soup.junctions,
+         base::counted(soup.junctions, "point") + " put into edges that they lie on (T-junctions)");
     tell("turned-triangles", soup.turned,
          base::counted(soup.turned, "triangle") + " turned to agree with the others");
     tell(

@@ -25,7 +25,7 @@ struct RepairOptions {
 /// One thing that was done.
 struct RepairStep {
   std::string
-      code;  ///< stable: "welded-points", "unused-points", "degenerate-triangles", "repeated-triangles",
+      code;  ///< stable: "welded-points", "unused-points", "degenerate-triangles", "repeated-triangles", "t-junctions",
   ///< "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "flaps", "turned-out",
   ///< "wrapped"
   std::uint64_t count = 0;

@@ -1,9 +1,11 @@
 #include "core/solid/solid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "base/number_text.h"
 #include "core/base/double_sum.h"
@@ -12,6 +14,7 @@
 #include "core/mesh/coincident_points.h"
 #include "core/mesh/mesh_topology.h"
 #include "core/mesh/unused_points.h"
+#include "core/solid/copies.h"
 #include "core/solid/shell_nesting.h"
 #include "core/solid/specks.h"
 #include "core/spatial/self_intersection.h"
@@ -276,19 +279,28 @@ class SolidBuilder {
   }
 
   void turn_shells(const std::vector<std::uint8_t>& wrong, std::uint32_t number) {
-    std::uint32_t first = 0;
-    bool found = false;
+    std::array<std::optional<std::uint32_t>, 2> first;  // by whether it is a cavity's
     for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
-      if (wrong[solid_.triangle_shell[t]] == 0) continue;
+      const std::uint32_t shell = solid_.triangle_shell[t];
+      if (wrong[shell] == 0) continue;
       std::swap(solid_.mesh.triangles[t][1], solid_.mesh.triangles[t][2]);
-      if (!found) first = t;
-      found = true;
+      if (auto& at = first[solid_.shells[shell].cavity ? 1 : 0]; !at) at = t;
     }
+    std::uint32_t cavities = 0;
     for (std::size_t s = 0; s < wrong.size(); ++s) {
-      if (wrong[s] != 0) solid_.shells[s].volume = -solid_.shells[s].volume;
+      if (wrong[s] == 0) continue;
+      solid_.shells[s].volume = -solid_.shells[s].volume;
+      if (solid_.shells[s].cavity) ++cavities;
     }
-    repaired("turned-out", std::to_string(number) + " of " + std::to_string(wrong.size()) +
-                               " surfaces faced inward and were turned, the first at " + place(first));
+    const std::string of_all = " of " + base::counted(wrong.size(), "surface");
+    if (first[0])
+      repaired("turned-out", std::to_string(number - cavities) + of_all +
+                                 " faced inward and turned, the first at " + place(*first[0]));
+    if (first[1])
+      repaired("turned-cavities",
+               std::to_string(cavities) + of_all +
+                   " inside of others taken for cavities, though facing outward, the first at " +
+                   place(*first[1]));
   }
 
   // The solid of the input without these specks.  Built from the beginning, because the box may change, and
@@ -378,6 +390,12 @@ class SolidBuilder {
     for (const auto& [i, j] : pairs) {
       stop.did(kOperationsPerPair);
       if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
+    }
+    if (const auto copies = copied_shells(solid_); !copies.empty()) {
+      note(MeshNote::Severity::kWarning, "copies",
+           base::counted(copies.size(), "surface") + " lie where another lies, the first: surface " +
+               std::to_string(copies[0].second) + " is a copy of surface " + std::to_string(copies[0].first) +
+               "; what they bound counts twice");
     }
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
                                                                : "at least " + std::to_string(pairs.size());

@@ -23,7 +23,8 @@ struct MeshNote {
   enum class Severity { kRepaired, kWarning };
   Severity severity = Severity::kWarning;
   std::string code;     ///< stable: "unused-vertices", "welded", "degenerate-triangles", "reoriented",
-                        ///< "split-vertices", "specks", "turned-out", "self-intersecting"
+                        ///< "split-vertices", "specks", "turned-out", "turned-cavities", "copies",
+                        ///< "self-intersecting"
   std::string message;  ///< counts and the first place
 };
 

@@ -46,6 +46,29 @@ TEST(RepairMesh, LeavesASoundMeshAsItIs) {
   EXPECT_EQ(volume_of(repaired.mesh), volume_of(body));
 }
 
+// A side that is divided beside ones that are not.
+TEST(RepairMesh, JoinsAtTJunctions) {
+  const auto has_z = [](const Mesh& mesh, const Triangle& t, double z) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.points[v].z == z; });
+  };
+  for (const std::uint32_t divisions : {2U, 3U, 7U}) {
+    Mesh box = make_box(1, 2, 3), divided = make_box(1, 2, 3, divisions);
+    std::erase_if(box.triangles, [&](const Triangle& t) { return has_z(box, t, 3); });
+    std::erase_if(divided.triangles, [&](const Triangle& t) { return !has_z(divided, t, 3); });
+    const auto first = static_cast<std::uint32_t>(box.points.size());
+    box.points.insert(box.points.end(), divided.points.begin(), divided.points.end());
+    for (const Triangle& t : divided.triangles)
+      box.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    const RepairedMesh repaired = repair_mesh(box);
+    EXPECT_TRUE(repaired.left.empty()) << repaired.left;
+    ASSERT_NE(step(repaired, "t-junctions"), nullptr);
+    EXPECT_EQ(step(repaired, "t-junctions")->count, 4 * (divisions - 1));
+    EXPECT_EQ(step(repaired, "filled-holes"), nullptr);
+    EXPECT_NEAR(volume_of(repaired.mesh), 6, 1e-12);
+    EXPECT_TRUE(make_solid(repaired.mesh).notes.empty());
+  }
+}
+
 TEST(RepairMesh, FillsPlaneHolesWithPlanes) {
   Mesh box = make_box(1, 2, 3, 4);
   std::erase_if(box.triangles, [&](const Triangle& t) {

@@ -87,8 +87,18 @@ TEST(MakeSolid, TurnsWhatFacesInward) {
   const Mesh hollow = joined(make_sphere(3, 320), reversed(make_sphere(1, 80)));
   EXPECT_NEAR(make_solid(reversed(hollow)).volume, mesh_facts(hollow).volume, 1e-10);
   // Both surfaces outward: the inner one becomes the cavity's wall.
-  EXPECT_NEAR(make_solid(joined(make_sphere(3, 320), make_sphere(1, 80))).volume, mesh_facts(hollow).volume,
-              1e-10);
+  const Solid outward = make_solid(joined(make_sphere(3, 320), make_sphere(1, 80)));
+  EXPECT_NEAR(outward.volume, mesh_facts(hollow).volume, 1e-10);
+  EXPECT_TRUE(has_note(outward, "turned-cavities"));
+  EXPECT_FALSE(has_note(outward, "turned-out"));
+}
+
+TEST(MakeSolid, NamesCopies) {
+  const Mesh ball = make_sphere(1, 80);
+  Mesh shuffled = ball;
+  std::reverse(shuffled.triangles.begin(), shuffled.triangles.end());
+  EXPECT_TRUE(has_note(make_solid(joined(ball, shuffled)), "copies"));
+  EXPECT_FALSE(has_note(make_solid(joined(ball, moved(ball, {0.5, 0, 0}))), "copies"));
 }
 
 TEST(MakeSolid, MakesFacesAgreeByTurningTheFewerOnes) {

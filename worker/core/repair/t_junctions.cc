@@ -1,0 +1,122 @@
+#include "core/repair/t_junctions.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/mesh/box.h"
+#include "core/mesh/edges.h"
+#include "core/spatial/box_tree.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kOfDiagonal = 1e-6, kOfEdge = 1e-3;
+constexpr int kEdgesOfATriangle = 3;  // it may have junctions on each
+
+struct OpenEdge {
+  std::uint32_t triangle, corner;  // from this corner to the next
+};
+
+// What may meet a segment thickened by a distance.
+struct Stick {
+  Vec3 from, to;
+  double distance;
+
+  bool meets(const Box& box) const {
+    double low = 0, high = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = from[static_cast<int>(k)], step = to[static_cast<int>(k)] - at;
+      const double below = box.low[k] - distance - at, above = box.high[k] + distance - at;
+      if (step == 0) {
+        if (below > 0 || above < 0) return false;
+        continue;
+      }
+      low = std::max(low, std::min(below / step, above / step));
+      high = std::min(high, std::max(below / step, above / step));
+    }
+    return low <= high;
+  }
+};
+
+class Junctions {
+ public:
+  Junctions(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
+      : points_(points), triangles_(triangles), tolerance_(tolerance) {
+    std::vector<std::uint32_t> ends;
+    Edges(points.size(), triangles).for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+      if (sides.size() != 1) return;
+      open_.push_back({sides[0].triangle(), sides[0].half_edge % 3});
+      ends.push_back(low);
+      ends.push_back(high);
+    });
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    rim_ = std::move(ends);
+    std::vector<Box> boxes(rim_.size());
+    for (std::size_t r = 0; r < rim_.size(); ++r) boxes[r].include(points[rim_[r]]);
+    tree_ = BoxTree(std::move(boxes));
+  }
+
+  // The triangles with every junction of one edge each put in; the number of these.
+  std::uint64_t split(std::vector<Triangle>& result) const {
+    std::uint64_t found = 0;
+    std::vector<bool> done(triangles_.size(), false);
+    result = triangles_;
+    for (const OpenEdge& edge : open_) {
+      if (done[edge.triangle]) continue;
+      const Triangle& t = triangles_[edge.triangle];
+      const std::uint32_t a = t[edge.corner], b = t[(edge.corner + 1) % 3], c = t[(edge.corner + 2) % 3];
+      const std::vector<std::uint32_t> between = on_edge(a, b, c);
+      if (between.empty()) continue;
+      done[edge.triangle] = true;
+      found += between.size();
+      result[edge.triangle] = {a, between.front(), c};
+      for (std::size_t i = 0; i < between.size(); ++i)
+        result.push_back({between[i], i + 1 < between.size() ? between[i + 1] : b, c});
+    }
+    return found;
+  }
+
+ private:
+  // Vertices of the rim on the edge from a to b, in that order.
+  std::vector<std::uint32_t> on_edge(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const Vec3 from = points_[a], along = points_[b] - from;
+    const double length = norm(along), near = std::min(tolerance_, kOfEdge * length);
+    std::vector<std::pair<double, std::uint32_t>> found;
+    tree_.visit(Stick{from, points_[b], near}, [&](std::uint32_t r) {
+      const std::uint32_t v = rim_[r];
+      const Vec3 way = points_[v] - from;
+      const double t = dot(way, along) / length;
+      if (v == a || v == b || v == c || !(t > near && t < length - near)) return;
+      if (norm(cross(way, along)) <= near * length) found.emplace_back(t, v);
+    });
+    std::sort(found.begin(), found.end());
+    std::vector<std::uint32_t> vertices;
+    for (const auto& [t, v] : found) vertices.push_back(v);
+    return vertices;
+  }
+
+  const std::vector<Vec3>& points_;
+  const std::vector<Triangle>& triangles_;
+  double tolerance_;
+  std::vector<OpenEdge> open_;
+  std::vector<std::uint32_t> rim_;
+  BoxTree tree_;
+};
+
+}  // namespace
+
+std::uint64_t split_t_junctions(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
+  const double tolerance = kOfDiagonal * norm(box_of(points).sides());
+  std::uint64_t found = 0;
+  for (int round = 0; round < kEdgesOfATriangle; ++round) {
+    std::vector<Triangle> result;
+    const std::uint64_t now = Junctions(points, triangles, tolerance).split(result);
+    if (now == 0) break;
+    found += now;
+    triangles = std::move(result);
+  }
+  return found;
+}
+
+}  // namespace affskel::core

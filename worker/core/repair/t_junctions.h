@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace affskel::core {
+
+/// Splits triangles at T-junctions: where a vertex of the rim lies on an open edge of a triangle, within a millionth of
+/// the box's diagonal and a thousandth of the edge, the triangle is cut there, so that the edge can meet those of the
+/// other side.  Nothing moves.
+/// @return how many vertices were put into edges.
+std::uint64_t split_t_junctions(const std::vector<Vec3>& points, std::vector<Triangle>& triangles);
+
+}  // namespace affskel::core
