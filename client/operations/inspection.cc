@@ -61,8 +61,10 @@ void add_solid_facts(ordered_json& facts, const core::Solid& solid) {
   facts["surfaces"] = surfaces;
 }
 
-ordered_json notes_json(const core::Solid& solid) {
+ordered_json notes_json(const core::Solid& solid, const core::OffMesh& off) {
   ordered_json notes = ordered_json::array();
+  if (const std::string text = uneven_text(off, solid.volume); !text.empty())
+    notes.push_back({{"severity", "warning"}, {"code", "uneven-polygons"}, {"message", text}});
   for (const core::MeshNote& note : solid.notes) {
     const bool repaired = note.severity == core::MeshNote::Severity::kRepaired;
     notes.push_back(
@@ -113,7 +115,7 @@ Inspection inspect(const InputFile& input, std::size_t max_places, core::Executi
     inspection.solid = check_solid(input, true, context);
     add_solid_facts(inspection.facts, *inspection.solid);
     inspection.facts["computable"] = true;
-    inspection.facts["notes"] = notes_json(*inspection.solid);
+    inspection.facts["notes"] = notes_json(*inspection.solid, input.off);
   } catch (const ClientError& error) {
     if (error.exit_code() == ExitCode::kCancelled) throw;
     inspection.facts["computable"] = false;

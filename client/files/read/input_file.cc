@@ -124,8 +124,20 @@ core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionCont
   }
 }
 
+std::string uneven_text(const core::OffMesh& off, double volume) {
+  constexpr double kTold = 1e-4;  // of the volume
+  const double share = off.uneven_volume / volume;
+  if (!(share > kTold)) return "";
+  const std::string place = off.uneven_line > 0 ? " (line " + std::to_string(off.uneven_line) + ")" : "";
+  return "faces of more than three sides are not plane, the worst by " +
+         base::rounded(off.uneven_distance, 3) + place +
+         "; cut otherwise, they would change the volume by up to " + base::rounded(100 * share, 2) + " %";
+}
+
 Notices solid_notices(const core::Solid& solid, const InputFile& input) {
   Notices notices;
+  if (const std::string text = uneven_text(input.off, solid.volume); !text.empty())
+    notices.push_back(warning("UNEVEN_POLYGONS", text, input.path));
   for (const core::MeshNote& found : solid.notes) {
     const bool repaired = found.severity == core::MeshNote::Severity::kRepaired;
     notices.push_back(repaired ? note(found.code, "repaired: " + found.message, input.path)

@@ -48,6 +48,10 @@ core::Solid check_solid(const InputFile& input, bool repair, core::ExecutionCont
 /// What of a file was passed over: "1204 rows of vn (normals), 2 rows of g (groups)"; empty when nothing was.
 std::string passed_over_text(const core::OffMesh& off);
 
+/// How far faces with more than three sides are from being plane, and what that does to the volume; empty where it does
+/// next to nothing.
+std::string uneven_text(const core::OffMesh& off, double volume);
+
 /// That the file is not what is submitted, and what of it was passed over.
 Notices conversion_notices(const InputFile& input);
 

@@ -1,5 +1,8 @@
 #include "core/mesh/polygon_cut.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace affskel::core {
 namespace {
 
@@ -82,6 +85,24 @@ class EarClipper {
 };
 
 }  // namespace
+
+Unevenness unevenness(std::span<const Vec3> points, std::span<const std::uint32_t> corners) {
+  const Vec3 up = polygon_area_vector(points, corners);
+  const double length = norm(up);
+  Unevenness found;
+  if (corners.size() == 4) {
+    const Vec3& a = points[corners[0]];
+    found.volume =
+        std::abs(dot(points[corners[1]] - a, cross(points[corners[2]] - a, points[corners[3]] - a))) / 6;
+  }
+  if (!(length > 0)) return found;
+  Vec3 mean;
+  for (const std::uint32_t v : corners) mean = mean + (1.0 / static_cast<double>(corners.size())) * points[v];
+  for (const std::uint32_t v : corners)
+    found.distance = std::max(found.distance, std::abs(dot(points[v] - mean, up)) / length);
+  if (corners.size() > 4) found.volume = 0.5 * length * found.distance;
+  return found;
+}
 
 void cut_polygon(std::span<const Vec3> points, std::span<const std::uint32_t> corners,
                  std::vector<Triangle>& out) {

@@ -12,6 +12,17 @@ namespace affskel::core {
 /// Ears are clipped of polygons with up to so many corners.
 inline constexpr std::size_t kMaxEarCorners = 256;
 
+/// How far a polygon is from being plane.
+struct Unevenness {
+  double distance = 0;  ///< of the farthest corner from the plane through the corners' mean along their area
+  double volume =
+      0;  ///< between two ways of cutting it: of a quadrilateral that of its corners' tetrahedron, of a
+          ///< larger one at most about its area times the distance
+};
+
+/// @param corners >= 3, indices into points.
+Unevenness unevenness(std::span<const Vec3> points, std::span<const std::uint32_t> corners);
+
 /// Cuts one polygon (>= 3 corners, indices into points) into corners.size() - 2 triangles of the same
 /// sense and appends them.  Quadrilaterals along the diagonal that leaves both halves facing the
 /// polygon's way, the shorter one if both do; larger ones by clipping ears in the plane of the area

@@ -393,9 +393,9 @@ class SolidBuilder {
     }
     if (const auto copies = copied_shells(solid_); !copies.empty()) {
       note(MeshNote::Severity::kWarning, "copies",
-           base::counted(copies.size(), "surface") + " lie where another lies, the first: surface " +
-               std::to_string(copies[0].second) + " is a copy of surface " + std::to_string(copies[0].first) +
-               "; what they bound counts twice");
+           base::counted(copies.size(), "surface") + (copies.size() == 1 ? " lies" : " lie") +
+               " where another lies, the first: surface " + std::to_string(copies[0].second) +
+               " is a copy of surface " + std::to_string(copies[0].first) + "; what they bound counts twice");
     }
     const std::string count = pairs.size() < options.max_pairs ? std::to_string(pairs.size())
                                                                : "at least " + std::to_string(pairs.size());

@@ -183,7 +183,7 @@ class OffReader {
     cut_polygon(result_.mesh.points, corners_, result_.mesh.triangles);
     result_.triangle_line.insert(result_.triangle_line.end(), result_.mesh.triangles.size() - before,
                                  static_cast<std::uint32_t>(rows_.line()));
-    if (sides > 3) ++result_.polygons_cut;
+    if (sides > 3) count_cut(result_, corners_, rows_.line());
   }
 
   void read_corners(std::uint64_t f, std::uint64_t sides) {
@@ -230,6 +230,15 @@ class OffReader {
 };
 
 }  // namespace
+
+void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64_t line) {
+  const Unevenness found = unevenness(off.mesh.points, corners);
+  ++off.polygons_cut;
+  off.uneven_volume += found.volume;
+  if (!(found.distance > off.uneven_distance)) return;
+  off.uneven_distance = found.distance;
+  off.uneven_line = line;
+}
 
 OffMesh read_off(std::string_view bytes, const ReadOffOptions& options) {
   return OffReader(bytes, options).run();

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,14 @@ struct OffMesh {
   std::vector<std::uint32_t> triangle_line;  ///< per triangle: the line of its polygon
   std::uint64_t polygons = 0;                ///< faces in the file, of any number of sides >= 3
   std::uint64_t polygons_cut = 0;            ///< faces with more than three sides, cut into triangles
+  double uneven_distance = 0;                ///< of these, the largest Unevenness::distance, mesh units
+  std::uint64_t uneven_line = 0;             ///< and its line, 0 = none
+  double uneven_volume = 0;                  ///< of these, the sum of Unevenness::volume, mesh units cubed
   std::vector<PassedOver> passed_over;       ///< of formats that hold more than a mesh, in the file's order
 };
+
+/// Counts a polygon that is cut.
+void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64_t line);
 
 /// Reads a Geomview OFF file in text form, strictly: header [ST][C][N][4]OFF, counts on the same or on the
 /// next line (the edge count may be absent), `#` comments, lines as TextRows has them; per vertex three finite

@@ -68,7 +68,6 @@ class BinaryOff {
     corners_.clear();
     for (std::uint32_t i = 0; i < sides; ++i) corners_.push_back(std::bit_cast<std::int32_t>(word(place)));
     add_polygon(file_, corners_, place, 0);
-    if (sides > 3) ++file_.off.polygons_cut;
     const std::uint32_t components = count("the colour of " + place);
     if (components > 4) fail_at(0, place + ": " + std::to_string(components) + " components of a colour");
     for (std::uint32_t i = 0; i < components; ++i) word(place);

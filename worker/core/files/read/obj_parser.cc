@@ -105,7 +105,6 @@ ShapeFile parse_obj(std::string_view bytes) {
       add_polygon(file, corners, "the face", rows.line());
       file.off.triangle_line.resize(file.off.mesh.triangles.size(), static_cast<std::uint32_t>(rows.line()));
       ++file.off.polygons;
-      if (corners.size() > 3) ++file.off.polygons_cut;
     } else if (words[0] == "l") {
       read_corners("a line");
       add_polyline(file, corners, "the line", rows.line());

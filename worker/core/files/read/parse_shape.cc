@@ -174,6 +174,7 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
     fail_at(line, place + " uses a vertex twice");
   }
   if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+  if (indices.size() > 3) count_cut(file.off, indices, line);
   cut_polygon(mesh.points, indices, mesh.triangles);
 }
 

@@ -299,7 +299,6 @@ class PlyReader {
                                      static_cast<std::uint32_t>(values_.line()));
     }
     ++file_.off.polygons;
-    if (corners.size() > 3) ++file_.off.polygons_cut;
   }
 
   PlyHeader header_;

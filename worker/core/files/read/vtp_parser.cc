@@ -205,7 +205,6 @@ class VtpReader {
   void add_face(const std::vector<std::int64_t>& corners, const std::string& place, std::uint64_t line) {
     add_polygon(file_, corners, place, line);
     ++file_.off.polygons;
-    if (corners.size() > 3) ++file_.off.polygons_cut;
   }
 
   // Every corner from the third on makes a triangle with the two before it, every other one turned over.

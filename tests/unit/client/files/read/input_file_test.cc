@@ -128,6 +128,27 @@ TEST(ReadInput, KeepsTheBytesOfOffText) {
   }
 }
 
+// A box whose upper face is bent: half a tetrahedron of its corners lies between the two ways of cutting it.
+TEST(ReadInput, TellsOfFacesThatAreNotPlane) {
+  const tests::TemporaryDirectory dir;
+  const auto box = [](const std::string& corner) {
+    return "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n" + corner +
+           "\n0 1 1\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  };
+  tests::write_file(dir / "plane.off", box("1 1 1"));
+  tests::write_file(dir / "bent.off", box("1 1 1.12"));
+  const auto codes = [&](const char* name) {
+    const InputFile input = read_input(dir / name);
+    return solid_notices(check_solid(input, true), input);
+  };
+  EXPECT_TRUE(codes("plane.off").empty());
+  const Notices told = codes("bent.off");
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].code, "UNEVEN_POLYGONS");
+  EXPECT_NE(told[0].message.find("the worst by 0.0299 (line 12)"), std::string::npos) << told[0].message;
+  EXPECT_NE(told[0].message.find("by up to 2 %"), std::string::npos) << told[0].message;
+}
+
 TEST(ReadInput, KnowsAFormatByItsContent) {
   const tests::TemporaryDirectory dir;
   const std::string ply = bytes_as(FileFormat::kPly, core::make_box(3, 2, 1));
