@@ -24,7 +24,7 @@ void write_sample(FileFormat format, const std::string& path, std::size_t piece)
   const std::string bytes = sample_field();
   base::AtomicFile file(path);
   FieldWriter writer(format, file, points, kVolume, {});
-  FieldDecoder decoder(points, directions, writer);
+  FieldDecoder decoder(points, &directions, writer);
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
     decoder.data(std::string_view(bytes).substr(at, piece));
   }
@@ -108,7 +108,7 @@ class DecoderErrors : public ::testing::Test {
     {
       base::AtomicFile file(dir_ / "f.csv");
       FieldWriter writer(FileFormat::kCsv, file, points, kVolume, {});
-      FieldDecoder decoder(points, directions, writer);
+      FieldDecoder decoder(points, &directions, writer);
       EXPECT_THROW(
           {
             decoder.data(bytes);
