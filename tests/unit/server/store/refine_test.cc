@@ -14,7 +14,7 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::uint32_t kPoints = 5000, kDirections = 32, kVertices = 12;
+constexpr std::uint32_t kRefinePoints = 5000, kRefineDirections = 32, kRefineVertices = 12;
 
 // Whether a round finds something at a point: less and less, nothing in round 3.
 bool finds(std::uint32_t point, std::uint32_t round) {
@@ -30,7 +30,7 @@ void add_record(v1::RefinedRecords& records, std::uint32_t point, std::uint32_t 
   records.add_erosion(refined_erosion(point, round));
   records.add_slope(point + 0.5);
   for (const double x : {0.6, 0.0, -0.8}) records.add_normal(x);
-  records.add_saddle(point % kVertices);
+  records.add_saddle(point % kRefineVertices);
   records.add_saddle(wire::kNoSaddle);
 }
 
@@ -42,8 +42,8 @@ v1::RefinedRecords refined_records(std::uint32_t begin, std::uint32_t end, std::
 }
 
 std::string expected_refined(std::uint32_t rounds) {
-  std::string field(std::size_t{kPoints} * wire::kRefinedRecordBytes, '\0');
-  for (std::uint32_t point = 0; point < kPoints; ++point) {
+  std::string field(std::size_t{kRefinePoints} * wire::kRefinedRecordBytes, '\0');
+  for (std::uint32_t point = 0; point < kRefinePoints; ++point) {
     wire::RefinedRecord record;
     for (std::uint32_t round = 0; round < rounds; ++round) {
       if (!finds(point, round)) continue;
@@ -52,7 +52,7 @@ std::string expected_refined(std::uint32_t rounds) {
     }
     record.slope = point + 0.5;
     record.normal = {0.6, 0.0, -0.8};
-    record.saddles[0] = point % kVertices;
+    record.saddles[0] = point % kRefineVertices;
     wire::encode_refined_record(field.data() + std::size_t{point} * wire::kRefinedRecordBytes, record);
   }
   return field;
@@ -70,8 +70,8 @@ class RefineTest : public StoreTest {
   v1::Job erode_infimum() {
     const v1::Job job = submit_infimum();
     const v1::Lease task = lease();
-    PrepareResult result = prepare_result(task.token(), kPoints, kDirections);
-    result.header.mutable_prepared()->set_vertices(kVertices);
+    PrepareResult result = prepare_result(task.token(), kRefinePoints, kRefineDirections);
+    result.header.mutable_prepared()->set_vertices(kRefineVertices);
     store_->complete(result.header, result.data);
     while (store_->job(job.id()).stage() == v1::JOB_STAGE_ERODE) finish_block(lease());
     return store_->job(job.id());
@@ -138,7 +138,7 @@ TEST_F(RefineTest, AJobGoesThroughRoundsUntilOneFindsNothing) {
   EXPECT_EQ(done.state(), v1::JOB_STATE_DONE);
   EXPECT_EQ(done.refine_round(), 3U);
   EXPECT_TRUE(refined(job.id()) == expected_refined(4));
-  EXPECT_TRUE(field(job.id()) == expected_field(kPoints, kDirections));
+  EXPECT_TRUE(field(job.id()) == expected_field(kRefinePoints, kRefineDirections));
 }
 
 TEST_F(RefineTest, WhatComesOutDoesNotDependOnWhoDidWhatWhenAndHowOften) {
@@ -174,7 +174,7 @@ TEST_F(RefineTest, AnInputIsWhatTheRoundsBeforeHaveLeft) {
   EXPECT_TRUE(read_all(*store_->open_input(task.token(), v1::ARTIFACT_KIND_REFINED)) == expected_refined(2));
   // Who knows round 0 hears of round 1, who knows that of nothing.
   const std::string changes = read_all(*store_->open_input(task.token(), v1::ARTIFACT_KIND_REFINED, 0));
-  ASSERT_EQ(changes.size(), (kPoints + 2) / 3 * wire::kRefinedPointRecordBytes);
+  ASSERT_EQ(changes.size(), (kRefinePoints + 2) / 3 * wire::kRefinedPointRecordBytes);
   for (std::size_t i = 0; i * wire::kRefinedPointRecordBytes < changes.size(); ++i) {
     const wire::RefinedPointRecord named =
         wire::decode_refined_point_record(changes.data() + i * wire::kRefinedPointRecordBytes);
@@ -205,14 +205,14 @@ TEST_F(RefineTest, RefusesWhatCannotBeAndKeepsNothingOfIt) {
   refused([](Header&, Records& r) { r.set_slope(1, -1); });
   refused([](Header&, Records& r) { r.set_normal(3, 0.7); });
   refused([](Header&, Records& r) { r.set_normal(3, std::nan("")); });
-  refused([](Header&, Records& r) { r.set_saddle(2, kVertices); });
-  refused([](Header&, Records& r) { r.set_point(3, kPoints); });
+  refused([](Header&, Records& r) { r.set_saddle(2, kRefineVertices); });
+  refused([](Header&, Records& r) { r.set_point(3, kRefinePoints); });
   refused([](Header&, Records& r) { r.set_point(3, 4); });  // not called done, and 3 has none
   refused([](Header&, Records& r) { r.set_point(3, 2); });
   refused([](Header&, Records& r) { r.mutable_slope()->RemoveLast(); });
   refused([](Header&, Records& r) { r = refined_records(0, 3, 0); });
   refused([](Header& h, Records&) { h.set_round(1); });
-  refused([](Header& h, Records&) { h.mutable_positions_done(0)->set_end(kPoints + 1); });
+  refused([](Header& h, Records&) { h.mutable_positions_done(0)->set_end(kRefinePoints + 1); });
   refused([](Header& h, Records&) { h.set_block_done(true); });
   EXPECT_EQ(store_->job(job.id()).refined_points(), 0U);
   // Neither is it a report on directions, or a result.
@@ -256,11 +256,11 @@ TEST_F(RefineTest, WhoGaveRefinedValuesIsNamedAndCanBeDistrusted) {
   ASSERT_EQ(givers.size(), 2);
   EXPECT_EQ(givers[1].worker(), "worker-b");
   EXPECT_EQ(givers[1].directions(), 0U);
-  EXPECT_EQ(givers[1].points(), (kPoints + 2) / 3);
+  EXPECT_EQ(givers[1].points(), (kRefinePoints + 2) / 3);
   // It gave no direction: these stay.
   const v1::Job again = store_->resume_without(job.id(), "worker-b");
   EXPECT_EQ(again.stage(), v1::JOB_STAGE_REFINE);
-  EXPECT_EQ(again.directions_done(), kDirections);
+  EXPECT_EQ(again.directions_done(), kRefineDirections);
   EXPECT_EQ(again.refine_round(), 0U);
   EXPECT_STORE_ERROR(lease("worker-b"), kForbidden);
   finish_rounds(job.id(), 4);
