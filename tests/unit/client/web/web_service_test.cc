@@ -320,7 +320,7 @@ TEST_F(WebServiceTest, WordsTheContractForThePage) {
   sign_in();
   const json session = ask("GET", "/api/session").object();
   EXPECT_EQ(session["words"]["operators"]["flux"], "average outward flux");
-  EXPECT_EQ(session["usual"], json({{"operator", "ridge"}, {"frame", "axis"}}));
+  EXPECT_EQ(session["usual"], json({{"operator", "ridge"}, {"frame", "axis"}, {"minimum", "set"}}));
 }
 
 TEST_F(WebServiceTest, PassesParametersOn) {
