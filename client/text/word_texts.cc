@@ -51,8 +51,8 @@ ordered_json word_texts() {
                                           {v1::FRAME_PCA, "the principal axes of the solid"},
                                           {v1::FRAME_OBB, "the axes of its smallest box"},
                                           {v1::FRAME_AFFINE, "axes that follow affine maps"}})},
-      {"minima", by_word(Texts<v1::Minimum>{{v1::MINIMUM_SET, "the directions above"},
-                                            {v1::MINIMUM_INFIMUM, "all directions: exact, takes longer"}})}};
+      {"minima", by_word(Texts<v1::Minimum>{{v1::MINIMUM_SET, "these directions"},
+                                            {v1::MINIMUM_INFIMUM, "all directions, beginning from these; takes longer"}})}};
 }
 
 }  // namespace affskel::client
