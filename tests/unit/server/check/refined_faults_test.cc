@@ -189,7 +189,8 @@ TEST_F(RefinedFaultsTest, ADatabaseOfTheSchemaBeforeIsTakenOver) {
     params.set_repair(true);
     params.set_frame(v1::FRAME_AXIS);
     const v1::SubmitJobHeader header = submit_header("OFF 1");
-    const std::string bytes = params.SerializeAsString(), skeleton = header.skeleton().SerializeAsString();
+    const std::string bytes = params.SerializeAsString(),
+                      skeleton = wire::canonical(header.skeleton()).SerializeAsString();
     db.run("INSERT INTO meshes VALUES (?, 5, 1)", header.mesh_sha256());
     db.run("INSERT INTO mesh_chunks VALUES (?, 0, ?)", header.mesh_sha256(), Blob{"OFF 1"});
     db.run(
