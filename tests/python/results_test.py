@@ -417,7 +417,7 @@ class SameMesh(unittest.TestCase):
                                 name="n", priority=7, request_id=mesh.suffix, repair="none")
             said = json.loads(directory.client("--json", "status", job.id))
             self.assertEqual(said["params"], dict(sampling=dict(target_points=500), directions="random:7:1",
-                                                  repair=False, frame="pca"))
+                                                  repair=False, frame="pca", minimum="set"))
             self.assertEqual(said["skeleton"], dict(operator="flux", threshold=.4))
             self.assertEqual((said["name"], said["priority"]), ("n", 7))
 

@@ -150,7 +150,7 @@ class Field(Saveable):
 
     def table(self) -> Table:
         """Columns as in the CSV of affskel-client, and the slope: for `pandas.DataFrame(field.table())`."""
-        columns = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz")}
+        columns: Table = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz")}
         if self.is_infimum:
             return {**columns, "slope": self.slope, "saddles": self.saddles}
         return {**columns, "direction": self.direction, "slope": self.slope}
@@ -212,7 +212,7 @@ class Points(Saveable):
 
     def table(self) -> Table:
         """Columns as in the CSV of affskel-client: for `pandas.DataFrame(points.table())`."""
-        columns = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz")}
+        columns: Table = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz")}
         if len(self.direction) == len(self):
             columns["direction"] = self.direction
         if len(self.H) == len(self):

@@ -33,8 +33,8 @@ const kEvents = {
 };
 
 /**
- * A word of the protocol as the service words it (`states`, `stages`, `operators`, `frames` or `minima`); one that it does not
- * know, of a later server, as it is.
+ * A word of the protocol as the service words it (`states`, `stages`, `operators`, `frames` or `minima`); one that it
+ * does not know, of a later server, as it is.
  * @param {keyof Words} kind
  * @param {string} word
  * @returns {string}
