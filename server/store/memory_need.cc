@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kPerTriangle = 235;
 constexpr std::uint64_t kPerPoint = 52;
 constexpr std::uint64_t kSheetPerPoint = 200;
-constexpr std::uint64_t kRefinePerPoint = 220;
-constexpr std::uint64_t kRefinePerTriangle = 300;
+constexpr std::uint64_t kRefinePerPoint = 280;
+constexpr std::uint64_t kRefinePerTriangle = 200;
 
 // A triangle is 50 bytes of OFF text when its numbers are long: itself, and what it becomes.
 constexpr std::uint64_t kPerMeshByte = 1 + kPerTriangle / 50;

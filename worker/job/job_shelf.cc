@@ -9,8 +9,8 @@ namespace {
 // Measured, see core/README.md, limits.
 constexpr std::uint64_t kPerTriangle = 235;
 constexpr std::uint64_t kPerPoint = 52;
-constexpr std::uint64_t kRefinePerTriangle = 300;
-constexpr std::uint64_t kRefinePerPoint = 220;
+constexpr std::uint64_t kRefinePerTriangle = 200;
+constexpr std::uint64_t kRefinePerPoint = 280;
 
 }  // namespace
 
