@@ -52,7 +52,7 @@ ordered_json word_texts() {
                                           {v1::FRAME_OBB, "the axes of its smallest box"},
                                           {v1::FRAME_AFFINE, "axes that follow affine maps"}})},
       {"minima", by_word(Texts<v1::Minimum>{{v1::MINIMUM_SET, "these directions"},
-                                            {v1::MINIMUM_INFIMUM, "all directions, beginning from these; takes longer"}})}};
+                                            {v1::MINIMUM_INFIMUM, "all, beginning from these"}})}};
 }
 
 }  // namespace affskel::client

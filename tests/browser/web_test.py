@@ -177,7 +177,7 @@ class Desktop(OnThePage):
         page.wait(lambda: page.shown(".badge").text == "done")
         job = page.driver.current_url.split("/")[-1]
         self.assertEqual(json.loads(bench.run("--json", "status", job))["params"]["minimum"], "infimum")
-        self.assertIn("all directions, beginning from these", page.text())
+        self.assertIn("all, beginning from these", page.text())
         page.find("button[data-file='field.csv']").click()
         self.assertTrue(page.downloaded("infimum.field.csv").startswith(b"x,y,z,E,nx,ny,nz,slope,saddles"))
 
