@@ -13,9 +13,10 @@ namespace affskel::client {
 /// One sample point of a finished field.
 struct FieldPoint : SamplePoint {
   double erosion = 0;           ///< E, mesh units cubed
-  double area = 0;              ///< of the section, mesh units squared
+  double slope = 0;             ///< |grad E|, mesh units squared: the section's area, and more at saddles
   core::Vec3 normal;            ///< the optimal direction, unit
-  std::uint32_t direction = 0;  ///< its index
+  std::uint32_t direction = 0;  ///< its index; only of a field over a set
+  std::uint32_t saddles = 0;    ///< that the optimal plane touches; only of a field over all directions
 };
 
 /// Takes a field, point by point in lattice order.
@@ -27,11 +28,12 @@ class FieldReceiver {
   virtual void finish() = 0;
 };
 
-/// Decodes a FIELD artefact as its bytes arrive, in pieces of any size.
+/// Decodes a FIELD or REFINED artefact as its bytes arrive, in pieces of any size.
 class FieldDecoder {
  public:
   /// All arguments must outlive it.
-  FieldDecoder(const LatticePoints& points, const v1::Directions& directions, FieldReceiver& receiver);
+  /// @param directions of FIELD; null: REFINED.
+  FieldDecoder(const LatticePoints& points, const v1::Directions* directions, FieldReceiver& receiver);
 
   void data(std::string_view bytes) { records_.data(bytes); }
   /// Checks that every point got its record, and finishes the receiver.
@@ -40,8 +42,9 @@ class FieldDecoder {
 
  private:
   void record(const SamplePoint& at, const char* bytes);
+  void refined(const SamplePoint& at, const char* bytes);
 
-  const v1::Directions& directions_;
+  const v1::Directions* directions_;
   FieldReceiver& receiver_;
   RecordDecoder records_;
 };

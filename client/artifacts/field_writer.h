@@ -13,16 +13,19 @@ namespace affskel::client {
 class FieldWriter : public FieldReceiver {
  public:
   /// @param volume v0, mesh units cubed.  @param parts per sample point, or none.  @param file must outlive it.
+  /// @param all_directions whether the field is REFINED.
   /// @throws as core::FieldFile.
   FieldWriter(core::FileFormat format, base::AtomicFile& file, const LatticePoints& points, double volume,
-              const core::FileFacts& facts, std::vector<std::uint32_t> parts = {})
+              const core::FileFacts& facts, std::vector<std::uint32_t> parts = {},
+              bool all_directions = false)
       : parts_(std::move(parts)),
-        field_(format, file, points.grid(), volume, facts, {.parts = !parts_.empty()}) {}
+        field_(format, file, points.grid(), volume, facts,
+               {.parts = !parts_.empty(), .all_directions = all_directions}) {}
 
   void put(const FieldPoint& point) override {
     const std::uint32_t part = parts_.empty() ? 0 : parts_.at(rank_++);
     field_.put({point.i, point.j, point.k},
-               {point.erosion, point.area, point.normal, point.direction, part, 0});
+               {point.erosion, point.slope, point.normal, point.direction, part, point.saddles});
   }
   /// The file is left uncommitted.
   void finish() override { field_.finish(); }

@@ -8,7 +8,7 @@ namespace {
 bool consistent(const v1::SkeletonPoints& s) {
   const int n = s.point_size();
   return s.xyz_size() == 3 * n && s.erosion_size() == n && s.normal_size() == 3 * n &&
-         s.direction_size() == n;
+         (s.direction_size() == n || s.direction_size() == 0);
 }
 
 }  // namespace
@@ -34,8 +34,9 @@ ShapeFile shape_of(const v1::SkeletonPoints& s) {
   shape.columns = {{"E", false, {s.erosion().begin(), s.erosion().end()}},
                    {"nx", false, {}},
                    {"ny", false, {}},
-                   {"nz", false, {}},
-                   {"direction", true, {s.direction().begin(), s.direction().end()}}};
+                   {"nz", false, {}}};
+  if (!s.direction().empty() || s.point_size() == 0)
+    shape.columns.push_back({"direction", true, {s.direction().begin(), s.direction().end()}});
   for (int p = 0; p < s.point_size(); ++p) {
     shape.off.mesh.points.push_back({s.xyz(3 * p), s.xyz(3 * p + 1), s.xyz(3 * p + 2)});
     for (int c = 0; c < 3; ++c) {

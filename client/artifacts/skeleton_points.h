@@ -12,7 +12,7 @@ namespace affskel::client {
 v1::SkeletonPoints parse_skeleton(const std::string& bytes);
 v1::SkeletonPoints parse_eroded_points(const std::string& bytes);
 
-/// The points as a table with the columns E, nx, ny, nz, direction and, but for points of an eroded solid, H.
+/// The points as a table with the columns E, nx, ny, nz, direction (but of an infimum) and, but for points of an eroded solid, H.
 ShapeFile shape_of(const v1::SkeletonPoints& points);
 
 }  // namespace affskel::client

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/utf8.h"
+#include "client/text/job_progress.h"
 #include "client/text/job_text.h"
 #include "client/text/time_text.h"
 #include "client/text/words.h"
@@ -40,11 +41,6 @@ std::string rate_text(double per_second) {
   return per_second < 100 ? base::rounded(per_second, 2) : std::to_string(std::llround(per_second));
 }
 
-double done_share(const v1::Job& job) {
-  if (job.directions_total() == 0) return 0;
-  return std::min(1.0, double(job.directions_done()) / double(job.directions_total()));
-}
-
 std::string left_text(const v1::Job& job) {
   return job.has_remaining_ms() ? duration_text(std::chrono::milliseconds(job.remaining_ms())) + " left" : "";
 }
@@ -59,16 +55,18 @@ std::string to_the_left(std::string text, std::size_t width) {
 }
 
 std::string count_text(const v1::Job& job) {
-  return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total()) + " directions";
+  const JobProgress progress = progress_of(job);
+  return std::to_string(progress.done) + "/" + std::to_string(progress.total) + " " + progress.unit;
 }
 
 // Rates and times come and go and change their length: each has a place of its own.
 std::string steady_text(const v1::Job& job, double per_second) {
   constexpr std::size_t kShare = 6, kRate = 8, kLeft = 16;  // "123456/s", "23 h 59 min left"
-  const std::string total = std::to_string(job.directions_total());
+  const JobProgress progress = progress_of(job);
+  const std::string total = std::to_string(progress.total);
   const std::string rate = per_second > 0 ? rate_text(per_second) + "/s" : "";
   return to_the_right(percent_text(job), kShare) + " " +
-         to_the_right(count_text(job), 2 * total.size() + 1 + std::string(" directions").size()) + " " +
+         to_the_right(count_text(job), 2 * total.size() + 2 + progress.unit.size()) + " " +
          to_the_right(rate, kRate) + " " + to_the_left(left_text(job), kLeft);
 }
 
@@ -94,7 +92,7 @@ std::string progress_bar(const v1::Job& job, double per_second, int width) {
   std::string line = head;
   if (room >= 8 && counts) {
     const int cells = std::min(room, kMaxBar);
-    const int full = static_cast<int>(std::floor(done_share(job) * cells));
+    const int full = static_cast<int>(std::floor(progress_of(job).share() * cells));
     line += " [" + std::string(static_cast<std::size_t>(full), '#') +
             std::string(static_cast<std::size_t>(cells - full), '.') + "]";
   }
@@ -111,17 +109,24 @@ ProgressView::~ProgressView() {
 
 double ProgressView::measure(const v1::Job& job) {
   const Clock::time_point now = now_();
-  if (last_time_ && job.directions_done() >= last_done_) {
+  const std::uint64_t done = progress_of(job).done;
+  if (job.stage() != last_stage_) {
+    last_time_.reset();
+    rate_ = 0;
+  }
+  if (last_time_ && done >= last_done_) {
     const double seconds = std::chrono::duration<double>(now - *last_time_).count();
-    const double gained = double(job.directions_done() - last_done_);
+    const double gained = double(done - last_done_);
     if (seconds > 0) {
       const double weight = rate_ > 0 ? 1 - std::exp(-seconds / kSmoothing) : 1;
       rate_ += weight * (gained / seconds - rate_);
     }
   }
   last_time_ = now;
-  last_done_ = job.directions_done();
-  return job.stage() == v1::JOB_STAGE_ERODE && rate_ >= 1e-6 ? rate_ : 0;
+  last_done_ = done;
+  last_stage_ = job.stage();
+  const bool counts = job.stage() == v1::JOB_STAGE_ERODE || job.stage() == v1::JOB_STAGE_REFINE;
+  return counts && rate_ >= 1e-6 ? rate_ : 0;
 }
 
 void ProgressView::update(const v1::Job& job) {
@@ -136,7 +141,7 @@ void ProgressView::update(const v1::Job& job) {
 
 void ProgressView::print(const v1::Job& job, double per_second) {
   const std::string now = label(job) + reason_text(job);
-  const auto tenth = static_cast<std::uint64_t>(10 * done_share(job));
+  const auto tenth = static_cast<std::uint64_t>(10 * progress_of(job).share());
   const bool news = tenth != last_tenth_ && (!last_print_ || now_() - *last_print_ >= kMinSilence);
   if (now == last_label_ && !news) return;
   last_label_ = now;

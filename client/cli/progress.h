@@ -43,6 +43,7 @@ class ProgressView {
   // The rate is smoothed over the differences between updates, on the client's own clock.
   std::optional<Clock::time_point> last_time_;
   std::uint64_t last_done_ = 0;
+  v1::JobStage last_stage_ = v1::JOB_STAGE_UNSPECIFIED;
   double rate_ = 0;
   std::optional<Clock::time_point> last_print_;
   std::string last_label_;

@@ -177,6 +177,13 @@ void add_field_options(CLI::App* command, SubmitOptions& o) {
       ->check(one_of(frame_words()))
       ->capture_default_str()
       ->type_name("FRAME");
+  command
+      ->add_option("--minimum", o.asked.minimum,
+                   "E over the directions (set), or over all, beginning from these (infimum):\nof the solid "
+                   "alone, however it is tessellated; takes longer")
+      ->check(one_of(minimum_words()))
+      ->capture_default_str()
+      ->type_name("MINIMUM");
 }
 
 void add_queue_options(CLI::App* command, SubmitOptions& o) {
@@ -207,6 +214,7 @@ void add_submit(CommandLine& line) {
       line.add("submit", "Check a mesh and submit it; prints the job id",
                "  affskel-client submit body.off -o OUT\n"
                "  affskel-client submit body.off --spacing 200 --wait       # in the mesh's units; or 1%\n"
+               "  affskel-client submit body.off --minimum infimum --wait   # over all directions\n"
                "  affskel-client submit cube.off --points 50000 --directions triangles+sphere:1000 --wait\n"
                "  JOB=$(affskel-client submit body.off --name subject-7)\n"
                "  affskel-client make torus -o - | affskel-client submit - --wait",

@@ -42,6 +42,8 @@ void run_verify(Context& context, const VerifyOptions& options) {
   const v1::Verification verification = follow_verification(context, options);
   context.console().result(verification_details(verification));
   context.console().document(to_json(verification));
+  if (context.session().get_job(verification.job()).params().minimum() == v1::MINIMUM_INFIMUM)
+    context.console().note("the directions are verified, where the refinement began; what came of it is not");
   if (const v1::VerifiedSample* sample = first_differing(verification)) {
     std::string why = difference_text(*sample);
     if (sample->givers_size() > 0)

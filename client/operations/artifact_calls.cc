@@ -71,6 +71,12 @@ v1::FetchArtifactRequest request_for(const std::string& job, v1::ArtifactKind ki
   return request;
 }
 
+FieldSource field_source(Session& session, const v1::Job& job) {
+  if (job.params().minimum() == v1::MINIMUM_INFIMUM) return {v1::ARTIFACT_KIND_REFINED, std::nullopt};
+  return {v1::ARTIFACT_KIND_FIELD,
+          fetch_message<v1::Directions>(session, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set")};
+}
+
 std::string fetch_patiently(Session& session, const v1::FetchArtifactRequest& request,
                             v1::ArtifactHeader& header, const std::string& what) {
   const WaitingNote waiting(session, what);

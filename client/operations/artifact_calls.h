@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,16 @@ Message fetch_message(Session& session, const std::string& job, v1::ArtifactKind
   }
   return message;
 }
+
+/// What the records of a job's finished field need to be read, see FieldDecoder.
+struct FieldSource {
+  v1::ArtifactKind kind;                     ///< FIELD or, of an infimum, REFINED
+  std::optional<v1::Directions> directions;  ///< of FIELD
+
+  const v1::Directions* set() const { return directions ? &*directions : nullptr; }
+};
+
+FieldSource field_source(Session& session, const v1::Job& job);
 
 /// Runs a fetch that may have to wait for a worker; the session's listener hears of it after a moment.
 /// @param what is computed.

@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "client/base/error.h"
+#include "client/text/job_progress.h"
 #include "client/text/job_text.h"
 #include "client/text/summary_text.h"
 #include "client/text/words.h"
@@ -50,8 +51,9 @@ Notices end_notices(const v1::Job& job) {
 
 std::string unfinished_text(const v1::Job& job) {
   if (job.state() == v1::JOB_STATE_FAILED) return "failed: " + failure_text(job.error());
+  const JobProgress progress = progress_of(job);
   const std::string done =
-      std::to_string(job.directions_done()) + " of " + std::to_string(job.directions_total()) + " directions";
+      std::to_string(progress.done) + " of " + std::to_string(progress.total) + " " + progress.unit;
   if (job.state() == v1::JOB_STATE_CANCELLED) return "was cancelled at " + done;
   return "is " + state_word(job.state()) + ": " + done + " are done";
 }

@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 // A field on its way into a file; a transfer that breaks off leaves nothing behind.
 class FieldSink : public ArtifactSink {
  public:
-  FieldSink(FileFormat format, const fs::path& file, const LatticePoints& points,
-            const v1::Directions& directions, const v1::Job& job, std::vector<std::uint32_t> parts)
+  FieldSink(FileFormat format, const fs::path& file, const LatticePoints& points, const FieldSource& source,
+            const v1::Job& job, std::vector<std::uint32_t> parts)
       : file_(file),
         writer_(format, file_, points, job.prepared().volume(), job_facts(job, "erosion field"),
-                std::move(parts)),
-        decoder_(points, directions, writer_) {}
+                std::move(parts), source.set() == nullptr),
+        decoder_(points, source.set(), writer_) {}
   void begin(const v1::ArtifactHeader&) override {}
   void data(std::string_view bytes) override { decoder_.data(bytes); }
   void end() override {
@@ -90,20 +90,20 @@ Fetched fetch_field(Session& session, const FetchRequest& request) {
   const FileFormat format = choose_format(request.destination, field_formats(), "field");
   const v1::Job now = session.get_job(request.job);
   // The finished field first: its absence is the error to report.
-  if (now.state() != v1::JOB_STATE_DONE &&
-      now.directions_done() < std::max<std::uint64_t>(1, now.directions_total())) {
+  const bool on_the_way = now.stage() == v1::JOB_STAGE_REFINE ||
+                          now.directions_done() < std::max<std::uint64_t>(1, now.directions_total());
+  if (now.state() != v1::JOB_STATE_DONE && on_the_way) {
     throw ClientError(ExitCode::kNotFound,
                       "there is no finished field: job " + now.id() + " " + unfinished_text(now));
   }
   const LatticePoints points = lattice_of(session, now.id());
   Notices notices = grid_notices(format, points, request.destination);
-  const auto directions =
-      fetch_message<v1::Directions>(session, now.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
+  const FieldSource source = field_source(session, now);
   const std::vector<std::uint32_t> parts =
       request.parts ? parts_of_points(session, now.id(), points.count()) : std::vector<std::uint32_t>();
   const v1::ArtifactHeader header =
-      session.fetch(request_for(now.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-        return std::make_unique<FieldSink>(format, request.destination.file, points, directions, now, parts);
+      session.fetch(request_for(now.id(), source.kind), [&]() -> std::unique_ptr<ArtifactSink> {
+        return std::make_unique<FieldSink>(format, request.destination.file, points, source, now, parts);
       });
   Fetched fetched{request.destination, "field", "point", points.count(), header.job()};
   fetched.notices = std::move(notices);

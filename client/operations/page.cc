@@ -30,7 +30,7 @@ constexpr double kMaxLevels = 8, kMinLevels = 3, kPointsOfMost = 1e5;
 // A field on its way into a page; a transfer that breaks off begins again from nothing.
 class PointSink : public ArtifactSink {
  public:
-  PointSink(const LatticePoints& lattice, const v1::Directions& directions,
+  PointSink(const LatticePoints& lattice, const v1::Directions* directions,
             const std::vector<float>& divergences, double volume, ViewModel& model)
       : model_(model),
         collector_(model.grid, model.selection, divergences, volume, model.points),
@@ -87,10 +87,9 @@ std::vector<float> fetch_divergences(Session& session, const std::string& job,
 
 void fetch_view_points(Session& session, const v1::Job& job, const LatticePoints& lattice,
                        const std::vector<float>& divergences, ViewModel& model) {
-  const auto directions =
-      fetch_message<v1::Directions>(session, job.id(), v1::ARTIFACT_KIND_DIRECTIONS, "direction set");
-  session.fetch(request_for(job.id(), v1::ARTIFACT_KIND_FIELD), [&]() -> std::unique_ptr<ArtifactSink> {
-    return std::make_unique<PointSink>(lattice, directions, divergences, job.prepared().volume(), model);
+  const FieldSource source = field_source(session, job);
+  session.fetch(request_for(job.id(), source.kind), [&]() -> std::unique_ptr<ArtifactSink> {
+    return std::make_unique<PointSink>(lattice, source.set(), divergences, job.prepared().volume(), model);
   });
 }
 

@@ -53,6 +53,7 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   }
   header.mutable_params()->set_directions(submission.directions);
   header.mutable_params()->set_frame(frame_named(submission.frame));
+  header.mutable_params()->set_minimum(minimum_named(submission.minimum));
   header.mutable_params()->set_repair(submission.repair);
   *header.mutable_skeleton() = skeleton_params(submission.skeleton);
   header.set_request_id(submission.request_id);

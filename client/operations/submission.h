@@ -20,6 +20,7 @@ struct Submission {
   std::uint64_t points = 100000;
   std::string directions = "triangles";
   std::string frame = "axis";
+  std::string minimum = "set";
   SkeletonChoice skeleton{"ridge"};
   std::string name;  ///< empty = the file's stem
   unsigned priority = 5;

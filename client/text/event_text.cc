@@ -39,7 +39,8 @@ std::string event_lines(const v1::ListJobEventsResponse& response) {
   for (const v1::Giver& giver : response.givers()) {
     text += "given by " + one_line(giver.worker()) +
             (giver.host().empty() ? "" : " on " + one_line(giver.host())) + ": " +
-            base::counted(giver.directions(), "direction") + "\n";
+            base::counted(giver.directions(), "direction") +
+            (giver.points() > 0 ? ", " + base::counted(giver.points(), "refined value") : "") + "\n";
   }
   return text;
 }

@@ -23,7 +23,8 @@ core::FileFacts job_facts(const v1::Job& job, const std::string& what) {
           {"sample_points", std::to_string(prepared.points()), static_cast<double>(prepared.points())},
           {"directions",
            (asked.empty() ? "triangles" : asked) + " (" + std::to_string(prepared.directions()) + ")"},
-          {"minimum", "over these directions"},
+          {"minimum",
+           job.params().minimum() == v1::MINIMUM_INFIMUM ? "over all directions" : "over these directions"},
           {"frame", frame_word(job.params().frame())},
           {"core_version", job.core_version()},
           {"units", core::kFileUnits}};

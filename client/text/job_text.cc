@@ -6,6 +6,7 @@
 #include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/base/stance.h"
+#include "client/text/job_progress.h"
 #include "client/text/key_line.h"
 #include "client/text/printable.h"
 #include "client/text/skeleton_text.h"
@@ -113,6 +114,11 @@ std::string progress_text(const v1::Job& job) {
   return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total());
 }
 
+std::string refined_text(const v1::Job& job) {
+  const JobProgress progress = progress_of(job);
+  return std::to_string(progress.done) + "/" + std::to_string(progress.total) + " " + progress.unit;
+}
+
 using TableRow = std::vector<std::string>;
 
 // In bytes, before colours; names with multi-byte characters stand last, where alignment does not matter.
@@ -166,9 +172,9 @@ std::string short_id(const v1::Job& job) {
 }
 
 std::string percent_text(const v1::Job& job) {
-  // In tenths of a percent, cut off; a number of directions has 24 bits at most.
-  const std::uint64_t tenths =
-      job.directions_total() == 0 ? 0 : 1000 * job.directions_done() / job.directions_total();
+  // In tenths of a percent, cut off; a number of directions or points has 32 bits at most.
+  const JobProgress progress = progress_of(job);
+  const std::uint64_t tenths = progress.total == 0 ? 0 : 1000 * progress.done / progress.total;
   return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "%";
 }
 
@@ -195,6 +201,7 @@ std::string job_details(const v1::Job& job, bool colour) {
   if (job.memory_needed() > 0) text += key_line("memory_needed", std::to_string(job.memory_needed()));
   if (job.cancel_requested()) text += key_line("cancel_requested", "yes");
   text += key_line("directions", progress_text(job));
+  if (job.stage() == v1::JOB_STAGE_REFINE) text += key_line("refined", refined_text(job));
   if (job.state() == v1::JOB_STATE_RUNNING && job.directions_total() > 0)
     text += key_line("progress", percent_text(job));
   if (job.has_remaining_ms())
@@ -211,6 +218,10 @@ std::string job_details(const v1::Job& job, bool colour) {
                    job.params().directions().empty() ? "triangles" : job.params().directions());
   if (frame_word(job.params().frame()) != "axis") {
     text += key_line("asked_frame", frame_word(job.params().frame()));
+  }
+  if (job.params().minimum() == v1::MINIMUM_INFIMUM) {
+    text += key_line("asked_minimum", minimum_word(job.params().minimum()));
+    if (job.refine_round() > 0) text += key_line("refine_rounds", std::to_string(job.refine_round()));
   }
   text += key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
   text += key_line("repair", job.params().repair() ? "auto" : "none");

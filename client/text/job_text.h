@@ -11,7 +11,7 @@ namespace affskel::client {
 /// The first 12 digits of the id, which `list` shows.
 std::string short_id(const v1::Job& job);
 
-/// The share of the directions that is done, "41.3%": 100.0% only when all are.
+/// The share that is done of its progress_of(), "41.3%": 100.0% only when all is.
 std::string percent_text(const v1::Job& job);
 
 /// `key: value` lines for `status`. @param colour states and warnings in ANSI colours.

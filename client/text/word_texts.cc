@@ -35,6 +35,7 @@ ordered_json word_texts() {
       {"stages",
        by_word(Texts<v1::JobStage>{{v1::JOB_STAGE_PREPARE, "checking the mesh and laying the lattice"},
                                    {v1::JOB_STAGE_ERODE, "eroding"},
+                                   {v1::JOB_STAGE_REFINE, "going down to the infimum"},
                                    {v1::JOB_STAGE_DERIVE, "finding the skeleton"},
                                    {v1::JOB_STAGE_COMPLETE, "complete"}})},
       {"operators", by_word(Texts<v1::Operator>{
@@ -49,7 +50,9 @@ ordered_json word_texts() {
       {"frames", by_word(Texts<v1::Frame>{{v1::FRAME_AXIS, "the axes of the mesh"},
                                           {v1::FRAME_PCA, "the principal axes of the solid"},
                                           {v1::FRAME_OBB, "the axes of its smallest box"},
-                                          {v1::FRAME_AFFINE, "axes that follow affine maps"}})}};
+                                          {v1::FRAME_AFFINE, "axes that follow affine maps"}})},
+      {"minima", by_word(Texts<v1::Minimum>{{v1::MINIMUM_SET, "these directions"},
+                                            {v1::MINIMUM_INFIMUM, "all, beginning from these"}})}};
 }
 
 }  // namespace affskel::client

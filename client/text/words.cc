@@ -37,6 +37,10 @@ std::string frame_word(v1::Frame frame) {
   return word_or_unknown(frame == v1::FRAME_UNSPECIFIED ? v1::FRAME_AXIS : frame);
 }
 
+std::string minimum_word(v1::Minimum minimum) {
+  return word_or_unknown(minimum == v1::MINIMUM_UNSPECIFIED ? v1::MINIMUM_SET : minimum);
+}
+
 std::string operator_word(v1::Operator which) {
   return word_or_unknown(which == v1::OPERATOR_UNSPECIFIED ? wire::kDefaultOperator : which);
 }
@@ -53,6 +57,10 @@ std::vector<std::string> frame_words() {
   return wire::words(*v1::Frame_descriptor());
 }
 
+std::vector<std::string> minimum_words() {
+  return wire::words(*v1::Minimum_descriptor());
+}
+
 std::vector<std::string> operator_words() {
   return wire::words(*v1::Operator_descriptor());
 }
@@ -63,6 +71,10 @@ v1::JobState state_named(const std::string& word) {
 
 v1::Frame frame_named(const std::string& word) {
   return named<v1::Frame>("frame", word);
+}
+
+v1::Minimum minimum_named(const std::string& word) {
+  return named<v1::Minimum>("minimum", word);
 }
 
 v1::Operator operator_named(const std::string& word) {

@@ -12,10 +12,12 @@ namespace affskel::client {
 
 /// "queued", "running", "done", "failed", "cancelled"; "unknown" for anything else.
 std::string state_word(v1::JobState state);
-/// "prepare", "erode", "derive", "complete"; "unknown" for anything else.
+/// "prepare", "erode", "refine", "derive", "complete"; "unknown" for anything else.
 std::string stage_word(v1::JobStage stage);
 /// "axis", "pca", "obb" or "affine"; "axis" when none is specified, "unknown" for anything else.
 std::string frame_word(v1::Frame frame);
+/// "set" or "infimum"; "set" when none is specified, "unknown" for anything else.
+std::string minimum_word(v1::Minimum minimum);
 /// "zucker-hummel", "intermediate", ...; the default one when none is specified, "unknown" for anything else.
 std::string operator_word(v1::Operator which);
 
@@ -25,11 +27,13 @@ std::string part_kind_word(v1::PartKind kind);
 /// All words of a kind, in the protocol's order.
 std::vector<std::string> state_words();
 std::vector<std::string> frame_words();
+std::vector<std::string> minimum_words();
 std::vector<std::string> operator_words();
 
 /// The value that a word stands for.  @throws ClientError kUsage naming the possible words.
 v1::JobState state_named(const std::string& word);
 v1::Frame frame_named(const std::string& word);
+v1::Minimum minimum_named(const std::string& word);
 v1::Operator operator_named(const std::string& word);
 
 }  // namespace affskel::client

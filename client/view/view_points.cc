@@ -61,7 +61,7 @@ void ViewPointCollector::put(const FieldPoint& point) {
     kept.step[a] = static_cast<std::uint16_t>(at[a] / grid_.lattice_steps[a]);
   }
   kept.share = view_share(point.erosion, volume_);
-  kept.slope = static_cast<float>(point.area);
+  kept.slope = static_cast<float>(point.slope);
   kept.divergence = divergence;
   kept.inward = point.normal;
   points_.push_back(kept);

@@ -87,6 +87,7 @@ Submission submission_of(const nlohmann::json& body) {
   read_sampling(number_member(body, "spacing"), number_member(body, "points"), submission);
   submission.directions = text_member(body, "directions", submission.directions);
   submission.frame = text_member(body, "frame", submission.frame);
+  submission.minimum = text_member(body, "minimum", submission.minimum);
   submission.skeleton = skeleton_member(body, submission.skeleton.operator_name);
   submission.name = text_member(body, "name");
   submission.request_id = text_member(body, "request_id");

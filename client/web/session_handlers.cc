@@ -81,18 +81,19 @@ ordered_json sheet_operators() {
 }
 
 ordered_json session_json(const WebState& web, const WebUser& user) {
-  return {
-      {"mode", web.options.personal ? "personal" : "sign-in"},
-      {"signed_in", true},
-      {"version", wire::kVersion},
-      {"owner", user.owner.empty() ? web.backend.own_user() : user.owner},
-      {"admin", user.admin},
-      {"max_mesh_bytes", user.max_mesh_bytes},
-      {"words", word_texts()},
-      {"usual",
-       {{"operator", operator_word(v1::OPERATOR_UNSPECIFIED)}, {"frame", frame_word(v1::FRAME_UNSPECIFIED)}}},
-      {"sheets", sheet_operators()},
-      {"artefacts", offered_artifacts()}};
+  return {{"mode", web.options.personal ? "personal" : "sign-in"},
+          {"signed_in", true},
+          {"version", wire::kVersion},
+          {"owner", user.owner.empty() ? web.backend.own_user() : user.owner},
+          {"admin", user.admin},
+          {"max_mesh_bytes", user.max_mesh_bytes},
+          {"words", word_texts()},
+          {"usual",
+           {{"operator", operator_word(v1::OPERATOR_UNSPECIFIED)},
+            {"frame", frame_word(v1::FRAME_UNSPECIFIED)},
+            {"minimum", minimum_word(v1::MINIMUM_UNSPECIFIED)}}},
+          {"sheets", sheet_operators()},
+          {"artefacts", offered_artifacts()}};
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ enum class ArtifactParams {
 struct ArtifactKindInfo {
   v1::ArtifactKind kind;
   ArtifactParams params;
-  /// That computes it: PREPARE and ERODE on the way of every job, the others from the finished field, for
+  /// That computes it: PREPARE, ERODE and REFINE on the way of a job, the others from the finished field, for
   /// those that ask.  UNSPECIFIED for the mesh, which is given.
   v1::TaskKind task;
   /// Full name of the serialized message; empty for bytes that are described with ArtifactKind.
@@ -41,7 +41,7 @@ std::span<const ArtifactKindInfo> artifact_kinds();
 /// The row of a kind; null when it is unspecified or unknown.
 const ArtifactKindInfo* find_artifact_kind(v1::ArtifactKind kind);
 
-/// The row of the derived kind that a task makes; null for PREPARE, ERODE and unknown ones.
+/// The row of the derived kind that a task makes; null for PREPARE, ERODE, REFINE and unknown ones.
 const ArtifactKindInfo* find_derived_kind(v1::TaskKind task);
 
 /// The artefact that a job's own skeleton is: SURFACE for an operator that gives a sheet or lines, else SKELETON.

@@ -76,6 +76,10 @@ v1::ErosionParams canonical(const v1::ErosionParams& params) {
   }
   result.set_directions(canonical_directions(params.directions()));
   if (params.frame() == v1::FRAME_UNSPECIFIED) result.set_frame(v1::FRAME_AXIS);
+  if (params.minimum() == v1::MINIMUM_UNSPECIFIED) result.set_minimum(v1::MINIMUM_SET);
+  if (!v1::Minimum_IsValid(result.minimum()))
+    throw std::invalid_argument("unknown kind of minimum: " +
+                                std::to_string(static_cast<int>(result.minimum())));
   if (!v1::Frame_IsValid(result.frame()))
     throw std::invalid_argument("unknown frame of the lattice: " +
                                 std::to_string(static_cast<int>(result.frame())));
@@ -183,7 +187,10 @@ std::string cache_key(const v1::ErosionParams& params) {
   // Keys from before there were frames stay valid.
   const std::string frame =
       params.frame() == v1::FRAME_AXIS ? "" : " frame=" + std::to_string(static_cast<int>(params.frame()));
-  return density + " directions=" + params.directions() + " repair=" + (params.repair() ? "1" : "0") + frame;
+  // The same goes for minima; the server's schema knows an infimum by this word.
+  const std::string minimum = params.minimum() == v1::MINIMUM_INFIMUM ? " minimum=infimum" : "";
+  return density + " directions=" + params.directions() + " repair=" + (params.repair() ? "1" : "0") + frame +
+         minimum;
 }
 
 std::string cache_key(const v1::SkeletonParams& params) {

@@ -6,6 +6,7 @@
 #include "affskel/v1/types.pb.h"
 #include "check/field_faults.h"
 #include "check/piece_faults.h"
+#include "check/refined_faults.h"
 #include "wire/artifact_kinds.h"
 
 namespace affskel::server {
@@ -28,6 +29,9 @@ void check_fields(Database& db, FaultLog& faults) {
       faults.add(fault.where, fault.what + ": all " + std::to_string(field.done) +
                                   " finished directions of " + std::to_string(field.directions) +
                                   " must be computed again; check --repair marks them so");
+    });
+    find_refined_faults(db, field, [&](const FieldFault& fault) {
+      faults.add(fault.where, fault.what + ": the refinement must begin anew; check --repair sees to it");
     });
   });
   faults.end_kind();

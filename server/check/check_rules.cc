@@ -46,7 +46,23 @@ constexpr const char* kProgress[] = {
     " OR EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = e.id))",
 
     "SELECT 'erosion ' || id, 'is finished, but not all of its field is merged' FROM erosions e"
-    " WHERE finished = 1 AND dropped = 0 AND EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)",
+    " WHERE finished = 1 AND dropped = 0 AND (EXISTS (SELECT 1 FROM field_log WHERE erosion_id = e.id)"
+    " OR EXISTS (SELECT 1 FROM refined_log WHERE erosion_id = e.id))",
+
+    // The refinement: refinement.cc.
+    "SELECT 'erosion ' || id, refined_points || ' points are counted as refined, the ranges have ' || n"
+    " FROM (SELECT id, refined_points, (SELECT ifnull(sum(end_position - first_position), 0)"
+    " FROM refined_ranges WHERE erosion_id = e.id) AS n FROM erosions e) WHERE n <> refined_points",
+
+    "SELECT 'erosion ' || erosion_id, 'the refined range that begins at ' || next || ' is not apart from the"
+    " one that begins at ' || first_position FROM (SELECT *, lead(first_position) OVER"
+    " (PARTITION BY erosion_id ORDER BY first_position) AS next FROM refined_ranges) WHERE next <= end_position",
+
+    "SELECT 'erosion ' || id, 'is finished, but its refinement is not' FROM erosions WHERE finished = 1"
+    " AND refines AND dropped = 0 AND (round IS NULL OR refined_points <> points)",
+
+    "SELECT 'erosion ' || id, 'is refined before all of its directions are done' FROM erosions"
+    " WHERE round IS NOT NULL AND directions_done IS NOT directions",
 
     "SELECT 'erosion ' || e.id, 'has ' || e.mesh_bytes || ' bytes of mesh noted, the mesh has ' || m.bytes"
     " FROM erosions e JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE e.mesh_bytes <> m.bytes",
@@ -65,9 +81,10 @@ constexpr const char* kProgress[] = {
 constexpr const char* kJobs[] = {
     "SELECT 'job ' || j.id, 'is in stage ' || j.stage || ', its erosion is ' || CASE"
     " WHEN e.finished THEN 'finished' WHEN e.core_version IS NULL THEN 'not prepared'"
+    " WHEN e.round IS NOT NULL THEN 'being refined'"
     " ELSE 'prepared and not finished' END FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
     " WHERE j.removed_ms = 0 AND j.stage NOT IN (CASE WHEN e.finished THEN 'derive' WHEN e.core_version IS "
-    "NULL THEN 'prepare'"
+    "NULL THEN 'prepare' WHEN e.round IS NOT NULL THEN 'refine'"
     " ELSE 'erode' END, iif(e.finished, 'complete', ''))",
 
     "SELECT 'job ' || j.id, 'is done, but its skeleton is missing' FROM jobs j WHERE j.state = 'done'"
@@ -104,6 +121,25 @@ constexpr const char* kTasks[] = {
     " OR max(t.end_position) IS NOT e.directions"
     " OR sum(t.next IS NOT NULL AND t.next <> t.end_position) > 0",
 
+    "SELECT 'job ' || j.id, 'its blocks of round ' || e.round || ' do not cover points 0 to ' || e.points || ' once'"
+    " FROM jobs j JOIN erosions e ON e.id = j.erosion_id LEFT JOIN"
+    " (SELECT job_id, round, first_position, end_position, lead(first_position) OVER"
+    "  (PARTITION BY job_id, round ORDER BY first_position) AS next FROM tasks WHERE kind = 'refine') t"
+    " ON t.job_id = j.id AND t.round = e.round WHERE j.stage = 'refine' GROUP BY j.id"
+    " HAVING min(t.first_position) IS NOT 0 OR max(t.end_position) IS NOT e.points"
+    " OR sum(t.next IS NOT NULL AND t.next <> t.end_position) > 0",
+
+    "SELECT 'task ' || t.id, 'block ' || t.first_position || ' to ' || t.end_position || ' of job ' || j.id"
+    " || ' is done, but not all of its points are' FROM tasks t JOIN jobs j ON j.id = t.job_id"
+    " JOIN erosions e ON e.id = j.erosion_id WHERE t.kind = 'refine' AND t.state = 'done'"
+    " AND t.round = e.round AND NOT EXISTS (SELECT 1 FROM refined_ranges r"
+    " WHERE r.erosion_id = j.erosion_id AND r.first_position <= t.first_position"
+    " AND r.end_position >= t.end_position)",
+
+    "SELECT 'task ' || t.id, 'is ' || t.state || ', of round ' || t.round || ', job ' || j.id || ' is in round '"
+    " || ifnull(e.round, '(none)') FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
+    " WHERE t.kind = 'refine' AND t.state <> 'done' AND t.round IS NOT e.round",
+
     "SELECT 'task ' || t.id, 'block ' || t.first_position || ' to ' || t.end_position || ' of job ' || j.id"
     " || ' is done, but not all of its positions are' FROM tasks t JOIN jobs j ON j.id = t.job_id"
     " WHERE t.kind = 'erode' AND t.state = 'done' AND NOT EXISTS (SELECT 1 FROM done_ranges r"
@@ -113,11 +149,11 @@ constexpr const char* kTasks[] = {
     "SELECT 'task ' || t.id, 'is ' || t.state || ', a task to ' || t.kind || ' job ' || j.id"
     " || ', which is in stage ' || j.stage FROM tasks t JOIN jobs j ON j.id = t.job_id"
     " WHERE t.state <> 'done' AND t.on_request = 0 AND (t.kind = 'prepare' AND j.stage <> 'prepare'"
-    " OR t.kind = 'erode' AND j.stage <> 'erode')",
+    " OR t.kind = 'erode' AND j.stage <> 'erode' OR t.kind = 'refine' AND j.stage <> 'refine')",
 
     "SELECT 'task ' || t.id, 'a ' || t.kind || ' of job ' || j.id || ', whose field is not finished'"
     " FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
-    " WHERE t.kind NOT IN ('prepare', 'erode') AND e.finished = 0",
+    " WHERE t.kind NOT IN ('prepare', 'erode', 'refine') AND e.finished = 0",
 
     // Of the job, copied: see migrations 5 and 8.
     "SELECT 'task ' || t.id, 'its place in the queue is not that of its job ' || j.id FROM tasks t"
@@ -125,7 +161,7 @@ constexpr const char* kTasks[] = {
     " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.owner <> j.owner OR t.parked <> (t.kind = "
     "'verify' OR t.on_request = 0 AND"
     " (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1))"
-    " OR t.needs_core <> iif(t.kind = 'erode', ifnull(e.core_version, ''), t.needs_core))",
+    " OR t.needs_core <> iif(t.kind IN ('erode', 'refine'), ifnull(e.core_version, ''), t.needs_core))",
 
     "SELECT 'task ' || id, 'has failed alone: it belongs to job ' || job_id || ', which fails with it'"
     " FROM tasks WHERE state = 'failed' AND on_request = 0",
@@ -155,7 +191,7 @@ constexpr const char* kUse[] = {
     "SELECT 'erosion ' || id, 'is counted with ' || bytes || ' bytes, it has ' || n"
     " FROM (SELECT e.id, e.bytes,"
     " iif(EXISTS (SELECT 1 FROM jobs WHERE erosion_id = e.id"
-    " AND removed_ms > 0), 0, 20 * ifnull(e.points, 0))"
+    " AND removed_ms > 0), 0, (20 + 52 * e.refines) * ifnull(e.points, 0))"
     " + (SELECT ifnull(sum(bytes), 0) FROM artifacts WHERE erosion_id = e.id) AS n FROM erosions e"
     " WHERE e.dropped = 0) WHERE n <> bytes",
 

@@ -5,6 +5,7 @@
 
 #include "check/field_faults.h"
 #include "check/piece_faults.h"
+#include "check/refined_faults.h"
 #include "database/database_file.h"
 #include "database/errors.h"
 #include "database/migrate.h"
@@ -77,7 +78,7 @@ class Repairer {
   void repair_field(const FieldShape& field) {
     std::vector<FieldFault> faults;
     find_field_faults(db_, field, [&](FieldFault fault) { faults.push_back(std::move(fault)); });
-    if (faults.empty()) return;
+    if (faults.empty()) return repair_refinement(field);
     write([&](Tx& tx) {
       for (const FieldFault& fault : faults) delete_row(tx, fault);
       tx.db.run(
@@ -90,6 +91,14 @@ class Repairer {
     report(faults.front().where + ": " + faults.front().what +
            (faults.size() > 1 ? ", and " + std::to_string(faults.size() - 1) + " more faults" : "") +
            "; all " + std::to_string(field.directions) + " directions are computed again");
+  }
+
+  void repair_refinement(const FieldShape& field) {
+    std::vector<FieldFault> faults;
+    find_refined_faults(db_, field, [&](FieldFault fault) { faults.push_back(std::move(fault)); });
+    if (faults.empty()) return;
+    write([&](Tx& tx) { restart_erosion(tx, field.erosion_id, field.directions); });
+    report(faults.front().where + ": " + faults.front().what + "; the refinement begins anew");
   }
 
   static void delete_row(Tx& tx, const FieldFault& fault) {

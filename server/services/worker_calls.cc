@@ -35,6 +35,13 @@ void ReportCall::on_message(v1::ReportErosionRequest& message) {
     begin(message.header());
     return;
   }
+  if (refined_) {
+    with_lease(room(), registry_, header_->token(), [&] {
+      take(message);
+      return false;
+    });
+    return;
+  }
   if (!message.has_records()) refuse("only records may follow the header of a report");
   if (message.records().point_size() > wire::kRecordsPerMessage) {
     refuse("a message has at most 32768 records");
@@ -49,9 +56,13 @@ void ReportCall::begin(const v1::ReportErosionHeader& header) {
   header_ = header;
   if (header.bounds_for().size() > kMaxWorkerIdBytes) refuse("a worker's id has at most 64 bytes");
   with_lease(room(), registry_, header.token(), [&] {
-    const Store::ErodeLease lease = store_.erode_lease(header.token());
+    const Store::BlockLease lease = store_.block_lease(header.token());
     job_ = lease.job;
-    batch_.emplace(lease.points, lease.directions, lease.volume);
+    if (lease.kind == v1::TASK_KIND_REFINE) {
+      refined_.emplace(lease.bounds);
+    } else {
+      batch_.emplace(lease.bounds.points, lease.directions, lease.bounds.volume);
+    }
     return false;
   });
 }
@@ -61,6 +72,19 @@ void ReportCall::take(const v1::FieldRecords& records) {
   // Parts are as large as there is room for, over all reports.
   if (batch_->full() || !held_.take(count * sizeof(wire::PointRecord))) merge();
   batch_->append(records);
+  received_ += count;
+}
+
+/// One message of a refinement: what it calls done is stored with it, not in parts.
+void ReportCall::take(const v1::ReportErosionRequest& message) {
+  if (!message.has_refined())
+    refuse("only refined records may follow the header of a report on a refinement");
+  const auto count = static_cast<std::uint64_t>(message.refined().point_size());
+  if (count > wire::kRecordsPerMessage || received_ > 0)
+    refuse("a report on a refinement has one message of at most 32768 records");
+  if (!held_.take(count * sizeof(wire::RefinedPointRecord)))
+    throw CallEnded({grpc::StatusCode::UNAVAILABLE, "reports take all the memory there is for them"});
+  refined_->append(message.refined());
   received_ += count;
 }
 
@@ -85,6 +109,10 @@ bool ReportCall::finish() {
   // A stream that broke can look like one that ended; what it carried may be only half of a report.
   if (is_cancelled() || (header_->has_records() && header_->records() != received_)) {
     refuse("the report broke off: not all of its records arrived");
+  }
+  if (refined_) {
+    response_ = store_.report_refined(*header_, *refined_);
+    return response_.cancelled() || header_->block_done();
   }
   batch_->sort();
   response_ = store_.report(*header_, *batch_);
@@ -156,7 +184,9 @@ StreamCall::After InputCall::open() {
 StreamCall::After InputCall::send_input(CallLimit::Place place) {
   std::unique_ptr<BlobReader> reader;
   with_lease(room(), registry_, request_.token(), [&] {
-    reader = store_.open_input(request_.token(), request_.kind());
+    std::optional<std::int64_t> known;
+    if (request_.has_known_round()) known = request_.known_round();
+    reader = store_.open_input(request_.token(), request_.kind(), known);
     return false;
   });
   return send(std::move(place), std::move(reader), nullptr);

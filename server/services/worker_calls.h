@@ -41,6 +41,7 @@ class ReportCall final : public Receiving<v1::ReportErosionRequest> {
   void on_end() override;
   void begin(const v1::ReportErosionHeader& header);
   void take(const v1::FieldRecords& records);
+  void take(const v1::ReportErosionRequest& message);
   void merge();
   bool finish();
 
@@ -51,8 +52,9 @@ class ReportCall final : public Receiving<v1::ReportErosionRequest> {
   UploadBudget::Share held_;
   std::optional<v1::ReportErosionHeader> header_;
   std::string job_;
-  std::optional<RecordBatch> batch_;
-  std::uint64_t received_ = 0;  // records
+  std::optional<RecordBatch> batch_;     // of ERODE
+  std::optional<RefinedBatch> refined_;  // of REFINE
+  std::uint64_t received_ = 0;           // records
 };
 
 /// CompleteTask: a header, then the result.

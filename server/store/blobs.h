@@ -61,4 +61,14 @@ std::unique_ptr<BlobReader> read_artifact(const std::string& file, std::int64_t 
 /// @throws StoreError kNotFound when the erosion is gone or was not prepared yet; kDamaged.
 std::unique_ptr<BlobReader> read_field(const std::string& file, std::int64_t erosion_id);
 
+/// The refined field as the rounds before the present one have left it, or when finished.
+/// @throws StoreError kPrecondition in round 0; otherwise as read_field().
+std::unique_ptr<BlobReader> read_refined(const std::string& file, std::int64_t erosion_id);
+
+/// What the rounds after `known` and before the present one have found, see FetchInputRequest; everything, when some of
+/// it is no longer told apart.
+/// @throws as read_refined().
+std::unique_ptr<BlobReader> read_refined_changes(const std::string& file, std::int64_t erosion_id,
+                                                 std::int64_t known);
+
 }  // namespace affskel::server

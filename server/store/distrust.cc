@@ -94,7 +94,8 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who) {
               {.event = "distrusted",
                .worker = giver.worker,
                .message = base::counted(removed, "value") + " taken out, " +
-                          (removed > 0 ? "all directions" : "its directions") + " are computed again"});
+                          (removed > 0 ? "all directions" : "its directions") + " are computed again" +
+                          (job.refines ? ", and the refinement begins anew" : "")});
   }
   tx.db.run("DELETE FROM verifications WHERE job_id = ?", job.id);
   restart_erosion(tx, job.erosion_id, job.directions);

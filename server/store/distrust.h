@@ -10,7 +10,8 @@ namespace affskel::server {
 /// Takes what a worker gave to a job's field out of it, so that others compute it again, and gives the
 /// worker no lease any more.  Goes are the values of all directions about which it told anything, and these
 /// count as not done.  Where there was such a value, other workers, which knew it as a bound, were silent
-/// about greater ones: then no direction counts as done.  What is left of the field is true, and only makes
+/// about greater ones: then no direction counts as done.  A refinement begins anew: what it found at one point went on
+/// to others.  What is left of the field is true, and only makes
 /// the rest faster.
 /// @param who the worker's id, a unique prefix of 6 characters or more, or its host: all its workers that
 ///   took part.

@@ -94,7 +94,10 @@ void note_given(Database& db, const JobRow& job, const Giver& giver, const std::
 
 std::vector<v1::Giver> givers_of(Database& db, std::int64_t erosion_id) {
   Statement row = db.query(
-      "SELECT worker, max(host), sum(end_position - first_position) FROM given_ranges WHERE erosion_id = ?"
+      "SELECT worker, max(host), sum(directions), sum(points) FROM"
+      " (SELECT worker, host, end_position - first_position AS directions, 0 AS points FROM given_ranges"
+      "  WHERE erosion_id = ?1 UNION ALL"
+      "  SELECT worker, host, 0, points FROM refined_givers WHERE erosion_id = ?1)"
       " GROUP BY worker ORDER BY worker",
       erosion_id);
   std::vector<v1::Giver> givers;
@@ -104,6 +107,7 @@ std::vector<v1::Giver> givers_of(Database& db, std::int64_t erosion_id) {
     giver.set_worker(columns.text());
     giver.set_host(columns.text());
     giver.set_directions(columns.natural());
+    giver.set_points(columns.natural());
   }
   return givers;
 }

@@ -14,6 +14,7 @@
 #include "store/field.h"
 #include "store/job_events.h"
 #include "store/own_skeleton.h"
+#include "store/refinement.h"
 #include "store/rows.h"
 #include "store/task_rows.h"
 #include "wire/words.h"
@@ -32,13 +33,13 @@ std::string progress_text(const JobRow& job) {
   return std::to_string(job.directions_done) + " of " + base::counted(job.directions, "direction");
 }
 
-/// Merges what is logged.  False when some of it is damaged: the job has failed, and what was merged so far
-/// stays, for it is true.
-bool settle_or_fail(Tx& tx, const JobRow& job) {
+/// False when `body` finds stored rows damaged: the job has failed, and what was merged so far stays, for it is true.
+template <typename Body>
+bool sound_or_fail(Tx& tx, const JobRow& job, Body&& body) {
   v1::JobError error;
   error.set_code("DAMAGED");
   try {
-    settle_field(tx.db, job.erosion_id, job.points);
+    body();
     return true;
   } catch (const StoreError& damaged) {
     if (damaged.code() != StoreError::Code::kDamaged) throw;
@@ -48,21 +49,49 @@ bool settle_or_fail(Tx& tx, const JobRow& job) {
   return false;
 }
 
-/// All blocks done: the field is complete.  False when it is damaged.
+void finish_field(Tx& tx, JobRow& job) {
+  tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
+  end_stage(tx, job.id);
+  tx.db.run("UPDATE jobs SET stage = 'derive' WHERE id = ?", job.id);
+  job.finished = true;
+  job.stage = v1::JOB_STAGE_DERIVE;
+}
+
+/// All blocks of directions done: the set's field is complete.  False when it is damaged.
 bool finish_erosion(Tx& tx, JobRow& job) {
   if (job.directions_done != job.directions) {
     throw StoreError(StoreError::Code::kUnusable, "job " + job.id + ": all blocks are done, but only " +
                                                       std::to_string(job.directions_done) + " of " +
                                                       std::to_string(job.directions) + " directions");
   }
-  if (!settle_or_fail(tx, job)) return false;
-  tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
-  end_stage(tx, job.id);
-  tx.db.run("UPDATE jobs SET stage = 'derive' WHERE id = ?", job.id);
-  job.finished = true;
-  job.stage = v1::JOB_STAGE_DERIVE;
+  if (!sound_or_fail(tx, job, [&] { settle_field(tx.db, job.erosion_id, job.points); })) return false;
+  if (job.refines) {
+    end_stage(tx, job.id);
+    tx.db.run("UPDATE jobs SET stage = 'refine' WHERE id = ?", job.id);
+    job.stage = v1::JOB_STAGE_REFINE;
+    begin_refinement(tx, job);
+  } else {
+    finish_field(tx, job);
+  }
   add_event(tx, job.id, {.event = "eroded", .message = progress_text(job)});
   return true;
+}
+
+/// All blocks of a round done: the next one, or the field is complete.  False when it is damaged.
+bool go_on_refining(Tx& tx, JobRow& job) {
+  bool ended = false;
+  if (!sound_or_fail(tx, job, [&] { ended = finish_round(tx, job); })) return false;
+  if (!ended) return true;
+  finish_field(tx, job);
+  add_event(tx, job.id, {.event = "refined", .message = "in " + base::counted(job.round + 1, "round")});
+  return true;
+}
+
+bool has_blocks_left(Database& db, const JobRow& job) {
+  return db
+      .integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = ? AND state <> 'done' LIMIT 1", job.id,
+               wire::word(job.stage))
+      .has_value();
 }
 
 /// The job's own skeleton is stored, or a task for it is there.  True when the job is done.
@@ -121,13 +150,12 @@ void settle_job(Tx& tx, const std::string& job_id) {
   tx.changes.jobs.insert(job_id);
   JobRow job = get_job(tx.db, job_id);
   if (!job.active()) return;
-  const bool blocks_left =
-      tx.db
-          .integer("SELECT 1 FROM tasks WHERE job_id = ? AND kind = 'erode' AND state <> 'done' LIMIT 1",
-                   job_id)
-          .has_value();
   // That may write the whole field, for which a full disk has no room: see settle_finished_blocks().
-  if (job.stage == v1::JOB_STAGE_ERODE && !blocks_left && tx.room && !finish_erosion(tx, job)) return;
+  if (job.stage == v1::JOB_STAGE_ERODE && tx.room && !has_blocks_left(tx.db, job) && !finish_erosion(tx, job))
+    return;
+  if (job.stage == v1::JOB_STAGE_REFINE && tx.room && !has_blocks_left(tx.db, job) &&
+      !go_on_refining(tx, job))
+    return;
   if (job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job)) return;
   if (!job.cancel_requested) return;
   if (tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND state = 'leased' AND on_request = 0 LIMIT 1",
@@ -151,8 +179,8 @@ void settle_finished_blocks(Tx& tx) {
   std::vector<std::string> jobs;
   {
     Statement row = tx.db.query(
-        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND stage = 'erode' AND NOT EXISTS"
-        " (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = 'erode' AND state <> 'done')");
+        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND stage IN ('erode', 'refine')"
+        " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = j.stage AND state <> 'done')");
     while (row.step()) jobs.push_back(row.text(0));
   }
   for (const std::string& job : jobs) settle_job(tx, job);

@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint64_t kPerTriangle = 235;
 constexpr std::uint64_t kPerPoint = 52;
 constexpr std::uint64_t kSheetPerPoint = 200;
+constexpr std::uint64_t kRefinePerPoint = 280;
+constexpr std::uint64_t kRefinePerTriangle = 200;
 
 // A triangle is 50 bytes of OFF text when its numbers are long: itself, and what it becomes.
 constexpr std::uint64_t kPerMeshByte = 1 + kPerTriangle / 50;
@@ -36,8 +38,11 @@ std::uint64_t memory_need(v1::TaskKind kind, std::uint64_t mesh_bytes, const v1:
   if (kind == v1::TASK_KIND_PREPARE && prepared.triangles() == 0) {
     return mesh_bytes * kPerMeshByte + params.sampling().target_points() * kPerPoint;
   }
-  const std::uint64_t per_point = kPerPoint + (wire::gives_sheet(shocks) ? kSheetPerPoint : 0);
-  return prepared.triangles() * kPerTriangle + prepared.points() * per_point;
+  const bool refine = kind == v1::TASK_KIND_REFINE;
+  const std::uint64_t per_point =
+      kPerPoint + (wire::gives_sheet(shocks) ? kSheetPerPoint : 0) + (refine ? kRefinePerPoint : 0);
+  return prepared.triangles() * (kPerTriangle + (refine ? kRefinePerTriangle : 0)) +
+         prepared.points() * per_point;
 }
 
 std::int64_t rounded_need(std::uint64_t bytes) {

@@ -6,6 +6,7 @@
 #include "base/quoted.h"
 #include "database/errors.h"
 #include "wire/field_record.h"
+#include "wire/refined_record.h"
 
 namespace affskel::server {
 namespace {
@@ -144,13 +145,15 @@ std::optional<v1::JobError> over_stored_room(Database& db, const Policy& policy,
 }
 
 std::optional<v1::JobError> over_quota(Database& db, const Policy& policy, const std::string& owner,
-                                       const v1::PreparedSummary& prepared, std::int64_t bytes) {
+                                       const v1::PreparedSummary& prepared, bool refines,
+                                       std::int64_t bytes) {
   v1::JobError error;
   error.set_code("LIMIT");
   error.set_message(too_many_chords(policy, owner, static_cast<double>(prepared.points()),
                                     static_cast<double>(prepared.directions())));
   if (!error.message().empty()) return error;
-  const auto field = static_cast<std::int64_t>(prepared.points() * wire::kFieldRecordBytes);
+  const std::size_t per_point = wire::kFieldRecordBytes + (refines ? wire::kRefinedRecordBytes : 0);
+  const auto field = static_cast<std::int64_t>(prepared.points() * per_point);
   return over_stored_room(db, policy, owner, field + bytes);
 }
 

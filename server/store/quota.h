@@ -40,6 +40,6 @@ std::optional<v1::JobError> over_stored_room(Database& db, const Policy& policy,
 /// For what is known once a job is prepared: its points x directions, and the bytes of its field and lattice.
 /// @returns why the job cannot go on, if so: a JobError LIMIT.
 std::optional<v1::JobError> over_quota(Database& db, const Policy& policy, const std::string& owner,
-                                       const v1::PreparedSummary& prepared, std::int64_t bytes);
+                                       const v1::PreparedSummary& prepared, bool refines, std::int64_t bytes);
 
 }  // namespace affskel::server

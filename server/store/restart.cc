@@ -5,6 +5,7 @@
 
 #include "store/blocks.h"
 #include "store/job_life.h"
+#include "store/refinement.h"
 #include "store/rows.h"
 #include "store/task_rows.h"
 
@@ -37,6 +38,18 @@ void give_own_erosion(Tx& tx, const std::string& job, std::int64_t like) {
   add_task(tx, job, v1::TASK_KIND_PREPARE);
 }
 
+/// The job computes what is missing.
+void go_on_with(Tx& tx, const std::string& job_id, std::int64_t directions) {
+  const JobRow job = get_job(tx.db, job_id);
+  if (job.refines && job.directions_done == directions) {
+    queue_again(tx, job_id, "refine");
+    return begin_refinement(tx, job);
+  }
+  queue_again(tx, job_id, "erode");
+  cut_blocks(tx, job_id, directions);
+  finish_whole_blocks(tx, job_id);
+}
+
 }  // namespace
 
 void restart_erosion(Tx& tx, std::int64_t erosion_id, std::int64_t directions) {
@@ -45,6 +58,7 @@ void restart_erosion(Tx& tx, std::int64_t erosion_id, std::int64_t directions) {
       " (SELECT ifnull(sum(end_position - first_position), 0) FROM done_ranges WHERE erosion_id = ?1)"
       " WHERE id = ?1",
       erosion_id);
+  forget_refinement(tx, erosion_id);
   tx.db.run("DELETE FROM artifacts WHERE erosion_id = ? AND kind NOT IN ('lattice', 'directions')",
             erosion_id);
   bool taken = !core_is_current(tx.db, erosion_id);
@@ -53,9 +67,7 @@ void restart_erosion(Tx& tx, std::int64_t erosion_id, std::int64_t directions) {
     if (taken) {
       give_own_erosion(tx, job, erosion_id);
     } else {
-      queue_again(tx, job, "erode");
-      cut_blocks(tx, job, directions);
-      finish_whole_blocks(tx, job);
+      go_on_with(tx, job, directions);
       taken = true;
     }
     tx.changes.jobs.insert(job);

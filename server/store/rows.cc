@@ -29,7 +29,7 @@ constexpr const char* kJobColumns =
     " iif(EXISTS (SELECT 1 FROM tasks INDEXED BY tasks_in_need WHERE job_id = j.id AND state = 'pending'"
     " AND parked = 0 AND needs_memory > 0),"
     " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0), 0),"
-    " e.core_version, j.stance_up, j.stance_front"
+    " e.core_version, j.stance_up, j.stance_front, e.round, e.refined_points"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -106,6 +106,8 @@ ReadJob read_job(const Statement& row) {
   job.set_memory_needed(columns.natural());
   job.set_core_version(columns.text());
   read_stance(columns, job);
+  job.set_refine_round(static_cast<std::uint32_t>(columns.natural()));
+  job.set_refined_points(columns.natural());
   return read;
 }
 
@@ -130,7 +132,7 @@ std::optional<JobRow> find_job(Database& db, const std::string& id) {
   Statement row = db.query(
       "SELECT j.state, j.stage, j.cancel_requested, j.erosion_id, j.skeleton, j.skeleton_key, e.mesh_sha256,"
       " e.params_key, e.core_version, e.points, e.directions, e.directions_done, e.finished, j.owner, "
-      "j.finished_ms, j.pinned, j.removed_ms"
+      "j.finished_ms, j.pinned, j.removed_ms, e.refines, e.round, e.refined_points"
       " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?",
       id);
   if (!row.step()) return std::nullopt;
@@ -154,6 +156,9 @@ std::optional<JobRow> find_job(Database& db, const std::string& id) {
   job.finished_ms = columns.integer();
   job.pinned = columns.flag();
   job.removed_ms = columns.integer();
+  job.refines = columns.flag();
+  job.round = columns.integer();
+  job.refined_points = columns.integer();
   return job;
 }
 
@@ -175,7 +180,7 @@ std::optional<std::string> last_job(Database& db, const std::string& owner) {
 std::string missing_core(Database& db, const std::string& id) {
   Statement row = db.query(
       "SELECT e.core_version FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
-      " WHERE j.id = ? AND j.stage = 'erode' AND j.state IN ('queued', 'running')"
+      " WHERE j.id = ? AND j.stage IN ('erode', 'refine') AND j.state IN ('queued', 'running')"
       " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased')",
       id);
   if (!row.step()) return {};
@@ -184,6 +189,24 @@ std::string missing_core(Database& db, const std::string& id) {
   if (current.empty() || current == needed) return {};
   return "begun with core version " + needed + ", the workers now have version " + current +
          "; connect such a worker, or cancel the job and submit it anew";
+}
+
+struct RangeSql {
+  const char *all, *touching, *remove, *insert;
+};
+
+#define RANGES_OF(table)                                                                               \
+  RangeSql {                                                                                           \
+    "SELECT first_position, end_position FROM " table " WHERE erosion_id = ? ORDER BY first_position", \
+        "SELECT first_position, end_position FROM " table                                              \
+        " WHERE erosion_id = ? AND first_position <= ? AND end_position >= ?",                         \
+        "DELETE FROM " table " WHERE erosion_id = ? AND first_position >= ? AND first_position <= ?",  \
+        "INSERT INTO " table " (erosion_id, first_position, end_position) VALUES (?, ?, ?)"            \
+  }
+
+const RangeSql& range_sql(Done of) {
+  static constexpr RangeSql directions = RANGES_OF("done_ranges"), points = RANGES_OF("refined_ranges");
+  return of == Done::kDirections ? directions : points;
 }
 
 }  // namespace
@@ -265,19 +288,17 @@ std::string current_core_version(Database& db) {
   return row.step() ? row.text(0) : std::string();
 }
 
-std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id) {
-  Statement row = db.query(
-      "SELECT first_position, end_position FROM done_ranges WHERE erosion_id = ? ORDER BY first_position",
-      erosion_id);
+std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id, Done of) {
+  Statement row = db.query(range_sql(of).all, erosion_id);
   std::vector<Range> ranges;
   while (row.step()) ranges.push_back({row.integer(0), row.integer(1)});
   return ranges;
 }
 
-std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range block) {
+std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range block, Done of) {
   std::vector<Range> left;
   std::int64_t at = block.begin;
-  for (const Range& done : done_ranges(db, erosion_id)) {
+  for (const Range& done : done_ranges(db, erosion_id, of)) {
     if (done.end <= at) continue;
     if (done.begin >= block.end) break;
     if (done.begin > at) left.push_back({at, done.begin});
@@ -287,14 +308,11 @@ std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range
   return left;
 }
 
-std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range) {
+std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range, Done of) {
   Range joined = range;
   std::int64_t repeated = 0;
   {
-    Statement row = db.query(
-        "SELECT first_position, end_position FROM done_ranges"
-        " WHERE erosion_id = ? AND first_position <= ? AND end_position >= ?",
-        erosion_id, range.end, range.begin);
+    Statement row = db.query(range_sql(of).touching, erosion_id, range.end, range.begin);
     while (row.step()) {
       const Range old{row.integer(0), row.integer(1)};
       repeated += std::max<std::int64_t>(0, std::min(old.end, range.end) - std::max(old.begin, range.begin));
@@ -303,10 +321,8 @@ std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range) 
   }
   const std::int64_t added = range.end - range.begin - repeated;
   if (added == 0) return 0;
-  db.run("DELETE FROM done_ranges WHERE erosion_id = ? AND first_position >= ? AND first_position <= ?",
-         erosion_id, joined.begin, joined.end);
-  db.run("INSERT INTO done_ranges (erosion_id, first_position, end_position) VALUES (?, ?, ?)", erosion_id,
-         joined.begin, joined.end);
+  db.run(range_sql(of).remove, erosion_id, joined.begin, joined.end);
+  db.run(range_sql(of).insert, erosion_id, joined.begin, joined.end);
   return added;
 }
 

@@ -33,6 +33,9 @@ struct JobRow {
   std::int64_t points = 0;
   std::int64_t directions = 0;
   std::int64_t directions_done = 0;
+  bool refines = false;             // its E is the infimum over all directions
+  std::int64_t round = 0;           // of the refinement; 0 also before it begins
+  std::int64_t refined_points = 0;  // done in this round
   bool finished = false;
   std::int64_t finished_ms = 0;  // 0 while it is active
   bool pinned = false;
@@ -85,14 +88,21 @@ struct JobPage {
 /// Numbers of jobs are never given twice, so that a page begins at the same place whatever comes and goes.
 JobPage list_jobs(Database& db, const ListFilter& filter);
 
+/// What ranges that are done are made of.
+enum class Done {
+  kDirections,  ///< positions in the order of work
+  kPoints,      ///< points, in the present round of the refinement
+};
+
 /// Finished ranges of an erosion in ascending order.
-std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id);
+std::vector<Range> done_ranges(Database& db, std::int64_t erosion_id, Done of = Done::kDirections);
 
 /// What is left of `block`.
-std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range block);
+std::vector<Range> remaining_ranges(Database& db, std::int64_t erosion_id, Range block,
+                                    Done of = Done::kDirections);
 
 /// Adds one finished range, keeping the stored ones disjoint and coalesced.  Returns how many of its
 /// positions were new.
-std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range);
+std::int64_t add_done_range(Database& db, std::int64_t erosion_id, Range range, Done of = Done::kDirections);
 
 }  // namespace affskel::server

@@ -26,6 +26,7 @@
 #include "store/clock.h"
 #include "store/field.h"
 #include "store/figures.h"
+#include "store/refined.h"
 #include "store/rows.h"
 #include "store/submission.h"
 #include "store/time_left.h"
@@ -154,27 +155,31 @@ class Store final : public TokenSource {
   std::optional<v1::Lease> lease(const v1::WorkerIdentity& worker, const std::string& preferred_job,
                                  bool supervised, const std::vector<std::string>& held = {});
 
-  struct ErodeLease {
+  struct BlockLease {
     std::string job;
-    std::int64_t points = 0;      ///< R
+    v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
     std::int64_t directions = 0;  ///< K
-    double volume = 0;            ///< of the solid, mesh units cubed
+    RefinedBounds bounds;
   };
-  /// What a leased ERODE task is about, for checking a report while it arrives.
-  ErodeLease erode_lease(const std::string& token);
+  /// What a leased ERODE or REFINE task is about, for checking a report while it arrives.
+  BlockLease block_lease(const std::string& token);
 
   v1::ReportResponse renew(const std::string& token);
   v1::ReportResponse report(const v1::ReportErosionHeader& header, const RecordBatch& records);
   /// Merges a part of a report that is still arriving, and renews the lease.  What a record says is true
   /// whatever becomes of the rest; only report() calls positions done.
   void report_part(const std::string& token, const RecordBatch& records);
+  /// The same of a REFINE task: what it calls done is stored with its values, see store/refinement.h.
+  v1::ReportResponse report_refined(const v1::ReportErosionHeader& header, const RefinedBatch& batch);
   v1::ReportResponse complete(const v1::CompleteTaskHeader& header, std::string_view data);
   /// @param memory_needed bytes, when the worker has too little memory for the task: a larger one gets it.
   v1::ReportResponse fail(const std::string& token, const v1::JobError& error, bool retryable,
                           std::uint64_t memory_needed = 0);
   v1::ReportResponse give_back(const std::string& token);
   /// Opens an input of a leased task.
-  std::unique_ptr<BlobReader> open_input(const std::string& token, v1::ArtifactKind kind);
+  /// @param known of REFINED: the round up to which the worker has what was found; none: it has nothing.
+  std::unique_ptr<BlobReader> open_input(const std::string& token, v1::ArtifactKind kind,
+                                         std::optional<std::int64_t> known = std::nullopt);
 
   // For the maintenance thread and the supervisor: store_leases.cc
 

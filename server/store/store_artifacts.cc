@@ -78,6 +78,12 @@ void require_results(const JobRow& job) {
           " pin it to keep them then");
 }
 
+void require_refines(const JobRow& job) {
+  if (job.refines) return;
+  throw StoreError(StoreError::Code::kPrecondition,
+                   "job " + job.id + " has no refined field: its E is the minimum over a set of directions");
+}
+
 void require_finished(Database& db, const JobRow& job) {
   if (!job.finished) throw missing(db, job, "complete field");
 }
@@ -137,7 +143,7 @@ std::optional<v1::JobError> task_error(Database& db, std::int64_t task) {
 
 Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& request, std::int64_t asked) {
   std::string mesh;
-  std::int64_t field = 0;
+  std::int64_t field = 0, refined = 0;
   std::int64_t artifact = 0;
   as_request_error([&] { wire::check_request(request); });
   const wire::ArtifactKindInfo& kind = *wire::find_artifact_kind(request.kind());
@@ -164,6 +170,11 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
         require_finished(tx.db, job);
         field = job.erosion_id;
         return 0;
+      case v1::TASK_KIND_REFINE:
+        require_refines(job);
+        require_finished(tx.db, job);
+        refined = job.erosion_id;
+        return 0;
       default:
         break;
     }
@@ -179,6 +190,7 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
   });
   if (!mesh.empty()) state.reader = read_mesh(file_, mesh);
   if (field != 0) state.reader = read_field(file_, field);
+  if (refined != 0) state.reader = read_refined(file_, refined);
   if (artifact != 0) state.reader = read_artifact(file_, artifact);
   return state;
 }
@@ -248,9 +260,10 @@ class InputReader final : public BlobReader {
 
 }  // namespace
 
-std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::ArtifactKind kind) {
+std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::ArtifactKind kind,
+                                              std::optional<std::int64_t> known) {
   std::string mesh;
-  std::int64_t field = 0;
+  std::int64_t field = 0, refined = 0;
   std::int64_t artifact = 0;
   read([&](Database& db) {
     const JobRow job = get_job(db, task_of_token(db, token).job_id);
@@ -261,11 +274,17 @@ std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::Arti
     if (info->task == v1::TASK_KIND_UNSPECIFIED) mesh = job.mesh_sha256;
     if (info->task == v1::TASK_KIND_PREPARE) artifact = stored_artifact(db, job, info->name());
     if (info->task == v1::TASK_KIND_ERODE) field = job.erosion_id;
+    if (info->task == v1::TASK_KIND_REFINE) {
+      require_refines(job);
+      refined = job.erosion_id;
+    }
     return true;
   });
   const auto open = [&]() -> std::unique_ptr<BlobReader> {
     if (!mesh.empty()) return read_mesh(file_, mesh);
     if (field != 0) return read_field(file_, field);
+    if (refined != 0 && known) return read_refined_changes(file_, refined, *known);
+    if (refined != 0) return read_refined(file_, refined);
     return read_artifact(file_, artifact);
   };
   return std::make_unique<InputReader>(

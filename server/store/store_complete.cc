@@ -173,14 +173,14 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
       finish_task(tx, task);
       return reply(false);
     }
-    if (task.kind == v1::TASK_KIND_ERODE)
-      refuse_completion("a block of directions is finished by its reports");
+    if (task.kind == v1::TASK_KIND_ERODE || task.kind == v1::TASK_KIND_REFINE)
+      refuse_completion("a block is finished by its reports");
     if ((task.kind == v1::TASK_KIND_PREPARE) != parts.has_value()) {
       refuse_completion("a summary belongs to the prepare task, and only to it");
     }
     if (parts) {
       const JobRow job = get_job(tx.db, task.job_id);
-      if (const auto error = over_quota(tx.db, options_.policy, job.owner, header.prepared(),
+      if (const auto error = over_quota(tx.db, options_.policy, job.owner, header.prepared(), job.refines,
                                         static_cast<std::int64_t>(data.size()))) {
         give_up(tx, task, *error);
         settle_job(tx, task.job_id);

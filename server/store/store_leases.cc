@@ -77,6 +77,10 @@ bool adopt_instead(Tx& tx, const TaskRow& task, const std::string& core_version)
   return true;
 }
 
+bool has_block(const TaskRow& task) {
+  return task.kind == v1::TASK_KIND_ERODE || task.kind == v1::TASK_KIND_REFINE;
+}
+
 void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool supervised,
            const std::string& token) {
   tx.db.run(
@@ -93,9 +97,10 @@ void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool s
       tx.wall_ms, task.job_id);
   tx.changes.jobs.insert(task.job_id);
   std::string message = "lease " + token.substr(0, 8);
-  if (task.kind == v1::TASK_KIND_ERODE) {
-    message +=
-        ", positions " + std::to_string(task.block.begin) + " .. " + std::to_string(task.block.end - 1);
+  if (has_block(task)) {
+    message += (task.kind == v1::TASK_KIND_ERODE ? ", positions "
+                                                 : ", round " + std::to_string(task.round) + ", points ") +
+               std::to_string(task.block.begin) + " .. " + std::to_string(task.block.end - 1);
   }
   add_event(tx, task.job_id, {"leased", task.id, task.kind, worker.id(), std::move(message)});
   tx.changes.counts.push_back(
@@ -114,8 +119,9 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
           tx.db.integer("SELECT revision FROM erosions WHERE id = ?", job.erosion_id).value_or(0)));
   lease.set_lease_ms(static_cast<std::uint32_t>(tx.options.lease_ms));
   lease.set_report_interval_ms(static_cast<std::uint32_t>(tx.options.report_interval_ms));
-  if (task.kind == v1::TASK_KIND_ERODE) {
-    for (const Range& range : remaining_ranges(tx.db, job.erosion_id, task.block)) {
+  lease.set_round(static_cast<std::uint32_t>(task.round));
+  if (has_block(task)) {
+    for (const Range& range : left_of_block(tx.db, job, task)) {
       v1::PositionRange* positions = lease.add_positions();
       positions->set_begin(static_cast<std::uint64_t>(range.begin));
       positions->set_end(static_cast<std::uint64_t>(range.end));

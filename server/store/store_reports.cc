@@ -1,8 +1,10 @@
 #include <exception>
+#include <utility>
 
 #include "database/errors.h"
 #include "store/givers.h"
 #include "store/job_life.h"
+#include "store/refinement.h"
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/task_leases.h"
@@ -16,10 +18,13 @@ namespace {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
 
-TaskRow of_erosion(TaskRow task) {
-  if (task.kind != v1::TASK_KIND_ERODE)
-    refuse_report("the lease is for a " + wire::word(task.kind) + " task");
+TaskRow of_kind(v1::TaskKind kind, TaskRow task) {
+  if (task.kind != kind) refuse_report("the lease is for a " + wire::word(task.kind) + " task");
   return task;
+}
+
+TaskRow of_erosion(TaskRow task) {
+  return of_kind(v1::TASK_KIND_ERODE, std::move(task));
 }
 
 /// The finished ranges of a report, checked against the block.
@@ -43,9 +48,15 @@ std::vector<Range> checked_ranges(const v1::ReportErosionHeader& header, Range b
 }
 
 struct Progress {
-  std::int64_t reported = 0;
+  std::int64_t reported = 0;  // directions; of a refinement points
   std::int64_t added = 0;
 };
+
+void require_round(const v1::ReportErosionHeader& header, const TaskRow& task) {
+  if (header.round() == task.round) return;
+  refuse_report("of round " + std::to_string(header.round()) + ", the lease is for round " +
+                std::to_string(task.round));
+}
 
 Progress add_positions(Tx& tx, const JobRow& job, const std::vector<Range>& ranges) {
   Progress progress;
@@ -61,6 +72,7 @@ Progress add_positions(Tx& tx, const JobRow& job, const std::vector<Range>& rang
 }
 
 void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
+  const bool directions = task.kind == v1::TASK_KIND_ERODE;
   const std::int64_t gap =
       task.state == "leased" ? tx.lease_ms - task.reported_ms.value_or(task.granted_ms) : 0;
   std::string owner;
@@ -69,12 +81,15 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
         "UPDATE jobs SET reports = reports + 1, directions_reported = directions_reported + ?,"
         " directions_repeated = directions_repeated + ?, longest_gap_ms = max(longest_gap_ms, ?) WHERE id = ?"
         " RETURNING owner",
-        progress.reported, progress.reported - progress.added, gap, task.job_id);
+        directions ? progress.reported : 0, directions ? progress.reported - progress.added : 0, gap,
+        task.job_id);
     while (row.step()) owner = row.text(0);
   }
-  tx.changes.counts.push_back([owner, progress](Metrics& metrics) {
-    metrics.directions(owner, progress.added, progress.reported - progress.added);
-  });
+  if (directions) {
+    tx.changes.counts.push_back([owner, progress](Metrics& metrics) {
+      metrics.directions(owner, progress.added, progress.reported - progress.added);
+    });
+  }
   tx.db.run(
       "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?,"
       " losses = iif(? > 0, 0, losses) WHERE id = ?",
@@ -104,13 +119,12 @@ std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job
 
 }  // namespace
 
-Store::ErodeLease Store::erode_lease(const std::string& token) {
+Store::BlockLease Store::block_lease(const std::string& token) {
   return read([&](Database& db) {
-    const JobRow job = get_job(db, of_erosion(task_of_token(db, token)).job_id);
-    Statement row = db.query("SELECT prepared FROM erosions WHERE id = ?", job.erosion_id);
-    v1::PreparedSummary prepared;
-    if (row.step()) prepared.ParseFromString(std::string(row.blob(0)));
-    return ErodeLease{job.id, job.points, job.directions, prepared.volume()};
+    const TaskRow task = task_of_token(db, token);
+    if (task.kind != v1::TASK_KIND_REFINE) of_erosion(task);
+    const JobRow job = get_job(db, task.job_id);
+    return BlockLease{job.id, task.kind, job.directions, refined_bounds(db, job.erosion_id)};
   });
 }
 
@@ -169,6 +183,43 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
   if (refusal) std::rethrow_exception(refusal);
   times_left_.add(reported.id, clock_.lease_ms(), static_cast<std::uint64_t>(reported.directions_done),
                   static_cast<std::uint64_t>(reported.directions));
+  return response;
+}
+
+v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, const RefinedBatch& batch) {
+  std::exception_ptr refusal;
+  const v1::ReportResponse response = write_field(header.token(), [&](Tx& tx) {
+    const TaskRow task = of_kind(v1::TASK_KIND_REFINE, held_task(tx, header.token()));
+    const JobRow job = get_job(tx.db, task.job_id);
+    tx.changes.jobs.insert(job.id);
+    require_round(header, task);
+    // A report that is repeated after its block was finished may find the next round begun.
+    if (task.state == "done") return reply(false);
+    if (!tx.room) {
+      refusal = refuse_for_now(tx, task, job);
+      return reply(false);
+    }
+    tx.require_room();
+    const std::vector<Range> ranges = checked_ranges(header, task.block);
+    Progress progress;
+    for (const Range& range : ranges) progress.reported += range.end - range.begin;
+    progress.added = take_refined(tx, job, task, ranges, batch.records());
+    count_report(tx, task, progress);
+    const bool cancelled = !job.active() || job.cancel_requested;
+    if (header.block_done()) {
+      if (!left_of_block(tx.db, job, task).empty())
+        refuse_report("the block is called done, but not all of its points are");
+      finish_task(tx, task);
+    } else if (cancelled) {
+      release_task(tx, task);
+    } else {
+      renew_lease(tx, task);
+      return reply(false);
+    }
+    settle_job(tx, job.id);
+    return reply(cancelled);
+  });
+  if (refusal) std::rethrow_exception(refusal);
   return response;
 }
 

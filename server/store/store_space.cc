@@ -28,6 +28,7 @@ constexpr std::int64_t kFullDiskLogBytes = std::int64_t{1} << 18;
 
 // Rows deleted in a step: some 5 to 16 MiB.  A report that was logged can be as large as that by itself.
 constexpr int kFieldChunks = 64;
+constexpr int kRefinedChunks = 24;
 constexpr int kMegabyteChunks = 8;
 constexpr int kLoggedReports = 8;
 
@@ -57,6 +58,11 @@ bool delete_piece(Tx& tx) {
              " (SELECT id FROM field_chunks WHERE erosion_id = ? LIMIT ?)",
              kFieldChunks) ||
         gone("DELETE FROM field_log WHERE id IN (SELECT id FROM field_log WHERE erosion_id = ? LIMIT ?)",
+             kLoggedReports) ||
+        gone("DELETE FROM refined_chunks WHERE id IN"
+             " (SELECT id FROM refined_chunks WHERE erosion_id = ? LIMIT ?)",
+             kRefinedChunks) ||
+        gone("DELETE FROM refined_log WHERE id IN (SELECT id FROM refined_log WHERE erosion_id = ? LIMIT ?)",
              kLoggedReports) ||
         gone("DELETE FROM artifact_chunks WHERE rowid IN"
              " (SELECT c.rowid FROM artifacts a JOIN artifact_chunks c ON c.artifact_id = a.id"

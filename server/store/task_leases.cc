@@ -59,9 +59,9 @@ double lost_directions(const Tx& tx, const TaskRow& task) {
 
 /// Finishes a block of which nothing is left.
 bool finish_if_whole(Tx& tx, const TaskRow& task) {
-  if (task.kind != v1::TASK_KIND_ERODE) return false;
+  if (task.kind != v1::TASK_KIND_ERODE && task.kind != v1::TASK_KIND_REFINE) return false;
   const JobRow job = get_job(tx.db, task.job_id);
-  if (!remaining_ranges(tx.db, job.erosion_id, task.block).empty()) return false;
+  if (!left_of_block(tx.db, job, task).empty()) return false;
   finish_task(tx, task);
   return true;
 }
@@ -88,8 +88,13 @@ void count_ended(Tx& tx, const TaskRow& task, const v1::JobError& error) {
 
 }  // namespace
 
+std::vector<Range> left_of_block(Database& db, const JobRow& job, const TaskRow& task) {
+  const Done of = task.kind == v1::TASK_KIND_REFINE ? Done::kPoints : Done::kDirections;
+  return remaining_ranges(db, job.erosion_id, task.block, of);
+}
+
 std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
-  if (task.kind != v1::TASK_KIND_ERODE) return tx.options.long_stall_ms;
+  if (task.kind != v1::TASK_KIND_ERODE && task.kind != v1::TASK_KIND_REFINE) return tx.options.long_stall_ms;
   // A direction of a huge scan takes minutes: the limit follows from the job's reports or, before these, from
   // its points.
   const std::int64_t longest_gap =

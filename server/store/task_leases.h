@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "affskel/v1/types.pb.h"
 #include "store/task_rows.h"
@@ -17,6 +18,9 @@ TaskRow resume_if_late(Tx& tx, TaskRow task);
 
 /// Renews the deadline.
 void renew_lease(Tx& tx, const TaskRow& task);
+
+/// What is left of the block of an ERODE or REFINE task.
+std::vector<Range> left_of_block(Database& db, const JobRow& job, const TaskRow& task);
 
 /// Milliseconds that a task may be leased without progress.
 std::int64_t patience_ms(Tx& tx, const TaskRow& task);

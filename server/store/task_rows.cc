@@ -17,7 +17,7 @@ v1::TaskKind kind_of(const std::string& name) {
 
 constexpr const char* kTaskColumns =
     "SELECT id, job_id, kind, state, on_request, first_position, end_position, params, params_key, losses,"
-    " worker, host, core_version, granted_ms, reported_ms, lease_directions FROM tasks ";
+    " worker, host, core_version, granted_ms, reported_ms, lease_directions, round FROM tasks ";
 
 TaskRow read_task(const Statement& row) {
   Columns columns(row);
@@ -38,6 +38,7 @@ TaskRow read_task(const Statement& row) {
   task.granted_ms = columns.integer();
   task.reported_ms = columns.integer_or_null();
   task.lease_directions = columns.integer();
+  task.round = columns.integer();
   return task;
 }
 
@@ -45,9 +46,10 @@ TaskRow read_task(const Statement& row) {
 struct NewTask {
   v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
   bool on_request = false;
-  std::optional<Range> block;  // ERODE
+  std::optional<Range> block;  // ERODE, REFINE
   std::optional<Blob> params;  // of the derived kinds
   std::optional<std::string> params_key;
+  std::optional<std::int64_t> round;  // REFINE
 };
 
 /// Adds a task in its place in the queue: what decides it is copied from the job, see migrations 5 and 8.
@@ -58,14 +60,14 @@ std::int64_t enqueue(Tx& tx, const std::string& job_id, const NewTask& task) {
   const std::string params(task.params ? task.params->bytes : std::string_view());
   tx.db.run(
       "INSERT INTO tasks (job_id, kind, state, on_request, first_position, end_position, params, params_key,"
-      " seq, priority, owner, turn, parked, needs_memory, needs_core)"
+      " seq, priority, owner, turn, parked, needs_memory, needs_core, round)"
       " SELECT j.id, ?2, 'pending', ?3, ?4, ?5, ?6, ?7, j.seq, j.priority, j.owner,"
       "  ifnull((SELECT max(turn) FROM tasks WHERE job_id = j.id), 0),"
       "  ?2 = 'verify' OR ?3 = 0 AND (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1), ?8,"
-      "  iif(?2 IN ('erode', 'verify') OR (?2 = 'prepare' AND ?3 = 1), ifnull(e.core_version, ''), '')"
+      "  iif(?2 IN ('erode', 'refine', 'verify') OR (?2 = 'prepare' AND ?3 = 1), ifnull(e.core_version, ''), ''), ?9"
       " FROM jobs j JOIN erosions e ON e.id = j.erosion_id WHERE j.id = ?1",
       job_id, wire::word(task.kind), task.on_request, position(&Range::begin), position(&Range::end),
-      task.params, task.params_key, memory_need_of(tx.db, job_id, task.kind, params));
+      task.params, task.params_key, memory_need_of(tx.db, job_id, task.kind, params), task.round);
   tx.changes.work = true;
   return tx.db.last_insert_rowid();
 }
@@ -119,15 +121,24 @@ std::int64_t add_block(Tx& tx, const std::string& job_id, Range block) {
   return enqueue(tx, job_id, task);
 }
 
+std::int64_t add_point_block(Tx& tx, const std::string& job_id, std::int64_t round, Range block) {
+  NewTask task;
+  task.kind = v1::TASK_KIND_REFINE;
+  task.block = block;
+  task.round = round;
+  return enqueue(tx, job_id, task);
+}
+
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request) {
-  return enqueue(tx, job_id, {kind, on_request, std::nullopt, Blob{params}, params_key});
+  return enqueue(tx, job_id, {kind, on_request, std::nullopt, Blob{params}, params_key, std::nullopt});
 }
 
 std::int64_t add_sample_task(Tx& tx, const std::string& job_id, const std::string& positions,
                              std::int64_t sample) {
-  return enqueue(tx, job_id,
-                 {v1::TASK_KIND_VERIFY, true, std::nullopt, Blob{positions}, std::to_string(sample)});
+  return enqueue(
+      tx, job_id,
+      {v1::TASK_KIND_VERIFY, true, std::nullopt, Blob{positions}, std::to_string(sample), std::nullopt});
 }
 
 }  // namespace affskel::server

@@ -19,8 +19,9 @@ struct TaskRow {
   v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
   std::string state;
   bool on_request = false;
-  Range block;         // ERODE
-  std::string params;  // of the derived kinds: serialized
+  Range block;             // ERODE: positions; REFINE: points
+  std::int64_t round = 0;  // REFINE
+  std::string params;      // of the derived kinds: serialized
   std::string params_key;
   std::int64_t losses = 0;
   std::string worker;
@@ -45,6 +46,7 @@ std::int64_t add_task(Tx& tx, const std::string& job_id, v1::TaskKind kind);
 /// A client asks for lattice or directions that are lost.
 std::int64_t add_prepare_request(Tx& tx, const std::string& job_id);
 std::int64_t add_block(Tx& tx, const std::string& job_id, Range block);
+std::int64_t add_point_block(Tx& tx, const std::string& job_id, std::int64_t round, Range block);
 std::int64_t add_derive_task(Tx& tx, const std::string& job_id, v1::TaskKind kind, const std::string& params,
                              const std::string& params_key, bool on_request);
 

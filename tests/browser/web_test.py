@@ -161,6 +161,26 @@ class Desktop(OnThePage):
         self.page.wait(lambda: any("eroded" in e.text for e in self.page.all(".card [role=status]")) or
                        self.page.all(".card .error:not([hidden])"))
 
+    def test_the_infimum_over_all_directions(self):
+        page = self.page
+        page.shown("a.button[href='#new']").click()
+        page.heading("New job")
+        self.choose("body.off")
+        page.picture_is_drawn("#found img")
+        page.type("#points", 1500)
+        page.type("#name", "infimum")
+        page.shown("summary").click()
+        page.shown("#minimum option[value='infimum']").click()
+        page.screenshot("desktop-2-infimum")
+        page.shown("#submit").click()
+        page.heading("infimum")
+        page.wait(lambda: page.shown(".badge").text == "done")
+        job = page.driver.current_url.split("/")[-1]
+        self.assertEqual(json.loads(bench.run("--json", "status", job))["params"]["minimum"], "infimum")
+        self.assertIn("all, beginning from these", page.text())
+        page.find("button[data-file='field.csv']").click()
+        self.assertTrue(page.downloaded("infimum.field.csv").startswith(b"x,y,z,E,nx,ny,nz,slope,saddles"))
+
     def test_wrong_parameters_are_refused_beside_their_fields(self):
         page = self.page
         self.submit_body(3000, "wrong")

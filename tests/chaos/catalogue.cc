@@ -5,15 +5,17 @@
 #include "process.h"
 #include "tools/files.h"
 #include "wire/sha256.h"
+#include "wire/words.h"
 
 namespace affskel::chaos {
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = {
-      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:8000"},
-      {"body", {"body", "--triangles", "500"}, 20000, "sphere:15000"},
-      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:5000"},
-      {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles"},
+      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:8000", v1::MINIMUM_SET},
+      {"body", {"body", "--triangles", "500"}, 20000, "sphere:15000", v1::MINIMUM_SET},
+      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:5000", v1::MINIMUM_SET},
+      {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles", v1::MINIMUM_SET},
+      {"infimum", {"body", "--triangles", "400"}, 12000, "triangles", v1::MINIMUM_INFIMUM},
   };
   return all;
 }
@@ -39,6 +41,7 @@ Submission Catalogue::next(std::size_t recipe, const std::string& name) const {
   submission.mesh_sha256 = wire::sha256_hex(submission.mesh);
   submission.params.mutable_sampling()->set_target_points(recipes()[recipe].points);
   submission.params.set_directions(recipes()[recipe].directions);
+  submission.params.set_minimum(recipes()[recipe].minimum);
   submission.params.set_repair(true);
   submission.recipe = recipe;
   return submission;
@@ -47,11 +50,12 @@ Submission Catalogue::next(std::size_t recipe, const std::string& name) const {
 std::string Catalogue::computed_text(const Programs& programs, std::size_t recipe) const {
   const Recipe& what = recipes()[recipe];
   const std::string stem = dir_ + "/" + what.name;
-  const Command compute{{programs.worker, "compute", stem + ".off", "--points", std::to_string(what.points),
-                         "--directions", what.directions, "-o", stem + ".csv"},
-                        "",
-                        dir_ + "/compute.log",
-                        {}};
+  const Command compute{
+      {programs.worker, "compute", stem + ".off", "--points", std::to_string(what.points), "--directions",
+       what.directions, "--minimum", wire::word(what.minimum), "-o", stem + ".csv"},
+      "",
+      dir_ + "/compute.log",
+      {}};
   if (run(compute, kPatience) != 0) {
     throw std::runtime_error("no field: " + tests::read_file(dir_ + "/compute.log"));
   }

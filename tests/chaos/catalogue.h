@@ -21,10 +21,17 @@ struct Recipe {
   std::vector<std::string> shape;  ///< of `affskel-client make`
   std::uint64_t points;
   const char* directions;
+  v1::Minimum minimum;
+
+  /// What its field is fetched as.
+  v1::ArtifactKind field_kind() const {
+    return minimum == v1::MINIMUM_INFIMUM ? v1::ARTIFACT_KIND_REFINED : v1::ARTIFACT_KIND_FIELD;
+  }
 };
 
-/// Recipes by size: a second or two of one core, a tenth of one, next to nothing.
-constexpr std::size_t kLongTorus = 0, kLongBody = 1, kMedium = 2, kTiny = 3;
+/// Recipes by size: a second or two of one core, a tenth of one, next to nothing; one of seconds that are spent on the
+/// infimum over all directions.
+constexpr std::size_t kLongTorus = 0, kLongBody = 1, kMedium = 2, kTiny = 3, kInfimum = 4;
 const std::vector<Recipe>& recipes();
 
 /// What an undisturbed service makes of a recipe.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace affskel::chaos {
 namespace {
@@ -14,17 +15,23 @@ bool holds(const v1::Job& job, const v1::PositionRange& range) {
   });
 }
 
-/// Every direction that was done is done.
+/// How far its refinement is: the round, and the points of it.
+std::pair<std::uint32_t, std::uint64_t> refined(const v1::Job& job) {
+  return {job.refine_round(), job.refined_points()};
+}
+
+/// Every direction that was done is done, and every point that was refined is.
 bool holds_all(const v1::Job& job, const v1::Job& floor) {
   if (job.state() == v1::JOB_STATE_DONE) return true;  // all of them, which is looked at elsewhere
-  return job.directions_done() >= floor.directions_done() &&
+  return refined(job) >= refined(floor) && job.directions_done() >= floor.directions_done() &&
          std::all_of(floor.done_positions().begin(), floor.done_positions().end(),
                      [&](const auto& range) { return holds(job, range); });
 }
 
 bool further(const v1::Job& job, const v1::Job& floor) {
   if (job.state() == v1::JOB_STATE_DONE) return true;
-  return floor.state() != v1::JOB_STATE_DONE && job.directions_done() >= floor.directions_done();
+  return floor.state() != v1::JOB_STATE_DONE && job.directions_done() >= floor.directions_done() &&
+         refined(job) >= refined(floor);
 }
 
 void look_at_wish(const Ledger::Entry& entry, const v1::Job& job, Complaints& complaints) {
@@ -48,8 +55,11 @@ void look_at(const Ledger::Entry& entry, const v1::Job& job, Complaints& complai
   }
   if (!holds_all(job, entry.floor)) {
     complaints.push_back(entry.name + ": " + std::to_string(entry.floor.directions_done()) +
-                         " directions were done, not all of these are among the " +
-                         std::to_string(job.directions_done()) + " of now");
+                         " directions were done and " + std::to_string(entry.floor.refined_points()) +
+                         " points of round " + std::to_string(entry.floor.refine_round()) +
+                         ", not all of these are among the " + std::to_string(job.directions_done()) +
+                         " and " + std::to_string(job.refined_points()) + " of round " +
+                         std::to_string(job.refine_round()) + " of now");
   }
   if (job.state() == v1::JOB_STATE_DONE && job.directions_done() != job.directions_total()) {
     complaints.push_back(entry.name + ": done, without all of its directions");

@@ -57,6 +57,18 @@ TEST_F(LedgerTest, ProgressThatFallsIsReported) {
   EXPECT_EQ(ledger_.audit({job("1", "a", v1::JOB_STATE_RUNNING, 49)}).size(), 1U);
 }
 
+TEST_F(LedgerTest, ARefinementThatFallsBackIsReported) {
+  const auto refining = [](std::uint32_t round, std::uint64_t points) {
+    v1::Job refined = job("1", "a", v1::JOB_STATE_RUNNING, 100);
+    refined.set_refine_round(round);
+    refined.set_refined_points(points);
+    return refined;
+  };
+  ledger_.saw(refining(2, 40));
+  EXPECT_TRUE(ledger_.audit({refining(3, 0)}).empty());
+  EXPECT_EQ(ledger_.audit({refining(2, 39)}).size(), 1U);
+}
+
 TEST_F(LedgerTest, ADirectionDoneNoMoreIsReportedEvenWhenTheNumberIsLarger) {
   ledger_.saw(job("1", "a", v1::JOB_STATE_RUNNING, 50));
   v1::Job other = job("1", "a", v1::JOB_STATE_RUNNING, 60);

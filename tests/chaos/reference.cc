@@ -45,7 +45,7 @@ void make_references(const Programs& programs, const std::string& dir, Catalogue
     const std::string id = answer.job().id();
     const v1::Job job = stage.api().follow(id, [](const v1::Job&) { return false; });
     if (job.state() != v1::JOB_STATE_DONE) throw std::runtime_error("no reference: " + job.error().message());
-    catalogue.set_reference(recipe, {fetch(stage.api(), id, v1::ARTIFACT_KIND_FIELD),
+    catalogue.set_reference(recipe, {fetch(stage.api(), id, recipes()[recipe].field_kind()),
                                      fetch(stage.api(), id, v1::ARTIFACT_KIND_SKELETON)});
     must_equal_computed(stage, id, catalogue.computed_text(programs, recipe));
   }

@@ -1,5 +1,7 @@
 #include "run.h"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 
 namespace affskel::chaos {
@@ -9,6 +11,12 @@ constexpr Milliseconds kRunCall{5000};
 constexpr std::size_t kKeptJobs = 10;
 
 double share(const v1::Job& job) {
+  if (job.params().minimum() == v1::MINIMUM_INFIMUM) {
+    // By far the most of it is the refinement, and of this round 0; the others count as they come.
+    const double points = static_cast<double>(std::max<std::uint64_t>(1, job.prepared().points()));
+    const double round = static_cast<double>(job.refined_points()) / points;
+    return job.refine_round() == 0 ? 0.4 * round : std::min(1.0, 0.4 + 0.05 * (job.refine_round() + round));
+  }
   return job.directions_total() == 0
              ? 0
              : static_cast<double>(job.directions_done()) / static_cast<double>(job.directions_total());
@@ -103,7 +111,7 @@ void Run::make_sure_of_a_running_job() {
         "asking for a job", [&] { return stage_.api().job(scene_.running_job, job, kRunCall); });
     if (status.ok() && !is_final(job) && share(job) < 0.5) return;
   }
-  const std::size_t recipe = scene_.pick(2) == 0 ? kLongTorus : kLongBody;
+  const std::size_t recipe = std::array{kLongTorus, kLongBody, kInfimum}[scene_.pick(3)];
   scene_.running_job = scene_.submit_patiently(stage_.api(), catalogue_.next(recipe, scene_.new_name()));
   const double moment = 0.02 + 0.004 * static_cast<double>(scene_.pick(100));
   ledger_.saw(

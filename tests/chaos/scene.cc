@@ -74,7 +74,7 @@ std::string Scene::whereabouts(const std::string& id) const {
 void Scene::compare_field(const Api& api, const std::string& id, std::size_t recipe) {
   std::string bytes;
   const grpc::Status status = until_answered("fetching a field", [&] {
-    return api.fetch(artefact(id, v1::ARTIFACT_KIND_FIELD), bytes, Milliseconds(5000));
+    return api.fetch(artefact(id, recipes()[recipe].field_kind()), bytes, Milliseconds(5000));
   });
   if (!status.ok()) {
     return complain("job " + id + " is done, its field not to be had: " + status.error_message() + "; " +

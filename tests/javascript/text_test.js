@@ -68,6 +68,8 @@ test('progress, with pace and time left while directions are eroded', () => {
     '1,000 of 2,000 directions, 9.9 per second, about 1 min 01 s left',
   );
   assert.equal(progress({ ...job, stage: 'derive' }, { perSecond: 1 }), '1,000 of 2,000 directions');
+  const refining = { ...job, stage: 'refine', refine_round: 3, refined_points: 250, prepared: { points: 9000 } };
+  assert.equal(progress(refining, { perSecond: 100 }), '250 of 9,000 points in round 3, 100 per second');
   assert.equal(progress({ ...job, state: 'done' }, null), '');
   assert.equal(progress(kJob, null), '');
 });

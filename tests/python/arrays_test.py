@@ -83,6 +83,17 @@ class Decoding(unittest.TestCase):
         self.assertEqual(field.share.tolist(), [record[0] / 200 for record in self.records()])
         self.assertEqual(list(field.table()), ["x", "y", "z", "E", "nx", "ny", "nz", "direction", "slope"])
 
+    def test_refined_fields_have_each_record_in_its_place(self):
+        data = b"".join(struct.pack("<5d3I", 10.0 * p + 1, 2.0 * p, 0, 0, 1, p, 0xFFFFFFFF - p % 2, 7) for p in range(6))
+        field = _arrays.refined_of(_arrays.lattice_of(SHEARED), data, 200.0)
+        self.assertEqual(field.E.tolist(), [10.0 * p + 1 for p in range(6)])
+        self.assertEqual(field.slope.tolist(), [2.0 * p for p in range(6)])
+        self.assertEqual(field.normals.tolist(), [[0, 0, 1]] * 6)
+        self.assertEqual(field.saddles.tolist(), [1, 2] * 3)
+        self.assertEqual(list(field.table()), ["x", "y", "z", "E", "nx", "ny", "nz", "slope", "saddles"])
+        with self.assertRaisesRegex(affskel.InternalError, "311 bytes for 6 sample points"):
+            _arrays.refined_of(_arrays.lattice_of(SHEARED), data[:-1], 200.0)
+
     def test_fields_that_do_not_fit_are_refused(self):
         with self.assertRaisesRegex(affskel.InternalError, "100 bytes for 6 sample points"):
             self.field(self.records()[:5])

@@ -92,6 +92,22 @@ class AgainstTheFiles(unittest.TestCase):
             self.assertEqual(job.status().points, len(field))
             self.assertEqual(job.status().volume, field.volume)
 
+    def test_the_infimum_is_that_of_the_csv_and_not_above_the_set(self):
+        job = client.submit(directory / "body.off", spacing=600, minimum="infimum").wait()
+        directory.client("fetch", job.id, "field", "-o", directory / "field.csv")
+        field = job.field()
+        self.assertTrue(field.is_infimum)
+        self.assert_same_columns(field.table(), directory.rows("field.csv"))
+        self.assertIn("saddles", field.table())
+        least = client.submit(directory / "body.off", spacing=600).wait().field()
+        self.assertTrue((field.E <= least.E * (1 + 1e-9)).all())
+        self.assertLess(np.median(field.E / least.E), .999)
+        np.testing.assert_allclose(np.linalg.norm(field.normals, axis=1), 1, rtol=1e-12)
+        self.assertEqual(set(field.saddles.tolist()), {0, 1, 2})
+        self.assertEqual(len(job.skeleton_points().direction), 0)
+        self.assertGreater(len(job.skeleton()), 10)
+        self.assertGreater(job.status().refine_round, 1)
+
     def test_skeleton_points_are_those_of_the_csv(self):
         for job, options in ((body, {}), (body, dict(threshold=9)), (body, dict(operator="zucker-hummel")),
                              (body, dict(operator="sobel", threshold=20)),
@@ -401,7 +417,7 @@ class SameMesh(unittest.TestCase):
                                 name="n", priority=7, request_id=mesh.suffix, repair="none")
             said = json.loads(directory.client("--json", "status", job.id))
             self.assertEqual(said["params"], dict(sampling=dict(target_points=500), directions="random:7:1",
-                                                  repair=False, frame="pca"))
+                                                  repair=False, frame="pca", minimum="set"))
             self.assertEqual(said["skeleton"], dict(operator="flux", threshold=.4))
             self.assertEqual((said["name"], said["priority"]), ("n", 7))
 

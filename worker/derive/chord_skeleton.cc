@@ -61,7 +61,7 @@ v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::Skeleton
     append(field.to_mesh(shock.position), message.mutable_xyz());
     message.add_erosion(shock.erosion);
     append(field.normal(shock.point), message.mutable_normal());
-    message.add_direction(shock.direction_low);
+    if (field.over_set()) message.add_direction(shock.direction_low);
     message.add_divergence(shock.strength);
   }
   *message.mutable_quality() = chord_quality_of(field, in_frame, sheet, params.threshold(), &points);

@@ -64,7 +64,9 @@ Derived packed(const v1::SolidParts& parts) {
 
 Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
                core::ExecutionContext* context, unsigned threads) {
-  const FinishedField field(job, stored, context, threads);
+  const bool refined = lease.job().params().minimum() == v1::MINIMUM_INFIMUM;
+  const FinishedField field(job, refined ? refined_field(job, stored) : set_field(job, stored), context,
+                            threads);
   field.throw_if_stopped();
   switch (lease.kind()) {
     case v1::TASK_KIND_SKELETON:

@@ -18,7 +18,7 @@ struct Derived {
 };
 
 /// Computes the artefact that the lease asks for from the finished field.
-/// @param stored the field's bytes, see ARTIFACT_KIND_FIELD.
+/// @param stored the field's bytes, see ARTIFACT_KIND_FIELD; of a job with the minimum INFIMUM ARTIFACT_KIND_REFINED.
 /// @param context asked between the steps whether to stop; may be null.
 /// @param threads that it may use.
 /// @throws core::CoreError for a wrong parameter, or an artefact too large to be sent; kCancelled when

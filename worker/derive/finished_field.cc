@@ -1,27 +1,56 @@
 #include "derive/finished_field.h"
 
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
 #include "core/base/matrix3.h"
+#include "wire/refined_record.h"
 
 namespace affskel::worker {
 
-FinishedField::FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context,
+FieldValues set_field(const PreparedJob& job, std::string_view stored) {
+  return {true, unpack_field(stored, job.lattice().points), job.directions()};
+}
+
+FieldValues refined_field(const PreparedJob& job, std::string_view stored) {
+  const std::uint32_t points = job.lattice().points;
+  if (stored.size() != std::size_t{points} * wire::kRefinedRecordBytes) {
+    throw core::CoreError(core::CoreError::Code::kInternal,
+                          "the stored refined field has " + std::to_string(stored.size()) + " bytes for " +
+                              std::to_string(points) + " points");
+  }
+  FieldValues field{false, {}, {}};
+  field.values.reserve(points);
+  field.directions.reserve(points);
+  for (std::uint32_t p = 0; p < points; ++p) {
+    const wire::RefinedRecord record =
+        wire::decode_refined_record(stored.data() + std::size_t{p} * wire::kRefinedRecordBytes);
+    field.values.push_back({record.erosion, record.slope, p});
+    field.directions.push_back({record.normal[0], record.normal[1], record.normal[2]});
+  }
+  return field;
+}
+
+FinishedField::FinishedField(const PreparedJob& job, FieldValues field, core::ExecutionContext* context,
                              unsigned threads)
     : job_(job),
       context_(context),
       threads_(threads),
-      values_(unpack_field(stored, job.lattice().points)),
-      frame_directions_(core::frame_directions(job.lattice(), job.directions())),
+      field_(std::move(field)),
+      frame_directions_(core::frame_directions(job.lattice(), field_.directions)),
       places_(job.solid(), job.lattice()) {}
 
 core::OptimalDirections FinishedField::optimal() const {
   core::OptimalDirections list;
-  list.reserve(values_.size());
-  for (const core::FieldValue& value : values_) list.push_back(value.direction);
+  list.reserve(values().size());
+  for (const core::FieldValue& value : values()) list.push_back(value.direction);
   return list;
 }
 
 core::FrameField FinishedField::in_frame() const {
-  return core::frame_field(lattice(), job_.directions(), values_);
+  return core::frame_field(lattice(), field_.directions, values());
 }
 
 core::Vec3 FinishedField::to_mesh(const core::Vec3& frame_point) const {
@@ -43,8 +72,8 @@ core::Vec3 FinishedField::in_frame(const core::LatticePlace& at) const {
 }
 
 core::Vec3 FinishedField::normal(std::uint32_t point) const {
-  const std::uint32_t direction = values_[point].direction;
-  return direction == core::FieldValue::kNoDirection ? core::Vec3{} : job_.directions()[direction];
+  const std::uint32_t direction = values()[point].direction;
+  return direction == core::FieldValue::kNoDirection ? core::Vec3{} : field_.directions[direction];
 }
 
 }  // namespace affskel::worker

@@ -9,14 +9,29 @@
 
 namespace affskel::worker {
 
+/// What a finished field says, mesh units.
+struct FieldValues {
+  bool over_set = true;  ///< whether the directions are those of the job's set, by their index
+  /// Per sample point; the area is the slope |grad E|.
+  std::vector<core::FieldValue> values;
+  core::DirectionSet directions;  ///< that the values name
+};
+
+/// A field over the job's set of directions.
+/// @param stored the server's bytes, see ARTIFACT_KIND_FIELD.
+/// @throws core::CoreError kInternal when their number does not fit the job; so below.
+FieldValues set_field(const PreparedJob& job, std::string_view stored);
+
+/// A field over all directions: each point has one of its own.
+/// @param stored see ARTIFACT_KIND_REFINED.
+FieldValues refined_field(const PreparedJob& job, std::string_view stored);
+
 /// A job's finished field as the derive tasks look at it.  Keeps a reference to the job.
 class FinishedField {
  public:
-  /// @param stored the server's bytes, see ARTIFACT_KIND_FIELD.
   /// @param context of the task, may be null; must outlive this.
   /// @param threads that a derivation may use.
-  /// @throws core::CoreError kInternal when their number does not fit the job.
-  FinishedField(const PreparedJob& job, std::string_view stored, core::ExecutionContext* context = nullptr,
+  FinishedField(const PreparedJob& job, FieldValues field, core::ExecutionContext* context = nullptr,
                 unsigned threads = 1);
 
   const PreparedJob& job() const { return job_; }
@@ -26,8 +41,10 @@ class FinishedField {
   void throw_if_stopped() const { core::throw_if_stopped(context_); }
   const core::Lattice& lattice() const { return job_.lattice(); }
   /// Per sample point, mesh units.
-  const std::vector<core::FieldValue>& values() const { return values_; }
-  /// The job's directions as unit normals in the lattice's frame.
+  const std::vector<core::FieldValue>& values() const { return field_.values; }
+  /// Whether its directions are those of the job's set.
+  bool over_set() const { return field_.over_set; }
+  /// The directions that the values name as unit normals in the lattice's frame.
   const core::DirectionSet& frame_directions() const { return frame_directions_; }
   core::OptimalDirections optimal() const;
   core::FrameField in_frame() const;
@@ -46,7 +63,7 @@ class FinishedField {
   const PreparedJob& job_;
   core::ExecutionContext* context_;
   unsigned threads_;
-  std::vector<core::FieldValue> values_;
+  FieldValues field_;
   core::DirectionSet frame_directions_;
   core::SamplePlaces places_;
 };

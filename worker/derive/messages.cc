@@ -15,7 +15,7 @@ void append_point(const FinishedField& field, std::uint32_t point, const core::L
   append(field.place(place), message.mutable_xyz());
   message.add_erosion(value.erosion);
   append(field.normal(point), message.mutable_normal());
-  message.add_direction(value.direction);
+  if (field.over_set()) message.add_direction(value.direction);
 }
 
 void append_values(const std::vector<core::PlaceValue>& values, v1::TriangleMesh& message) {

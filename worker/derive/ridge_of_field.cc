@@ -54,7 +54,7 @@ void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPo
     append(field_.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
     append(field_.normal(vertex.point), message.mutable_normal());
-    message.add_direction(in_frame_.direction[vertex.point]);
+    if (field_.over_set()) message.add_direction(in_frame_.direction[vertex.point]);
     message.add_divergence(vertex.strength);
   }
 }

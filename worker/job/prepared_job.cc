@@ -10,9 +10,11 @@
 
 #include "base/number_text.h"
 #include "core/base/error.h"
+#include "core/infimum/refine.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
 #include "wire/limits.h"
+#include "wire/refined_record.h"
 #include "wire/words.h"
 
 namespace affskel::worker {
@@ -52,13 +54,16 @@ core::DirectionSet take_directions(const core::Solid& solid, const std::string& 
   return core::make_directions(solid, spec.empty() ? "triangles" : spec, options);
 }
 
-core::Lattice lay_lattice(const core::Solid& solid, const v1::Sampling& sampling, const core::Matrix3& frame,
-                          unsigned threads, core::ExecutionContext* context,
+core::Lattice lay_lattice(const core::Solid& solid, const v1::ErosionParams& params,
+                          const core::Matrix3& frame, unsigned threads, core::ExecutionContext* context,
                           const std::function<std::uint64_t()>& available) {
   core::LatticeOptions options;
   // Asked here: the memory of the solid is taken already.
   if (available) options.memory_budget = available();
   options.point_bytes = core::kErosionBytesPerPoint + wire::kFieldRecordBytes;  // the server's field, fetched
+  if (params.minimum() == v1::MINIMUM_INFIMUM)
+    options.point_bytes = core::kRefineBytesPerPoint + wire::kRefinedRecordBytes;
+  const v1::Sampling& sampling = params.sampling();
   options.frame = frame;
   options.threads = threads;
   options.context = context;
@@ -110,7 +115,7 @@ PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& p
                          core::ExecutionContext* context, const std::function<std::uint64_t()>& available)
     : solid_(read_solid(mesh_bytes, params, threads, context, polygons_cut_)),
       frame_(core::solid_frame(solid_, frame_kind(params.frame()), context)),
-      lattice_(lay_lattice(solid_, params.sampling(), frame_, threads, context, available)),
+      lattice_(lay_lattice(solid_, params, frame_, threads, context, available)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
 
 v1::PreparedSummary PreparedJob::summary() const {
@@ -210,6 +215,14 @@ core::Erosion& PreparedJob::erosion(unsigned threads, std::string_view stored) {
   erosion->field().take_changes([](std::uint32_t, const core::FieldValue&) {});  // the server knows these
   erosion_ = std::move(erosion);
   return *erosion_;
+}
+
+JobRefinement& PreparedJob::refinement(unsigned threads) {
+  erosion_.reset();
+  if (!refinement_)
+    refinement_ =
+        std::make_unique<JobRefinement>(solid_, lattice_, SolidUnits{volume_unit(), area_unit()}, threads);
+  return *refinement_;
 }
 
 std::vector<core::FieldValue> unpack_field(std::string_view bytes, std::uint64_t points) {

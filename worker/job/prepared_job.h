@@ -12,6 +12,7 @@
 #include "core/erosion/erosion.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid.h"
+#include "job/job_refinement.h"
 #include "wire/field_record.h"
 
 namespace affskel::worker {
@@ -44,6 +45,10 @@ class PreparedJob {
   core::Erosion& erosion(unsigned threads, std::string_view stored);
   bool has_erosion() const { return erosion_ != nullptr; }
 
+  /// Its refinement, made at the first call; the field's engine is not needed from then on and let go.
+  JobRefinement& refinement(unsigned threads);
+  bool has_refinement() const { return refinement_ != nullptr; }
+
   /// Mesh units cubed per scaled unit cubed, and squared.
   double volume_unit() const;
   double area_unit() const;
@@ -59,6 +64,7 @@ class PreparedJob {
   core::Lattice lattice_;
   core::DirectionSet directions_;
   std::unique_ptr<core::Erosion> erosion_;
+  std::unique_ptr<JobRefinement> refinement_;
 };
 
 /// A field in the server's form, unpacked: E in mesh units cubed.

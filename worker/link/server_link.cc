@@ -144,8 +144,10 @@ std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) 
   return response.lease();
 }
 
-std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop) {
+std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop,
+                              const std::optional<std::uint32_t>& known_round) {
   v1::FetchInputRequest request;
+  if (known_round) request.set_known_round(*known_round);
   request.set_token(token);
   request.set_kind(kind);
   std::string bytes;
@@ -189,7 +191,7 @@ v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
   // A stream that broke looks like one that ended: the count tells them apart.
   std::uint64_t count = 0;
   for (const v1::ReportErosionRequest& message : records) {
-    count += static_cast<std::uint64_t>(message.records().point_size());
+    count += static_cast<std::uint64_t>(message.records().point_size() + message.refined().point_size());
   }
   first.mutable_header()->set_records(count);
   first.mutable_header()->set_bounds_for(options_.worker);

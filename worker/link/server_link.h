@@ -68,10 +68,11 @@ class ServerLink {
 
   /// The bytes of one input of the leased task, checked against their SHA-256.
   /// @param stop ends the call early.  @throws LeaseLost, ServerGone, Interrupted.
-  std::string fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop = {});
+  std::string fetch(const std::string& token, v1::ArtifactKind kind, const std::stop_token& stop = {},
+                    const std::optional<std::uint32_t>& known_round = std::nullopt);
 
   /// Reports finished positions and field records.
-  /// @param records messages that hold records only, at most wire::kRecordsPerMessage each.
+  /// @param records messages that hold records, of either kind, only, at most wire::kRecordsPerMessage each.
   /// @throws LeaseLost, ServerGone.
   v1::ReportResponse report(const v1::ReportErosionHeader& header,
                             const std::vector<v1::ReportErosionRequest>& records);

@@ -31,6 +31,7 @@
 #include "loop/job_in_hand.h"
 #include "tasks/erode_task.h"
 #include "tasks/failure.h"
+#include "tasks/refine_task.h"
 #include "tasks/sample_task.h"
 #include "wire/artifact_kinds.h"
 #include "wire/direction_order.h"
@@ -259,6 +260,8 @@ class LeaseLoop {
         return prepare(lease, context);
       case v1::TASK_KIND_ERODE:
         return erode_block(lease, context);
+      case v1::TASK_KIND_REFINE:
+        return refine_block(lease, context);
       case v1::TASK_KIND_VERIFY:
         return verify(lease, context);
       default:
@@ -307,11 +310,20 @@ class LeaseLoop {
     }
   }
 
+  void refine_block(const v1::Lease& lease, TaskContext& context) {
+    const LeaseKeeper keeper(link_, lease, context);
+    PreparedJob& job = obtain(lease, context);
+    require_same_job(lease, job);
+    refine(lease, job, options_.threads, link_, context);
+  }
+
   void derive(const v1::Lease& lease, TaskContext& context) {
     const LeaseKeeper keeper(link_, lease, context);
     const PreparedJob& job = obtain(lease, context);
     require_same_job(lease, job);
-    const std::string stored = link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
+    const bool refined = lease.job().params().minimum() == v1::MINIMUM_INFIMUM;
+    const std::string stored = link_.fetch(
+        lease.token(), refined ? v1::ARTIFACT_KIND_REFINED : v1::ARTIFACT_KIND_FIELD, context.token());
     core::throw_if_stopped(&context);
     const Derived derived = affskel::worker::derive(lease, job, stored, &context, options_.threads);
     v1::CompleteTaskHeader header;

@@ -79,11 +79,11 @@ def __dir__() -> List[str]:
 
 @_as_in_client(Client.submit)
 def submit(mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
-           directions: str = "triangles", frame: str = "axis", operator: str = "ridge",
-           threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
+           directions: str = "triangles", minimum: str = "set", frame: str = "axis",
+           operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
            repair: str = "auto") -> Job:
-    return _default_client().submit(mesh, spacing=spacing, points=points, directions=directions, frame=frame,
-                                    operator=operator, threshold=threshold, name=name, priority=priority,
+    return _default_client().submit(mesh, spacing=spacing, points=points, directions=directions,
+                                    minimum=minimum, frame=frame, operator=operator, threshold=threshold, name=name, priority=priority,
                                     request_id=request_id, repair=repair)
 
 

@@ -23,6 +23,9 @@ Table = Dict[str, npt.NDArray[Any]]
 
 # ARTIFACT_KIND_FIELD: little-endian records without padding.
 FIELD_RECORD = np.dtype([("E", "<f8"), ("area", "<f8"), ("direction", "<u4")])
+# ARTIFACT_KIND_REFINED, likewise.
+REFINED_RECORD = np.dtype([("E", "<f8"), ("slope", "<f8"), ("normal", "<f8", 3), ("saddles", "<u4", 2), ("round", "<u4")])
+NO_SADDLE = 0xFFFFFFFF
 
 
 def _doubles(values: Sequence[float], width: int = 1) -> Floats:
@@ -110,11 +113,12 @@ class Field(Saveable):
         E: (R,) erosion level, the least volume that a plane through the point cuts off, counting only the piece
             connected with it.
         normals: (R, 3) the optimal normals, unit: E grows along them.
-        slope: (R,) |grad E|, the area of the optimal section; grad E = slope[:, None] * normals.
-        direction: (R,) index of the optimal direction.
-        directions: (K, 3) the direction set, unit vectors; zeros for triangles without area.
+        slope: (R,) |grad E|, the area of the optimal section, and more at saddles; grad E = slope[:, None] * normals.
+        direction: (R,) index of the optimal direction; empty for the infimum over all directions.
+        directions: (K, 3) the direction set, unit vectors; zeros for triangles without area.  Empty for the infimum.
         volume: v0, volume of the solid.
         lattice: where the points are.
+        saddles: (R,) of the infimum: how many saddles of the solid the optimal plane touches, 0, 1 or 2; else empty.
     """
 
     points: Floats
@@ -125,12 +129,19 @@ class Field(Saveable):
     directions: Floats
     volume: float
     lattice: Lattice
+    saddles: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
     def __len__(self) -> int:
         return len(self.E)
 
     def __repr__(self) -> str:
-        return f"<affskel.Field of {len(self)} points, {len(self.directions)} directions, E up to {self.E.max(initial=0):.6g}>"
+        over = "all" if self.is_infimum else str(len(self.directions))
+        return f"<affskel.Field of {len(self)} points, {over} directions, E up to {self.E.max(initial=0):.6g}>"
+
+    @property
+    def is_infimum(self) -> bool:
+        """Whether E is the infimum over all directions, not the minimum over a set."""
+        return len(self.saddles) > 0
 
     @property
     def share(self) -> Floats:
@@ -139,8 +150,10 @@ class Field(Saveable):
 
     def table(self) -> Table:
         """Columns as in the CSV of affskel-client, and the slope: for `pandas.DataFrame(field.table())`."""
-        return {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz"),
-                "direction": self.direction, "slope": self.slope}
+        columns: Table = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz")}
+        if self.is_infimum:
+            return {**columns, "slope": self.slope, "saddles": self.saddles}
+        return {**columns, "direction": self.direction, "slope": self.slope}
 
     def plot(self, **options: Any) -> Any:
         """Shows E, by pyvista where that is installed, else by matplotlib, whose axes it returns: the slice across the
@@ -153,9 +166,9 @@ class Field(Saveable):
         return plot_field(self, **options)
 
     def to_pyvista(self) -> Any:
-        """The whole lattice with the arrays E, E_share, slope, normal, direction and inside.
+        """The whole lattice with the arrays E, E_share, slope, normal, direction (of the infimum saddles) and inside.
 
-        Outside the solid E and the slope are 0, as on its surface, and the direction is -1.
+        Outside the solid E and the slope are 0, as on its surface, and direction and saddles are -1.
 
         Returns:
             pyvista's ImageData, of a turned or sheared lattice its StructuredGrid; without pyvista the object of VTK
@@ -173,7 +186,7 @@ class Points(Saveable):
         points: (n, 3).  For "chords" they lie on lattice edges, otherwise they are sample points.
         E: (n,) erosion level.
         normals: (n, 3) optimal normals, unit.
-        direction: (n,) index of the optimal direction.
+        direction: (n,) index of the optimal direction; empty for the infimum over all directions.
         H: (n,) the operator's divergence of the normals, for "chords" the strength of the shock; empty for an eroded
             solid.
         quality: what the skeleton is like, by the names of SkeletonQuality in the contract; empty for an eroded solid.
@@ -199,8 +212,9 @@ class Points(Saveable):
 
     def table(self) -> Table:
         """Columns as in the CSV of affskel-client: for `pandas.DataFrame(points.table())`."""
-        columns = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz"),
-                   "direction": self.direction}
+        columns: Table = {**_columns(self.points), "E": self.E, **_columns(self.normals, "nx ny nz")}
+        if len(self.direction) == len(self):
+            columns["direction"] = self.direction
         if len(self.H) == len(self):
             columns["H"] = self.H
         return columns
@@ -311,6 +325,16 @@ def field_of(lattice: Lattice, directions: Floats, data: bytes, volume: float) -
                  records["area"].astype(np.float64), direction, directions, volume, lattice)
 
 
+def refined_of(lattice: Lattice, data: bytes, volume: float) -> Field:
+    """Raises InternalError when the two do not fit each other."""
+    if len(data) != len(lattice) * REFINED_RECORD.itemsize:
+        raise InternalError(f"the refined field has {len(data)} bytes for {len(lattice)} sample points")
+    records = np.frombuffer(data, REFINED_RECORD)
+    return Field(lattice.points(), records["E"].astype(np.float64), records["normal"].astype(np.float64),
+                 records["slope"].astype(np.float64), np.zeros(0, np.int64), np.zeros((0, 3)), volume, lattice,
+                 (records["saddles"] != NO_SADDLE).sum(axis=1).astype(np.int64))
+
+
 def directions_of(message: types.Directions) -> Floats:
     return _doubles(message.xyz, 3)
 
@@ -321,8 +345,8 @@ def points_of(message: types.SkeletonPoints) -> Points:
     quality = plain(message.quality) if message.HasField("quality") else {}
     result = Points(points, _doubles(message.erosion), normals, _wholes(message.direction),
                     _doubles(message.divergence), quality)
-    whole = all(len(array) == n for array in (points, normals, result.E, result.direction))
-    if not whole or len(result.H) not in (0, n):
+    whole = all(len(array) == n for array in (points, normals, result.E))
+    if not whole or len(result.H) not in (0, n) or len(result.direction) not in (0, n):
         raise InternalError("the server sent damaged points: their arrays differ in length")
     return result
 

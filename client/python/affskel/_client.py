@@ -91,8 +91,8 @@ class Client:
         self._session.close()
 
     def submit(self, mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
-               directions: str = "triangles", frame: str = "axis", operator: str = "ridge",
-               threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
+               directions: str = "triangles", minimum: str = "set", frame: str = "axis",
+               operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
                repair: str = "auto") -> Job:
         """Submits a mesh.  The same mesh and parameters give the same job, computed once.
 
@@ -104,6 +104,7 @@ class Client:
             spacing: of the lattice, mesh units.
             points: number of sample points to aim at, instead of a spacing; default 100000.
             directions: "triangles", "sphere:N", "random:N:SEED", joined by "+".
+            minimum: "set": E is the least volume over the directions; "infimum": over all, beginning from these.
             frame: axes of the lattice: "axis", "pca", "obb" or "affine".
             operator, threshold: of the job's own skeleton; see `Job.skeleton`.
             name: for people; default the file's stem.
@@ -126,7 +127,7 @@ class Client:
         given = mesh_of(mesh)
         if given.polygons is not None:
             _check(given, spacing)
-        header = self._header(given, spacing, points, directions, frame, repair)
+        header = self._header(given, spacing, points, directions, minimum, frame, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
         header.name = name if name is not None else _short(given.name, MAX_NAME)
         if priority not in range(10):
@@ -165,8 +166,8 @@ class Client:
         return plain(self._session.server_info())
 
     @staticmethod
-    def _header(given: Mesh, spacing: Optional[float], points: Optional[int], directions: str, frame: str,
-                repair: str) -> service.SubmitJobHeader:
+    def _header(given: Mesh, spacing: Optional[float], points: Optional[int], directions: str, minimum: str,
+                frame: str, repair: str) -> service.SubmitJobHeader:
         header = service.SubmitJobHeader()
         if spacing is not None:
             if not 0 < _number(spacing, "spacing") < float("inf"):
@@ -178,6 +179,7 @@ class Client:
                 raise UsageError(f"the number of points {wanted} is not 1 .. 2^31")
             header.params.sampling.target_points = int(wanted)
         header.params.directions = directions
+        header.params.minimum = value_of_word(types.Minimum, minimum, "minimum")
         header.params.frame = value_of_word(types.Frame, frame, "frame")
         if repair not in ("auto", "none"):
             raise UsageError(f"repair is 'auto' or 'none', not '{repair}'")
@@ -200,7 +202,8 @@ class Client:
         density = ["--spacing", repr(sampling.spacing)] if sampling.HasField("spacing") else [
             "--points", str(sampling.target_points)]
         options = [*density, "--directions", params.directions or "triangles",
-                   "--frame", word(types.Frame, params.frame), "--operator", operator,
+                   "--minimum", word(types.Minimum, params.minimum), "--frame", word(types.Frame, params.frame),
+                   "--operator", operator,
                    "--priority", str(header.priority), "--repair", "auto" if params.repair else "none"]
         if header.skeleton.threshold:
             options += ["--threshold", repr(header.skeleton.threshold)]

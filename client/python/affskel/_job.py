@@ -6,7 +6,7 @@ from typing import Any, Dict, Iterator, List, Optional
 
 import numpy as np
 
-from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of,
+from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of, refined_of,
                       surface_of)
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
 from ._measures import Measures, measures_of
@@ -151,6 +151,10 @@ class Job:
             timeout: seconds for each of its parts, as everywhere below: the call may wait for a worker.
         """
         job = self._session.get_job(self.id)
+        if job.params.minimum == types.MINIMUM_INFIMUM:
+            data = self._bytes(service.ARTIFACT_KIND_REFINED, timeout)
+            refined = refined_of(self.lattice(timeout=timeout), data, job.prepared.volume)
+            return self._saveable(refined, "fetch", self.id, "field")
         data = self._bytes(service.ARTIFACT_KIND_FIELD, timeout)
         field = field_of(self.lattice(timeout=timeout), self.directions(timeout=timeout), data, job.prepared.volume)
         return self._saveable(field, "fetch", self.id, "field")

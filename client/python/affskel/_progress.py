@@ -40,7 +40,9 @@ class ProgressBar:
         if self._bar is None:
             self._bar = self._make(desc=status.name, total=status.directions_total or None,
                                    initial=status.directions_done, unit="direction")
-        self._bar.total = status.directions_total or None
-        self._bar.set_postfix_str(status.stage, refresh=False)
-        self._bar.n = status.directions_done
+        refining = status.stage == "refine"
+        self._bar.unit = "point" if refining else "direction"
+        self._bar.total = (status.points if refining else status.directions_total) or None
+        self._bar.set_postfix_str(f"refine, round {status.refine_round}" if refining else status.stage, refresh=False)
+        self._bar.n = status.refined_points if refining else status.directions_done
         self._bar.refresh()

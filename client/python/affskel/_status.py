@@ -29,8 +29,9 @@ class Status:
     Attributes:
         id: 32 hexadecimal digits.
         state: "queued", "running", "done", "failed" or "cancelled".
-        stage: "prepare", "erode", "derive" or "complete".
+        stage: "prepare", "erode", "refine" (of the infimum), "derive" or "complete".
         directions_done, directions_total: progress; the total is 0 before the mesh is prepared.
+        refine_round, refined_points: progress of the stage "refine": points done of this round.
         points: R, number of sample points; 0 before.
         spacing: of the lattice, mesh units; 0 before.
         volume: v0, mesh units cubed; 0 before.
@@ -53,6 +54,8 @@ class Status:
     stage: str
     directions_done: int
     directions_total: int
+    refine_round: int
+    refined_points: int
     points: int
     spacing: float
     volume: float
@@ -76,7 +79,9 @@ class Status:
 
     @property
     def share_done(self) -> float:
-        """Of the directions, 0 .. 1."""
+        """Of the directions, in the stage "refine" of the points of a round, 0 .. 1."""
+        if self.stage == "refine":
+            return self.refined_points / self.points if self.points else 0.0
         return self.directions_done / self.directions_total if self.directions_total else 0.0
 
 
@@ -105,7 +110,8 @@ def status_of(job: types.Job) -> Status:
     return Status(
         id=job.id, name=job.name, owner=job.owner, priority=job.priority,
         state=word(types.JobState, job.state), stage=word(types.JobStage, job.stage),
-        directions_done=job.directions_done, directions_total=job.directions_total, points=prepared.points,
+        directions_done=job.directions_done, directions_total=job.directions_total,
+        refine_round=job.refine_round, refined_points=job.refined_points, points=prepared.points,
         spacing=prepared.spacing, volume=prepared.volume, skeleton_points=job.skeleton_points, reason=reason,
         notes=tuple(Note(note.severity, note.code, note.message) for note in prepared.notes),
         warnings=tuple(_warnings(job)), quality=plain(job.quality) if job.HasField("quality") else {},

@@ -105,7 +105,11 @@ def field_dataset(field: Field) -> Any:
     places = np.ravel_multi_index(np.unravel_index(field.lattice.inside, dims)[::-1], dims[::-1])
     arrays: Dict[str, Tuple[npt.NDArray[Any], float]] = {
         "E": (field.E, 0), "E_share": (field.share, 0), "slope": (field.slope, 0), "normal": (field.normals, 0),
-        "direction": (field.direction.astype(np.int32), -1), "inside": (np.ones(len(field), np.uint8), 0)}
+        "inside": (np.ones(len(field), np.uint8), 0)}
+    if field.is_infimum:
+        arrays["saddles"] = (field.saddles.astype(np.int32), -1)
+    else:
+        arrays["direction"] = (field.direction.astype(np.int32), -1)
     dataset = _grid(field.lattice)
     for name, (values, outside) in arrays.items():
         whole = np.full((dims[0] * dims[1] * dims[2], *values.shape[1:]), outside, values.dtype)

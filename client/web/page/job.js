@@ -30,11 +30,12 @@ const stanceOf = ({ stance }) => (stance ? `${direction(stance.up)},${direction(
 
 /** @param {Job} job */
 function asked(job) {
-  const { sampling, directions, frame } = job.params;
+  const { sampling, directions, frame, minimum } = job.params;
   const lattice = sampling?.spacing ? `spacing ${measure(sampling.spacing)}` : `about ${counted(sampling?.target_points || 0, 'point')}`;
   return [
     ['Lattice asked for', lattice],
     ['Directions', directions || 'triangles'],
+    ['Least over', wording('minima', minimum || session.usual.minimum)],
     ['Lattice along', wording('frames', frame || session.usual.frame)],
     ['Shocks by', operatorOf(job)],
     ['Priority', String(job.priority || 0)],

@@ -4,7 +4,7 @@ import { confirmed, showProblem } from './dialogs.js';
 import { announce, background, button, h, save, setText } from './elements.js';
 import { ago, counted, measure } from './numbers.js';
 import { session } from './session.js';
-import { activity, isActive, isRemoved, progress, wording } from './text.js';
+import { activity, isActive, isRemoved, progress, progressOf, wording } from './text.js';
 
 /** @type {Object<string, {text: string, compare: (a: Job, b: Job) => number}>} */
 const kOrders = {
@@ -19,10 +19,10 @@ const kOrders = {
  * @param {Job} job
  */
 function asked({ params, prepared }) {
-  const { sampling, directions, frame } = params;
+  const { sampling, directions, frame, minimum } = params;
   const points = prepared?.points || sampling?.target_points;
   const lattice = points ? counted(points, 'point') : `spacing ${measure(sampling?.spacing || 0)}`;
-  return [lattice, directions && directions !== 'triangles' && directions, frame && frame !== session.usual.frame && frame].filter(Boolean).join(', ');
+  return [lattice, directions && directions !== 'triangles' && directions, frame && frame !== session.usual.frame && frame, minimum && minimum !== session.usual.minimum && minimum].filter(Boolean).join(', ');
 }
 
 // The small pictures are asked for one after the other: the service draws few at once.
@@ -108,7 +108,8 @@ class Card {
 export function showProgress(bar, job) {
   bar.hidden = !isActive(job) && job.state !== 'cancelled';
   bar.setAttribute('aria-label', `Progress of ${job.name}`);
-  if (job.directions_total > 0) bar.value = job.directions_done / job.directions_total;
+  const { done, total } = progressOf(job);
+  if (total > 0) bar.value = done / total;
   else if (job.state === 'queued') bar.value = 0;
   else bar.removeAttribute('value');
 }

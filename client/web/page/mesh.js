@@ -278,6 +278,7 @@ class SubmitForm {
     this.howMany = numberField('how-many', { min: 1, step: 1, value: 5000 });
     this.howManyField = field('how-many', 'How many', this.howMany);
     this.howManyField.hidden = true;
+    this.minimum = choice('minimum', session.words.minima);
     this.frame = choice('frame', session.words.frames);
     this.operator = choice('operator', session.words.operators);
     this.operator.value = session.usual.operator;
@@ -310,6 +311,7 @@ class SubmitForm {
           { class: 'fields' },
           field('directions', 'Directions of the planes', this.directions, 'Cubes and other shapes with few normals need some from all sides.'),
           this.howManyField,
+          field('minimum', 'Least over', this.minimum),
           field('frame', 'Lattice along', this.frame),
           field('operator', 'Skeleton by', this.operator),
         ),
@@ -389,6 +391,7 @@ class SubmitForm {
         [this.given]: parseFloat(this[this.given].value) || 0,
         directions: this.directionSet(),
         frame: this.frame.value,
+        minimum: this.minimum.value,
         operator: this.operator.value,
         name: this.name.value.trim(),
         request_id: this.requestId,

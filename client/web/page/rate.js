@@ -1,4 +1,5 @@
 // How fast jobs get on, smoothed over a few seconds; a page knows no more than it saw.
+import { progressOf } from './text.js';
 
 const kForgets = 3; // seconds
 
@@ -9,12 +10,12 @@ export class Rates {
   }
 
   /**
-   * What the job's progress is worth by now: directions per second; null while nothing is known.
+   * What the job's progress is worth by now, directions or points per second; null while nothing is known.
    * @param {Job} job
    */
   update(job, now = performance.now() / 1000) {
     const last = this.jobs.get(job.id);
-    const done = job.directions_done || 0;
+    const { done } = progressOf(job);
     const entry = { time: now, done, perSecond: last ? last.perSecond : 0 };
     if (last && done >= last.done && now > last.time) {
       const seconds = now - last.time;

@@ -6,6 +6,7 @@ interface Words {
   stages: Record<string, string>;
   operators: Record<string, string>;
   frames: Record<string, string>;
+  minima: Record<string, string>;
 }
 interface Session {
   mode: 'personal' | 'sign-in';
@@ -15,7 +16,7 @@ interface Session {
   admin?: boolean;
   max_mesh_bytes?: any;
   words?: any; // Words
-  usual?: any; // words of operator and frame
+  usual?: any; // words of operator, frame and minimum
   sheets?: any; // words of operators that give sheets and curves
   artefacts?: any;
 }
@@ -40,7 +41,7 @@ interface Job {
   state: string;
   stage: string;
   priority: number;
-  params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null };
+  params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null; minimum?: string | null };
   skeleton: { operator: string | null };
   prepared?: { triangles: number; points: number; spacing: number; volume: number; solids: number; notes?: Note[] };
   quality?: { components: number };
@@ -48,6 +49,8 @@ interface Job {
   error?: { message: string; line: number };
   directions_done: number;
   directions_total: number;
+  refine_round?: number;
+  refined_points?: number; // of this round
   skeleton_points: number;
   waiting_reason?: string;
   cancel_requested: boolean;
@@ -59,6 +62,13 @@ interface Job {
   remaining_ms?: number;
   expires_ms: number;
   removed_ms: number;
+}
+// What of a job's stage is done, in units named by `unit`.
+interface Progress {
+  done: number;
+  total: number;
+  unit: string;
+  where: string;
 }
 interface Rate {
   perSecond: number;

@@ -33,8 +33,8 @@ const kEvents = {
 };
 
 /**
- * A word of the protocol as the service words it (`states`, `stages`, `operators` or `frames`); one that it does not
- * know, of a later server, as it is.
+ * A word of the protocol as the service words it (`states`, `stages`, `operators`, `frames` or `minima`); one that it
+ * does not know, of a later server, as it is.
  * @param {keyof Words} kind
  * @param {string} word
  * @returns {string}
@@ -102,15 +102,26 @@ export function activity(job) {
 }
 
 /**
- * Directions done of all, with the pace and the time left.
+ * Directions done of all; while the field goes down to the infimum, points of a round.
+ * @param {Job} job
+ * @returns {Progress}
+ */
+export function progressOf(job) {
+  if (job.stage !== 'refine') return { done: job.directions_done || 0, total: job.directions_total || 0, unit: 'direction', where: '' };
+  return { done: job.refined_points || 0, total: job.prepared?.points || 0, unit: 'point', where: ` in round ${job.refine_round || 0}` };
+}
+
+/**
+ * What is done of all, with the pace and the time left.
  * @param {Job} job
  * @param {Rate | null} rate
  * @returns {string}
  */
 export function progress(job, rate) {
-  if (!(job.directions_total > 0) || job.state === 'done') return '';
-  let text = `${count(job.directions_done)} of ${counted(job.directions_total, 'direction')}`;
-  if (rate && job.state === 'running' && job.stage === 'erode') {
+  const { done, total, unit, where } = progressOf(job);
+  if (!(total > 0) || job.state === 'done') return '';
+  let text = `${count(done)} of ${counted(total, unit)}${where}`;
+  if (rate && job.state === 'running' && (job.stage === 'erode' || job.stage === 'refine')) {
     text += `, ${rate.perSecond < 10 ? rate.perSecond.toPrecision(2) : count(rate.perSecond)} per second`;
     if (job.remaining_ms !== undefined) text += `, about ${duration(job.remaining_ms / 1000)} left`;
   }

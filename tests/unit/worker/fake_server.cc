@@ -148,6 +148,7 @@ grpc::Status FakeServer::ReportErosion(grpc::ServerContext*,
       report.header = part.header();
     } else {
       report.records.MergeFrom(part.records());
+      report.refined.MergeFrom(part.refined());
     }
   }
   std::function<v1::ReportResponse(const v1::ReportErosionHeader&)> answer;

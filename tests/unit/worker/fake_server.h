@@ -43,6 +43,7 @@ class FakeServer final : public v1::WorkerService::Service {
   struct Report {
     v1::ReportErosionHeader header;
     v1::FieldRecords records;
+    v1::RefinedRecords refined;
   };
   struct Completion {
     v1::CompleteTaskHeader header;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/refine_rounds.h"
 #include "core/base/execution_context.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/field.h"
@@ -13,11 +14,11 @@
 namespace affskel::core {
 
 /// What refine() takes in memory for every sample point, bytes.
-constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 16;
+constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 24;
 
 struct RefineOptions {
-  unsigned threads = 1;  ///< >= 1; the result does not depend on it
-  int most_rounds = 64;  ///< of propagation
+  unsigned threads = 1;                       ///< >= 1; the result does not depend on it
+  int most_rounds = base::kMostRefineRounds;  ///< 0 .. 254
 };
 
 struct RefineCost {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -9,6 +10,7 @@
 #include "sample_data.h"
 #include "tools/files.h"
 #include "tools/temporary_directory.h"
+#include "wire/refined_record.h"
 
 namespace affskel::client {
 namespace {
@@ -24,7 +26,7 @@ void write_sample(FileFormat format, const std::string& path, std::size_t piece)
   const std::string bytes = sample_field();
   base::AtomicFile file(path);
   FieldWriter writer(format, file, points, kVolume, {});
-  FieldDecoder decoder(points, directions, writer);
+  FieldDecoder decoder(points, &directions, writer);
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
     decoder.data(std::string_view(bytes).substr(at, piece));
   }
@@ -82,6 +84,34 @@ TEST(FieldWriter, DatHasNoHeaderAndSevenColumns) {
   expect_sample(read_rows(tests::read_file(dir / "f.dat"), ' ', false), 7);
 }
 
+TEST(FieldWriter, ARefinedFieldHasItsSlopeAndSaddles) {
+  const tests::TemporaryDirectory dir;
+  const LatticePoints points(sample_lattice());
+  std::string bytes;
+  for (std::uint32_t p = 0; p < 5; ++p) {
+    wire::RefinedRecord record{
+        kSampleErosion[p], 2.5 * p, {0.6, 0, -0.8}, {wire::kNoSaddle, wire::kNoSaddle}, p};
+    for (std::uint32_t n = 0; n < std::min(p, 2U); ++n) record.saddles[n] = 7 + n;
+    char packed[wire::kRefinedRecordBytes];
+    wire::encode_refined_record(packed, record);
+    bytes.append(packed, sizeof packed);
+  }
+  base::AtomicFile file(dir / "a.csv");
+  FieldWriter writer(FileFormat::kCsv, file, points, kVolume, {}, {}, true);
+  FieldDecoder decoder(points, nullptr, writer);
+  for (std::size_t at = 0; at < bytes.size(); at += 7) decoder.data(std::string_view(bytes).substr(at, 7));
+  decoder.finish();
+  file.commit();
+  const std::string text = tests::read_file(dir / "a.csv");
+  EXPECT_EQ(text.substr(0, text.find('\n')), "x,y,z,E,nx,ny,nz,slope,saddles");
+  const auto rows = read_rows(text, ',', true);
+  ASSERT_EQ(rows.size(), 5u);
+  for (std::uint32_t p = 0; p < 5; ++p) {
+    EXPECT_EQ(std::vector<double>(rows[p].begin() + 3, rows[p].end()),
+              (std::vector<double>{kSampleErosion[p], 0.6, 0, -0.8, 2.5 * p, double(std::min(p, 2U))}));
+  }
+}
+
 TEST(FieldWriter, RecordsMayBeCutAnywhere) {
   const tests::TemporaryDirectory dir;
   write_sample(FileFormat::kCsv, dir / "whole.csv", 1000);
@@ -108,7 +138,7 @@ class DecoderErrors : public ::testing::Test {
     {
       base::AtomicFile file(dir_ / "f.csv");
       FieldWriter writer(FileFormat::kCsv, file, points, kVolume, {});
-      FieldDecoder decoder(points, directions, writer);
+      FieldDecoder decoder(points, &directions, writer);
       EXPECT_THROW(
           {
             decoder.data(bytes);

@@ -42,7 +42,7 @@ class ExpectedGrid {
     for (const FieldPoint& p : expected.points) {
       core::Vec3 slopes;
       for (int a = 0; a < 3; ++a)
-        (a == 0 ? slopes.x : a == 1 ? slopes.y : slopes.z) = p.area * dot(p.normal, points.axis(a));
+        (a == 0 ? slopes.x : a == 1 ? slopes.y : slopes.z) = p.slope * dot(p.normal, points.axis(a));
       outside.put({p.i, p.j, p.k}, p.erosion, slopes);
     }
     outside.finish();

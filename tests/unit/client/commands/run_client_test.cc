@@ -122,7 +122,7 @@ TEST_F(ClientTest, StatusTellsEveryFieldAsJson) {
   EXPECT_EQ(job.at("counters").at("reports"), 3);
   EXPECT_EQ(job.at("counters").at("leases_lost"), 0);
   EXPECT_EQ(job.at("prepared").at("volume"), 8e9);
-  EXPECT_EQ(job.size(), 26u) << "all fields but the absent messages params, error; got " << outcome.out;
+  EXPECT_EQ(job.size(), 28u) << "all fields but the absent messages params, error; got " << outcome.out;
 }
 
 TEST_F(ClientTest, StatusIsKeyValueLines) {

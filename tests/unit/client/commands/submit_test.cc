@@ -32,9 +32,18 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_EQ(header.params().sampling().spacing(), 200);
   EXPECT_EQ(header.params().directions(), "triangles+sphere:20");
   EXPECT_EQ(header.params().frame(), v1::FRAME_AFFINE);
+  EXPECT_EQ(header.params().minimum(), v1::MINIMUM_SET);
   EXPECT_FALSE(header.params().repair());
   EXPECT_EQ(header.skeleton().threshold(), 5);
   EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_RIDGE);
+}
+
+TEST_F(ClientTest, SubmitAsksForTheInfimum) {
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "--minimum", "infimum"}).exit_code, 0);
+  EXPECT_EQ(service_.submitted.params().minimum(), v1::MINIMUM_INFIMUM);
+  const Outcome wrong = run({"submit", dir_ / "cube.off", "--minimum", "infinum"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("infimum"), std::string::npos) << wrong.err;
 }
 
 // A cube of 2000 units, with a spacing in another unit: told before anything is sent, and before its directions.

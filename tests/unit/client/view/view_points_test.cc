@@ -91,7 +91,7 @@ TEST(ViewPoints, AboveTheLowestThresholdAreSortedByDivergenceThenByPlace) {
     FieldPoint point;
     point.k = k;
     point.erosion = k;
-    point.area = 10 * k;
+    point.slope = 10 * k;
     collector.put(point);
   }
   collector.finish();

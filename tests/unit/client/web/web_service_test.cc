@@ -240,8 +240,9 @@ TEST_F(WebServiceTest, CountsPointsForASpacingAndBack) {
 TEST_F(WebServiceTest, SubmitsTheMeshAsItWasSent) {
   sign_in();
   const std::string mesh = uploaded("cube.off", mesh_)["mesh"];
-  json asked = {{"mesh", mesh},   {"spacing", 100},       {"directions", "sphere:100"},
-                {"frame", "pca"}, {"operator", "chords"}, {"request_id", "r1"}};
+  json asked = {{"mesh", mesh},      {"spacing", 100},       {"directions", "sphere:100"},
+                {"frame", "pca"},    {"minimum", "infimum"}, {"operator", "chords"},
+                {"request_id", "r1"}};
   const Answer answer = ask("POST", "/api/jobs", asked.dump());
   EXPECT_EQ(answer.status, 201) << answer.body;
   EXPECT_EQ(answer.object()["id"], service_.job.id());
@@ -250,6 +251,7 @@ TEST_F(WebServiceTest, SubmitsTheMeshAsItWasSent) {
   EXPECT_EQ(service_.submitted.params().sampling().spacing(), 100);
   EXPECT_EQ(service_.submitted.params().directions(), "sphere:100");
   EXPECT_EQ(service_.submitted.params().frame(), v1::FRAME_PCA);
+  EXPECT_EQ(service_.submitted.params().minimum(), v1::MINIMUM_INFIMUM);
   EXPECT_EQ(service_.submitted.skeleton().operator_(), v1::OPERATOR_CHORDS);
   EXPECT_EQ(service_.submitted.request_id(), "r1");
   EXPECT_TRUE(service_.submitted.params().repair());
@@ -259,6 +261,7 @@ TEST_F(WebServiceTest, SubmitsTheMeshAsItWasSent) {
                                                                                {"spacing", 1e-9},
                                                                                {"directions", "cube:5"},
                                                                                {"frame", "x"},
+                                                                               {"minimum", "least"},
                                                                                {"operator", "x"},
                                                                                {"priority", 10},
                                                                                {"threshold", -1},
@@ -320,7 +323,7 @@ TEST_F(WebServiceTest, WordsTheContractForThePage) {
   sign_in();
   const json session = ask("GET", "/api/session").object();
   EXPECT_EQ(session["words"]["operators"]["flux"], "average outward flux");
-  EXPECT_EQ(session["usual"], json({{"operator", "ridge"}, {"frame", "axis"}}));
+  EXPECT_EQ(session["usual"], json({{"operator", "ridge"}, {"frame", "axis"}, {"minimum", "set"}}));
 }
 
 TEST_F(WebServiceTest, PassesParametersOn) {

@@ -15,6 +15,7 @@
 #include "core/base/execution_context.h"
 #include "core/erosion/computed.h"
 #include "core/erosion/directions.h"
+#include "core/infimum/refinement.h"
 #include "core/infimum/samples.h"
 #include "core/lattice/lattice.h"
 #include "core/shapes/body.h"
@@ -103,6 +104,41 @@ TEST(RefineTest, TheSameOnSeveralThreads) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(a.slope), std::bit_cast<std::uint64_t>(b.slope));
     EXPECT_TRUE(a.normal == b.normal);
     EXPECT_EQ(a.saddles, b.saddles);
+  }
+}
+
+// The rounds by ranges of points, in another order, as workers compute them.
+TEST(RefineTest, TheSameByRanges) {
+  const Refined whole(make_body({.triangles = 500}), 3000, "triangles");
+  const PieceInput input(whole.solid);
+  Refinement parts(input, whole.lattice, 1);
+  ExecutionContext context;
+  const auto seed = [&](std::uint32_t p) {
+    FieldValue value = whole.seeds.value[p];
+    value.erosion /= whole.volume_unit;
+    value.area /= whole.solid.scale() * whole.solid.scale();
+    return value;
+  };
+  std::vector<RefinedPoint> found;
+  int round = 0;
+  do {
+    found.clear();
+    for (std::uint32_t end = whole.lattice.points; end > 0;) {
+      const PointRange range{end > 700 ? end - 700 : 0, end};
+      const std::vector<RefinedPoint> part = round == 0
+                                                 ? parts.descend(whole.seeds.directions, seed, range, context)
+                                                 : parts.improve(round, range, context);
+      found.insert(found.end(), part.begin(), part.end());
+      end = range.begin;
+    }
+    for (const RefinedPoint& point : found) parts.set(point, round);
+    ++round;
+  } while (!found.empty());
+  EXPECT_GT(round, 3);
+  for (std::uint32_t p = 0; p < whole.lattice.points; ++p) {
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(parts.least()[p].erosion),
+              std::bit_cast<std::uint64_t>(whole.values[p].erosion));
+    EXPECT_TRUE(parts.least()[p].normal == whole.values[p].normal);
   }
 }
 

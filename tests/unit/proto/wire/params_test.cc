@@ -70,6 +70,13 @@ TEST(ParamsTest, FramesAreNamedInKeysUnlessTheyAreTheMeshs) {
   EXPECT_EQ(cache_key(canonical(affine)), cache_key(plain) + " frame=4");
   pca.set_frame(v1::FRAME_PCA);
   EXPECT_EQ(cache_key(canonical(pca)), cache_key(plain) + " frame=2");
+  v1::ErosionParams infimum = plain;
+  infimum.set_minimum(v1::MINIMUM_INFIMUM);
+  EXPECT_EQ(plain.minimum(), v1::MINIMUM_SET);
+  EXPECT_EQ(cache_key(canonical(infimum)), cache_key(plain) + " minimum=infimum")
+      << "the schema knows the word";
+  infimum.set_minimum(static_cast<v1::Minimum>(9));
+  EXPECT_THROW(canonical(infimum), std::invalid_argument);
   unknown.set_frame(static_cast<v1::Frame>(77));
   EXPECT_THROW(canonical(unknown), std::invalid_argument);
 }

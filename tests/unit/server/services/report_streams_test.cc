@@ -4,6 +4,7 @@
 #include <fstream>
 #include <list>
 
+#include "refine_fixture.h"
 #include "service_fixture.h"
 
 namespace affskel::server {
@@ -143,6 +144,82 @@ TEST_F(ReportStreams, TogetherHoldNoMoreThanTheirBudget) {
     contexts[i].TryCancel();
     writers[i]->Finish();
   }
+}
+
+class RefinementReports : public ReportStreams {
+ protected:
+  /// The first block of round 0.
+  v1::Lease points_block() {
+    v1::SubmitJobHeader header = submit_header("OFF 1");
+    header.mutable_params()->set_minimum(v1::MINIMUM_INFIMUM);
+    v1::SubmitJobResponse submitted;
+    EXPECT_TRUE(submit_mesh(*client_, header, "OFF 1", &submitted).ok());
+    PrepareResult result = prepare_result(poll(0).lease().token(), kRefinePoints, kRefineDirections);
+    result.header.mutable_prepared()->set_vertices(kRefineVertices);
+    EXPECT_TRUE(send_result(*worker_, result.header, result.data).ok());
+    for (;;) {
+      const v1::Lease lease = poll(0).lease();
+      if (lease.kind() != v1::TASK_KIND_ERODE) return lease;
+      v1::ReportResponse response;
+      const v1::PositionRange& range = lease.positions(0);
+      EXPECT_TRUE(send_report(*worker_, lease, range.begin(), range.end(), true, &response).ok());
+    }
+  }
+
+  /// A report that calls the first points done.
+  grpc::Status report_points(const v1::Lease& lease, std::uint64_t points, std::uint32_t round,
+                             const std::vector<v1::ReportErosionRequest>& messages) {
+    grpc::ClientContext context;
+    v1::ReportResponse response;
+    v1::ReportErosionRequest first;
+    first.mutable_header()->set_token(lease.token());
+    first.mutable_header()->set_round(round);
+    first.mutable_header()->add_positions_done()->set_end(points);
+    const auto writer = worker_->ReportErosion(&context, &response);
+    writer->Write(first);
+    for (const v1::ReportErosionRequest& message : messages) writer->Write(message);
+    writer->WritesDone();
+    return writer->Finish();
+  }
+
+  static v1::ReportErosionRequest refined(std::uint32_t begin, std::uint32_t end) {
+    v1::ReportErosionRequest message;
+    *message.mutable_refined() = refined_records(begin, end, 0);
+    return message;
+  }
+};
+
+TEST_F(RefinementReports, HaveOneMessageOfTheirKind) {
+  const v1::Lease lease = points_block();
+  ASSERT_EQ(lease.kind(), v1::TASK_KIND_REFINE);
+  const auto code = [&](std::uint32_t round, const std::vector<v1::ReportErosionRequest>& messages) {
+    return report_points(lease, 100, round, messages).error_code();
+  };
+  EXPECT_EQ(code(0, {records(100, 0.1)}), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(code(0, {refined(0, 50), refined(50, 100)}), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(code(1, {refined(0, 100)}), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(code(0, {refined(0, 101)}), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(code(0, {}), grpc::StatusCode::INVALID_ARGUMENT);
+  v1::ReportErosionRequest many;
+  while (many.refined().point_size() <= 32768) many.mutable_refined()->MergeFrom(refined_records(0, 5000, 0));
+  EXPECT_EQ(code(0, {many}), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(job(lease.job().id()).refined_points(), 0U);
+  EXPECT_EQ(code(0, {refined(0, 100)}), grpc::StatusCode::OK);
+  EXPECT_EQ(job(lease.job().id()).refined_points(), 100U);
+  EXPECT_EQ(job(lease.job().id()).stage(), v1::JOB_STAGE_REFINE);
+}
+
+TEST_F(RefinementReports, AreNoneOnDirections) {
+  const v1::Lease lease = block(4000, 40);
+  EXPECT_EQ(report_points(lease, 1, 0, {refined(0, 100)}).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+}
+
+TEST_F(RefinementReports, WaitForTheMemoryThatTheyTake) {
+  options_.limits.records_bytes = 1000;
+  start();
+  const v1::Lease lease = points_block();
+  EXPECT_EQ(report_points(lease, 100, 0, {refined(0, 100)}).error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(report_points(lease, 10, 0, {refined(0, 10)}).error_code(), grpc::StatusCode::OK);
 }
 
 }  // namespace
