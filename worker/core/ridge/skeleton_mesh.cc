@@ -20,7 +20,7 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 6;         // each evens a rim out over one more neighbour
+constexpr int kRimPasses = 12;        // each evens a rim out over one more neighbour
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
