@@ -40,7 +40,7 @@ struct RidgeConstants {
   double limb_reach = 0.9;
   double tip_distance = 0.5;
   double end_radii = 1.2;
-  double end_spacings = 2;
+  double end_spacings = 1;
 };
 
 }  // namespace affskel::core
