@@ -3,16 +3,21 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <queue>
 #include <utility>
 
 #include "client/files/read/read_shape.h"
+#include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
 #include "core/base/stopwatch.h"
 #include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/similarity.h"
 #include "core/ridge/local_depth.h"
+#include "core/ridge/ridge_constants.h"
+#include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 #include "curvature_skeleton.h"
 #include "experiments.h"
@@ -24,7 +29,7 @@ namespace affskel::experiments {
 namespace {
 
 constexpr double kPoints = 100'000, kNoise = 0.003;
-constexpr double kEnd = 0.08;  // an end is the farthest place within this share of the longest side
+constexpr double kEnd = 0.08;  // a limb is longer than this share of the longest side
 
 std::vector<NamedMesh> solids_of(const Setting& setting) {
   std::vector<NamedMesh> solids;
@@ -38,9 +43,10 @@ std::vector<NamedMesh> solids_of(const Setting& setting) {
   return solids;
 }
 
+using Neighbours = core::Groups<std::uint32_t>;
+
 // Per vertex: how far it lies from one of them along edges (Dijkstra); infinity where none lead.
-std::vector<double> ways_from(std::uint32_t start, const core::Mesh& mesh,
-                              const core::Groups<std::uint32_t>& beside) {
+std::vector<double> ways_from(std::uint32_t start, const core::Mesh& mesh, const Neighbours& beside) {
   std::vector<double> way(mesh.points.size(), std::numeric_limits<double>::infinity());
   std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>,
                       std::greater<>>
@@ -61,32 +67,67 @@ std::vector<double> ways_from(std::uint32_t start, const core::Mesh& mesh,
   return way;
 }
 
-// The ends of a solid: the vertices that lie farther along its surface from the place of the greatest E than all
-// about them.
-std::vector<core::Vec3> ends_of(const Job& job, double about) {
-  const core::Mesh& mesh = job.mesh;
-  const core::Groups<std::uint32_t> beside(mesh.points.size(), [&](const auto& put) {
+// The same surface in more triangles: along the edges of few the ways turn, and ends arise where none are.
+core::Mesh refined(core::Mesh mesh) {
+  constexpr std::size_t kTriangles = 20'000;
+  while (mesh.triangles.size() < kTriangles) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;  // of edges
+    const auto between = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [known, fresh] =
+          middle.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.points.size()));
+      if (fresh) mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+      return known->second;
+    };
+    std::vector<core::Triangle> four;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::uint32_t ab = between(a, b), bc = between(b, c), ca = between(c, a);
+      four.insert(four.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    mesh.triangles = std::move(four);
+  }
+  return mesh;
+}
+
+// Where a height on the vertices of a mesh is greatest, and falls by `least` at least before it rises to a greater one
+// (persistence: Edelsbrunner, Letscher and Zomorodian 2002).
+std::vector<std::uint32_t> peaks(const std::vector<double>& height, const Neighbours& beside, double least) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < height.size(); ++v)
+    if (std::isfinite(height[v])) order.push_back(v);
+  const auto higher = [&](std::uint32_t a, std::uint32_t b) { return height[a] > height[b]; };
+  std::stable_sort(order.begin(), order.end(), higher);
+  std::vector<std::uint32_t> found{order.front()};
+  core::DisjointSets pieces(height.size());  // of what is higher
+  std::vector<std::uint32_t> top(height.size());
+  std::iota(top.begin(), top.end(), 0U);
+  for (const std::uint32_t v : order) {
+    for (const std::uint32_t w : beside[v]) {
+      if (height[w] < height[v]) continue;
+      std::uint32_t a = top[pieces.find(v)], b = top[pieces.find(w)];
+      if (!pieces.unite(v, w)) continue;
+      if (higher(b, a)) std::swap(a, b);
+      top[pieces.find(v)] = a;
+      if (height[b] - height[v] >= least) found.push_back(b);
+    }
+  }
+  return found;
+}
+
+// The ends of limbs longer than `length`: peaks of the way along the surface from the place of the greatest E.  The
+// crotch, the back and the calves are none.
+std::vector<core::Vec3> ends_of(const Job& job, double length) {
+  const core::Mesh mesh = refined(job.mesh);
+  const Neighbours beside(mesh.points.size(), [&](const auto& put) {
     for (const core::Triangle& t : mesh.triangles)
       for (std::size_t k = 0; k < 3; ++k) put(t[k], t[(k + 1) % 3]);
   });
   const Cloud all = all_points(job);
   const core::Vec3 centre = all.place[static_cast<std::size_t>(
       std::max_element(all.erosion.begin(), all.erosion.end()) - all.erosion.begin())];
-  const auto nearer = [&](const core::Vec3& a, const core::Vec3& b) {
-    return norm(a - centre) < norm(b - centre);
-  };
-  const auto start = static_cast<std::uint32_t>(
-      std::min_element(mesh.points.begin(), mesh.points.end(), nearer) - mesh.points.begin());
-  const std::vector<double> way = ways_from(start, mesh, beside);
+  const std::uint32_t start = core::PointIndex(mesh.points).find(centre).number;
   std::vector<core::Vec3> ends;
-  for (std::uint32_t v = 0; v < way.size(); ++v) {
-    if (!std::isfinite(way[v]) || way[v] < about) continue;
-    bool farthest = true;
-    for (std::uint32_t w = 0; w < way.size() && farthest; ++w)
-      farthest = !(std::isfinite(way[w]) && std::pair(way[w], w) > std::pair(way[v], v) &&
-                   norm(mesh.points[w] - mesh.points[v]) < about);
-    if (farthest) ends.push_back(mesh.points[v]);
-  }
+  for (const std::uint32_t v : peaks(ways_from(start, mesh, beside), beside, length))
+    ends.push_back(mesh.points[v]);
   return ends;
 }
 
@@ -122,28 +163,37 @@ std::string betti(const core::BettiNumbers& b) {
                 static_cast<unsigned long long>(b.holes), static_cast<unsigned long long>(b.cavities));
 }
 
-// What is farther from an end than its limb is thick there is short of it.
+// What is farther from an end than its limb is thick there is short of it, unless the lattice has no point four across
+// that is nearer.
 struct Reach {
   std::size_t ends = 0, short_of = 0, farther = 0;  // farther: than the curve skeleton, by a spacing
   double ridge_worst = 0, curve_worst = 0, ridge_mean = 0, curve_mean = 0;
 };
 
-Reach reach_of(const Job& job, const Skeletons& found, double longest) {
-  const core::PointIndex curve(found.curve_points);
+core::PointIndex resolved_places(const Job& job) {
   const std::vector<float> radius = core::surface_distance(job.lattice);
+  const Cloud all = all_points(job);
+  std::vector<core::Vec3> places;
+  for (std::size_t p = 0; p < all.size(); ++p)
+    if (radius[all.rank[p]] >= core::RidgeConstants{}.min_radius) places.push_back(all.place[p]);
+  return core::PointIndex(places);
+}
+
+Reach reach_of(const Job& job, const Skeletons& found, double longest) {
+  const core::PointIndex curve(found.curve_points), resolved = resolved_places(job);
+  const core::DistanceToMesh surface(job.mesh);
   const double spacing = job.lattice.spacing;
   Reach reach;
   for (const core::Vec3& end : ends_of(job, kEnd * longest)) {
-    double ridge = HUGE_VAL, allowed = 0;
-    for (std::size_t v = 0; v < found.ridge.points.size(); ++v) {
-      const double distance = norm(found.ridge.points.place[v] - end);
-      if (distance >= ridge) continue;
-      ridge = distance;
-      allowed = spacing * (2 + 1.2 * static_cast<double>(radius[found.ridge.points.rank[v]]));
-    }
-    const double other = curve.nearest(end);
+    const auto nearer = [&](const core::Vec3& a, const core::Vec3& b) {
+      return norm(a - end) < norm(b - end);
+    };
+    const auto& places = found.ridge.points.place;
+    const core::Vec3 nearest = *std::min_element(places.begin(), places.end(), nearer);
+    const double ridge = norm(nearest - end), other = curve.nearest(end);
+    const double allowed = 1.2 * surface.nearest(nearest) + 2 * spacing;
     ++reach.ends;
-    reach.short_of += ridge > allowed;
+    reach.short_of += ridge > std::max(allowed, resolved.nearest(end));
     reach.farther += ridge > other + spacing;
     reach.ridge_worst = std::max(reach.ridge_worst, ridge);
     reach.curve_worst = std::max(reach.curve_worst, other);
@@ -193,11 +243,12 @@ void study(const NamedMesh& solid, const Setting& setting, Table& reaches, Table
 void reach_experiment(const Setting& setting, Report& report) {
   report.section("The ridge beside mean curvature skeletons");
   report.text(
-      "Not published: ends of the solid (the places farthest along the surface from the deepest point, among those "
-      "within 8 % of the longest side), and how far from each the skeleton of `ridge` and CGAL's mean curvature "
-      "skeleton (Tagliasacchi and others 2012, defaults) come. *Short* are ends that `ridge` stays farther from than "
-      "1.2 local radii and two spacings; *farther* those that it stays farther from than the other does, by more than "
-      "a spacing. Lengths in percent of the longest side.");
+      "Not published: ends of the solid (of limbs longer than 8 % of the longest side: peaks of that persistence of "
+      "the way along the surface from the deepest point), and how far from each the skeleton of `ridge` and CGAL's "
+      "mean curvature skeleton (Tagliasacchi and others 2012, defaults) come. *Short* are ends that `ridge` stays "
+      "farther from than 1.2 local radii and two spacings, and than the nearest sample point that lies four points "
+      "across; *farther* those that it stays farther from than the other does, by more than a spacing. Lengths in "
+      "percent of the longest side.");
   Table reaches{
       {"solid", "ends", "short", "farther", "ridge: mean", "worst", "curvature: mean", "worst", "spacing"},
       {}};

@@ -1,8 +1,6 @@
 #include "core/curve/surface_points.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "core/base/matrix3.h"
@@ -35,25 +33,14 @@ class PointsOfLattice {
   std::uint32_t nearest_within(const Vec3& at, std::int32_t reach) const {
     double least = double(reach) * reach;
     std::uint32_t found = DualComplex::kNone;
-    std::array<std::int32_t, 3> low{}, high{};
-    for (int axis = 0; axis < 3; ++axis) {
-      low[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::ceil(at[axis] - reach));
-      high[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::floor(at[axis] + reach));
-    }
-    for (std::int32_t i = low[0]; i <= high[0]; ++i) {
-      for (std::int32_t j = low[1]; j <= high[1]; ++j) {
-        for (std::int32_t k = low[2]; k <= high[2]; ++k) {
-          const std::int64_t number = band_.at(i, j, k);
-          if (number == RowBand::kNone) continue;
-          const std::uint32_t rank = rank_[static_cast<std::size_t>(number)];
-          const Vec3 way = at - Vec3{double(i), double(j), double(k)};
-          if (rank == DualComplex::kNone || dot(way, way) > least) continue;
-          if (dot(way, way) == least && found != DualComplex::kNone) continue;
-          least = dot(way, way);
-          found = rank;
-        }
-      }
-    }
+    band_.any_near(at, reach, [&](std::size_t place, double square) {
+      const std::uint32_t rank = rank_[place];
+      if (rank == DualComplex::kNone || square > least) return false;
+      if (square == least && found != DualComplex::kNone) return false;
+      least = square;
+      found = rank;
+      return false;
+    });
     return found;
   }
 

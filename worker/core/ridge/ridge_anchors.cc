@@ -178,14 +178,24 @@ class Choice {
     for (const Anchor& anchor : result_.anchors)
       for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     for (const LimbTip& tip : evidence_.limbs) {
-      const bool reached =
-          taken_.has(tip.vertex) ||
-          (is_near(complex_, tip.root, static_cast<float>(constants_.tip_distance * tip.radius), anchored) &&
-           is_near(complex_, tip.vertex, static_cast<float>(1 + tip.width), anchored));
-      if (reached) continue;
+      const bool reached = is_near_enough(tip.root, constants_.tip_distance * tip.radius, anchored) &&
+                           is_near_enough(tip.vertex, allowed_from(tip), anchored);
+      if (taken_.has(tip.vertex) || reached) continue;
       take({tip.vertex, 0});
       ++result_.limbs;
     }
+  }
+
+  bool is_near_enough(Cell vertex, double longest, const std::vector<char>& anchored) const {
+    return is_near(complex_, vertex, static_cast<float>(longest), anchored);
+  }
+
+  // How far from a tip what is anchored may end: the surface is the tip's own radius farther away.  Where that is less
+  // than half its limb's, the tip is in a corner of a blunt end, beside its middle by no more than the limb's width.
+  double allowed_from(const LimbTip& tip) const {
+    const double radius = radius_about(complex_, evidence_.radius, tip.vertex);
+    if (radius < 0.5 * tip.radius) return 1 + tip.width;
+    return constants_.end_spacings + constants_.end_radii * tip.radius - radius;
   }
 
   // For components that have no anchor yet.

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "core/base/vec3.h"
 #include "core/lattice/lattice.h"
 
 namespace affskel::core {
@@ -30,9 +32,6 @@ class RowBand {
   RowBand(const RowBand& wide, const std::vector<std::uint8_t>& wanted);
 
   std::size_t places() const { return places_; }
-  std::int32_t margin() const { return margin_; }
-  /// Rows have i from -margin to rows_end(0) - 1, and j likewise.
-  std::int32_t rows_end(std::size_t axis) const { return ends_[axis]; }
 
   /// i and j may lie outside the band: an empty row.
   const Row& row(std::int32_t i, std::int32_t j) const {
@@ -45,6 +44,24 @@ class RowBand {
   std::int64_t at(std::int32_t i, std::int32_t j, std::int32_t k) const {
     const Row& r = row(i, j);
     return k >= r.begin && k < r.end ? r.offset + k : kNone;
+  }
+
+  /// Whether is_wanted(number, square of its distance) accepts a place of the band within `reach` steps, along each axis,
+  /// of real indices; asks in lattice order until it does.
+  template <class IsWanted>
+  bool any_near(const Vec3& at, double reach, const IsWanted& is_wanted) const {
+    const auto first = [&](int axis) { return static_cast<std::int32_t>(std::ceil(at[axis] - reach)); };
+    const auto last = [&](int axis) { return static_cast<std::int32_t>(std::floor(at[axis] + reach)); };
+    for (std::int32_t i = first(0); i <= last(0); ++i) {
+      for (std::int32_t j = first(1); j <= last(1); ++j) {
+        for (std::int32_t k = first(2); k <= last(2); ++k) {
+          const std::int64_t number = this->at(i, j, k);
+          const Vec3 way = at - Vec3{double(i), double(j), double(k)};
+          if (number != kNone && is_wanted(static_cast<std::size_t>(number), dot(way, way))) return true;
+        }
+      }
+    }
+    return false;
   }
 
  private:

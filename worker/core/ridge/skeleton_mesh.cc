@@ -12,6 +12,7 @@
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/ridge_values.h"
+#include "core/ridge/skeleton_cells.h"
 #include "core/solid/solid_membership.h"
 
 namespace affskel::core {
@@ -19,7 +20,7 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 6;         // each evens a rim out over one more neighbour
+constexpr int kRimPasses = 12;        // each evens a rim out over one more neighbour
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
@@ -32,17 +33,12 @@ class Placing {
       : complex_(complex),
         from_(from),
         membership_(solid.mesh),
-        to_mesh_(inverse_transposed(frame_matrix(from.lattice))) {
-    left.for_each([&](Cell cell) {
-      const int dimension = DualComplex::dimension(cell);
-      if (dimension == 0) vertices_.push_back(cell);
-      if (dimension == 1) edges_.push_back(cell);
-      if (dimension == 2) squares_.push_back(cell);
-    });
-  }
+        to_mesh_(inverse_transposed(frame_matrix(from.lattice))),
+        cells_(complex, left),
+        neighbours_(cells_.neighbours()),
+        rim_neighbours_(cells_.rim_neighbours()) {}
 
   SheetMesh run(ExecutionContext* context) {
-    number_cells();
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
@@ -55,56 +51,16 @@ class Placing {
   }
 
  private:
-  std::uint32_t number(Cell vertex) const {
-    return static_cast<std::uint32_t>(std::lower_bound(vertices_.begin(), vertices_.end(), vertex) -
-                                      vertices_.begin());
-  }
-
-  std::array<std::uint32_t, 2> ends(Cell edge) const {
-    std::array<std::uint32_t, 2> result{};
-    std::size_t n = 0;
-    complex_.for_each_face(edge, [&](Cell vertex) { result[n++] = number(vertex); });
-    return result;
-  }
-
-  void number_cells() {
-    for (const Cell edge : edges_) segments_.push_back(ends(edge));
-    rings_.reserve(squares_.size());
-    squares_at_edge_.assign(edges_.size(), 0);
-    for (const Cell square : squares_) {
-      auto& ring = rings_.emplace_back();
-      const auto around = vertices_round(complex_, square);
-      for (std::size_t k = 0; k < 4; ++k) ring[k] = number(around[k]);
-      complex_.for_each_face(square, [&](Cell edge) {
-        ++squares_at_edge_[static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), edge) -
-                                                    edges_.begin())];
-      });
-    }
-    neighbours_ = neighbours_along([](std::uint8_t) { return true; });
-    rim_neighbours_ = neighbours_along([](std::uint8_t squares) { return squares == 1; });
-  }
-
-  template <class Wanted>
-  Groups<std::uint32_t> neighbours_along(const Wanted& wanted) const {
-    return {vertices_.size(), [&](const auto& put) {
-              for (std::size_t e = 0; e < segments_.size(); ++e) {
-                if (!wanted(squares_at_edge_[e])) continue;
-                put(segments_[e][0], segments_[e][1]);
-                put(segments_[e][1], segments_[e][0]);
-              }
-            }};
-  }
-
   void make_vertices() {
-    const std::vector<CellPlace> places = cells_of_vertices(from_.lattice, vertices_);
-    bound_.assign(vertices_.size(), 0);
-    clear_.resize(vertices_.size());
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
-      mesh_.vertices.push_back(free_vertex(vertices_[v], places[v]));
+    const std::vector<CellPlace> places = cells_of_vertices(from_.lattice, cells_.vertices);
+    bound_.assign(cells_.vertices.size(), 0);
+    clear_.resize(cells_.vertices.size());
+    for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
+      mesh_.vertices.push_back(free_vertex(cells_.vertices[v], places[v]));
       const Vec3 point =
-          (1 / from_.lattice.spacing) * place_of(complex_.star(vertices_[v]).members[0], places[v]);
+          (1 / from_.lattice.spacing) * place_of(complex_.star(cells_.vertices[v]).members[0], places[v]);
       point_place_.push_back({point.x, point.y, point.z});
-      mesh_.part.push_back(from_.parts.of_point(DualComplex::cube_of(vertices_[v])));
+      mesh_.part.push_back(from_.parts.of_point(DualComplex::cube_of(cells_.vertices[v])));
     }
     place_surface();
     place_curves();
@@ -115,8 +71,9 @@ class Placing {
     std::vector<char> fixed = bound_;
     for (const Anchor& anchor : from_.anchors.anchors) {
       if (DualComplex::dimension(anchor.cell) != 0) continue;
-      const std::uint32_t v = number(anchor.cell);
-      const bool there = v < vertices_.size() && vertices_[v] == anchor.cell;  // else of a fragment
+      const std::uint32_t v = cells_.number(anchor.cell);
+      const bool there =
+          v < cells_.vertices.size() && cells_.vertices[v] == anchor.cell;  // else of a fragment
       if (there && neighbours_[v].size() != 1) fixed[v] = 1;
     }
     return fixed;
@@ -125,8 +82,8 @@ class Placing {
   // The vertex of the surface in the cell of a vertex, or null.
   const SheetVertex* on_surface(std::uint32_t v) const {
     const auto& cells = from_.cells.vertex;
-    const auto at = std::lower_bound(cells.begin(), cells.end(), vertices_[v]);
-    return at == cells.end() || *at != vertices_[v]
+    const auto at = std::lower_bound(cells.begin(), cells.end(), cells_.vertices[v]);
+    return at == cells.end() || *at != cells_.vertices[v]
                ? nullptr
                : &from_.surface[static_cast<std::size_t>(at - cells.begin())];
   }
@@ -135,18 +92,18 @@ class Placing {
   void place_surface() {
     CellSet anchored(complex_);
     for (const Anchor& anchor : from_.anchors.anchors) anchored.insert(anchor.cell);
-    std::vector<char> of_surface(vertices_.size(), 0);
-    for (std::size_t s = 0; s < squares_.size(); ++s) {
-      const auto& ring = rings_[s];
+    std::vector<char> of_surface(cells_.vertices.size(), 0);
+    for (std::size_t s = 0; s < cells_.squares.size(); ++s) {
+      const auto& ring = cells_.rings[s];
       const bool ridge =
-          anchored.has(squares_[s]) &&
+          anchored.has(cells_.squares[s]) &&
           std::all_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return on_surface(v); });
       for (const std::uint32_t v : ring) {
         if (ridge) of_surface[v] = 1;
         mesh_.vertices[v].kind = SkeletonKind::kMembrane;
       }
     }
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+    for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
       if (!of_surface[v]) continue;
       mesh_.vertices[v] = *on_surface(v);
       bound_[v] = 1;
@@ -155,8 +112,8 @@ class Placing {
 
   void place_curves() {
     for (const CurvePlace& place : from_.anchors.curves) {
-      const std::uint32_t v = number(place.vertex);
-      if (v == vertices_.size() || vertices_[v] != place.vertex || bound_[v]) continue;
+      const std::uint32_t v = cells_.number(place.vertex);
+      if (v == cells_.vertices.size() || cells_.vertices[v] != place.vertex || bound_[v]) continue;
       mesh_.vertices[v] = place.at;
       mesh_.vertices[v].kind = SkeletonKind::kCurve;
       bound_[v] = 1;
@@ -191,7 +148,7 @@ class Placing {
 
   void draw_rims() {
     std::vector<SheetVertex> drawn = mesh_.vertices;
-    std::vector<std::uint32_t> met(vertices_.size(), 0);
+    std::vector<std::uint32_t> met(cells_.vertices.size(), 0);
     const auto draw = [&](std::uint32_t v, std::uint32_t to) {
       const SheetVertex &at = mesh_.vertices[v], &strong = mesh_.vertices[to];
       if (at.kind != SkeletonKind::kRidge || strong.kind != SkeletonKind::kRidge) return;
@@ -203,7 +160,7 @@ class Placing {
                          1 / static_cast<double>(met[v] + 1));
       ++met[v];
     };
-    for (const auto& ring : rings_) {
+    for (const auto& ring : cells_.rings) {
       for (std::size_t k = 0; k < 4; ++k) {
         draw(ring[k], ring[(k + 1) % 4]);
         draw(ring[k], ring[(k + 3) % 4]);
@@ -211,7 +168,7 @@ class Placing {
     }
     // Corners, with no strong neighbour but across a square.
     const std::vector<std::uint32_t> beside = met;
-    for (const auto& ring : rings_) {
+    for (const auto& ring : cells_.rings) {
       for (std::size_t k = 0; k < 4; ++k)
         if (beside[ring[k]] == 0) draw(ring[k], ring[(k + 2) % 4]);
     }
@@ -222,7 +179,7 @@ class Placing {
 
   // Corners of the rim, and where something else begins, stay.
   std::vector<char> fixed_on_rim() const {
-    std::vector<char> fixed(vertices_.size(), 1);
+    std::vector<char> fixed(cells_.vertices.size(), 1);
     for (std::uint32_t v = 0; v < fixed.size(); ++v)
       if (rim_neighbours_[v].size() == 2 && bound_[v]) fixed[v] = 0;
     return fixed;
@@ -230,8 +187,8 @@ class Placing {
 
   // Ends, branches and what lies in a surface stay.
   std::vector<char> fixed_on_lines() const {
-    std::vector<char> fixed(vertices_.size(), 0);
-    for (const auto& ring : rings_)
+    std::vector<char> fixed(cells_.vertices.size(), 0);
+    for (const auto& ring : cells_.rings)
       for (const std::uint32_t v : ring) fixed[v] = 1;
     for (std::uint32_t v = 0; v < fixed.size(); ++v)
       if (neighbours_[v].size() != 2) fixed[v] = 1;
@@ -243,7 +200,7 @@ class Placing {
   void even_out(const Groups<std::uint32_t>& neighbours, const std::vector<char>& fixed, int passes,
                 bool to_crest, ExecutionContext* context) {
     std::vector<std::uint32_t> moving;
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v)
       if (!fixed[v] && !neighbours[v].empty()) moving.push_back(v);
     std::vector<Vec3> before(moving.size()), moved(moving.size());
     for (std::size_t n = 0; n < moving.size(); ++n) before[n] = mesh_.vertices[moving[n]].position;
@@ -348,7 +305,7 @@ class Placing {
 
   // What vertices that were moved freely have at their places, by the sample points next to them.
   void take_values() {
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+    for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
       if (bound_[v]) continue;
       const Vec3 off = walk(v);
       SheetVertex& vertex = mesh_.vertices[v];
@@ -363,9 +320,9 @@ class Placing {
   }
 
   void make_faces() {
-    for (const auto& ring : rings_) add_quad(ring, mesh_);
-    for (std::size_t e = 0; e < segments_.size(); ++e)
-      if (squares_at_edge_[e] == 0) mesh_.segments.push_back({segments_[e][0], segments_[e][1]});
+    for (const auto& ring : cells_.rings) add_quad(ring, mesh_);
+    for (std::size_t s = 0; s < cells_.segments.size(); ++s)
+      if (cells_.squares_at[s] == 0) mesh_.segments.push_back({cells_.segments[s][0], cells_.segments[s][1]});
   }
 
   // A ball that the surface does not enter.
@@ -378,10 +335,7 @@ class Placing {
   const SkeletonParts& from_;
   SolidMembership membership_;
   Matrix3 to_mesh_;  // F^-T
-  std::vector<Cell> vertices_, edges_, squares_;
-  std::vector<std::array<std::uint32_t, 2>> segments_;  // per edge: its ends
-  std::vector<std::array<std::uint32_t, 4>> rings_;     // per square
-  std::vector<std::uint8_t> squares_at_edge_;
+  SkeletonCells cells_;
   Groups<std::uint32_t> neighbours_, rim_neighbours_;
   std::vector<char> bound_;                         // per vertex: its place and values are known
   std::vector<Clear> clear_;                        // per vertex, of those near the surface

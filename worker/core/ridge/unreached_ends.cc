@@ -1,8 +1,6 @@
 #include "core/ridge/unreached_ends.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
 
@@ -67,23 +65,9 @@ class Ends {
 
   // Whether a sample point that counts lies within kReached.
   bool is_reached(const Vec3& at) const {
-    const std::array<double, 3> x{at.x, at.y, at.z};
-    std::array<std::int32_t, 3> low{}, high{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = static_cast<std::int32_t>(std::ceil(x[axis] - kReached));
-      high[axis] = static_cast<std::int32_t>(std::floor(x[axis] + kReached));
-    }
-    for (std::int32_t i = low[0]; i <= high[0]; ++i) {
-      for (std::int32_t j = low[1]; j <= high[1]; ++j) {
-        for (std::int32_t k = low[2]; k <= high[2]; ++k) {
-          const std::int64_t number = band_.at(i, j, k);
-          if (number == RowBand::kNone || !counts_[static_cast<std::size_t>(number)]) continue;
-          const Vec3 way = at - Vec3{double(i), double(j), double(k)};
-          if (dot(way, way) <= kReached * kReached) return true;
-        }
-      }
-    }
-    return false;
+    return band_.any_near(at, kReached, [&](std::size_t place, double square) {
+      return counts_[place] != 0 && square <= kReached * kReached;
+    });
   }
 
   const Solid& solid_;
