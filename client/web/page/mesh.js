@@ -1,20 +1,14 @@
-// A new job: a mesh, what it is, and what is asked of it.
+// A new job: a mesh and what it is.
 import { call, jobPath, upload } from './api.js';
 import { filesIn } from './dropped.js';
 import { showInteractive } from './dialogs.js';
 import { announce, button, byId, facts, h, setText } from './elements.js';
-import { bytes, count, counted, editable, measure } from './numbers.js';
+import { bytes, count, counted, measure } from './numbers.js';
 import { session } from './session.js';
+import { SubmitForm, field, jobName, kUsualPoints, numberField } from './submit_form.js';
 
 const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.nrrd', '.mha', '.nii', '.gz', '.zst'];
 const kVoxels = /\.(nrrd|mha|nii)(\.gz|\.zst)?$/i;
-const kUsualPoints = 100000;
-const kTyping = 300; // milliseconds after a key until the lattice is counted
-const kAgain = 500; // milliseconds until a count that found no place is tried again
-const kNoPlace = 429; // status: what was asked for before is still worked on
-
-// "body" of "body.off.gz".
-const jobName = (file) => file.replace(/\.(gz|zst)$/i, '').replace(/\.[^.]*$/, '');
 
 function meshFacts(f) {
   const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
@@ -244,171 +238,5 @@ export class NewJob {
     );
     if (mesh.mesh) this.form.replaceChildren(new SubmitForm(mesh).element);
     byId('found-heading').focus();
-  }
-}
-
-const field = (id, label, control, help) =>
-  h('div', {}, h('label', { for: id }, label), control, help && h('p', { class: 'small', id: `${id}-help` }, help));
-
-// texts: by the values that they stand for.
-const choice = (id, texts) =>
-  h('select', { id }, Object.entries(texts).map(([value, text]) => h('option', { value }, text)));
-
-const numberField = (id, attributes) =>
-  h('input', { id, type: 'number', min: 0, step: 'any', inputmode: 'decimal', ...attributes });
-
-const newRequest = () => crypto.getRandomValues(new Uint32Array(4)).join('-');
-
-// What is asked of a mesh.
-class SubmitForm {
-  constructor(mesh) {
-    this.mesh = mesh;
-    this.requestId = newRequest();
-    this.given = 'points'; // which of the two was typed
-    this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: jobName(mesh.name) });
-    this.points = numberField('points', { step: 1, value: kUsualPoints });
-    this.spacing = numberField('spacing', {});
-    this.lattice = h('p', { id: 'lattice', role: 'status' });
-    this.directions = choice('directions', {
-      triangles: 'the mesh’s own normals',
-      sphere: 'evenly from all sides',
-      'triangles+sphere': 'both of these',
-      random: 'at random',
-    });
-    this.howMany = numberField('how-many', { min: 1, step: 1, value: 5000 });
-    this.howManyField = field('how-many', 'How many', this.howMany);
-    this.howManyField.hidden = true;
-    this.minimum = choice('minimum', session.words.minima);
-    this.frame = choice('frame', session.words.frames);
-    this.operator = choice('operator', session.words.operators);
-    this.operator.value = session.usual.operator;
-    this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
-    this.submit = h('button', { type: 'submit', class: 'primary', id: 'submit' }, 'Compute the skeleton');
-    this.element = this.build();
-    this.listen();
-    this.typed('points');
-  }
-
-  build() {
-    return h(
-      'form',
-      { class: 'card', novalidate: true },
-      h('h2', {}, 'What to compute'),
-      h(
-        'div',
-        { class: 'fields' },
-        field('name', 'Name', this.name),
-        field('points', 'Sample points', this.points, 'More are finer, and take longer.'),
-        field('spacing', 'or their spacing', this.spacing, 'In units of the mesh.'),
-      ),
-      this.lattice,
-      h(
-        'details',
-        {},
-        h('summary', {}, 'Directions, lattice and operator'),
-        h(
-          'div',
-          { class: 'fields' },
-          field('directions', 'Directions of the planes', this.directions, 'Cubes and other shapes with few normals need some from all sides.'),
-          this.howManyField,
-          field('minimum', 'Least over', this.minimum),
-          field('frame', 'Lattice along', this.frame),
-          field('operator', 'Skeleton by', this.operator),
-        ),
-      ),
-      this.problem,
-      h('div', { class: 'row end' }, this.submit),
-    );
-  }
-
-  listen() {
-    this.points.addEventListener('input', () => this.typed('points'));
-    this.spacing.addEventListener('input', () => this.typed('spacing'));
-    this.frame.addEventListener('change', () => this.typed(this.given));
-    this.directions.addEventListener('change', () => {
-      this.howManyField.hidden = this.directions.value === 'triangles';
-    });
-    this.element.addEventListener('submit', (event) => {
-      event.preventDefault();
-      this.send();
-    });
-  }
-
-  // The other of the two follows at once by the volume, and then as the lattice counts: in the same words, so
-  // that the button below does not move when the count comes.
-  typed(which) {
-    this.given = which;
-    const value = parseFloat(this[which].value);
-    clearTimeout(this.timer);
-    if (this.counting) this.counting.abort();
-    if (!(value > 0)) {
-      setText(this.lattice, 'Give a number above 0.');
-      return;
-    }
-    const { volume } = this.mesh.facts;
-    if (which === 'points') this.spacing.value = editable(Math.cbrt(volume / value));
-    else this.points.value = String(Math.max(0, Math.round(volume / value ** 3)));
-    this.say('about ', parseFloat(this.points.value), parseFloat(this.spacing.value));
-    this.timer = setTimeout(() => this.count(which, value), kTyping);
-  }
-
-  say(about, points, spacing) {
-    setText(this.lattice, `${about}${counted(points, 'sample point')} at spacing ${measure(spacing)}`);
-  }
-
-  async count(which, value) {
-    this.counting = new AbortController();
-    const query = new URLSearchParams({ [which]: value, frame: this.frame.value });
-    try {
-      const found = await call('GET', `/api/meshes/${this.mesh.mesh}/lattice?${query}`, undefined, this.counting.signal);
-      const other = which === 'points' ? this.spacing : this.points;
-      // A field that has the focus is about to be typed in: its selection must not change.
-      if (other !== document.activeElement) other.value = which === 'points' ? editable(found.spacing) : String(found.points);
-      this.say(found.counted ? '' : 'about ', found.points, found.spacing);
-    } catch (error) {
-      if (error.status === kNoPlace) this.timer = setTimeout(() => this.count(which, value), kAgain);
-      else if (error.name !== 'AbortError') setText(this.lattice, error.message);
-    }
-  }
-
-  directionSet() {
-    const many = Math.max(1, Math.round(parseFloat(this.howMany.value) || 0));
-    const sets = {
-      triangles: 'triangles',
-      sphere: `sphere:${many}`,
-      'triangles+sphere': `triangles+sphere:${many}`,
-      random: `random:${many}:1`,
-    };
-    return sets[this.directions.value];
-  }
-
-  async send() {
-    this.problem.hidden = true;
-    this.submit.disabled = true;
-    try {
-      const answer = await call('POST', '/api/jobs', {
-        mesh: this.mesh.mesh,
-        [this.given]: parseFloat(this[this.given].value) || 0,
-        directions: this.directionSet(),
-        frame: this.frame.value,
-        minimum: this.minimum.value,
-        operator: this.operator.value,
-        name: this.name.value.trim(),
-        request_id: this.requestId,
-      });
-      this.requestId = newRequest(); // other parameters are another request
-      if (answer.existed) {
-        this.problem.replaceChildren('The same was submitted before: ', h('a', { href: `#job/${answer.id}` }, answer.name), '. Other parameters above make another job of it.');
-        this.problem.hidden = false;
-        return;
-      }
-      announce(`${answer.name} was submitted.`);
-      location.hash = `#job/${answer.id}`;
-    } catch (error) {
-      this.problem.textContent = error.message;
-      this.problem.hidden = false;
-    } finally {
-      this.submit.disabled = false;
-    }
   }
 }
