@@ -407,6 +407,26 @@ class SameMesh(unittest.TestCase):
         self.assertNotIsInstance(failure.exception, affskel.JobFailedError)
         self.assertEqual(len(client.jobs()), before)
 
+    def test_an_image_is_the_surface_at_a_value(self):
+        def inner(*place):
+            return all(1 < n < 10 for n in place)
+        voxels = bytes(200 if inner(i, j, k) else 0 for k in range(12) for j in range(12) for i in range(12))
+        (directory / "ct.nrrd").write_bytes(
+            b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 12 12\nencoding: raw\n\n" + voxels)
+        job = client.submit(directory / "ct.nrrd", isovalue=100, points=500).wait()
+        self.assertAlmostEqual(job.status().volume / 8 ** 3, 1, delta=.1)
+        with self.assertRaises(affskel.BadInputError):
+            client.submit(directory / "ct.nrrd", points=500)
+
+    def test_holes_are_filled_where_that_is_said(self):
+        points = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
+        faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6),
+                 (0, 6, 4), (1, 5, 7)]
+        with self.assertRaises(affskel.BadInputError):
+            client.submit((points, faces), points=500)
+        job = client.submit((points, faces), points=500, repair="fill=7").wait()
+        self.assertAlmostEqual(job.status().volume, 8, places=9)
+
     def test_the_same_again_is_the_same_job_and_options_arrive(self):
         again = client.submit(directory / "body.off", spacing=300)
         self.assertTrue(again.existed)

@@ -81,10 +81,10 @@ def __dir__() -> List[str]:
 def submit(mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
            directions: str = "triangles", minimum: str = "set", frame: str = "axis",
            operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
-           repair: str = "auto") -> Job:
+           repair: str = "auto", isovalue: Optional[float] = None) -> Job:
     return _default_client().submit(mesh, spacing=spacing, points=points, directions=directions,
                                     minimum=minimum, frame=frame, operator=operator, threshold=threshold, name=name, priority=priority,
-                                    request_id=request_id, repair=repair)
+                                    request_id=request_id, repair=repair, isovalue=isovalue)
 
 
 @_as_in_client(Client.job)

@@ -5,6 +5,8 @@ import getpass
 import hashlib
 import numbers
 import os
+import tempfile
+from pathlib import Path
 from typing import Any, Dict, List, Optional
 
 from ._checks import require_closed, require_points
@@ -93,7 +95,7 @@ class Client:
     def submit(self, mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
                directions: str = "triangles", minimum: str = "set", frame: str = "axis",
                operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
-               repair: str = "auto") -> Job:
+               repair: str = "auto", isovalue: Optional[float] = None) -> Job:
         """Submits a mesh.  The same mesh and parameters give the same job, computed once.
 
         A mesh with holes is refused at once; what else bounds no solid is told by `Job.wait`, as BadMeshError.
@@ -110,7 +112,9 @@ class Client:
             name: for people; default the file's stem.
             priority: 0 .. 9, higher first.
             request_id: submitting again with the same key and content gives the same job; other content is refused.
-            repair: "auto" welds, turns and drops what needs it, and `Status.notes` tells so; "none" refuses.
+            repair: "auto" welds, turns and drops what needs it, and `Status.notes` tells so; "none" refuses;
+                "fill=LENGTH", in mesh units, "wrap" and "wrap=ALPHA" submit what the installed affskel-client makes of it.
+            isovalue: of an image of voxels (.nrrd, .mha, .nii): the value at the surface of the solid.
 
         Raises:
             UsageError: an argument is wrong.
@@ -125,7 +129,8 @@ class Client:
         if spacing is not None and points is not None:
             raise UsageError("spacing and points exclude each other")
         given = mesh_of(mesh)
-        if given.polygons is not None:
+        by_program = given.text is None or isovalue is not None or repair not in ("auto", "none")
+        if given.polygons is not None and not by_program:
             _check(given, spacing)
         header = self._header(given, spacing, points, directions, minimum, frame, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
@@ -134,8 +139,8 @@ class Client:
             raise UsageError(f"the priority {priority} is not 0 .. 9")
         header.priority = priority
         header.request_id = request_id
-        if given.text is None:
-            return self._submit_file(given.file, header, operator)
+        if by_program or given.text is None:
+            return self._submit_file(given, header, operator, repair, isovalue)
         self._complete(header, given.text)
         response = self._session.submit(header, given.text)
         return Job(self._session, response.job.id, response.existed, given.file, status_of(response.job))
@@ -181,9 +186,7 @@ class Client:
         header.params.directions = directions
         header.params.minimum = value_of_word(types.Minimum, minimum, "minimum")
         header.params.frame = value_of_word(types.Frame, frame, "frame")
-        if repair not in ("auto", "none"):
-            raise UsageError(f"repair is 'auto' or 'none', not '{repair}'")
-        header.params.repair = repair == "auto"
+        header.params.repair = repair != "none"
         return header
 
     def _complete(self, header: service.SubmitJobHeader, text: bytes) -> None:
@@ -196,21 +199,30 @@ class Client:
         header.mesh_sha256 = hashlib.sha256(text).hexdigest()
         header.mesh_bytes = len(text)
 
-    def _submit_file(self, file: str, header: service.SubmitJobHeader, operator: str) -> Job:
-        """By affskel-client, which reads the file, checks it and submits it as OFF text."""
+    def _submit_file(self, given: Mesh, header: service.SubmitJobHeader, operator: str, repair: str,
+                     isovalue: Optional[float]) -> Job:
+        """By affskel-client, which reads the file, checks and repairs it, and submits it as OFF text."""
         params, sampling = header.params, header.params.sampling
         density = ["--spacing", repr(sampling.spacing)] if sampling.HasField("spacing") else [
             "--points", str(sampling.target_points)]
         options = [*density, "--directions", params.directions or "triangles",
                    "--minimum", word(types.Minimum, params.minimum), "--frame", word(types.Frame, params.frame),
                    "--operator", operator,
-                   "--priority", str(header.priority), "--repair", "auto" if params.repair else "none"]
+                   "--priority", str(header.priority), "--repair", repair]
+        if isovalue is not None:
+            options += ["--isovalue", repr(float(_number(isovalue, "isovalue")))]
         if header.skeleton.threshold:
             options += ["--threshold", repr(header.skeleton.threshold)]
         if header.name:
             options += ["--name", header.name]
         if header.request_id:
             options += ["--request-id", header.request_id]
-        document = run_program(self._session.reached(), ["submit", *options, "--", file],
-                               f"{file}: formats other than OFF are read by affskel-client")
-        return Job(self._session, document["id"], bool(document["existed"]), file)
+        with tempfile.TemporaryDirectory() as folder:
+            file = given.file
+            if not file:
+                file = os.path.join(folder, "mesh.off")
+                Path(file).write_bytes(given.text or b"")
+            document = run_program(self._session.reached(), ["submit", *options, "--", file],
+                                   f"{given.file or 'the mesh'}: formats other than OFF, images and repair are "
+                                   "affskel-client's")
+        return Job(self._session, document["id"], bool(document["existed"]), given.file)
