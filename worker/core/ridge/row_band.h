@@ -46,8 +46,8 @@ class RowBand {
     return k >= r.begin && k < r.end ? r.offset + k : kNone;
   }
 
-  /// Whether is_wanted(number, square of its distance) accepts a place of the band within `reach` steps, along each axis,
-  /// of real indices; asks in lattice order until it does.
+  /// Whether is_wanted(number, square of its distance) accepts a place of the band within `reach` steps, along
+  /// each axis, of real indices; asks in lattice order until it does.
   template <class IsWanted>
   bool any_near(const Vec3& at, double reach, const IsWanted& is_wanted) const {
     const auto first = [&](int axis) { return static_cast<std::int32_t>(std::ceil(at[axis] - reach)); };
