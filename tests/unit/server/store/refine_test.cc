@@ -169,6 +169,28 @@ TEST_F(RefineTest, ADistrustedGiverOfDirectionsTakesTheRefinementAlong) {
   EXPECT_EQ(again.directions_done(), 0U);
 }
 
+TEST_F(RefineTest, WhatADeletedJobHasLeftGoes) {
+  const v1::Job done = erode_infimum();
+  finish_rounds(done.id(), 2);
+  store_->cancel(done.id());
+  store_->remove(done.id());
+  while (store_->tidy()) {
+  }
+  Database db(database(), Database::Mode::kReadOnly);
+  for (const char* sql : {"SELECT count(*) FROM erosions", "SELECT count(*) FROM refined_chunks",
+                          "SELECT count(*) FROM refined_log", "SELECT count(*) FROM refined_ranges",
+                          "SELECT count(*) FROM refined_givers", "SELECT sum(stored_bytes) FROM owner_use"}) {
+    EXPECT_EQ(db.integer(sql), 0) << sql;
+  }
+}
+
+TEST_F(RefineTest, TheRefinedFieldCountsToWhatItsOwnerHas) {
+  erode_infimum();
+  Database db(database(), Database::Mode::kReadOnly);
+  EXPECT_EQ(db.integer("SELECT bytes - (SELECT sum(bytes) FROM artifacts) FROM erosions"),
+            kRefinePoints * (20 + wire::kRefinedRecordBytes));
+}
+
 TEST_F(RefineTest, TheMinimumIsContent) {
   const v1::Job set = submit(), infimum = submit_infimum();
   EXPECT_NE(set.id(), infimum.id());
