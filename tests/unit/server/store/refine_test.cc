@@ -107,6 +107,9 @@ TEST_F(RefineTest, RefusesWhatCannotBeAndKeepsNothingOfIt) {
   refused([](Header& h, Records&) { h.set_round(1); });
   refused([](Header& h, Records&) { h.mutable_positions_done(0)->set_end(kRefinePoints + 1); });
   refused([](Header& h, Records&) { h.set_block_done(true); });
+  refused([](Header& h, Records&) {
+    while (h.positions_done_size() <= 256) *h.add_positions_done() = h.positions_done(0);
+  });
   EXPECT_EQ(store_->job(job.id()).refined_points(), 0U);
   // Neither is it a report on directions, or a result.
   EXPECT_STORE_ERROR(report(task, 0, 4), kInvalid);
