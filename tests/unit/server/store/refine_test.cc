@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,35 @@ TEST_F(RefineTest, AnInputIsWhatTheRoundsBeforeHaveLeft) {
     EXPECT_EQ(named.record.erosion, refined_erosion(named.point, 1));
   }
   EXPECT_EQ(read_all(*store_->open_input(task.token(), v1::ARTIFACT_KIND_REFINED, 1)), "");
+}
+
+// A log that has grown long goes into the field but for the last round; who lacks more gets all.
+TEST_F(RefineTest, AMergedLogGivesTheSame) {
+  const v1::Job job = erode_infimum();
+  finish_rounds(job.id(), 3);
+  {
+    Database db(database(), Database::Mode::kReadWrite);
+    Transaction merging(db);
+    merge_refined_log(db, 1, kRefinePoints, 1);
+    merging.commit();
+  }
+  const v1::Lease task = lease();
+  const auto input = [&](std::optional<std::int64_t> known) {
+    return read_all(*store_->open_input(task.token(), v1::ARTIFACT_KIND_REFINED, known));
+  };
+  const std::string whole = input(std::nullopt), all = input(0), last = input(1);
+  EXPECT_TRUE(whole == expected_refined(3));
+  ASSERT_EQ(all.size(), kRefinePoints * wire::kRefinedPointRecordBytes);
+  for (std::uint32_t p = 0; p < kRefinePoints; ++p) {
+    const std::size_t at = p * wire::kRefinedPointRecordBytes;
+    EXPECT_EQ(wire::decode_refined_point_record(all.data() + at).point, p);
+    EXPECT_EQ(all.substr(at + 4, wire::kRefinedRecordBytes),
+              whole.substr(p * wire::kRefinedRecordBytes, wire::kRefinedRecordBytes));
+  }
+  EXPECT_EQ(last.size(), kRefinePoints / 100 * wire::kRefinedPointRecordBytes);
+  store_->give_back(task.token());
+  finish_rounds(job.id(), 4);
+  EXPECT_TRUE(refined(job.id()) == expected_refined(4));
 }
 
 TEST_F(RefineTest, RefusesWhatCannotBeAndKeepsNothingOfIt) {
