@@ -157,17 +157,29 @@ void put_refined(Database& db, std::int64_t erosion_id, std::int64_t points, std
          Blob{bytes}, refined_log_sum(erosion_id, round, bytes));
 }
 
+std::vector<std::int64_t> refined_log_rows(Database& db, std::int64_t erosion_id, std::int64_t known,
+                                           std::int64_t through) {
+  Statement row = db.query(
+      "SELECT id FROM refined_log WHERE erosion_id = ? AND round > ? AND round <= ? ORDER BY round, id",
+      erosion_id, known, through);
+  std::vector<std::int64_t> rows;
+  while (row.step()) rows.push_back(row.integer(0));
+  return rows;
+}
+
+std::string load_refined_log(Database& db, std::int64_t erosion_id, std::int64_t row) {
+  Statement found = db.query("SELECT data, sum, round FROM refined_log WHERE id = ?", row);
+  const std::string name = "logged report " + std::to_string(row);
+  if (!found.step()) throw refined_damage(erosion_id, name + " is missing");
+  if (found.integer(1) != refined_log_sum(erosion_id, found.integer(2), found.blob(0)))
+    throw refined_damage(erosion_id, name + " does not match its checksum");
+  return std::string(found.blob(0));
+}
+
 void visit_refined_log(Database& db, std::int64_t erosion_id, std::int64_t known, std::int64_t through,
                        const std::function<void(std::string_view)>& visit) {
-  Statement row = db.query(
-      "SELECT data, sum, id, round FROM refined_log WHERE erosion_id = ? AND round > ? AND round <= ?"
-      " ORDER BY round, id",
-      erosion_id, known, through);
-  while (row.step()) {
-    if (row.integer(1) != refined_log_sum(erosion_id, row.integer(3), row.blob(0)))
-      throw refined_damage(erosion_id, "logged report " + row.text(2) + " does not match its checksum");
-    visit(row.blob(0));
-  }
+  for (const std::int64_t row : refined_log_rows(db, erosion_id, known, through))
+    visit(load_refined_log(db, erosion_id, row));
 }
 
 // The log of a round belongs to no chunk.

@@ -46,7 +46,14 @@ class RefinedBatch {
 void put_refined(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t round,
                  const std::vector<wire::RefinedPointRecord>& records);
 
-/// What the rounds after `known` up to `through` have logged, oldest first; records as in a FetchInput of REFINED.
+/// The rows of the log in which the rounds after `known` up to `through` are, oldest first.
+std::vector<std::int64_t> refined_log_rows(Database& db, std::int64_t erosion_id, std::int64_t known,
+                                           std::int64_t through);
+
+/// The records in one of them, as in a FetchInput of REFINED.
+std::string load_refined_log(Database& db, std::int64_t erosion_id, std::int64_t row);
+
+/// Calls `visit` with those of each row.
 void visit_refined_log(Database& db, std::int64_t erosion_id, std::int64_t known, std::int64_t through,
                        const std::function<void(std::string_view records)>& visit);
 

@@ -124,22 +124,20 @@ class ChangesReader final : public RefinedReader {
   ChangesReader(const std::string& file, std::int64_t erosion_id, std::int64_t known)
       : RefinedReader(file, erosion_id) {
     // Every round that is not the last has found something.
-    told_apart_ = known >= shape_.through;
-    visit_refined_log(db_, erosion_id, known, known + 1, [&](std::string_view) { told_apart_ = true; });
+    told_apart_ = known >= shape_.through || !refined_log_rows(db_, erosion_id, known, known + 1).empty();
     if (!told_apart_) return;
-    visit_refined_log(db_, erosion_id, known, shape_.through,
-                      [&](std::string_view records) { logged_.emplace_back(records); });
+    rows_ = refined_log_rows(db_, erosion_id, known, shape_.through);
     sum_up();
   }
 
   bool told_apart() const { return told_apart_; }
 
  private:
-  std::size_t count() const override { return logged_.size(); }
-  std::string piece(std::size_t index) override { return logged_[index]; }
+  std::size_t count() const override { return rows_.size(); }
+  std::string piece(std::size_t index) override { return load_refined_log(db_, erosion_id_, rows_[index]); }
 
   bool told_apart_ = false;
-  std::vector<std::string> logged_;
+  std::vector<std::int64_t> rows_;  // of the log, for what they hold may be as large as the field
 };
 
 }  // namespace

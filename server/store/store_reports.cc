@@ -14,6 +14,9 @@
 namespace affskel::server {
 namespace {
 
+// Of a report on a refinement: every value is looked for in them.  What is left of a block has a few.
+constexpr int kMostPointRanges = 256;
+
 [[noreturn]] void refuse_report(const std::string& why) {
   throw StoreError(StoreError::Code::kInvalid, "report: " + why);
 }
@@ -200,6 +203,8 @@ v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, 
       return reply(false);
     }
     tx.require_room();
+    if (header.positions_done_size() > kMostPointRanges)
+      refuse_report("more than " + std::to_string(kMostPointRanges) + " ranges of points");
     const std::vector<Range> ranges = checked_ranges(header, task.block);
     Progress progress;
     for (const Range& range : ranges) progress.reported += range.end - range.begin;

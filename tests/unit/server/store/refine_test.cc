@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,35 @@ TEST_F(RefineTest, AnInputIsWhatTheRoundsBeforeHaveLeft) {
   EXPECT_EQ(read_all(*store_->open_input(task.token(), v1::ARTIFACT_KIND_REFINED, 1)), "");
 }
 
+// A log that has grown long goes into the field but for the last round; who lacks more gets all.
+TEST_F(RefineTest, AMergedLogGivesTheSame) {
+  const v1::Job job = erode_infimum();
+  finish_rounds(job.id(), 3);
+  {
+    Database db(database(), Database::Mode::kReadWrite);
+    Transaction merging(db);
+    merge_refined_log(db, 1, kRefinePoints, 1);
+    merging.commit();
+  }
+  const v1::Lease task = lease();
+  const auto input = [&](std::optional<std::int64_t> known) {
+    return read_all(*store_->open_input(task.token(), v1::ARTIFACT_KIND_REFINED, known));
+  };
+  const std::string whole = input(std::nullopt), all = input(0), last = input(1);
+  EXPECT_TRUE(whole == expected_refined(3));
+  ASSERT_EQ(all.size(), kRefinePoints * wire::kRefinedPointRecordBytes);
+  for (std::uint32_t p = 0; p < kRefinePoints; ++p) {
+    const std::size_t at = p * wire::kRefinedPointRecordBytes;
+    EXPECT_EQ(wire::decode_refined_point_record(all.data() + at).point, p);
+    EXPECT_EQ(all.substr(at + 4, wire::kRefinedRecordBytes),
+              whole.substr(p * wire::kRefinedRecordBytes, wire::kRefinedRecordBytes));
+  }
+  EXPECT_EQ(last.size(), kRefinePoints / 100 * wire::kRefinedPointRecordBytes);
+  store_->give_back(task.token());
+  finish_rounds(job.id(), 4);
+  EXPECT_TRUE(refined(job.id()) == expected_refined(4));
+}
+
 TEST_F(RefineTest, RefusesWhatCannotBeAndKeepsNothingOfIt) {
   const v1::Job job = erode_infimum();
   const v1::Lease task = lease();
@@ -107,6 +137,9 @@ TEST_F(RefineTest, RefusesWhatCannotBeAndKeepsNothingOfIt) {
   refused([](Header& h, Records&) { h.set_round(1); });
   refused([](Header& h, Records&) { h.mutable_positions_done(0)->set_end(kRefinePoints + 1); });
   refused([](Header& h, Records&) { h.set_block_done(true); });
+  refused([](Header& h, Records&) {
+    while (h.positions_done_size() <= 256) *h.add_positions_done() = h.positions_done(0);
+  });
   EXPECT_EQ(store_->job(job.id()).refined_points(), 0U);
   // Neither is it a report on directions, or a result.
   EXPECT_STORE_ERROR(report(task, 0, 4), kInvalid);
@@ -167,6 +200,28 @@ TEST_F(RefineTest, ADistrustedGiverOfDirectionsTakesTheRefinementAlong) {
   const v1::Job again = store_->resume_without(job.id(), "worker-a");
   EXPECT_EQ(again.stage(), v1::JOB_STAGE_ERODE);
   EXPECT_EQ(again.directions_done(), 0U);
+}
+
+TEST_F(RefineTest, WhatADeletedJobHasLeftGoes) {
+  const v1::Job done = erode_infimum();
+  finish_rounds(done.id(), 2);
+  store_->cancel(done.id());
+  store_->remove(done.id());
+  while (store_->tidy()) {
+  }
+  Database db(database(), Database::Mode::kReadOnly);
+  for (const char* sql : {"SELECT count(*) FROM erosions", "SELECT count(*) FROM refined_chunks",
+                          "SELECT count(*) FROM refined_log", "SELECT count(*) FROM refined_ranges",
+                          "SELECT count(*) FROM refined_givers", "SELECT sum(stored_bytes) FROM owner_use"}) {
+    EXPECT_EQ(db.integer(sql), 0) << sql;
+  }
+}
+
+TEST_F(RefineTest, TheRefinedFieldCountsToWhatItsOwnerHas) {
+  erode_infimum();
+  Database db(database(), Database::Mode::kReadOnly);
+  EXPECT_EQ(db.integer("SELECT bytes - (SELECT sum(bytes) FROM artifacts) FROM erosions"),
+            kRefinePoints * (20 + wire::kRefinedRecordBytes));
 }
 
 TEST_F(RefineTest, TheMinimumIsContent) {
