@@ -144,7 +144,7 @@ void add_inspect(CommandLine& line) {
       ->add_option("--render", options->picture,
                    "PNG file to write: the mesh from the front, the side and above, its defects\nmarked")
       ->type_name("FILE");
-  add_isovalue(command, options->reading);
+  add_isovalue(command, options->reading.isovalue);
   command->add_flag("--all", options->all,
                     "Every place of every defect, each on a line; else the first five");
 }

@@ -84,7 +84,7 @@ void add_repair(CommandLine& line) {
   add_repair_option(
       command, options->how,
       "auto fills holes up to 0.6 of the box's diagonal round, fill=LENGTH up to that\nlength; wrap, or wrap=ALPHA, takes a new surface round all of it, which closes\nhollows narrower than a 220th of the diagonal; none only checks");
-  add_isovalue(command, options->reading);
+  add_isovalue(command, options->reading.isovalue);
   add_format(command, options->format);
   add_output(command, options->output, "Mesh file to write, or -");
 }

@@ -199,7 +199,7 @@ void add_queue_options(CLI::App* command, SubmitOptions& o) {
                    "Submitting again with the same key and content gives the same job")
       ->check(utf8_text())
       ->type_name("KEY");
-  add_isovalue(command, o.reading);
+  add_isovalue(command, o.reading.isovalue);
   add_repair_option(
       command, o.repair,
       "auto submits a mesh that bounds a solid as it is, of others what repair makes of them;\nnone refuses these; fill=LENGTH, wrap and wrap=ALPHA submit what repair makes by them");

@@ -10,10 +10,10 @@ void add_file(CLI::App* command, const std::string& name, std::string& file, con
   command->add_option(name, file, what)->required()->check(non_empty())->type_name("FILE");
 }
 
-void add_isovalue(CLI::App* command, core::MeshFileOptions& options) {
+void add_isovalue(CLI::App* command, std::optional<double>& isovalue) {
   command
       ->add_option_function<double>(
-          "--isovalue", [&options](double value) { options.isovalue = value; },
+          "--isovalue", [&isovalue](double value) { isovalue = value; },
           "Of an image of voxels: the value at the surface of the solid")
       ->check(finite_number())
       ->type_name("V");

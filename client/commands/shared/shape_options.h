@@ -1,9 +1,8 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
-
-#include "core/files/read/parse_shape.h"
 
 namespace affskel::client {
 
@@ -12,7 +11,7 @@ inline constexpr const char* kMeshKinds =
     "Geomview OFF, .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd;\nvoxels in .nrrd .mha .nii";
 
 /// --isovalue.
-void add_isovalue(CLI::App* command, core::MeshFileOptions& options);
+void add_isovalue(CLI::App* command, std::optional<double>& isovalue);
 
 /// A required file to read. @param name of the operand, e.g. "FILE"; @param what it is, for the help.
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what);
