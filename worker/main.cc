@@ -169,9 +169,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.add_option("--client-key", flags.loop.access.tls_key, "its key, PEM; else $AFFSKEL_CLIENT_KEY")
       ->envname("AFFSKEL_CLIENT_KEY");
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
-  compute
-      ->add_option("FILE", flags.compute.file,
-                   "closed triangle mesh, as affskel-client reads it")
+  compute->add_option("FILE", flags.compute.file, "closed triangle mesh, as affskel-client reads it")
       ->required();
   compute->add_option("--spacing", flags.compute.spacing, "lattice spacing in mesh units")
       ->check([](const std::string& text) {

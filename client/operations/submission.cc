@@ -42,8 +42,7 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   require_short(submission.name, kMaxName, "name");
   require_short(submission.request_id, kMaxRequestId, "request id");
   v1::SubmitJobHeader header;
-  header.set_name(submission.name.empty() ? protocol_text(job_name(input.path), kMaxName)
-                                          : submission.name);
+  header.set_name(submission.name.empty() ? protocol_text(job_name(input.path), kMaxName) : submission.name);
   header.set_priority(submission.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (submission.spacing > 0) {

@@ -140,7 +140,8 @@ TEST_F(ClientTest, SubmitRepairsWhatBoundsNoSolid) {
   tests::write_file(dir_ / "half.off", core::write_off(cube));
   const Outcome refused = run({"submit", dir_ / "half.off"}, "unix:/nowhere/s");
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.err.find("repair " + std::string(dir_ / "half.off") + " --repair fill="), std::string::npos)
+  EXPECT_NE(refused.err.find("repair " + std::string(dir_ / "half.off") + " --repair fill="),
+            std::string::npos)
       << refused.err;
 }
 

@@ -28,7 +28,8 @@ TEST(ArtifactKinds, EveryTaskThatDerivesMakesOneKindOfItsName) {
   for (int i = 0; i < type->value_count(); ++i) {
     const auto task = static_cast<v1::TaskKind>(type->value(i)->number());
     const ArtifactKindInfo* row = find_derived_kind(task);
-    const bool derives = task > v1::TASK_KIND_ERODE && task != v1::TASK_KIND_VERIFY && task != v1::TASK_KIND_REFINE;
+    const bool derives =
+        task > v1::TASK_KIND_ERODE && task != v1::TASK_KIND_VERIFY && task != v1::TASK_KIND_REFINE;
     ASSERT_EQ(row != nullptr, derives) << type->value(i)->name();
     if (row == nullptr) continue;
     EXPECT_EQ(row->name(), word(task)) << "the database has one name for both";
