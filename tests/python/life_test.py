@@ -242,7 +242,7 @@ class Errors(WithDirectory):
         client = self.client(server)
         file = self.directory / "hole.off"
         file.write_text(OPEN_CUBE)
-        _, said = self.directory.client_error("--server", server.address, "submit", file)
+        _, said = self.directory.client_error("--server", server.address, "submit", "--repair", "none", file)
         with self.assertRaises(affskel.BadInputError) as failure:
             client.submit(file, spacing=.1)
         self.assertEqual(failure.exception.file, str(file))

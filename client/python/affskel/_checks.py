@@ -70,8 +70,8 @@ def require_closed(mesh: Polygons) -> None:
     if len(alone):
         a, b = (tuple(float(x) for x in places[vertex]) for vertex in alone[0])
         raise BadInputError(f"the mesh does not bound a solid: {len(alone)} open edges (one face only), for example from "
-                            f"{a} to {b}; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's "
-                            "Fill Holes")
+                            f"{a} to {b}; fill its holes by repair='fill=LENGTH' or 'wrap', by affskel-client repair, MeshLab's "
+                            "Close Holes or Blender's Fill Holes")
 
 
 def require_points(mesh: Polygons, spacing: float) -> None:
