@@ -4,7 +4,7 @@ function(add_sharded_tests target count)
   math(EXPR last "${count} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${target}.${shard} COMMAND ${target} --gtest_brief=1)
-    set_tests_properties(${target}.${shard} PROPERTIES LABELS fast TIMEOUT 600
+    set_tests_properties(${target}.${shard} PROPERTIES LABELS fast TIMEOUT 600 COST 30
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${shard}")
   endforeach()
 endfunction()
