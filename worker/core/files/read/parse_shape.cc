@@ -128,6 +128,9 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
 
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, const MeshFileOptions& options) {
   if (is_voxel_image(bytes)) return mesh_of_voxels(bytes, options);
+  if (options.isovalue)
+    throw CoreError(CoreError::Code::kBadInput,
+                    "is no image of voxels (NRRD, MetaImage, NIfTI-1), which an isovalue is for");
   refuse_other_kinds(bytes);
   const std::string_view told = told_extension(bytes);
   const std::string_view kind = !told.empty() ? told : holds_mesh(extension) ? extension : ".off";

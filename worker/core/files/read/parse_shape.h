@@ -43,8 +43,8 @@ struct MeshFile {
 
 /// Reads the mesh of a file that is to bound a solid as parse_shape does; what neither content nor extension
 /// tells is OFF text.  Of an image of voxels (see parse_voxels) it is the surface at a value.
-/// @throws CoreError as parse_shape, parse_voxels and isosurface; kBadInput when there are no triangles, or no value
-///   for an image of voxels.
+/// @throws CoreError as parse_shape, parse_voxels and isosurface; kBadInput when there are no triangles, no value for
+///   an image of voxels, or one for anything else.
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes,
                          const MeshFileOptions& options = {});
 

@@ -177,6 +177,8 @@ TEST(ParseVoxels, AMeshNeedsTheValueAtItsSurface) {
   EXPECT_EQ(file.format, "voxels");
   EXPECT_GT(file.off.mesh.triangles.size(), 10U);
   EXPECT_NE(file.told.find("24 voxels"), std::string::npos);
+  EXPECT_THROW(parse_mesh_file(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {100}), CoreError)
+      << "a mesh has no such value";
 }
 
 }  // namespace
