@@ -17,11 +17,16 @@ bool is_metaimage(std::string_view bytes) {
 }
 
 VoxelImage parse_metaimage(std::string_view bytes) {
-  static const std::map<std::string, Scalar> kTypes = {
-      {"met_char", Scalar::kInt8},       {"met_uchar", Scalar::kUint8},       {"met_short", Scalar::kInt16},
-      {"met_ushort", Scalar::kUint16},   {"met_int", Scalar::kInt32},         {"met_uint", Scalar::kUint32},
-      {"met_long_long", Scalar::kInt64}, {"met_ulong_long", Scalar::kUint64}, {"met_float", Scalar::kFloat},
-      {"met_double", Scalar::kDouble}};
+  static const std::map<std::string, Scalar> kTypes = {{"met_char", kScalar<std::int8_t>},
+                                                       {"met_uchar", kScalar<std::uint8_t>},
+                                                       {"met_short", kScalar<std::int16_t>},
+                                                       {"met_ushort", kScalar<std::uint16_t>},
+                                                       {"met_int", kScalar<std::int32_t>},
+                                                       {"met_uint", kScalar<std::uint32_t>},
+                                                       {"met_long_long", kScalar<std::int64_t>},
+                                                       {"met_ulong_long", kScalar<std::uint64_t>},
+                                                       {"met_float", kScalar<float>},
+                                                       {"met_double", kScalar<double>}};
   VoxelHeader header;
   const std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
     const std::size_t sign = text.find('=');

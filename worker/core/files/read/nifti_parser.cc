@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -52,30 +53,15 @@ class Nifti {
   double at(std::size_t place) const { return number<float>(place); }
 
   Scalar scalar() const {
-    switch (number<std::int16_t>(70)) {
-      case 2:
-        return Scalar::kUint8;
-      case 4:
-        return Scalar::kInt16;
-      case 8:
-        return Scalar::kInt32;
-      case 16:
-        return Scalar::kFloat;
-      case 64:
-        return Scalar::kDouble;
-      case 256:
-        return Scalar::kInt8;
-      case 512:
-        return Scalar::kUint16;
-      case 768:
-        return Scalar::kUint32;
-      case 1024:
-        return Scalar::kInt64;
-      case 1280:
-        return Scalar::kUint64;
-      default:
-        fail_at(0, "type of values " + std::to_string(number<std::int16_t>(70)) + " is not read");
-    }
+    static const std::map<int, Scalar> kTypes = {
+        {2, kScalar<std::uint8_t>},    {4, kScalar<std::int16_t>},    {8, kScalar<std::int32_t>},
+        {16, kScalar<float>},          {64, kScalar<double>},         {256, kScalar<std::int8_t>},
+        {512, kScalar<std::uint16_t>}, {768, kScalar<std::uint32_t>}, {1024, kScalar<std::int64_t>},
+        {1280, kScalar<std::uint64_t>}};
+    const auto found = kTypes.find(number<std::int16_t>(70));
+    if (found == kTypes.end())
+      fail_at(0, "type of values " + std::to_string(number<std::int16_t>(70)) + " is not read");
+    return found->second;
   }
 
   // The affine form, else the rotation of a quaternion, else the spacings alone.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/coding.h"
 #include "core/base/error.h"
 #include "core/files/read/shape_parsers.h"
 
@@ -12,36 +11,6 @@ namespace affskel::core {
 namespace {
 
 constexpr std::size_t kMaxVoxels = std::size_t{1} << 30;
-
-std::size_t bytes_of(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kInt8:
-    case Scalar::kUint8:
-      return 1;
-    case Scalar::kInt16:
-    case Scalar::kUint16:
-      return 2;
-    case Scalar::kInt32:
-    case Scalar::kUint32:
-    case Scalar::kFloat:
-      return 4;
-    case Scalar::kInt64:
-    case Scalar::kUint64:
-    case Scalar::kDouble:
-      return 8;
-  }
-  return 0;
-}
-
-template <class Number>
-void decode_all(std::string_view bytes, bool swapped, std::vector<float>& values) {
-  std::array<char, sizeof(Number)> raw;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::copy_n(bytes.data() + i * sizeof(Number), sizeof(Number), raw.begin());
-    if (swapped) std::reverse(raw.begin(), raw.end());
-    values[i] = static_cast<float>(base::decode<Number>(raw.data()));
-  }
-}
 
 }  // namespace
 
@@ -59,44 +28,12 @@ std::size_t voxels_of(const std::array<std::size_t, 3>& size) {
 
 void take_numbers(std::string_view bytes, const Numbers& numbers, VoxelImage& image) {
   const std::size_t count = voxels_of(image.size);
-  if (bytes.size() / bytes_of(numbers.scalar) < count) {
+  if (bytes.size() / numbers.scalar.bytes < count) {
     fail_at(0, std::to_string(count) + " voxels announced, but only " + std::to_string(bytes.size()) +
                    " bytes follow");
   }
   image.values.resize(count);
-  const bool swapped = numbers.big_endian;
-  switch (numbers.scalar) {
-    case Scalar::kInt8:
-      decode_all<std::int8_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kUint8:
-      decode_all<std::uint8_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kInt16:
-      decode_all<std::int16_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kUint16:
-      decode_all<std::uint16_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kInt32:
-      decode_all<std::int32_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kUint32:
-      decode_all<std::uint32_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kInt64:
-      decode_all<std::int64_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kUint64:
-      decode_all<std::uint64_t>(bytes, swapped, image.values);
-      break;
-    case Scalar::kFloat:
-      decode_all<float>(bytes, swapped, image.values);
-      break;
-    case Scalar::kDouble:
-      decode_all<double>(bytes, swapped, image.values);
-      break;
-  }
+  numbers.scalar.decode(bytes, numbers.big_endian, image.values);
   if (numbers.scale != 1 || numbers.offset != 0)
     for (float& value : image.values)
       value = static_cast<float>(numbers.scale * double{value} + numbers.offset);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "base/coding.h"
 #include "core/base/vec3.h"
 #include "core/voxels/voxel_image.h"
 
@@ -15,12 +17,29 @@ namespace affskel::core {
 
 inline constexpr const char* kInOneFile = "; write header and numbers into one file (.nrrd, .mha, .nii)";
 
-/// Types of values in files.
-enum class Scalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat, kDouble };
+/// A type of values in files: their size, and how they become numbers.
+struct Scalar {
+  std::size_t bytes;
+  /// @param bytes as many as `values` need. @param swapped whether the most significant byte is first.
+  void (*decode)(std::string_view bytes, bool swapped, std::vector<float>& values);
+};
+
+template <class Number>
+void decode_values(std::string_view bytes, bool swapped, std::vector<float>& values) {
+  std::array<char, sizeof(Number)> raw;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::copy_n(bytes.data() + i * sizeof(Number), sizeof(Number), raw.begin());
+    if (swapped) std::reverse(raw.begin(), raw.end());
+    values[i] = static_cast<float>(base::decode<Number>(raw.data()));
+  }
+}
+
+template <class Number>
+inline constexpr Scalar kScalar{sizeof(Number), decode_values<Number>};
 
 /// How an image's values stand in a file.
 struct Numbers {
-  Scalar scalar = Scalar::kUint8;
+  Scalar scalar = kScalar<std::uint8_t>;
   bool big_endian = false;
   double scale = 1, offset = 0;
 };
