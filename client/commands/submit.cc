@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/number_text.h"
 #include "client/cli/number_parsers.h"
@@ -82,25 +83,22 @@ Notices check_mesh(const InputFile& input, const core::Solid& solid, const std::
   return notices;
 }
 
+struct SubmittedSolid {
+  core::Solid solid;
+  std::optional<MeshSource> source;  // of which its mesh came by a repair
+};
+
 // What is mended beyond what workers mend is another mesh.
-// Returns the steps.
-std::vector<core::RepairStep> replace_mesh(Context& context, const std::string& file,
-                                           const RepairChoice& choice, InputFile& input) {
+std::optional<MeshSource> replaced(Context& context, const std::string& file, const RepairChoice& choice,
+                                   InputFile& input) {
   Repair done = repaired(context, input.off.mesh, file, choice);
+  if (done.steps.empty()) return std::nullopt;
   Notices notices;
   for (const core::RepairStep& step : done.steps)
     notices.push_back(note(step.code, "repaired before it was sent: " + step.message, input.path));
   say(context.console(), notices);
-  input.off = core::OffMesh();
-  input.off.mesh = std::move(done.mesh);
-  input.bytes = core::write_off(input.off.mesh);
-  return std::move(done.steps);
+  return replace_mesh(input, std::move(done));
 }
-
-struct SubmittedSolid {
-  core::Solid solid;
-  std::vector<core::RepairStep> steps;  // by which its mesh came of the file's
-};
 
 // Unasked, only a mesh that bounds no solid is replaced: what workers mend is sent as it is.
 SubmittedSolid solid_of(Context& context, const std::string& file, const RepairChoice& repair,
@@ -108,14 +106,14 @@ SubmittedSolid solid_of(Context& context, const std::string& file, const RepairC
   using Kind = RepairChoice::Kind;
   SubmittedSolid found;
   if (repair.kind == Kind::kFill || repair.kind == Kind::kWrap)
-    found.steps = replace_mesh(context, file, repair, input);
+    found.source = replaced(context, file, repair, input);
   try {
     found.solid = check_solid(input, repair.kind != Kind::kNone);
     return found;
   } catch (const ClientError& error) {
     if (repair.kind != Kind::kAuto || error.exit_code() != ExitCode::kBadInput) throw;
   }
-  found.steps = replace_mesh(context, file, repair, input);
+  found.source = replaced(context, file, repair, input);
   found.solid = check_solid(input, true);
   return found;
 }
@@ -130,7 +128,8 @@ void run_submit(Context& context, const SubmitOptions& options) {
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
   const Notices said = check_mesh(input, found.solid, options.spacing, asked, console);
   prepare_output_dir(options.output_dir);
-  const Submitted submitted = submit(context.session(), context.environment(), input, asked);
+  const Submitted submitted =
+      submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);
   v1::Job job = submitted.job;
   console.result(job.id() + "\n");
   say(console, reuse_notices(submitted));
@@ -138,7 +137,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   if (wait) job = follow(context, job.id(), false, !options.output_dir.empty());
   nlohmann::ordered_json document = to_json(job);
   document["existed"] = submitted.existed;
-  if (!found.steps.empty()) document["repaired"] = steps_json(found.steps);
+  if (found.source) document["repaired"] = steps_json(found.source->steps);
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
     document["files"] = paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
   }

@@ -211,12 +211,12 @@ Response Session::Link::unary(const Request& request,
   return response;
 }
 
-v1::Job Session::submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed) {
+v1::Job Session::submit(const v1::SubmitJobHeader& header, const GivenMeshes& meshes, bool& existed) {
   v1::SubmitJobResponse response;
   link_->run([&](Link::Stub& stub) {
     grpc::ClientContext context;
     const CancelOnStop cancel(context, link_->policy().stop);
-    return submit_once(stub, context, header, mesh, response);
+    return submit_once(stub, context, header, meshes, response);
   });
   existed = response.existed();
   return response.job();

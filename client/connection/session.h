@@ -26,6 +26,12 @@ struct RetryPolicy {
   std::stop_token stop = {};                       ///< ends the calls and the pauses between them
 };
 
+/// What is submitted, OFF text.
+struct GivenMeshes {
+  std::string_view mesh;
+  std::string_view source;  ///< before its repair; empty where it was not repaired
+};
+
 /// Receives one artefact.  A transfer that breaks off starts again with a new sink.
 class ArtifactSink {
  public:
@@ -52,7 +58,7 @@ class Session {
   void notify(const Notice& notice) const;
 
   /// @param existed set to whether an earlier job answers this submission.
-  v1::Job submit(const v1::SubmitJobHeader& header, std::string_view mesh, bool& existed);
+  v1::Job submit(const v1::SubmitJobHeader& header, const GivenMeshes& meshes, bool& existed);
   v1::Job get_job(const std::string& job);
   /// The newest `limit` jobs that the request is about, whatever its own limit; from as many answers as
   /// needed.

@@ -72,19 +72,22 @@ grpc::Status fetch_once(v1::ErosionService::Stub& stub, grpc::ClientContext& con
 }
 
 grpc::Status submit_once(v1::ErosionService::Stub& stub, grpc::ClientContext& context,
-                         const v1::SubmitJobHeader& header, std::string_view mesh,
+                         const v1::SubmitJobHeader& header, const GivenMeshes& meshes,
                          v1::SubmitJobResponse& response) {
   const auto bytes_per_second = std::size_t{1} << 20;
+  const std::size_t bytes = meshes.mesh.size() + meshes.source.size();
   context.set_deadline(std::chrono::system_clock::now() +
-                       std::chrono::seconds(120 + mesh.size() / bytes_per_second));
+                       std::chrono::seconds(120 + bytes / bytes_per_second));
   const auto writer = stub.SubmitJob(&context, &response);
   v1::SubmitJobRequest message;
   *message.mutable_header() = header;
   bool open = writer->Write(message);
-  for (std::size_t begin = 0; open && begin < mesh.size(); begin += wire::kChunkBytes) {
-    const std::string_view piece = mesh.substr(begin, wire::kChunkBytes);
-    message.set_data(piece.data(), piece.size());
-    open = writer->Write(message);
+  for (const std::string_view mesh : {meshes.mesh, meshes.source}) {
+    for (std::size_t begin = 0; open && begin < mesh.size(); begin += wire::kChunkBytes) {
+      const std::string_view piece = mesh.substr(begin, wire::kChunkBytes);
+      message.set_data(piece.data(), piece.size());
+      open = writer->Write(message);
+    }
   }
   if (open) writer->WritesDone();
   return writer->Finish();

@@ -18,9 +18,9 @@ grpc::Status fetch_once(v1::ErosionService::Stub& stub, grpc::ClientContext& con
                         const v1::FetchArtifactRequest& request, ArtifactSink& sink,
                         v1::ArtifactHeader& header);
 
-/// Submits a mesh; sets the context's deadline by its size.
+/// Submits a mesh; sets the context's deadline by the size of all that is sent.
 grpc::Status submit_once(v1::ErosionService::Stub& stub, grpc::ClientContext& context,
-                         const v1::SubmitJobHeader& header, std::string_view mesh,
+                         const v1::SubmitJobHeader& header, const GivenMeshes& meshes,
                          v1::SubmitJobResponse& response);
 
 }  // namespace affskel::client

@@ -20,5 +20,6 @@ Fetched fetch_thickness(Session& session, const FetchRequest& request);
 Fetched fetch_eroded(Session& session, const FetchRequest& request);
 /// As OFF the submitted bytes, also without an extension; in the other surface_formats the same surface.
 Fetched fetch_submitted_mesh(Session& session, const FetchRequest& request);
+Fetched fetch_source_mesh(Session& session, const FetchRequest& request);
 
 }  // namespace affskel::client

@@ -22,7 +22,7 @@ struct Artifact {
   Fetched (*fetch)(Session& session, const FetchRequest& request);
 };
 
-constexpr std::array<Artifact, 8> kArtifacts = {{
+constexpr std::array<Artifact, 9> kArtifacts = {{
     {"field", field_formats, no_other, fetch_field},
     {"divergence", divergence_formats, no_other, fetch_divergence},
     {"skeleton", skeleton_file_formats, no_other, fetch_skeleton},
@@ -31,6 +31,7 @@ constexpr std::array<Artifact, 8> kArtifacts = {{
     {"thickness", thickness_formats, no_other, fetch_thickness},
     {"eroded", surface_formats, skeleton_formats, fetch_eroded},
     {"mesh", surface_formats, no_other, fetch_submitted_mesh},
+    {"source", surface_formats, no_other, fetch_source_mesh},
 }};
 
 const Artifact& artifact_named(const std::string& name) {

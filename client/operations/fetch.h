@@ -35,8 +35,8 @@ struct FetchRequest {
 struct Fetched {
   Destination destination;
   std::string
-      artifact;      ///< "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh"
-  std::string unit;  ///< what is counted: "point", "triangle" or "byte"
+      artifact;  ///< "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source"
+  std::string unit;                                 ///< what is counted: "point", "triangle" or "byte"
   std::uint64_t items = 0;                          ///< how many
   v1::Job job;                                      ///< as the server sent it along
   std::optional<std::uint64_t> segments = {};       ///< of curves, of a skeleton with triangles
@@ -47,7 +47,8 @@ struct Fetched {
   Notices notices = {};  ///< that it is empty and why, and what the format does not hold
 };
 
-/// What can be fetched: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh".
+/// What can be fetched: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh",
+/// "source".
 std::vector<std::string> artifact_names();
 
 /// The formats of an artefact, as extensions with the dot, each once; the first is a good one to begin with.

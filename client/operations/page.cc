@@ -13,6 +13,7 @@
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/kept_stance.h"
+#include "client/operations/marked_edges.h"
 #include "client/text/words.h"
 #include "core/chords/chord_sheet.h"
 #include "core/shocks/shock_operator.h"
@@ -125,6 +126,13 @@ Notices fetch_skeleton(Session& session, const ViewSubject& subject, const Latti
   return skeleton_notices(items, model.quality, subject.job);
 }
 
+// The defects that the mesh had before its repair.
+std::vector<MarkedEdge> repaired_edges(Session& session, const std::string& job) {
+  const core::OffMesh source =
+      parse_mesh(session.fetch_bytes(request_for(job, v1::ARTIFACT_KIND_SOURCE)), "source of job " + job);
+  return marked_edges(source.mesh, find_defects(source, kMarkedOnPage));
+}
+
 ViewModel fetch_model(Session& session, const ViewSubject& subject, Notices& notices) {
   ViewModel model;
   model.job = subject.job;
@@ -142,6 +150,7 @@ ViewModel fetch_model(Session& session, const ViewSubject& subject, Notices& not
   } else {
     model.mesh = fetch_mesh(session, subject.job.id());
   }
+  if (subject.job.has_repair()) model.marks = repaired_edges(session, subject.job.id());
   return model;
 }
 

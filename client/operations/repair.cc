@@ -53,4 +53,12 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
   return done;
 }
 
+MeshSource replace_mesh(InputFile& input, Repair repaired) {
+  MeshSource source{std::move(input.bytes), std::move(repaired.steps)};
+  input.off = core::OffMesh();
+  input.off.mesh = std::move(repaired.mesh);
+  input.bytes = core::write_off(input.off.mesh);
+  return source;
+}
+
 }  // namespace affskel::client

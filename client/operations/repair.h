@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/files/read/input_file.h"
 #include "core/mesh/mesh.h"
 #include "core/repair/repair_mesh.h"
 
@@ -36,5 +37,14 @@ struct Repair {
 /// @throws ClientError kBadInput where it bounds no solid for other reasons.
 Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoice& choice,
               core::ExecutionContext* context = nullptr);
+
+/// What a mesh was before its repair, and what was done to it.
+struct MeshSource {
+  std::string bytes;  ///< OFF text
+  std::vector<core::RepairStep> steps;
+};
+
+/// Puts the repaired mesh in the place of the one that was read.  @return what that was.
+MeshSource replace_mesh(InputFile& input, Repair repaired);
 
 }  // namespace affskel::client

@@ -95,18 +95,29 @@ Fetched fetch_eroded_solid(Session& session, const FetchRequest& request) {
   return fetched;
 }
 
-// The mesh in another format than the one in which it was submitted.
-Fetched convert_mesh(Session& session, const FetchRequest& request) {
+// A mesh in another format than the one in which it was submitted.
+Fetched convert_mesh(Session& session, const FetchRequest& request, v1::ArtifactKind kind) {
   const FileFormat format = choose_format(request.destination, surface_formats(), "mesh");
   base::AtomicFile out(request.destination.file);
   v1::ArtifactHeader header;
-  const std::string bytes = session.fetch_bytes(request_for(request.job, v1::ARTIFACT_KIND_MESH), &header);
+  const std::string bytes = session.fetch_bytes(request_for(request.job, kind), &header);
   ShapeFile shape;
   shape.off = parse_mesh(bytes, "mesh of job " + header.job().id());
-  const std::vector<std::string> comments = comment_lines(job_facts(header.job(), "mesh"));
+  const std::vector<std::string> comments = comment_lines(job_facts(header.job(), request.artifact));
   write_into(out, [&](const WriteBytes& write) { write_surface(format, shape, comments, write); });
   out.commit();
-  return {request.destination, "mesh", "triangle", shape.mesh().triangles.size(), header.job()};
+  return {request.destination, request.artifact, "triangle", shape.mesh().triangles.size(), header.job()};
+}
+
+// OFF text byte for byte.
+Fetched fetch_given(Session& session, const FetchRequest& request, v1::ArtifactKind kind) {
+  const std::string extension = request.destination.extension();
+  if (!extension.empty() && extension != extension_of(FileFormat::kOff))
+    return convert_mesh(session, request, kind);
+  const v1::ArtifactHeader header = session.fetch(
+      request_for(request.job, kind),
+      [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(request.destination.file); });
+  return {request.destination, request.artifact, "byte", header.bytes(), header.job()};
 }
 
 }  // namespace
@@ -130,13 +141,11 @@ Fetched fetch_eroded(Session& session, const FetchRequest& request) {
 }
 
 Fetched fetch_submitted_mesh(Session& session, const FetchRequest& request) {
-  const std::string extension = request.destination.extension();
-  if (!extension.empty() && extension != extension_of(FileFormat::kOff))
-    return convert_mesh(session, request);
-  const v1::ArtifactHeader header = session.fetch(
-      request_for(request.job, v1::ARTIFACT_KIND_MESH),
-      [&]() -> std::unique_ptr<ArtifactSink> { return std::make_unique<RawSink>(request.destination.file); });
-  return {request.destination, "mesh", "byte", header.bytes(), header.job()};
+  return fetch_given(session, request, v1::ARTIFACT_KIND_MESH);
+}
+
+Fetched fetch_source_mesh(Session& session, const FetchRequest& request) {
+  return fetch_given(session, request, v1::ARTIFACT_KIND_SOURCE);
 }
 
 }  // namespace affskel::client

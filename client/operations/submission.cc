@@ -25,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // bytes, by the protocol
+constexpr std::size_t kMaxStepMessage = 1000;
 
 // As the protocol takes it.
 std::string protocol_text(const std::string& text, std::size_t max_bytes) {
@@ -61,13 +62,26 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   return header;
 }
 
-void check_size(const v1::ServerInfo& server, const InputFile& input) {
+v1::MeshRepair repair_of(const MeshSource& source) {
+  v1::MeshRepair repair;
+  repair.set_source_sha256(wire::sha256_hex(source.bytes));
+  repair.set_source_bytes(source.bytes.size());
+  for (const core::RepairStep& step : source.steps) {
+    v1::RepairStep& told = *repair.add_steps();
+    told.set_code(step.code);
+    told.set_count(step.count);
+    told.set_message(protocol_text(step.message, kMaxStepMessage));
+  }
+  return repair;
+}
+
+void check_size(const v1::ServerInfo& server, const std::string& path, const std::string& bytes) {
   const std::uint64_t most = server.max_mesh_bytes();
-  if (most > 0 && input.bytes.size() > most) {
-    throw ClientError(ExitCode::kLimit,
-                      "has " + std::to_string(input.bytes.size()) + " bytes; the server takes at most " +
-                          std::to_string(most),
-                      input.path);
+  if (most > 0 && bytes.size() > most) {
+    throw ClientError(
+        ExitCode::kLimit,
+        "has " + std::to_string(bytes.size()) + " bytes; the server takes at most " + std::to_string(most),
+        path);
   }
 }
 
@@ -111,13 +125,19 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
 }
 
 Submitted submit(Session& session, const Environment& environment, const InputFile& input,
-                 const Submission& submission) {
+                 const MeshSource* source, const Submission& submission) {
   v1::SubmitJobHeader header = header_for(submission, input);
+  GivenMeshes meshes{input.bytes, {}};
   const v1::ServerInfo server = session.server_info();
-  check_size(server, input);
+  check_size(server, input.path, input.bytes);
+  if (source != nullptr) {
+    check_size(server, input.path, source->bytes);
+    *header.mutable_repair() = repair_of(*source);
+    meshes.source = source->bytes;
+  }
   if (server.caller().owner().empty()) header.set_owner(protocol_text(user_name(environment), kMaxOwner));
   Submitted submitted;
-  submitted.job = session.submit(header, input.bytes, submitted.existed);
+  submitted.job = session.submit(header, meshes, submitted.existed);
   return submitted;
 }
 

@@ -6,6 +6,7 @@
 #include "client/connection/environment.h"
 #include "client/connection/session.h"
 #include "client/files/read/input_file.h"
+#include "client/operations/repair.h"
 #include "client/operations/skeleton_choice.h"
 
 namespace affskel::client {
@@ -41,11 +42,12 @@ struct Submitted {
 };
 
 /// Submits the mesh.
+/// @param source what it was before its repair, which is kept with the job; null where it was not repaired.
 /// @param environment names the user to a server that does not know its callers.
 /// @throws ClientError kUsage when the protocol has no room for a text; kLimit when the server takes no file
 /// as large; as Session::submit.
 Submitted submit(Session& session, const Environment& environment, const InputFile& input,
-                 const Submission& submission);
+                 const MeshSource* source, const Submission& submission);
 
 /// How the work on a submission was done before, wholly or but for the skeleton, if it was.
 Notices reuse_notices(const Submitted& submitted);

@@ -225,6 +225,9 @@ std::string job_details(const v1::Job& job, bool colour) {
   }
   text += key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
   text += key_line("repair", job.params().repair() ? "auto" : "none");
+  for (const v1::RepairStep& step : job.repair().steps())
+    text += key_line("repaired", step.code() + ": " + step.message());
+  if (job.has_repair()) text += key_line("source_sha256", job.repair().source_sha256());
   text += key_line("priority", std::to_string(job.priority()));
   text += key_line("mesh_bytes", std::to_string(job.mesh_bytes()));
   text += key_line("mesh_sha256", job.mesh_sha256());

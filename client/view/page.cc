@@ -184,6 +184,14 @@ void add_sheet(Arrays& arrays, const ViewModel& model, const Scale& scale) {
   arrays.add("sheetPieceShares", "f32", std::vector<float>(pieces.shares.begin(), pieces.shares.end()));
 }
 
+void add_marks(Arrays& arrays, const ViewModel& model, const Scale& scale) {
+  std::vector<float> positions;
+  for (const MarkedEdge& edge : model.marks)
+    for (const Vec3& end : {edge.from, edge.to})
+      for (const double c : scale.place(end)) positions.push_back(static_cast<float>(c));
+  arrays.add("markPositions", "f32", positions);
+}
+
 // What of the body each triangle is.
 ordered_json add_parts(Arrays& arrays, const v1::SolidParts& solid) {
   ordered_json parts = ordered_json::array();
@@ -212,9 +220,11 @@ ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
   return cell;
 }
 
-// What was found in the mesh and of the lattice, and what the skeleton's quality advises.
+// What was repaired, what was found in the mesh and of the lattice, and what the skeleton's quality advises.
 ordered_json warnings_of(const ViewModel& model) {
   ordered_json warnings = ordered_json::array();
+  for (const v1::RepairStep& step : model.job.repair().steps())
+    warnings.push_back("repaired: " + step.message());
   for (const v1::MeshNote& note : model.job.prepared().notes()) warnings.push_back(note.message());
   if (model.job.id().empty()) return warnings;
   for (const Notice& warning : skeleton_warnings(model.job.prepared(), model.quality))
@@ -269,6 +279,7 @@ ordered_json add_model(Arrays& arrays, const ViewModel& model, double unit) {
   facts["pointGrid"] = add_points(arrays, model, scale);
   if (model.sheet_is_skeleton) add_sheet(arrays, model, scale);
   facts["parts"] = add_parts(arrays, model.parts);
+  add_marks(arrays, model, scale);
   facts["eroded"] = add_eroded(arrays, model, box);
   facts["arrays"] = arrays.directory();
   return facts;

@@ -10,6 +10,11 @@
 
 namespace affskel::client {
 
+/// An edge that stands out: of a defect of the mesh, or of one that its repair has mended.
+struct MarkedEdge {
+  core::Vec3 from, to;
+};
+
 /// A body with its skeleton and eroded solids.
 struct ViewModel {
   v1::Job job;                     ///< its name, id, and what was prepared
@@ -22,6 +27,7 @@ struct ViewModel {
   bool sheet_is_skeleton = false;  ///< operator `chords` or `ridge`: there is no |H|
   v1::TriangleMesh sheet;  ///< then: with E and strength; triangles, and segments of curves, possibly none
   v1::SolidParts parts;    ///< of the mesh's triangles; or none
+  std::vector<MarkedEdge> marks;
   v1::SkeletonQuality quality;           ///< of the skeleton; empty when the server told none
   std::vector<v1::TriangleMesh> eroded;  ///< per level of the page: the surface that `erode` makes
 };
@@ -33,7 +39,7 @@ struct ViewInput {
   std::vector<double> levels;     ///< of the eroded solids, shares of v0, ascending; may be empty
   std::size_t first_level = 0;    ///< where the slider stands at first
   bool show_level = false;        ///< whether the eroded solid is shown at first
-  bool mesh_only = false;         ///< one mesh without a job: the segments of its sheet are its defects
+  bool mesh_only = false;         ///< one mesh without a job
 };
 
 /// E of the last colour, as a share of v0: the highest on any of the skeletons.

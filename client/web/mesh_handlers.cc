@@ -113,9 +113,14 @@ core::MeshFileOptions reading_of(const WebCall& call) {
   return {number_of(call.request, "isovalue")};
 }
 
-// The upload becomes what repair makes of it; the steps as notes of a mesh.
-nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& name, InputFile& input,
-                                           core::ExecutionContext* context) {
+struct WebSource {
+  std::unique_ptr<OwnedFile> file;  // null: nothing was repaired
+  std::vector<core::RepairStep> steps;
+};
+
+// The upload becomes what repair makes of it.
+WebSource replace_by_repaired(WebCall& call, const std::string& name, InputFile& input,
+                              core::ExecutionContext* context) {
   const std::string how = call.request.parameter("repair");
   RepairChoice choice;
   if (how == "fill") choice = {RepairChoice::Kind::kFill, HUGE_VAL};
@@ -124,12 +129,11 @@ nlohmann::ordered_json replace_by_repaired(WebCall& call, const std::string& nam
     throw ClientError(ExitCode::kUsage, "'repair' must be auto, fill or wrap");
   Repair done = repair(input.off.mesh, name, choice, context);
   if (!done.left.empty()) throw ClientError(ExitCode::kBadInput, done.left);
+  if (done.steps.empty()) return {};
+  WebSource source{std::move(call.upload), std::move(done.steps)};
   replace_upload(call, core::write_off(done.mesh));
   input = read_input(call.upload->path().string());
-  nlohmann::ordered_json notes = nlohmann::ordered_json::array();
-  for (const core::RepairStep& step : done.steps)
-    notes.push_back({{"severity", "repaired"}, {"code", step.code}, {"message", step.message}});
-  return notes;
+  return source;
 }
 
 }  // namespace
@@ -149,6 +153,7 @@ http::Response take_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
   UntilGone context(call.request.gone);
   InputFile input;
+  WebSource source;
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   try {
     input = read_input(call.upload->path().string(), reading_of(call));
@@ -157,7 +162,9 @@ http::Response take_mesh(WebCall& call) {
       replace_upload(call, input.bytes);
     }
     if (!call.request.parameter("repair").empty()) {
-      for (auto& step : replace_by_repaired(call, name, input, &context)) steps.push_back(std::move(step));
+      source = replace_by_repaired(call, name, input, &context);
+      for (const core::RepairStep& step : source.steps)
+        steps.push_back({{"severity", "repaired"}, {"code", step.code}, {"message", step.message}});
     }
   } catch (const ClientError& error) {
     if (error.exit_code() != ExitCode::kBadInput) throw;
@@ -175,8 +182,9 @@ http::Response take_mesh(WebCall& call) {
     answer["error"] = inspection.error->what();
     return api_answer(answer);
   }
-  const std::uint64_t bytes = call.upload->bytes();
-  UploadedMesh mesh{std::move(call.upload), name, *std::move(inspection.solid)};
+  const std::uint64_t bytes = call.upload->bytes() + (source.file ? source.file->bytes() : 0);
+  UploadedMesh mesh{std::move(call.upload), name, *std::move(inspection.solid), std::move(source.file),
+                    std::move(source.steps)};
   answer["mesh"] =
       call.web.meshes.put(call.session.id, std::make_shared<UploadedMesh>(std::move(mesh)), bytes);
   return api_answer(answer);
@@ -219,8 +227,11 @@ http::Response submit_mesh(WebCall& call) {
   if (submission.name.empty()) submission.name = job_name(mesh->name);
   const InputFile input = read_input(mesh->file->path().string());
   check_submission(mesh->solid, input, submission);
+  std::optional<MeshSource> source;
+  if (mesh->source) source = {read_input(mesh->source->path().string()).bytes, mesh->steps};
   Session server = call.server();
-  const auto [job, existed] = submit(server, call.web.backend.environment(), input, submission);
+  const auto [job, existed] =
+      submit(server, call.web.backend.environment(), input, source ? &*source : nullptr, submission);
   return api_answer({{"id", job.id()}, {"name", job.name()}, {"existed", existed}}, existed ? 200 : 201);
 }
 

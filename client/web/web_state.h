@@ -10,6 +10,7 @@
 #include "client/web/shelf.h"
 #include "client/web/sign_in_brake.h"
 #include "client/web/web_sessions.h"
+#include "core/repair/repair_mesh.h"
 #include "core/solid/solid.h"
 #include "http/message.h"
 
@@ -39,6 +40,9 @@ struct UploadedMesh {
   std::unique_ptr<OwnedFile> file;
   std::string name;  ///< of the file, for people
   core::Solid solid;
+  std::unique_ptr<OwnedFile> source =
+      nullptr;  ///< what it was before its repair; null where it was not repaired
+  std::vector<core::RepairStep> steps = {};  ///< of the repair
 };
 
 /// What the handlers of requests share.  Thread-safe.

@@ -16,7 +16,7 @@ using P = ArtifactParams;
 constexpr std::string_view kPoints = "affskel.v1.SkeletonPoints";
 constexpr std::string_view kMesh = "affskel.v1.TriangleMesh";
 
-constexpr std::array<ArtifactKindInfo, 11> kKinds = {{
+constexpr std::array<ArtifactKindInfo, 12> kKinds = {{
     {v1::ARTIFACT_KIND_MESH, P::kNone, v1::TASK_KIND_UNSPECIFIED, ""},
     {v1::ARTIFACT_KIND_LATTICE, P::kNone, v1::TASK_KIND_PREPARE, "affskel.v1.Lattice"},
     {v1::ARTIFACT_KIND_DIRECTIONS, P::kNone, v1::TASK_KIND_PREPARE, "affskel.v1.Directions"},
@@ -28,6 +28,7 @@ constexpr std::array<ArtifactKindInfo, 11> kKinds = {{
     {v1::ARTIFACT_KIND_ERODED_SURFACE, P::kEroded, v1::TASK_KIND_ERODED_SURFACE, kMesh},
     {v1::ARTIFACT_KIND_PARTS, P::kCurve, v1::TASK_KIND_PARTS, "affskel.v1.SolidParts"},
     {v1::ARTIFACT_KIND_REFINED, P::kNone, v1::TASK_KIND_REFINE, ""},
+    {v1::ARTIFACT_KIND_SOURCE, P::kNone, v1::TASK_KIND_UNSPECIFIED, ""},
 }};
 static_assert(kKinds.size() == v1::ArtifactKind_ARRAYSIZE - 1, "every kind but UNSPECIFIED has a row");
 

@@ -24,7 +24,7 @@ struct ArtifactKindInfo {
   v1::ArtifactKind kind;
   ArtifactParams params;
   /// That computes it: PREPARE, ERODE and REFINE on the way of a job, the others from the finished field, for
-  /// those that ask.  UNSPECIFIED for the mesh, which is given.
+  /// those that ask.  UNSPECIFIED for the mesh and its source, which are given.
   v1::TaskKind task;
   /// Full name of the serialized message; empty for bytes that are described with ArtifactKind.
   std::string_view message;

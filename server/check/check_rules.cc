@@ -16,8 +16,12 @@ constexpr const char* kOwnership[] = {
     "SELECT 'mesh ' || d.sha256, 'is marked for deletion, but erosion ' || e.id || ' needs it'"
     " FROM dropped_meshes d JOIN erosions e ON e.mesh_sha256 = d.sha256",
 
+    "SELECT 'mesh ' || d.sha256, 'is marked for deletion, but the repair of job ' || r.job_id || ' needs it'"
+    " FROM dropped_meshes d JOIN repairs r ON r.source_sha256 = d.sha256",
+
     "SELECT 'mesh ' || sha256, 'nothing needs it, and it is not marked for deletion' FROM meshes"
     " WHERE sha256 NOT IN (SELECT mesh_sha256 FROM erosions)"
+    " AND sha256 NOT IN (SELECT source_sha256 FROM repairs)"
     " AND sha256 NOT IN (SELECT sha256 FROM dropped_meshes)",
 
     "SELECT 'erosion ' || e.id, 'is not finished, but ' || count(*) || ' jobs share it'"
@@ -204,7 +208,7 @@ constexpr const char* kUse[] = {
     "  (SELECT erosion_id FROM jobs WHERE owner = u.owner))) || ' bytes' AS there"
     " FROM owner_use u JOIN (SELECT u.owner, (SELECT ifnull(sum(bytes), 0) FROM meshes WHERE sha256 IN"
     "  (SELECT e.mesh_sha256 FROM jobs j JOIN erosions e ON e.id = j.erosion_id"
-    " WHERE j.owner = u.owner)) AS bytes"
+    " WHERE j.owner = u.owner UNION SELECT source_sha256 FROM repairs WHERE owner = u.owner)) AS bytes"
     "  FROM owner_use u) m USING (owner)) WHERE counted <> there",
 };
 

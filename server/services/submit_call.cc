@@ -29,7 +29,7 @@ void SubmitCall::on_message(v1::SubmitJobRequest& message) {
   v1::SubmitJobHeader& header = *message.mutable_header();
   header.set_owner(owner_of_submission(header.owner(), caller().identity));
   submission_ = store_.check(header);
-  mesh_.emplace(room().upload_bytes, message.header().mesh_bytes(), room().upload_bytes.limit() / 4);
+  mesh_.emplace(room().upload_bytes, announced_bytes(submission_->header), room().upload_bytes.limit() / 4);
 }
 
 void SubmitCall::on_end() {

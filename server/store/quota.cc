@@ -76,6 +76,14 @@ Use read_use(Statement&& row) {
   return {row.integer(0), row.integer(1), row.integer(2)};
 }
 
+// Of a mesh that the owner does not have yet.
+std::int64_t bytes_not_known(Database& db, const std::string& owner, const std::string& sha256,
+                             std::uint64_t bytes) {
+  const bool known =
+      db.integer("SELECT 1 FROM owner_meshes WHERE owner = ? AND sha256 = ?", owner, sha256).has_value();
+  return known ? 0 : static_cast<std::int64_t>(bytes);
+}
+
 }  // namespace
 
 Use use_of(Database& db, const std::string& owner) {
@@ -117,11 +125,10 @@ void require_quota(Database& db, const Policy& policy, const Submission& submiss
     if (!why.empty()) throw StoreError(StoreError::Code::kLimit, why);
   }
   require_queue_room(db, policy, owner);
-  const bool known =
-      db.integer("SELECT 1 FROM owner_meshes WHERE owner = ? AND sha256 = ?", owner, header.mesh_sha256())
-          .has_value();
-  if (known) return require_stored_room(db, policy, owner, 0);
-  const auto bytes = static_cast<std::int64_t>(header.mesh_bytes());
+  const std::int64_t bytes =
+      bytes_not_known(db, owner, header.mesh_sha256(), header.mesh_bytes()) +
+      bytes_not_known(db, owner, header.repair().source_sha256(), header.repair().source_bytes());
+  if (bytes == 0) return require_stored_room(db, policy, owner, 0);
   require({name_of(owner), "mesh-bytes", "bytes of meshes", kDelete, policy.of(owner).quota.mesh_bytes,
            use_of(db, owner).mesh_bytes},
           bytes);

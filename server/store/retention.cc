@@ -231,6 +231,7 @@ void begin_erosion_anew(Tx& tx, const JobRow& job) {
 void delete_job(Tx& tx, const JobRow& job) {
   tx.db.run("DELETE FROM jobs WHERE id = ?", job.id);
   drop_unused_erosion(tx, job.erosion_id);
+  tx.changes.dropped = true;  // a source that no other job has, too
   tx.changes.eased = true;
   tx.changes.jobs.insert(job.id);
 }

@@ -74,8 +74,9 @@ class Store final : public TokenSource {
   /// Checks all of a header that can be checked without its mesh, its request id included.
   Submission check(const v1::SubmitJobHeader& header);
   /// Checks the bytes against the header and stores both, unless an earlier job answers the request.
-  Submitted submit(const Submission& submission, std::string_view mesh);
-  Submitted submit(const v1::SubmitJobHeader& header, std::string_view mesh);
+  /// @param bytes of the mesh, followed by those of the mesh before its repair if it was repaired.
+  Submitted submit(const Submission& submission, std::string_view bytes);
+  Submitted submit(const v1::SubmitJobHeader& header, std::string_view bytes);
 
   v1::Job job(const JobRef& job_ref);
   std::string resolve(const JobRef& job_ref);

@@ -69,6 +69,14 @@ std::int64_t stored_artifact(Database& db, const JobRow& job, const std::string&
   return *id;
 }
 
+// The mesh that the job's came of by a repair.
+std::string source_of(Database& db, const JobRow& job) {
+  Statement row = db.query("SELECT source_sha256 FROM repairs WHERE job_id = ?", job.id);
+  if (row.step()) return row.text(0);
+  throw StoreError(StoreError::Code::kNotFound,
+                   "the mesh of job " + job.id + " was not repaired: it is as it was given");
+}
+
 void require_results(const JobRow& job) {
   if (job.removed_ms == 0) return;
   throw StoreError(
@@ -154,7 +162,7 @@ Store::ArtifactState Store::open_artifact(const v1::FetchArtifactRequest& reques
     if (kind.task != v1::TASK_KIND_UNSPECIFIED) require_results(job);
     switch (kind.task) {
       case v1::TASK_KIND_UNSPECIFIED:
-        mesh = job.mesh_sha256;
+        mesh = kind.kind == v1::ARTIFACT_KIND_SOURCE ? source_of(tx.db, job) : job.mesh_sha256;
         return 0;
       case v1::TASK_KIND_PREPARE: {
         if (job.core_version.empty()) throw missing(tx.db, job, kind.name());
@@ -268,7 +276,7 @@ std::unique_ptr<BlobReader> Store::open_input(const std::string& token, v1::Arti
   read([&](Database& db) {
     const JobRow job = get_job(db, task_of_token(db, token).job_id);
     const wire::ArtifactKindInfo* info = wire::find_artifact_kind(kind);
-    if (info == nullptr || info->derived()) {
+    if (info == nullptr || info->derived() || kind == v1::ARTIFACT_KIND_SOURCE) {
       throw StoreError(StoreError::Code::kInvalid, "not an input of a task");
     }
     if (info->task == v1::TASK_KIND_UNSPECIFIED) mesh = job.mesh_sha256;

@@ -72,7 +72,8 @@ bool delete_piece(Tx& tx) {
     }
     tx.db.run(
         "INSERT INTO dropped_meshes (sha256) SELECT e.mesh_sha256 FROM erosions e WHERE e.id = ?1"
-        " AND NOT EXISTS (SELECT 1 FROM erosions WHERE mesh_sha256 = e.mesh_sha256 AND id <> ?1)",
+        " AND NOT EXISTS (SELECT 1 FROM erosions WHERE mesh_sha256 = e.mesh_sha256 AND id <> ?1)"
+        " AND NOT EXISTS (SELECT 1 FROM repairs WHERE source_sha256 = e.mesh_sha256)",
         *erosion);
     tx.db.run("DELETE FROM erosions WHERE id = ?", *erosion);
     return true;

@@ -17,10 +17,11 @@ std::string find_request(Database& db, const Submission& submission) {
   if (request_id.empty()) return {};
   Statement row = db.query(
       "SELECT r.job_id, e.mesh_sha256 = ?2 AND e.params_key = ?3 AND j.skeleton_key = ?4 AND j.name = ?5"
+      " AND ifnull((SELECT source_sha256 FROM repairs WHERE job_id = j.id), '') = ?7"
       " FROM requests r JOIN jobs j ON j.id = r.job_id JOIN erosions e ON e.id = j.erosion_id"
       " WHERE r.owner = ?6 AND r.request_id = ?1",
       request_id, submission.header.mesh_sha256(), submission.params_key, submission.skeleton_key,
-      submission.header.name(), submission.header.owner());
+      submission.header.name(), submission.header.owner(), submission.header.repair().source_sha256());
   if (!row.step()) return {};
   if (!row.flag(1)) {
     throw StoreError(StoreError::Code::kExists, "the request id " + base::quoted(request_id) +
@@ -32,7 +33,8 @@ std::string find_request(Database& db, const Submission& submission) {
 
 /// As in jobs.content.
 std::string content_of(const Submission& submission) {
-  return submission.header.mesh_sha256() + " " + submission.params_key;
+  const std::string& source = submission.header.repair().source_sha256();
+  return submission.header.mesh_sha256() + " " + submission.params_key + (source.empty() ? "" : " " + source);
 }
 
 /// Job that does or did exactly this for the same owner under the same name; "" when there is none.
@@ -78,9 +80,18 @@ void remember_repeated(Tx& tx, const std::string& owner, const std::string& job_
   }
 }
 
-std::string insert_job(Tx& tx, const Submission& submission, std::string_view mesh) {
+void keep_source(Tx& tx, const Submission& submission, const std::string& job_id, std::string_view source) {
   const v1::SubmitJobHeader& header = submission.header;
-  put_mesh(tx, header.mesh_sha256(), mesh);
+  if (!header.has_repair()) return;
+  put_mesh(tx, header.repair().source_sha256(), source);
+  const std::string report = header.repair().SerializeAsString();
+  tx.db.run("INSERT INTO repairs (job_id, owner, source_sha256, report) VALUES (?, ?, ?, ?)", job_id,
+            header.owner(), header.repair().source_sha256(), Blob{report});
+}
+
+std::string insert_job(Tx& tx, const Submission& submission, const GivenMeshes& meshes) {
+  const v1::SubmitJobHeader& header = submission.header;
+  put_mesh(tx, header.mesh_sha256(), meshes.mesh);
   const std::string params = submission.params.SerializeAsString();
   const std::string skeleton = submission.skeleton.SerializeAsString();
   tx.db.run("INSERT INTO erosions (mesh_sha256, params, params_key) VALUES (?, ?, ?)", header.mesh_sha256(),
@@ -93,20 +104,21 @@ std::string insert_job(Tx& tx, const Submission& submission, std::string_view me
       " VALUES (?1, ?2, ?3, ?4, 'queued', 'prepare', ?5, ?6, ?7, ?8, ?8, ?9)",
       id, header.name(), header.owner(), header.priority(), tx.db.last_insert_rowid(), Blob{skeleton},
       submission.skeleton_key, tx.wall_ms, content_of(submission));
+  keep_source(tx, submission, id, meshes.source);
   tx.db.run("DELETE FROM server_state WHERE key IN ('repeated_job/', 'repeated_job/' || ?)", header.owner());
   tx.changes.jobs.insert(id);
-  add_event(
-      tx, id,
-      {.event = "submitted",
-       .message = "mesh of " + base::counted(mesh.size(), "byte") + ", SHA-256 " + header.mesh_sha256()});
+  add_event(tx, id,
+            {.event = "submitted",
+             .message = "mesh of " + base::counted(meshes.mesh.size(), "byte") + ", SHA-256 " +
+                        header.mesh_sha256()});
   tx.changes.counts.push_back([](Metrics& metrics) { metrics.job_submitted(); });
   return id;
 }
 
 }  // namespace
 
-Store::Submitted Store::submit(const v1::SubmitJobHeader& header, std::string_view mesh) {
-  return submit(check(header), mesh);
+Store::Submitted Store::submit(const v1::SubmitJobHeader& header, std::string_view bytes) {
+  return submit(check(header), bytes);
 }
 
 Submission Store::check(const v1::SubmitJobHeader& header) {
@@ -120,16 +132,21 @@ Submission Store::check(const v1::SubmitJobHeader& header) {
   return submission;
 }
 
-Store::Submitted Store::submit(const Submission& submission, std::string_view mesh) {
-  check_mesh(submission, mesh);
+Store::Submitted Store::submit(const Submission& submission, std::string_view bytes) {
+  const GivenMeshes meshes = checked_meshes(submission, bytes);
   require_not_lost();
   const v1::SubmitJobHeader& header = submission.header;
-  const bool stored = read([&](Database& db) {
-    return db.integer("SELECT 1 FROM meshes WHERE sha256 = ?", header.mesh_sha256()).has_value();
-  });
-  const bool heals = stored && mesh_is_damaged(file_, header.mesh_sha256(), mesh);
+  const auto damaged = [&](const std::string& sha256, std::string_view mesh) {
+    const bool stored = read([&](Database& db) {
+      return db.integer("SELECT 1 FROM meshes WHERE sha256 = ?", sha256).has_value();
+    });
+    return stored && mesh_is_damaged(file_, sha256, mesh);
+  };
+  const bool heals = damaged(header.mesh_sha256(), meshes.mesh);
+  const bool heals_source = header.has_repair() && damaged(header.repair().source_sha256(), meshes.source);
   return write([&](Tx& tx) -> Submitted {
-    if (heals) heal_mesh(tx, header.mesh_sha256(), mesh);
+    if (heals) heal_mesh(tx, header.mesh_sha256(), meshes.mesh);
+    if (heals_source) heal_mesh(tx, header.repair().source_sha256(), meshes.source);
     std::string earlier = find_request(tx.db, submission);
     if (earlier.empty()) earlier = find_equal_job(tx.db, submission);
     if (!earlier.empty()) {
@@ -145,7 +162,7 @@ Store::Submitted Store::submit(const Submission& submission, std::string_view me
     }
     require_quota(tx.db, options_.policy, submission);
     tx.require_room();
-    const std::string id = insert_job(tx, submission, mesh);
+    const std::string id = insert_job(tx, submission, meshes);
     remember_request(tx, submission, id);
     const std::optional<std::int64_t> finished = find_finished_erosion(
         tx.db, header.owner(), header.mesh_sha256(), submission.params_key, current_core_version(tx.db));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -20,7 +21,16 @@ struct Submission {
 /// @throws StoreError kInvalid naming field, value and what is allowed; kLimit for a mesh above the limit.
 Submission checked_submission(const v1::SubmitJobHeader& header, std::uint64_t max_mesh_bytes);
 
-/// Checks the bytes that came against what the header announced.  @throws StoreError kInvalid.
-void check_mesh(const Submission& submission, std::string_view mesh);
+/// How many bytes follow the header.
+std::uint64_t announced_bytes(const v1::SubmitJobHeader& header);
+
+/// The meshes that came with a submission.
+struct GivenMeshes {
+  std::string_view mesh;
+  std::string_view source;  ///< before its repair; empty where it was not repaired
+};
+
+/// Parts the bytes that came, and checks them against what the header announced.  @throws StoreError kInvalid.
+GivenMeshes checked_meshes(const Submission& submission, std::string_view bytes);
 
 }  // namespace affskel::server

@@ -261,6 +261,10 @@ class Job:
         """The OFF text that was submitted, unchanged."""
         return self._bytes(service.ARTIFACT_KIND_MESH, timeout)
 
+    def source(self, *, timeout: Optional[float] = None) -> bytes:
+        """The OFF text of the mesh before it was repaired to be submitted; NotFound where it was not."""
+        return self._bytes(service.ARTIFACT_KIND_SOURCE, timeout)
+
     def view(self, operator: Optional[str] = None, threshold: Optional[float] = None, *, up: Optional[str] = None,
              height: int = 640) -> View:
         """The body and its skeleton to turn, in a frame of the notebook; made by the installed affskel-client.

@@ -37,7 +37,7 @@ class Status:
         volume: v0, mesh units cubed; 0 before.
         skeleton_points: of the job's own skeleton, when done.
         reason: why it failed, why it does not run, or why its skeleton is empty.
-        notes: what was found in the mesh.
+        notes: what was found in the mesh, what was repaired before it was submitted first.
         warnings: what to know of a job that is done, in the words of affskel-client: of its mesh, its lattice and its
             skeleton.
         quality: the report of its skeleton, when done, by the names of SkeletonQuality in the contract; else empty.
@@ -113,7 +113,8 @@ def status_of(job: types.Job) -> Status:
         directions_done=job.directions_done, directions_total=job.directions_total,
         refine_round=job.refine_round, refined_points=job.refined_points, points=prepared.points,
         spacing=prepared.spacing, volume=prepared.volume, skeleton_points=job.skeleton_points, reason=reason,
-        notes=tuple(Note(note.severity, note.code, note.message) for note in prepared.notes),
+        notes=(*(Note("repaired", step.code, step.message) for step in job.repair.steps),
+               *(Note(note.severity, note.code, note.message) for note in prepared.notes)),
         warnings=tuple(_warnings(job)), quality=plain(job.quality) if job.HasField("quality") else {},
         remaining=job.remaining_ms / 1000 if job.HasField("remaining_ms") else None,
         created=_time(job.created_ms), started=_time(job.started_ms), finished=_time(job.finished_ms),

@@ -4,6 +4,7 @@ import { Group } from 'three';
 import { viridis } from './colours.js';
 import { erodedPositions, meshPositions, pointPositions } from './decode.js';
 import { Glass } from './glass.js';
+import { makeMarks } from './marks.js';
 import { makeSkeleton, weighted } from './skeleton.js';
 import { TickedBox } from './ticked_box.js';
 
@@ -25,6 +26,7 @@ export class Model {
     this.clip = clip;
     this.skeleton = makeSkeleton(facts, page.highestShare, clip, pointPositions(facts));
     this.glass = new Glass(meshPositions(facts), facts.arrays.meshCorners, clip, 3);
+    this.marks = makeMarks(facts, clip);
     this.box = new TickedBox(facts.halfBox, facts.centre, page.unit);
     this.eroded = new Group();
     this.surfaces = []; // of the eroded solid, by level; made when they are first shown
@@ -32,6 +34,7 @@ export class Model {
       mesh: this.glass.object,
       skeleton: this.skeleton.drawn.object,
       eroded: this.eroded,
+      marks: this.marks.object,
       axes: this.box.object,
     };
     this.level = -1;
@@ -42,6 +45,7 @@ export class Model {
     this.theme = theme;
     this.glass.paint(theme.body);
     this.skeleton.drawn.paint(theme);
+    this.marks.paint(theme);
     this.box.paint(theme);
     for (const surface of this.surfaces.filter(Boolean)) surface.paint(theme.eroded);
   }
@@ -97,11 +101,13 @@ export class Model {
   }
 
   /**
-   * What of the body a ray finds: the skeleton, else the eroded solid, else the body's surface; an opaque body
+   * What of the body a ray finds: a marked edge, the skeleton, else the eroded solid, else the body's surface; an opaque body
    * hides the others.
    * @param {Ray} ray
    */
   at(ray) {
+    const mark = this.layers.marks.visible && this.marks.pick(ray);
+    if (mark) return { what: this.page.meshOnly ? 'defect' : 'repaired', place: mark.place, share: 0, directions: [] };
     const body = this.layers.mesh.visible && this.glass.pick(ray);
     if (body && this.opacity >= 100) return this.onBody(body);
     const skeleton = this.layers.skeleton.visible && this.skeleton.at(ray);

@@ -50,7 +50,7 @@ interface Page {
   levels: number[];
   firstLevel: number;
   showLevel: boolean;
-  meshOnly: boolean; // one mesh without a job: the segments of its sheet are its defects
+  meshOnly: boolean; // one mesh without a job
   models: ModelFacts[];
 }
 

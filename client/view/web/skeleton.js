@@ -10,7 +10,6 @@ import { whole } from './numbers.js';
 import { Sheet } from './sheet.js';
 
 const kTube = 0.3; // radius of a curve, lattice spacings
-const kDefect = (count) => Uint8Array.from({ length: 4 * count }, (_, i) => [219, 26, 31, 255][i % 4]);
 
 // Unit vectors are kept as bytes: none or one.
 const directions = (bytes, p) => {
@@ -45,10 +44,9 @@ export const kindOf = (kinds, vertices) =>
  * @param {number} highest
  * @param {import('./clip.js').Clip} clip
  */
-function makeSheet({ arrays, threshold, cell, operator, job }, highest, clip) {
+function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
   const { sheetPieceShares: shares, sheetPieces: pieceOf } = arrays;
-  const ofMesh = job === ''; // what is shown are defects
-  const colours = ofMesh ? kDefect(arrays.sheetShares.length) : coloursOf(arrays.sheetShares, highest);
+  const colours = coloursOf(arrays.sheetShares, highest);
   const [a, b, c] = cell.map((step) => new Vector3(...step));
   const spacing = Math.cbrt(Math.abs(a.dot(b.cross(c))));
   const { sheetPositions, sheetCorners, sheetSegments } = arrays;
@@ -82,7 +80,7 @@ function makeSheet({ arrays, threshold, cell, operator, job }, highest, clip) {
       const sides = [arrays.sheetNormalsA, arrays.sheetNormalsB].filter(Boolean);
       const kind = kindOf(arrays.sheetKinds, hit.vertices);
       return {
-        what: ofMesh ? 'defect' : `skeleton (${operator})${kind && `: ${kind}`}`,
+        what: `skeleton (${operator})${kind && `: ${kind}`}`,
         place: hit.place,
         share: weighted(arrays.sheetShares, hit) || 0,
         slope: weighted(arrays.sheetSlopes, hit),

@@ -19,7 +19,7 @@ const kBottomInset = 22; // pixels below the box: a tick and a line of numbers
 const kSideInset = 16; // pixels beside the box, and the widest number: a tick and gaps
 const kUsualOpacity = 20; // per cent
 const kLow = 350; // pixels: the height of a phone on its side, less the heading
-const kLayers = ['mesh', 'skeleton', 'eroded', 'axes', 'scale'];
+const kLayers = ['mesh', 'skeleton', 'eroded', 'marks', 'axes', 'scale'];
 
 /** @type {(id: string) => any} */
 const element = (id) => document.getElementById(id);
@@ -146,13 +146,14 @@ export class Viewer {
   // What a mesh without a job has none of is hidden by style.css.
   showMeshOnly() {
     document.documentElement.dataset.kind = 'mesh';
-    element('skeleton-name').textContent = 'Defects';
-    element('show-skeleton').parentElement.hidden = this.page.models[0].arrays.sheetSegments.length === 0;
+    element('marks-name').textContent = 'Defects';
+    element('show-skeleton').parentElement.hidden = true;
   }
 
   showPanel() {
     const { page } = this;
     if (page.meshOnly) this.showMeshOnly();
+    element('show-marks').parentElement.hidden = page.models.every(({ arrays }) => arrays.markPositions.length === 0);
     showWarnings(element('warnings'), page.models);
     showFacts(element('facts-list'), page.models);
     element('ticks').textContent =

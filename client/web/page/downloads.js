@@ -15,11 +15,12 @@ function numberIn(field, most) {
 /** The card of files, with what they are made by; picture and interactive page are made by the same. */
 export class Downloads {
   /**
-   * @param {string} job
+   * @param {Job} job
    * @param {() => void} changed other parameters, all of which can be
    */
   constructor(job, changed) {
-    this.job = job;
+    this.job = job.id;
+    const offered = session.artefacts.filter(({ name }) => name !== 'source' || job.repair);
     this.changed = changed;
     this.operator = h(
       'select',
@@ -37,7 +38,7 @@ export class Downloads {
       'section',
       { class: 'card' },
       h('h2', {}, 'Download'),
-      h('div', { class: 'downloads' }, session.artefacts.map((artefact) => this.row(artefact))),
+      h('div', { class: 'downloads' }, offered.map((artefact) => this.row(artefact))),
       h(
         'details',
         {},

@@ -154,6 +154,7 @@ export class JobView {
     // The warnings of a done job are those of its mesh, too.
     const notes = (job.prepared?.notes || []).filter((note) => !job.warnings || note.severity !== 'warning');
     this.notes.replaceChildren(
+      ...(job.repair?.steps || []).map((step) => h('li', { class: 'repaired' }, `repaired before it was sent: ${step.message}`)),
       ...notes.map((note) => h('li', { class: note.severity }, note.message)),
       ...(job.warnings || []).map((one) => warning(one.message)),
       ...(removal ? [warning(removal)] : []),
@@ -214,7 +215,7 @@ export class JobView {
 
   /** @param {Job} job */
   showResults(job) {
-    const downloads = new Downloads(this.id, () => this.drawPicture(downloads, picture, waiting));
+    const downloads = new Downloads(this.job, () => this.drawPicture(downloads, picture, waiting));
     const picture = h('img', { class: 'picture', alt: `${job.name}: the body and its skeleton from the front, the side and above`, hidden: true });
     const waiting = h('p', { class: 'small', role: 'status' }, 'The picture is being drawn …');
     const stance = h(

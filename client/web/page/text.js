@@ -13,7 +13,8 @@ export const kArtefacts = {
   curve: ['Curve', 'a line through each limb; .json and .graphml: a graph, .swc: trees, .glb: joints of the mesh'],
   thickness: ['Thickness', 'of the body at every triangle: how far the skeleton is below it'],
   eroded: ['Eroded solid', 'where E is at least a share of the volume'],
-  mesh: ['Mesh', 'the file as it was submitted'],
+  mesh: ['Mesh', 'as it was computed'],
+  source: ['Mesh before its repair', 'as it was submitted'],
 };
 
 const kEvents = {
