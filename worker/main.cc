@@ -117,6 +117,7 @@ struct Flags {
   std::int64_t idle_exit_s = 0;
   std::int64_t patience_s = 60;
   std::int64_t prepare_limit_s = 3600;
+  std::int64_t derive_limit_s = 0;
 };
 
 CLI::App* declare(CLI::App& app, Flags& flags) {
@@ -142,6 +143,13 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
          "seconds of processor time that making a mesh ready may take, or its job fails; 0 = no limit; "
          "else $AFFSKEL_PREPARE_LIMIT")
       ->envname("AFFSKEL_PREPARE_LIMIT")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
+      ->capture_default_str();
+  app.add_option(
+         "--derive-limit", flags.derive_limit_s,
+         "seconds of processor time that a skeleton, surface or other artefact may take, or it fails; 0 = no limit; "
+         "else $AFFSKEL_DERIVE_LIMIT")
+      ->envname("AFFSKEL_DERIVE_LIMIT")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
       ->capture_default_str();
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
@@ -231,6 +239,7 @@ int main(int argc, char** argv) {
   });
   flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
   flags.loop.prepare_limit = std::chrono::seconds(flags.prepare_limit_s);
+  flags.loop.derive_limit = std::chrono::seconds(flags.derive_limit_s);
   flags.loop.patience = std::chrono::seconds(flags.patience_s);
   return static_cast<int>(run_worker(flags.loop));
 }

@@ -14,6 +14,7 @@
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
 #include "wire/limits.h"
+#include "wire/params.h"
 #include "wire/refined_record.h"
 #include "wire/words.h"
 
@@ -56,13 +57,14 @@ core::DirectionSet take_directions(const core::Solid& solid, const std::string& 
 
 core::Lattice lay_lattice(const core::Solid& solid, const v1::ErosionParams& params,
                           const core::Matrix3& frame, unsigned threads, core::ExecutionContext* context,
-                          const std::function<std::uint64_t()>& available) {
+                          const std::function<std::uint64_t()>& available, double derive_bytes) {
   core::LatticeOptions options;
   // Asked here: the memory of the solid is taken already.
   if (available) options.memory_budget = available();
   options.point_bytes = core::kErosionBytesPerPoint + wire::kFieldRecordBytes;  // the server's field, fetched
   if (params.minimum() == v1::MINIMUM_INFIMUM)
     options.point_bytes = core::kRefineBytesPerPoint + wire::kRefinedRecordBytes;
+  options.point_bytes = std::max(options.point_bytes, derive_bytes + wire::kFieldRecordBytes);
   const v1::Sampling& sampling = params.sampling();
   options.frame = frame;
   options.threads = threads;
@@ -111,11 +113,17 @@ void visit_field(std::string_view bytes, std::uint64_t points, Visit visit) {
 
 }  // namespace
 
+double skeleton_bytes_per_point(v1::Operator of_job) {
+  if (of_job == v1::OPERATOR_CHORDS) return 400;
+  return wire::gives_sheet(of_job) ? 200 : 0;
+}
+
 PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads,
-                         core::ExecutionContext* context, const std::function<std::uint64_t()>& available)
+                         core::ExecutionContext* context, const std::function<std::uint64_t()>& available,
+                         double derive_bytes)
     : solid_(read_solid(mesh_bytes, params, threads, context, polygons_cut_)),
       frame_(core::solid_frame(solid_, frame_kind(params.frame()), context)),
-      lattice_(lay_lattice(solid_, params, frame_, threads, context, available)),
+      lattice_(lay_lattice(solid_, params, frame_, threads, context, available, derive_bytes)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
 
 v1::PreparedSummary PreparedJob::summary() const {

@@ -17,6 +17,10 @@
 
 namespace affskel::worker {
 
+/// What a job's own skeleton takes at its peak, beside field and lattice, bytes per point; measured, see
+/// worker/core/README.md, limits: of a thin plate, where a sheet is largest.
+double skeleton_bytes_per_point(v1::Operator of_job);
+
 /// A job's mesh read, its lattice laid and its directions made: a function of the bytes, the parameters
 /// and the core version alone, so any worker can make it again.  The erosion keeps references into the
 /// members: neither copied nor moved.
@@ -24,11 +28,12 @@ class PreparedJob {
  public:
   /// @param context asked whether to stop; may be null.
   /// @param available tells the bytes that may be taken, see available_memory; none: no bound.
+  /// @param derive_bytes of what is derived, bytes per point: what is computed for weeks must not be too large then.
   /// @throws core::CoreError kBadInput when the mesh or a parameter is wrong; kCancelled when the context
-  ///   asks to stop; kLimit when lattice and erosion would take more than is available.
+  ///   asks to stop; kLimit when lattice and erosion, or lattice and what is derived, would take more than is available.
   PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads = 1,
               core::ExecutionContext* context = nullptr,
-              const std::function<std::uint64_t()>& available = nullptr);
+              const std::function<std::uint64_t()>& available = nullptr, double derive_bytes = 0);
   PreparedJob(const PreparedJob&) = delete;
   PreparedJob& operator=(const PreparedJob&) = delete;
 

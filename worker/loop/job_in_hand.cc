@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/lattice/lattice_memory.h"
 #include "job/available_memory.h"
-#include "job/prepare_limit.h"
+#include "job/task_limit.h"
 
 namespace affskel::worker {
 namespace {
@@ -63,12 +63,13 @@ void JobInHand::make(const v1::Lease& lease, TaskContext& context) {
   // for all.
   const bool first = lease.kind() == v1::TASK_KIND_PREPARE;
   // For the same reason only the first is bound in its time.
-  PrepareLimit limit(context, first ? options_.prepare_limit : std::chrono::seconds(0));
+  TaskLimit limit(context, first ? options_.prepare_limit : std::chrono::seconds(0), kPreparing);
   try {
     job_ =
         std::make_unique<PreparedJob>(mesh, prepared_params(lease.job()), options_.threads, &limit,
                                       first ? std::function<std::uint64_t()>([this] { return memory_left(); })
-                                            : std::function<std::uint64_t()>());
+                                            : std::function<std::uint64_t()>(),
+                                      skeleton_bytes_per_point(lease.job().skeleton().operator_()));
   } catch (const core::LatticeMemoryError&) {
     throw;
   } catch (const core::CoreError& error) {

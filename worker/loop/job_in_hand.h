@@ -17,7 +17,7 @@ struct JobInHandOptions {
   unsigned threads = 1;
   std::uint64_t memory = 0;            ///< bytes that the worker may take; 0 = what is available
   std::uint64_t shelf_bytes = 0;       ///< for the jobs that were left
-  std::chrono::seconds prepare_limit;  ///< see PrepareLimit
+  std::chrono::seconds prepare_limit;  ///< see TaskLimit
 };
 
 /// The job that a worker works on, kept between tasks of the same job, and on a shelf while it is others'

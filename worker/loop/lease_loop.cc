@@ -23,6 +23,7 @@
 #include "job/available_memory.h"
 #include "job/prepared_job.h"
 #include "job/result_bytes.h"
+#include "job/task_limit.h"
 #include "link/backoff.h"
 #include "link/last_report.h"
 #include "link/lease_keeper.h"
@@ -317,6 +318,16 @@ class LeaseLoop {
     refine(lease, job, options_.threads, link_, context);
   }
 
+  Derived derive_in_time(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
+                         TaskContext& context) {
+    TaskLimit limit(context, options_.derive_limit, kDeriving);
+    try {
+      return affskel::worker::derive(lease, job, stored, &limit, options_.threads);
+    } catch (const core::CoreError& error) {
+      throw limit.reason(error);
+    }
+  }
+
   void derive(const v1::Lease& lease, TaskContext& context) {
     const LeaseKeeper keeper(link_, lease, context);
     const PreparedJob& job = obtain(lease, context);
@@ -325,7 +336,7 @@ class LeaseLoop {
     const std::string stored = link_.fetch(
         lease.token(), refined ? v1::ARTIFACT_KIND_REFINED : v1::ARTIFACT_KIND_FIELD, context.token());
     core::throw_if_stopped(&context);
-    const Derived derived = affskel::worker::derive(lease, job, stored, &context, options_.threads);
+    const Derived derived = derive_in_time(lease, job, stored, context);
     v1::CompleteTaskHeader header;
     header.set_token(lease.token());
     header.set_points(derived.items);

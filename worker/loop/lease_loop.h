@@ -19,6 +19,7 @@ struct LeaseLoopOptions {
   std::uint64_t max_jobs = 0;
   /// Of processor time that making a job ready may take; 0 = no bound.
   std::chrono::seconds prepare_limit{3600};
+  std::chrono::seconds derive_limit{0};  ///< 0 = none; see TaskLimit
   std::chrono::seconds patience{60};  ///< leave when the server does not answer for this long
   wire::AccessFiles access = {};      ///< what it shows to the server
 };

@@ -39,9 +39,10 @@ TEST(PreparedJob, StopsWhereverItIsAsked) {
 
 // Its erosion starts from the server's field, 20 bytes a point, which a worker holds beside its own.
 TEST(PreparedJob, RefusesWhatDoesNotFitIntoMemory) {
-  const auto fits = [](std::uint64_t available) {
+  const auto fits = [](std::uint64_t available, double derive_bytes = 0) {
     try {
-      const PreparedJob job(sample_mesh(), sample_params(), 1, nullptr, [&] { return available; });
+      const PreparedJob job(
+          sample_mesh(), sample_params(), 1, nullptr, [&] { return available; }, derive_bytes);
       return true;
     } catch (const core::CoreError& error) {
       EXPECT_EQ(error.code(), core::CoreError::Code::kLimit);
@@ -51,6 +52,10 @@ TEST(PreparedJob, RefusesWhatDoesNotFitIntoMemory) {
   const std::uint64_t points = PreparedJob(sample_mesh(), sample_params()).lattice().points;
   EXPECT_FALSE(fits(45 * points));
   EXPECT_TRUE(fits(70 * points));
+  // What is derived in the end takes more than the erosion.
+  EXPECT_FALSE(fits(240 * points, skeleton_bytes_per_point(v1::OPERATOR_CHORDS)));
+  EXPECT_TRUE(fits(240 * points, skeleton_bytes_per_point(v1::OPERATOR_ZUCKER_HUMMEL)));
+  EXPECT_TRUE(fits(480 * points, skeleton_bytes_per_point(v1::OPERATOR_CHORDS)));
 }
 
 TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {

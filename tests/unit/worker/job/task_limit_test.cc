@@ -1,4 +1,4 @@
-#include "job/prepare_limit.h"
+#include "job/task_limit.h"
 
 #include <gtest/gtest.h>
 
@@ -20,18 +20,18 @@ class Task : public core::ExecutionContext {
 
 const core::CoreError kStopped(Code::kCancelled, "stopped before the end");
 
-class PrepareLimitTest : public testing::Test {
+class TaskLimitTest : public testing::Test {
  protected:
-  PrepareLimit limit(seconds bound) {
-    return {task_, bound, [this] { return std::chrono::nanoseconds(now_); }};
+  TaskLimit limit(seconds bound) {
+    return {task_, bound, kPreparing, [this] { return std::chrono::nanoseconds(now_); }};
   }
 
   Task task_;
   seconds now_{1000};  // taken before
 };
 
-TEST_F(PrepareLimitTest, StopsWhatTakesLonger) {
-  PrepareLimit bound = limit(seconds(10));
+TEST_F(TaskLimitTest, StopsWhatTakesLonger) {
+  TaskLimit bound = limit(seconds(10));
   now_ += seconds(10);
   EXPECT_FALSE(bound.stop_requested());
   now_ += seconds(1);
@@ -41,22 +41,30 @@ TEST_F(PrepareLimitTest, StopsWhatTakesLonger) {
   EXPECT_NE(std::string(reason.what()).find("10 s of processor time"), std::string::npos) << reason.what();
 }
 
-TEST_F(PrepareLimitTest, FailsTheJobForGood) {
-  PrepareLimit bound = limit(seconds(10));
+TEST_F(TaskLimitTest, SaysWhatItIsOf) {
+  TaskLimit bound(task_, seconds(3), kDeriving, [this] { return std::chrono::nanoseconds(now_); });
+  now_ += seconds(4);
+  const std::string reason = bound.reason(kStopped).what();
+  EXPECT_EQ(reason.find("making this of the field takes more than 3 s"), 0U) << reason;
+  EXPECT_NE(reason.find("--derive-limit"), std::string::npos) << reason;
+}
+
+TEST_F(TaskLimitTest, FailsTheJobForGood) {
+  TaskLimit bound = limit(seconds(10));
   now_ += seconds(11);
   const Failure failure = describe(std::make_exception_ptr(bound.reason(kStopped)), {});
   EXPECT_EQ(failure.error.code(), "LIMIT");
   EXPECT_FALSE(failure.retryable);
 }
 
-TEST_F(PrepareLimitTest, ZeroIsNoBound) {
-  PrepareLimit bound = limit(seconds(0));
+TEST_F(TaskLimitTest, ZeroIsNoBound) {
+  TaskLimit bound = limit(seconds(0));
   now_ += seconds(1000000);
   EXPECT_FALSE(bound.stop_requested());
 }
 
-TEST_F(PrepareLimitTest, LeavesOtherReasonsAsTheyAre) {
-  PrepareLimit bound = limit(seconds(10));
+TEST_F(TaskLimitTest, LeavesOtherReasonsAsTheyAre) {
+  TaskLimit bound = limit(seconds(10));
   EXPECT_EQ(bound.reason(kStopped).code(), Code::kCancelled);
   now_ += seconds(11);
   EXPECT_EQ(bound.reason({Code::kBadInput, "a hole"}).code(), Code::kBadInput);
