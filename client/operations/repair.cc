@@ -26,27 +26,28 @@ core::RepairOptions options_for(const RepairChoice& choice, core::ExecutionConte
 Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoice& choice,
               core::ExecutionContext* context) {
   Repair done;
-  done.mesh = mesh;
-  core::SolidOptions options;
-  options.repair = choice.kind != RepairChoice::Kind::kNone;
-  options.check_self_intersections = false;
-  options.context = context;
   try {
-    if (options.repair) {
-      core::RepairedMesh repaired = core::repair_mesh(mesh, options_for(choice, context));
-      done.left = repaired.left;
-      done.longest_left = repaired.longest_left;
-      if (done.left.empty() && repaired.filled_share > kMaxFilled &&
-          choice.kind == RepairChoice::Kind::kAuto) {
-        done.left = "what would fill its holes is " + base::rounded(100 * repaired.filled_share, 3) +
-                    " % of the surface, too much to be done unasked";
-        done.longest_left = repaired.longest_filled;
-      }
-      done.mesh = std::move(repaired.mesh);
-      done.steps = std::move(repaired.steps);
-      done.filled_share = repaired.filled_share;
+    if (choice.kind == RepairChoice::Kind::kNone) {
+      core::SolidOptions options;
+      options.repair = false;
+      options.check_self_intersections = false;
+      options.context = context;
+      done.mesh = mesh;
+      done.volume = core::make_solid(mesh, options).volume;
+      return done;
     }
-    if (done.left.empty()) done.volume = core::make_solid(done.mesh, options).volume;
+    core::RepairedMesh repaired = core::repair_mesh(mesh, options_for(choice, context));
+    done.left = repaired.left;
+    done.longest_left = repaired.longest_left;
+    if (done.left.empty() && repaired.filled_share > kMaxFilled && choice.kind == RepairChoice::Kind::kAuto) {
+      done.left = "what would fill its holes is " + base::rounded(100 * repaired.filled_share, 3) +
+                  " % of the surface, too much to be done unasked";
+      done.longest_left = repaired.longest_filled;
+    }
+    done.mesh = std::move(repaired.mesh);
+    done.steps = std::move(repaired.steps);
+    done.filled_share = repaired.filled_share;
+    if (done.left.empty()) done.volume = repaired.volume;
   } catch (const core::CoreError& error) {
     throw error_from_core(error, file);
   }

@@ -10,6 +10,7 @@
 #include <array>
 
 #include "core/base/error.h"
+#include "core/mesh/touching_edges.h"
 #include "core/repair/surface_mesh.h"
 #include "core/repair/t_junctions.h"
 
@@ -42,17 +43,17 @@ std::size_t drop_degenerate(Soup& soup) {
   return before - soup.triangles.size();
 }
 
-std::uint64_t split_junctions(Soup& soup) {
-  std::vector<Vec3> points;
-  for (const Point& p : soup.points) points.push_back({p.x(), p.y(), p.z()});
-  std::vector<Triangle> triangles;
+// What the core does with triangles, done with those of CGAL. @param change Mesh& -> a count, of which it returns.
+template <typename Change>
+std::uint64_t with_mesh(Soup& soup, Change change) {
+  Mesh mesh;
+  for (const Point& p : soup.points) mesh.points.push_back({p.x(), p.y(), p.z()});
   for (const Polygon& t : soup.triangles)
-    triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
-                         static_cast<std::uint32_t>(t[2])});
-  const std::uint64_t junctions = split_t_junctions(points, triangles);
-  soup.triangles.clear();
-  for (const Triangle& t : triangles) soup.triangles.push_back({t[0], t[1], t[2]});
-  return junctions;
+    mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                              static_cast<std::uint32_t>(t[2])});
+  const std::uint64_t count = change(mesh);
+  soup = soup_of(mesh);
+  return count;
 }
 
 // The lesser of those turned and those left: a part may have been turned as a whole.
@@ -82,8 +83,9 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
   if (soup.triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "no triangle with three different corners");
-  oriented.junctions = split_junctions(soup);
+  oriented.junctions = with_mesh(soup, [](Mesh& m) { return split_t_junctions(m.points, m.triangles); });
   const std::size_t points = soup.points.size();
+  with_mesh(soup, separate_touching_edges);
   const std::vector<Polygon> before = soup.triangles;
   PMP::orient_polygon_soup(soup.points, soup.triangles);
   oriented.turned = turned_since(before, soup);

@@ -7,10 +7,13 @@
 #include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 #include "core/mesh/box.h"
+#include "core/mesh/edges.h"
+#include "core/mesh/touching_edges.h"
 #include "core/mesh/unused_points.h"
 #include "core/repair/alpha_wrap.h"
 #include "core/repair/fill_holes.h"
 #include "core/repair/orient_soup.h"
+#include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
 
 namespace affskel::core {
@@ -108,12 +111,13 @@ class Mending {
     for (const Hole& hole : filled.holes) rims_.push_back(hole.point);
   }
 
+  // Triangles that hang together by edges.
   static DisjointSets parts_of(const Mesh& mesh) {
-    DisjointSets parts(mesh.points.size());
-    for (const Triangle& t : mesh.triangles) {
-      parts.unite(t[0], t[1]);
-      parts.unite(t[0], t[2]);
-    }
+    DisjointSets parts(mesh.triangles.size());
+    Edges(mesh.points.size(), mesh.triangles)
+        .for_each([&](std::uint32_t, std::uint32_t, std::span<const EdgeSide> sides) {
+          for (const EdgeSide& side : sides) parts.unite(sides[0].triangle(), side.triangle());
+        });
     return parts;
   }
 
@@ -121,41 +125,39 @@ class Mending {
   void drop_flaps() {
     Mesh& mesh = result_.mesh;
     DisjointSets parts = parts_of(mesh);
-    std::vector<double> volume(mesh.points.size(), 0), area(mesh.points.size(), 0);
-    std::vector<bool> was_open(mesh.points.size(), false);
-    for (const std::uint32_t v : rims_) was_open[parts.find(v)] = true;
-    for (const Triangle& t : mesh.triangles) {
-      const std::uint32_t root = parts.find(t[0]);
-      const Vec3 origin = mesh.points[root];
+    const std::size_t count = mesh.triangles.size();
+    std::vector<double> volume(count, 0), area(count, 0);
+    std::vector<bool> was_open(count, false), rim(mesh.points.size(), false);
+    for (const std::uint32_t v : rims_) rim[v] = true;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Triangle& t = mesh.triangles[i];
+      const std::uint32_t part = parts.find(i);
+      const Vec3 origin = mesh.points[mesh.triangles[part][0]];
       const Vec3 a = mesh.points[t[0]] - origin, b = mesh.points[t[1]] - origin,
                  c = mesh.points[t[2]] - origin;
-      volume[root] += dot(a, cross(b, c)) / 6;
-      area[root] += 0.5 * norm(cross(b - a, c - a));
+      volume[part] += dot(a, cross(b, c)) / 6;
+      area[part] += 0.5 * norm(cross(b - a, c - a));
+      if (rim[t[0]] || rim[t[1]] || rim[t[2]]) was_open[part] = true;
     }
-    const auto is_flap = [&](std::uint32_t root) {
-      return was_open[root] && std::fabs(volume[root]) < kFlat * std::pow(area[root], 1.5);
+    const auto is_flap = [&](std::uint32_t part) {
+      return was_open[part] && std::fabs(volume[part]) < kFlat * std::pow(area[part], 1.5);
     };
     std::uint64_t flaps = 0, sound = 0;
-    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-      if (parts.find(v) != v || area[v] == 0) continue;
-      (is_flap(v) ? flaps : sound) += 1;
-    }
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (parts.find(i) == i && area[i] > 0) (is_flap(i) ? flaps : sound) += 1;
     if (flaps == 0 || sound == 0) return;
-    std::erase_if(mesh.triangles, [&](const Triangle& t) { return is_flap(parts.find(t[0])); });
+    std::vector<Triangle> kept;
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (!is_flap(parts.find(i))) kept.push_back(mesh.triangles[i]);
+    mesh.triangles = std::move(kept);
     drop_unused_points(mesh);
     tell("flaps", flaps, base::counted(flaps, "part") + " without volume left out");
   }
 
   // All of it, when it encloses less than nothing: what lies in what is for make_solid.
   void turn_outward() {
-    Mesh& mesh = result_.mesh;
-    const Vec3 origin = mesh.points.front();
-    double volume = 0;
-    for (const Triangle& t : mesh.triangles)
-      volume +=
-          dot(mesh.points[t[0]] - origin, cross(mesh.points[t[1]] - origin, mesh.points[t[2]] - origin));
-    if (!result_.left.empty() || volume >= 0) return;
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    if (!result_.left.empty() || !is_inside_out(result_.mesh)) return;
+    for (Triangle& t : result_.mesh.triangles) std::swap(t[1], t[2]);
     tell("turned-out", 1, "the surface was inside out and turned");
   }
 
@@ -191,6 +193,19 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   return result;
 }
 
+// What is whole may still be none: two triangles on each other, say.
+void take_volume(RepairedMesh& result, const RepairOptions& options) {
+  SolidOptions solid;
+  solid.check_self_intersections = false;
+  solid.context = options.context;
+  try {
+    result.volume = make_solid(result.mesh, solid).volume;
+  } catch (const CoreError& error) {
+    if (error.code() != CoreError::Code::kBadInput) throw;
+    result.left = error.what();
+  }
+}
+
 // Powers of lengths must not overflow, nor vanish.
 void check_size(const Mesh& mesh) {
   if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "the mesh has no points");
@@ -207,8 +222,10 @@ void check_size(const Mesh& mesh) {
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   check_size(mesh);
-  if (options.kind == RepairKind::kWrap) return wrapped(mesh, options);
-  return Mending(mesh, options).result();
+  RepairedMesh result =
+      options.kind == RepairKind::kWrap ? wrapped(mesh, options) : Mending(mesh, options).result();
+  if (result.left.empty()) take_volume(result, options);
+  return result;
 }
 
 }  // namespace affskel::core

@@ -38,6 +38,7 @@ struct RepairedMesh {
   double filled_share = 0;    ///< of the surface's area: what fills holes
   double longest_filled = 0;  ///< length round the longest hole that was filled, mesh units
   double longest_left = 0;    ///< length round the longest hole that is left, mesh units; 0: no length helps
+  double volume = 0;          ///< mesh units cubed; 0 where something is left
   std::string left;           ///< what it still lacks, with what would help; empty: nothing
 };
 

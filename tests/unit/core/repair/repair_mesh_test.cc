@@ -159,6 +159,28 @@ TEST(RepairMesh, WrapsHolesThatAreWiderThanAlpha) {
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(ball), 1, 0.02);
 }
 
+// A loose triangle in the corner of a box: filled, it is two triangles on each other that share a vertex with the box.
+TEST(RepairMesh, DropsFlapsThatHangOnAVertex) {
+  Mesh mesh = make_box(1, 1, 1);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.push_back({2, 0, 0});
+  mesh.points.push_back({2, 1, 0});
+  mesh.triangles.push_back({mesh.triangles[0][0], first, first + 1});
+  const RepairedMesh repaired = repair_mesh(mesh, {.longest_hole = 10});
+  EXPECT_EQ(repaired.left, "");
+  ASSERT_NE(step(repaired, "flaps"), nullptr);
+  EXPECT_NEAR(repaired.volume, 1, 1e-12);
+}
+
+TEST(RepairMesh, WhatIsClosedAndHoldsNothingIsLeft) {
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const RepairedMesh repaired = repair_mesh(mesh, {.longest_hole = 10});
+  EXPECT_NE(repaired.left, "");
+  EXPECT_EQ(repaired.volume, 0);
+}
+
 TEST(RepairMesh, TurnsWhatDisagrees) {
   Mesh body = make_body();
   const double volume = volume_of(body);

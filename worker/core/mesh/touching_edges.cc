@@ -1,0 +1,139 @@
+#include "core/mesh/touching_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/disjoint_sets.h"
+
+namespace affskel::core {
+namespace {
+
+// Radians: faces that lie on each other differ by rounding.
+constexpr double kSameAngle = 1e-11;
+
+// A triangle about an edge.
+struct Leaf {
+  double angle = 0;    // counter-clockwise, seen against the edge
+  bool opens = false;  // the solid begins with it
+  std::uint32_t half_edge = 0;
+};
+
+// The two axes across an edge; false where it has no length.
+bool axes_across(const Vec3& edge, Vec3& first, Vec3& second) {
+  const double length = norm(edge);
+  if (!(length > 0)) return false;
+  const Vec3 along = (1 / length) * edge;
+  const Vec3 least = std::fabs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = cross(along, least);
+  first = (1 / norm(across)) * across;
+  second = cross(along, first);
+  return true;
+}
+
+// In the order of their angles; of those at one angle the ones that end the solid come first.
+bool sort_leaves(std::vector<Leaf>& leaves) {
+  std::ranges::sort(leaves, {}, &Leaf::angle);
+  for (std::size_t begin = 0, end; begin < leaves.size(); begin = end) {
+    for (end = begin + 1; end < leaves.size() && leaves[end].angle - leaves[end - 1].angle < kSameAngle;)
+      ++end;
+    std::stable_sort(leaves.begin() + static_cast<std::ptrdiff_t>(begin),
+                     leaves.begin() + static_cast<std::ptrdiff_t>(end),
+                     [](const Leaf& a, const Leaf& b) { return a.opens < b.opens; });
+  }
+  return true;
+}
+
+bool take_leaves(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_out,
+                 std::vector<Leaf>& leaves) {
+  const Triangle& any = mesh.triangles[sides[0].triangle()];
+  const std::uint32_t high = sides[0].high, i = sides[0].half_edge % 3;
+  const std::uint32_t low = any[i] == high ? any[(i + 1) % 3] : any[i];
+  Vec3 first, second;
+  if (!axes_across(mesh.points[high] - mesh.points[low], first, second)) return false;
+  for (const EdgeSide& side : sides) {
+    const Triangle& t = mesh.triangles[side.triangle()];
+    const std::uint32_t corner = side.half_edge % 3;
+    const Vec3 tip = mesh.points[t[(corner + 2) % 3]] - mesh.points[low];
+    const double x = dot(tip, first), y = dot(tip, second);
+    if (!(std::hypot(x, y) > 0)) return false;
+    double angle = std::atan2(y, x);
+    // The cut of the circle must not part faces that lie on each other.
+    if (angle > std::numbers::pi - kSameAngle) angle -= 2 * std::numbers::pi;
+    // A triangle that runs up along the edge has the solid at the lesser angles.
+    leaves.push_back({angle, (t[corner] == low) == inside_out, side.half_edge});
+  }
+  return sort_leaves(leaves);
+}
+
+}  // namespace
+
+MatedSides mate_across_solid(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_out) {
+  std::vector<Leaf> leaves;
+  if (sides.size() % 2 != 0 || !take_leaves(mesh, sides, inside_out, leaves)) return {};
+  if (std::ranges::count(leaves, true, &Leaf::opens) != static_cast<std::ptrdiff_t>(leaves.size() / 2))
+    return {};
+  MatedSides mated;
+  std::vector<std::uint32_t> open;  // what the solid began with and has not ended
+  // Twice round: it may have begun before the first angle.
+  for (std::size_t n = 0; n < 2 * leaves.size() && mated.size() < leaves.size() / 2; ++n) {
+    const Leaf& leaf = leaves[n % leaves.size()];
+    if (leaf.opens) {
+      if (n < leaves.size()) open.push_back(leaf.half_edge);
+    } else if (!open.empty()) {
+      const bool ended =
+          std::ranges::any_of(mated, [&](const auto& pair) { return pair.second == leaf.half_edge; });
+      if (ended) continue;
+      mated.emplace_back(open.back(), leaf.half_edge);
+      open.pop_back();
+    }
+  }
+  return mated;
+}
+
+bool is_inside_out(const Mesh& mesh) {
+  const Vec3 origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
+  double volume = 0;
+  for (const Triangle& t : mesh.triangles)
+    volume += dot(mesh.points[t[0]] - origin, cross(mesh.points[t[1]] - origin, mesh.points[t[2]] - origin));
+  return volume < 0;
+}
+
+std::uint32_t separate_touching_edges(Mesh& mesh) {
+  const bool inside_out = is_inside_out(mesh);
+  DisjointSets corners(3 * mesh.triangles.size());  // those that are one vertex
+  std::vector<bool> touched(mesh.points.size(), false);
+  const auto corner_at = [&](std::uint32_t half_edge, std::uint32_t vertex) {
+    const std::uint32_t first = half_edge - half_edge % 3, next = first + (half_edge + 1) % 3;
+    return mesh.triangles[half_edge / 3][half_edge % 3] == vertex ? half_edge : next;
+  };
+  Edges(mesh.points.size(), mesh.triangles)
+      .for_each([&](std::uint32_t low, std::uint32_t high, std::span<const EdgeSide> sides) {
+        MatedSides mated;
+        if (sides.size() > 2) mated = mate_across_solid(mesh, sides, inside_out);
+        if (!mated.empty()) touched[low] = touched[high] = true;
+        if (mated.empty())
+          for (const EdgeSide& side : sides.subspan(1))
+            mated.emplace_back(sides[0].half_edge, side.half_edge);
+        for (const auto& [a, b] : mated)
+          for (const std::uint32_t end : {low, high}) corners.unite(corner_at(a, end), corner_at(b, end));
+      });
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  const auto points = static_cast<std::uint32_t>(mesh.points.size());
+  std::vector<std::uint32_t> vertex_of(3 * mesh.triangles.size(), kNone);  // by the first corner of a set
+  std::vector<bool> taken(points, false);
+  for (std::uint32_t h = 0; h < 3 * mesh.triangles.size(); ++h) {
+    std::uint32_t& vertex = mesh.triangles[h / 3][h % 3];
+    if (!touched[vertex]) continue;
+    std::uint32_t& own = vertex_of[corners.find(h)];
+    if (own == kNone) {
+      own = taken[vertex] ? static_cast<std::uint32_t>(mesh.points.size()) : vertex;
+      if (taken[vertex]) mesh.points.push_back(mesh.points[vertex]);
+      taken[vertex] = true;
+    }
+    vertex = own;
+  }
+  return static_cast<std::uint32_t>(mesh.points.size()) - points;
+}
+
+}  // namespace affskel::core
