@@ -11,70 +11,14 @@
 #include "core/base/error.h"
 #include "core/files/read/parse_shape.h"
 #include "tools/gzipped.h"
+#include "tools/sample_files.h"
 
 namespace affskel::core {
 namespace {
 
+using namespace tests::samples;
+
 constexpr std::array<std::size_t, 3> kSize{3, 4, 2};
-
-std::vector<float> grey_values() {
-  std::vector<float> values;
-  for (int i = 0; i < 24; ++i) values.push_back(static_cast<float>(i * i - 40));
-  return values;
-}
-
-template <class Number>
-std::string bytes_of(bool big_endian) {
-  std::string bytes;
-  for (const float value : grey_values()) {
-    std::string one;
-    base::append(one, static_cast<Number>(value));
-    bytes += big_endian ? std::string(one.rbegin(), one.rend()) : one;
-  }
-  return bytes;
-}
-
-std::string nrrd(const std::string& type, const std::string& more, const std::string& data) {
-  return "NRRD0005\n# made by hand\ntype: " + type +
-         "\ndimension: 3\nsizes: 3 4 2\nspace: left-posterior-superior\n"
-         "space directions: (0,2,0) (3,0,0) (0,0,-4)\nspace origin: (10,20,30)\nowner:=someone\n" +
-         more + "\n" + data;
-}
-
-std::string metaimage(const std::string& type, const std::string& more, const std::string& data) {
-  return "ObjectType = Image\nNDims = 3\nDimSize = 3 4 2\nElementSpacing = 2 3 4\nOffset = 10 20 30\n"
-         "TransformMatrix = 0 1 0 1 0 0 0 0 -1\nElementType = " +
-         type + "\n" + more + "ElementDataFile = LOCAL\n" + data;
-}
-
-// The header of an affine form, or of a quaternion.
-std::string nifti(bool affine, bool big_endian) {
-  std::string bytes(352, '\0');
-  const auto put = [&](std::size_t at, auto value) {
-    std::string one;
-    base::append(one, value);
-    if (big_endian) one = std::string(one.rbegin(), one.rend());
-    bytes.replace(at, one.size(), one);
-  };
-  const auto put_all = [&](std::size_t at, const std::vector<float>& values) {
-    for (const float value : values) {
-      put(at, value);
-      at += sizeof value;
-    }
-  };
-  put(0, std::int32_t{348});
-  for (const auto& [at, value] :
-       std::vector<std::pair<std::size_t, int>>{{40, 3}, {42, 3}, {44, 4}, {46, 2}, {70, 4}})
-    put(at, static_cast<std::int16_t>(value));
-  put_all(76, {-1, 2, 3, 4});
-  put_all(108, {352, 0.5F, 7});
-  put(affine ? 254 : 252, std::int16_t{1});
-  // A quarter turn about z and, by the sign of the first spacing, a mirror.
-  put_all(256, {0, 0, static_cast<float>(std::sqrt(0.5)), 10, 20, 30});
-  put_all(280, {0, -3, 0, 10, 2, 0, 0, 20, 0, 0, -4, 30});
-  bytes.replace(344, 4, std::string("n+1\0", 4));
-  return bytes + bytes_of<std::int16_t>(big_endian);
-}
 
 void expect_image(const VoxelImage& image, double mirrored = 1, double scale = 1, double offset = 0) {
   EXPECT_EQ(image.size, kSize);
