@@ -1,8 +1,10 @@
 #include "core/files/read/other_kinds.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
+#include "base/quoted.h"
 #include "core/base/error.h"
 #include "core/files/read/shape_parsers.h"
 
@@ -33,10 +35,42 @@ constexpr std::array<OtherKind, 11> kOthers = {{
     {"%PDF"sv, "a PDF", ""},
 }};
 
+constexpr std::size_t kSeen = 1024;  // bytes in which a file says what it is
+
+// Whether a text begins as OFF may, with comments before the header.
+bool may_be_off(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  for (;;) {
+    const std::size_t word = text.find_first_not_of(" \t\v\f\r\n");
+    if (word == std::string_view::npos) return true;  // nothing: said by the reader
+    text.remove_prefix(word);
+    if (text.front() != '#') break;
+    text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
+  }
+  const std::string_view header = text.substr(0, text.find_first_of(" \t\v\f\r\n"));
+  return header.size() <= 8 && header.ends_with("OFF");
+}
+
 }  // namespace
+
+void refuse_unknown_kinds(std::string_view bytes) {
+  const bool binary = bytes.substr(0, kSeen).find('\0') != std::string_view::npos;
+  if (!binary && may_be_off(bytes)) return;
+  const std::string_view word = bytes.substr(0, bytes.find_first_of(" \t\r\n"));
+  throw CoreError(
+      CoreError::Code::kBadInput,
+      (binary
+           ? "is binary, of no kind that is read"
+           : "is of no kind that is read, and begins with " + base::quoted(std::string(word.substr(0, 30)))) +
+          "; read are OFF, PLY, OBJ, STL, VTP, glTF, 3MF, of voxels NRRD, MetaImage and NIfTI, and any of "
+          "these packed by gzip or zstd");
+}
 
 void refuse_other_kinds(std::string_view bytes) {
   if (is_binary_stl(bytes)) return;  // its header may say anything
+  if (bytes.substr(0, kSeen).find("<COLLADA") != std::string_view::npos)
+    throw CoreError(CoreError::Code::kBadInput, "is COLLADA, and not read" + std::string(kExport));
   for (const OtherKind& kind : kOthers) {
     if (bytes.starts_with(kind.begins))
       throw CoreError(CoreError::Code::kBadInput,

@@ -8,4 +8,8 @@ namespace affskel::core {
 /// @throws CoreError kBadInput.
 void refuse_other_kinds(std::string_view bytes);
 
+/// Refuses what neither its content nor its name tells to be of a kind that is read, unless it may be OFF text.
+/// @throws CoreError kBadInput with the kinds.
+void refuse_unknown_kinds(std::string_view bytes);
+
 }  // namespace affskel::core

@@ -134,7 +134,10 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, con
   refuse_other_kinds(bytes);
   const std::string_view told = told_extension(bytes);
   const std::string_view kind = !told.empty() ? told : holds_mesh(extension) ? extension : ".off";
-  if (kind == ".off" && !is_binary_off(bytes)) return {"off", true, read_off(bytes), {}};
+  if (kind == ".off" && !is_binary_off(bytes)) {
+    if (extension != ".off") refuse_unknown_kinds(bytes);
+    return {"off", true, read_off(bytes), {}};
+  }
   ShapeFile shape = parse_shape(kind, bytes);
   if (shape.mesh().triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "has no triangles; a mesh that bounds a solid is wanted");
