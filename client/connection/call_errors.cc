@@ -29,9 +29,8 @@ ExitCode exit_code_of(grpc::StatusCode code) {
 }
 
 // So ends a connection in the clear to a server that speaks TLS.
-std::string tls_hint(const std::string& server, const std::string& detail) {
-  if (server.starts_with("unix:") || detail.find("Socket closed") == std::string::npos) return "";
-  return "; if it speaks TLS, name who signed its certificate: --tls-ca";
+bool may_want_tls(const std::string& server, const std::string& detail) {
+  return !server.starts_with("unix:") && detail.find("Socket closed") != std::string::npos;
 }
 
 }  // namespace
@@ -43,7 +42,11 @@ ClientError error_from_status(const grpc::Status& status, const std::string& ser
   switch (status.error_code()) {
     case grpc::StatusCode::UNAVAILABLE:
     case grpc::StatusCode::CANCELLED:
-      return {code, "cannot reach the server at " + server + ": " + detail + tls_hint(server, detail)};
+      return {code, "cannot reach the server at " + server + ": " +
+                        (may_want_tls(server, detail)
+                             ? "it closed the connection; if it speaks TLS, name who signed its "
+                               "certificate: --tls-ca"
+                             : detail)};
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {code, "the server at " + server + " did not answer in time"};
     case grpc::StatusCode::UNIMPLEMENTED:

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxName = 200, kMaxOwner = 100, kMaxRequestId = 200;  // bytes, by the protocol
 constexpr std::size_t kMaxStepMessage = 1000;
+constexpr double kLeastPoints = 8;  // in the volume: a skeleton of fewer tells nothing
 
 // As the protocol takes it.
 std::string protocol_text(const std::string& text, std::size_t max_bytes) {
@@ -100,7 +101,7 @@ std::string size_text(const core::Vec3& size, double longest) {
 void require_some_points(const core::Solid& solid, const InputFile& input, double spacing) {
   const core::Vec3 size = solid.bbox_max - solid.bbox_min;
   const double longest = longest_side(solid);
-  if (spacing <= 0.5 * longest) return;
+  if (spacing <= 0.5 * longest && solid.volume >= kLeastPoints * spacing * spacing * spacing) return;
   const double good = std::cbrt(solid.volume / 1e5);
   throw ClientError(ExitCode::kBadInput,
                     "the spacing " + base::to_text(spacing) +

@@ -1,6 +1,7 @@
 #include "client/text/summary_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/number_text.h"
@@ -39,10 +40,10 @@ Notices job_warnings(const v1::Job& job) {
 Notices skeleton_warnings(const v1::PreparedSummary& prepared, const v1::SkeletonQuality& quality) {
   Notices warnings;
   if (prepared.points() < kCoarseLattice) {
-    warnings.push_back(
-        warning("COARSE_LATTICE", "the lattice is coarse, " + base::counted(prepared.points(), "point") +
-                                      " in the solid; submit again with a smaller spacing than " +
-                                      base::rounded(prepared.spacing(), 3)));
+    warnings.push_back(warning(
+        "COARSE_LATTICE", "the lattice is coarse, " + base::counted(prepared.points(), "point") +
+                              " in the solid; submit again with a smaller spacing, such as " +
+                              base::rounded(std::cbrt(prepared.volume() / 1e5), 2) + " for 100000 points"));
   }
   if (is_torn(quality)) {
     warnings.push_back(

@@ -2,7 +2,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "client/operations/repair.h"
 #include "client/web/backend.h"
 #include "client/web/picture_cache.h"
 #include "client/web/private_folder.h"
@@ -10,7 +12,6 @@
 #include "client/web/shelf.h"
 #include "client/web/sign_in_brake.h"
 #include "client/web/web_sessions.h"
-#include "core/repair/repair_mesh.h"
 #include "core/solid/solid.h"
 #include "http/message.h"
 

@@ -256,7 +256,7 @@ class Desktop(OnThePage):
         page.heading("New job")
         page.picture_is_drawn("#found img")
         self.assertEqual(page.find("#name").get_attribute("value"), "first")
-        page.type("#points", 3000)
+        page.wait(lambda: page.find("#points").get_attribute("value") == "3000")  # as that job was asked for
         page.shown("#submit").click()
         page.wait(lambda: "The same was submitted before" in page.text())
         page.type("#points", 2000)
@@ -273,6 +273,52 @@ class Desktop(OnThePage):
         page.driver.switch_to.default_content()
         page.screenshot("desktop-9-beside")
         page.shown("#close-interactive").click()
+
+    def test_again_asks_for_what_the_job_was_asked_for(self):
+        page = self.page
+        job = bench.run("submit", bench.path("box.off"), "--spacing", "12.5", "--directions", "triangles+sphere:200", "--frame", "pca",
+                        "--minimum", "infimum", "--operator", "chords", "--name", "other", "--wait").strip()
+        page.script(f"location.hash = '#new/{job}'")
+        page.picture_is_drawn("#found img")
+        values = {name: page.wait(lambda: page.find(f"#{name}").get_attribute("value"))
+                  for name in ("spacing", "directions", "how-many", "frame", "minimum", "operator")}
+        self.assertEqual(values, {"spacing": "12.5", "directions": "triangles+sphere", "how-many": "200", "frame": "pca",
+                                  "minimum": "infimum", "operator": "chords"})
+        page.shown("#submit").click()
+        page.wait(lambda: "The same was submitted before" in page.text())
+
+    def test_a_repaired_mesh_is_kept_as_it_came(self):
+        page = self.page
+        page.shown("a.button[href='#new']").click()
+        self.choose("open.off")
+        page.shown("#fill-holes").click()
+        page.picture_is_drawn("#found img")
+        self.assertLessEqual(page.find("#submit").rect["y"] + page.find("#submit").rect["height"], self.window["height"])
+        page.type("#points", 2000)
+        page.shown("#submit").click()
+        page.heading("open")
+        page.skeleton_is_drawn()
+        self.assertIn("1 hole filled", page.text())
+        job = page.driver.current_url.split("/")[-1]
+        with open(bench.path("open.off"), encoding="ascii") as came:
+            self.assertEqual(bench.run("fetch", job, "source", "-o", "-"), came.read())
+        self.assertTrue(page.all("[data-file='source.off']"))
+        page.shown("#interactive").click()
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown"))
+        self.assertTrue(page.shown("#show-marks").is_selected())
+        self.assertGreater(page.script("return affskel.state().marked"), 2, "the rim of the hole")
+        self.assertIn("filled", page.find("#warnings").text)
+        page.driver.switch_to.default_content()
+        page.screenshot("desktop-14-repaired")
+
+    def test_pictures_follow_the_theme(self):
+        page = self.page
+        self.submit_body(2000, "theme")
+        before = page.find(".results .picture").get_attribute("src")
+        page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        page.wait(lambda: page.find(".results .picture").get_attribute("src") != before)
+        page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
     def test_several_files_become_a_job_each(self):
         page = self.page
@@ -376,7 +422,7 @@ class Desktop(OnThePage):
         self.page.shown("#turn-mesh").click()
         self.page.driver.switch_to.frame(self.page.shown("dialog iframe"))
         state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
-        self.assertGreater(state["skeletonShown"], 2, "defects")
+        self.assertGreater(state["marked"], 2, "defects")
         self.assertIn("triangle on one side only", self.page.find("#warnings").text)
         for hidden in ["#threshold", "#level", "#legend"]:
             self.assertFalse(self.page.find(hidden).is_displayed(), hidden)

@@ -61,8 +61,12 @@ void ServerLink::note_answer(const grpc::Status& status) {
                     status.error_code() == grpc::StatusCode::CANCELLED;
   if (away == away_.exchange(away)) return;
   if (away) {
-    spdlog::warn(
-        base::logfmt("server_away", {{"server", options_.address}, {"message", status.error_message()}}));
+    std::string message = status.error_message();
+    // So ends a connection in the clear to a server that speaks TLS.
+    if (!options_.address.starts_with("unix:") && options_.access.tls_ca.empty() &&
+        message.find("Socket closed") != std::string::npos)
+      message += "; if it speaks TLS, name who signed its certificate: --tls-ca";
+    spdlog::warn(base::logfmt("server_away", {{"server", options_.address}, {"message", message}}));
   } else {
     spdlog::info(base::logfmt("server_back", {{"server", options_.address}}));
   }

@@ -1,6 +1,7 @@
 """What of a mesh is told before anything is sent: that it is open, and that a spacing is not one of its unit."""
 from __future__ import annotations
 
+import re
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
@@ -19,10 +20,9 @@ class Polygons(NamedTuple):
 
 def polygons_of_off(text: bytes) -> Optional[Polygons]:
     """Of plain OFF text, all of whose faces have as many corners; None for any other, which the server reads."""
-    head, _, rest = text.partition(b"\n")
-    if head.strip() != b"OFF" or b"#" in rest:
+    words = re.sub(rb"#[^\n]*", b"", text).split()
+    if not words or words.pop(0) != b"OFF":
         return None
-    words = rest.split()
     try:
         vertices, faces = int(words[0]), int(words[1])
         numbers = np.array(words[3:], np.float64)
@@ -74,13 +74,32 @@ def require_closed(mesh: Polygons) -> None:
                             "Close Holes or Blender's Fill Holes")
 
 
+_UNITS = ((1.0, "metres"), (100.0, "centimetres"), (1000.0, "millimetres"))
+LEAST_POINTS = 8  # a skeleton of fewer tells nothing: the spacing is meant in another unit
+
+
+def _volume(mesh: Polygons) -> float:
+    """Of a closed mesh whose faces agree."""
+    points = mesh.points - mesh.points.mean(axis=0)
+    six = 0.0
+    for group in mesh.faces:
+        for k in range(1, group.shape[1] - 1):
+            a, b, c = points[group[:, 0]], points[group[:, k]], points[group[:, k + 1]]
+            six += float(np.einsum("ij,ij->", a, np.cross(b, c)))
+    return abs(six) / 6
+
+
 def require_points(mesh: Polygons, spacing: float) -> None:
     """A lattice needs a few points.
 
     Raises:
-        BadInputError: with the size of the mesh.
+        BadInputError: with the size of the mesh, the unit that it looks like, and a spacing that would do.
     """
-    size = np.ptp(mesh.points, axis=0)
-    if spacing > size.max() / 2:
-        raise BadInputError(f"the spacing {spacing:.6g} leaves no room for sample points: the mesh measures "
-                            + " x ".join(f"{side:.3g}" for side in size) + " units")
+    size, volume = np.ptp(mesh.points, axis=0), _volume(mesh)
+    longest = float(size.max())
+    if spacing <= longest / 2 and volume >= LEAST_POINTS * spacing ** 3:
+        return
+    unit = "".join(f", a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)
+    better = f"; a spacing of {(volume / 1e5) ** (1 / 3):.2g} gives 100000 points" if volume > 0 else ""
+    raise BadInputError(f"the spacing {spacing:.6g} leaves no room for sample points: the mesh measures "
+                        + " x ".join(f"{side:.3g}" for side in size) + f" units{unit}{better}")

@@ -14,7 +14,7 @@ from ._errors import BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
 from ._messages import plain, value_of_word, word
-from ._programs import run_program
+from ._programs import find_program, run_program
 from ._session import Session
 from ._settings import PathLike, choose
 from ._status import status_of
@@ -44,15 +44,27 @@ def _number(value: object, what: str) -> float:
     return float(value)
 
 
-def _check(mesh: Mesh, spacing: Optional[float]) -> None:
-    """What a worker would say of the mesh much later."""
-    assert mesh.polygons is not None
+def _needs_program(mesh: Mesh, spacing: Optional[float], repair: str) -> bool:
+    """Whether affskel-client, which is there, must look at the mesh: it is text of a kind that is not read here, or has
+    holes, which may be filled.
+
+    Raises:
+        BadInputError: what a worker would say of the mesh much later.
+    """
+    if mesh.polygons is None:
+        return find_program() is not None
     try:
         require_closed(mesh.polygons)
-        if spacing is not None:
-            require_points(mesh.polygons, _number(spacing, "spacing"))
     except BadInputError as error:
+        if repair == "auto" and find_program() is not None:
+            return True
         raise BadInputError(error.message, file=mesh.file) from None
+    if spacing is not None:
+        try:
+            require_points(mesh.polygons, _number(spacing, "spacing"))
+        except BadInputError as error:
+            raise BadInputError(error.message, file=mesh.file) from None
+    return False
 
 
 class Client:
@@ -98,7 +110,8 @@ class Client:
                repair: str = "auto", isovalue: Optional[float] = None) -> Job:
         """Submits a mesh.  The same mesh and parameters give the same job, computed once.
 
-        A mesh with holes is refused at once; what else bounds no solid is told by `Job.wait`, as BadMeshError.
+        A mesh that bounds no solid is repaired as `affskel-client submit` does, where that is installed: `Status.notes`
+        tells the steps, `Job.source` gives it as it came.  What cannot be repaired unasked is refused at once.
 
         Args:
             mesh: a path (OFF; other formats are read by the installed affskel-client), OFF text as bytes, a pair of
@@ -112,7 +125,7 @@ class Client:
             name: for people; default the file's stem.
             priority: 0 .. 9, higher first.
             request_id: submitting again with the same key and content gives the same job; other content is refused.
-            repair: "auto" welds, turns and drops what needs it, and `Status.notes` tells so; "none" refuses;
+            repair: "auto" welds, turns, drops and fills what needs it, and `Status.notes` tells so; "none" refuses;
                 "fill=LENGTH", in mesh units, "wrap" and "wrap=ALPHA" submit what the installed affskel-client makes of it.
             isovalue: of an image of voxels (.nrrd, .mha, .nii): the value at the surface of the solid.
 
@@ -129,9 +142,11 @@ class Client:
         if spacing is not None and points is not None:
             raise UsageError("spacing and points exclude each other")
         given = mesh_of(mesh)
+        if given.text == b"":
+            raise BadInputError(f"{given.file or 'the mesh'} is empty")
         by_program = given.text is None or isovalue is not None or repair not in ("auto", "none")
-        if given.polygons is not None and not by_program:
-            _check(given, spacing)
+        if not by_program:
+            by_program = _needs_program(given, spacing, repair)
         header = self._header(given, spacing, points, directions, minimum, frame, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
         header.name = name if name is not None else _short(given.name, MAX_NAME)
@@ -146,7 +161,18 @@ class Client:
         return Job(self._session, response.job.id, response.existed, given.file, status_of(response.job))
 
     def job(self, job: str) -> Job:
-        """A job by its id, a unique prefix of at least 6 characters, or "@last", the caller's own last one."""
+        """A job that is there.
+
+        Args:
+            job: its id, a unique prefix of at least 6 characters, or "@last", the caller's own last one.
+
+        Raises:
+            NotFoundError: there is none, or it is another owner's.
+            UsageError: the text is no id.
+
+        Example:
+            >>> affskel.job("@last").status().state
+        """
         known = self._session.get_job(job)
         return Job(self._session, known.id, seen=status_of(known))
 
@@ -158,6 +184,9 @@ class Client:
             owner: None = all that the caller may see.
             limit: how many at most.
 
+        Raises:
+            UsageError: the state is no state.
+
         Example:
             >>> pandas.DataFrame(job.seen for job in affskel.jobs(state="done"))
         """
@@ -167,7 +196,14 @@ class Client:
         return [Job(self._session, job.id, seen=status_of(job)) for job in self._session.list_jobs(request, limit)]
 
     def server_info(self) -> Dict[str, Any]:
-        """Version, workers and queue of the server, by the names of ServerInfo in the contract."""
+        """Version, workers and queue of the server, by the names of ServerInfo in the contract.
+
+        Raises:
+            UnreachableError: no server answers.
+
+        Example:
+            >>> affskel.server_info()["version"]
+        """
         return plain(self._session.server_info())
 
     @staticmethod

@@ -1,8 +1,11 @@
 """A job and its results."""
 from __future__ import annotations
 
+import numbers
+import os
 import warnings
-from typing import Any, Dict, Iterator, List, Optional
+from pathlib import Path
+from typing import Any, Dict, Iterator, List, Optional, Union
 
 import numpy as np
 
@@ -11,7 +14,7 @@ from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, fi
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
 from ._measures import Measures, measures_of
 from ._messages import plain, value_of_word
-from ._programs import page
+from ._programs import page, run_program
 from ._progress import ProgressBar
 from ._saving import Result, with_origin
 from ._session import Session
@@ -195,6 +198,8 @@ class Job:
         options = _skeleton_options(operator, threshold)
         for option, value in (("--alpha", alpha), ("--min-barrier", min_barrier)):
             options += [] if value is None else [option, repr(float(value))]
+        if len(surface) == 0 and "beyond" in surface.attributes:  # lines, in every format that holds a curve
+            return self._saveable(surface, "fetch", self.id, "curve", *_skeleton_options(None, threshold))
         return self._saveable(surface, "skeleton", self.id, *options, *(["--barrier"] if barrier else []))
 
     def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
@@ -265,6 +270,25 @@ class Job:
         """The OFF text of the mesh before it was repaired to be submitted; NotFound where it was not."""
         return self._bytes(service.ARTIFACT_KIND_SOURCE, timeout)
 
+    def save(self, what: str, file: Union[str, "os.PathLike[str]"], *options: str) -> Path:
+        """Writes what `affskel-client fetch` does, by the installed affskel-client, and returns where.
+
+        Args:
+            what: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh" or "source".
+            file: the format is that of its extension; of a curve also .json, .graphml, .swc and .glb.
+            options: more of the command's, such as "--threshold=8".
+
+        Raises:
+            UsageError: one of these is wrong, or affskel-client is not there.
+
+        Example:
+            >>> job.save("divergence", "H.csv", "--operator=sobel")
+        """
+        path = Path(file)
+        run_program(self._session.reached(), ["fetch", *options, "-o", str(path.absolute()), "--", self.id, what],
+                    "files are written by affskel-client")
+        return path
+
     def view(self, operator: Optional[str] = None, threshold: Optional[float] = None, *, up: Optional[str] = None,
              height: int = 640) -> View:
         """The body and its skeleton to turn, in a frame of the notebook; made by the installed affskel-client.
@@ -298,6 +322,9 @@ class Job:
                         volume: Optional[float]) -> service.FetchArtifactRequest:
         if (fraction is None) == (volume is None):
             raise UsageError("say the level of the eroded solid by fraction or by volume")
+        for value, what in ((fraction, "fraction"), (volume, "volume")):
+            if value is not None and (isinstance(value, bool) or not isinstance(value, numbers.Real)):
+                raise UsageError(f"{what} is a number, not {value!r}")
         level = types.ErodedParams(volume=volume) if fraction is None else types.ErodedParams(fraction=fraction)
         return service.FetchArtifactRequest(job=self.id, kind=kind, eroded=level)
 

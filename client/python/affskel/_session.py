@@ -223,6 +223,8 @@ class Session:
                         if now.state in FINAL_STATES:
                             return
                 except grpc.RpcError as error:
+                    if timeout is not None and error.code() == _Code.DEADLINE_EXCEEDED:
+                        raise TimedOutError(f"the job was not at its end after {timeout:g} s; it goes on") from None
                     if watch.connection.is_closed or not _is_away(error):
                         raise self._error(error, watch.connection, NotAllowedError) from error.with_traceback(None)
             _log.info("the server went away; trying to reach it again")

@@ -72,6 +72,8 @@ def parse_address(text: str) -> Address:
         if len(os.fsencode(path)) > MAX_SOCKET_PATH:
             raise refuse(f"a socket path has at most {MAX_SOCKET_PATH} bytes")
         return Address(f"unix:{path}")
+    if "://" in text:
+        raise refuse("that is a URL")
     host, colon, port = text.rpartition(":")
     if not colon:
         raise refuse("no port")

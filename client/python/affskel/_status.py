@@ -22,7 +22,7 @@ class Note:
     message: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Status:
     """A job at one moment.  `pandas.DataFrame(job.seen for job in affskel.jobs())` is a table of them.
 
@@ -72,6 +72,12 @@ class Status:
     pinned: bool
     mesh_sha256: str
 
+    def __repr__(self) -> str:
+        done = "" if self.is_final else f", {self.share_done:.0%}"
+        reason = f": {self.reason}" if self.reason else ""
+        return (f"<affskel.Status of {self.id[:12]} {self.name!r}, {self.state}{done}, {self.points} points, "
+                f"skeleton of {self.skeleton_points}{reason}>")
+
     @property
     def is_final(self) -> bool:
         """Whether nothing more will happen by itself."""
@@ -98,7 +104,8 @@ def _warnings(job: types.Job) -> Iterator[str]:
     if job.skeleton_points == 0:
         return
     if prepared.points < COARSE_LATTICE:
-        yield f"the lattice is coarse, {prepared.points} points in the solid; take a smaller spacing than {prepared.spacing:.3g}"
+        yield (f"the lattice is coarse, {prepared.points} points in the solid; take a smaller spacing, such as "
+               f"{(prepared.volume / 1e5) ** (1 / 3):.2g} for 100000 points")
     if quality.components > quality.solid_components:
         yield (f"the skeleton is in {quality.components} pieces, the solid in {quality.solid_components}; a smaller spacing or "
                "threshold may join them")

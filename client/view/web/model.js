@@ -101,13 +101,14 @@ export class Model {
   }
 
   /**
-   * What of the body a ray finds: a marked edge, the skeleton, else the eroded solid, else the body's surface; an opaque body
-   * hides the others.
+   * What of the body a ray finds: a marked edge, else the skeleton, the eroded solid, the body's surface; an opaque
+   * body hides the others.
    * @param {Ray} ray
    */
   at(ray) {
     const mark = this.layers.marks.visible && this.marks.pick(ray);
-    if (mark) return { what: this.page.meshOnly ? 'defect' : 'repaired', place: mark.place, share: 0, directions: [] };
+    const what = this.page.meshOnly ? 'defect' : 'repaired';
+    if (mark) return { what, place: mark.place, share: 0, directions: [] };
     const body = this.layers.mesh.visible && this.glass.pick(ray);
     if (body && this.opacity >= 100) return this.onBody(body);
     const skeleton = this.layers.skeleton.visible && this.skeleton.at(ray);

@@ -377,6 +377,7 @@ export class Viewer {
       shown: this.models.map((each) => each.shown),
       erodedShown: this.models.map((each) => (this.level ? each.facts.eroded[this.level.place].triangles : 0)),
       pointsHere: model.facts.pointsHere,
+      marked: model.facts.arrays.markPositions.length / 6, // edges
       looking: this.stage.looking(),
       opacity: model.opacity,
       body: this.body.chosen,

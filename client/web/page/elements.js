@@ -43,6 +43,20 @@ export const byId = (id) => document.getElementById(id);
 export const background = () => (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'white');
 
 /**
+ * Calls back whenever pictures are to have another background, as long as the element is on the page.
+ * @param {Element} element
+ * @param {() => void} draw
+ */
+export function whenThemeChanges(element, draw) {
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const changed = () => {
+    if (element.isConnected) draw();
+    else dark.removeEventListener('change', changed);
+  };
+  dark.addEventListener('change', changed);
+}
+
+/**
  * Sets the text only when it changes, so that screen readers hear no repetition.
  * @param {Element} element
  * @param {string} text

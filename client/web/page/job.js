@@ -2,7 +2,7 @@
 import { call, jobPath } from './api.js';
 import { confirmed, showInteractive } from './dialogs.js';
 import { Downloads } from './downloads.js';
-import { announce, background, button, facts, h, setText } from './elements.js';
+import { announce, background, button, facts, h, setText, whenThemeChanges } from './elements.js';
 import { showProgress } from './jobs.js';
 import { count, counted, duration, measure, moment } from './numbers.js';
 import { History } from './history.js';
@@ -121,8 +121,19 @@ export class JobView {
   pause() {} // and here
 
   async ask() {
-    this.show(await call('GET', jobPath(this.id)));
+    try {
+      this.show(await call('GET', jobPath(this.id)));
+    } catch (error) {
+      if (error.status === 404) this.forget();
+      throw error;
+    }
     return isActive(this.job);
+  }
+
+  // It was deleted meanwhile: nothing of it can be had.
+  forget() {
+    this.badge.className = 'badge';
+    for (const part of [this.badge, this.actions, this.results, this.notes, this.facts]) part.replaceChildren();
   }
 
   show(job) {
@@ -225,7 +236,7 @@ export class JobView {
     );
     stance.value = stanceOf(job);
     stance.addEventListener('change', () => this.stand(stance, () => this.drawPicture(downloads, picture, waiting)));
-    const beside = h('select', { id: 'beside', 'aria-label': 'Turn it beside another job' }, h('option', { value: '' }, 'alone'));
+    const beside = h('select', { id: 'beside', 'aria-label': 'Turn it beside another job' }, h('option', { value: '' }, 'Compare with …'));
     beside.addEventListener('focus', () => this.offerOthers(beside), { once: true });
     const interactive = button('Turn it', () => this.openInteractive(downloads, waiting, beside.value), { id: 'interactive', class: 'primary' });
     this.results.replaceChildren(
@@ -233,6 +244,7 @@ export class JobView {
       downloads.element,
     );
     this.drawPicture(downloads, picture, waiting);
+    whenThemeChanges(picture, () => this.drawPicture(downloads, picture, waiting));
   }
 
   /**
@@ -264,6 +276,7 @@ export class JobView {
       };
       picture.src = result.href;
     } catch (error) {
+      picture.hidden = true; // it would be of other parameters
       waiting.textContent = `There is no picture: ${error.message}`;
     }
   }

@@ -1,7 +1,7 @@
 // The list of jobs, live.
 import { call, jobPath } from './api.js';
 import { confirmed, showProblem } from './dialogs.js';
-import { announce, background, button, h, save, setText } from './elements.js';
+import { announce, background, button, h, save, setText, whenThemeChanges } from './elements.js';
 import { ago, counted, measure } from './numbers.js';
 import { session } from './session.js';
 import { activity, isActive, isRemoved, progress, progressOf, wording } from './text.js';
@@ -53,7 +53,7 @@ class Card {
     this.bar = h('progress', { max: 1 });
     this.numbers = h('p', { class: 'numbers' });
     this.what = h('p', { class: 'what' });
-    this.when = h('p', { class: 'small' });
+    this.when = h('p', { class: 'small when' });
     this.chosen = h('input', { type: 'checkbox' });
     this.image = h('img', { class: 'thumbnail', alt: '', hidden: true });
     this.place = h('span', { class: 'place' }, this.image);
@@ -94,6 +94,7 @@ class Card {
       this.watched = true;
       whenSeen.observe(this.place);
       this.place.addEventListener('seen', () => showThumbnail(this.image, this.job), { once: true });
+      whenThemeChanges(this.image, () => showThumbnail(this.image, this.job));
     }
     if (job.state !== this.state) announce(`${job.name}: ${wording('states', job.state)}`);
     this.state = job.state;

@@ -48,6 +48,8 @@ export class NewJob {
     this.sent = h('progress', { max: 1, value: 0, hidden: true, 'aria-label': 'Upload' });
     this.status = h('p', { class: 'small', role: 'status' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
+    /** @type {SubmitForm | null} */
+    this.asks = null;
     this.found = h('div', {});
     this.form = h('div', {});
     this.element = h(
@@ -86,6 +88,7 @@ export class NewJob {
       const answer = await fetch(made.href);
       if (!answer.ok) throw new Error('its mesh could not be fetched');
       await this.take(new File([await answer.blob()], `${job.name}.off`));
+      if (this.asks) this.asks.like(job);
     } catch (error) {
       this.status.textContent = '';
       this.complain(error.message);
@@ -159,6 +162,8 @@ export class NewJob {
     this.complain('');
     this.found.replaceChildren();
     this.form.replaceChildren();
+    this.asks = null;
+    this.drop.classList.remove('small');
     try {
       const mesh = await this.sentFile(file, asked);
       if (mesh.facts) {
@@ -236,7 +241,11 @@ export class NewJob {
         meshFacts(f),
       ),
     );
-    if (mesh.mesh) this.form.replaceChildren(new SubmitForm(mesh).element);
-    byId('found-heading').focus();
+    this.drop.classList.add('small'); // the button of the form is to be in sight
+    if (mesh.mesh) {
+      this.asks = new SubmitForm(mesh);
+      this.form.replaceChildren(this.asks.element);
+    }
+    byId('found-heading').focus({ preventScroll: true });
   }
 }

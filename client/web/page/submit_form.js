@@ -106,6 +106,27 @@ export class SubmitForm {
     );
   }
 
+  /**
+   * Asks for what a job was asked for; a set of directions that the form has no words for stays the usual one.
+   * @param {Job} job
+   */
+  like({ params, skeleton }) {
+    const { sampling, directions, frame, minimum } = params;
+    const [, set, many] = /^(triangles\+sphere|triangles|sphere|random)(?::(\d+)(?::\d+)?)?$/.exec(directions) || [];
+    if (set) this.directions.value = set;
+    if (many) this.howMany.value = many;
+    this.howManyField.hidden = this.directions.value === 'triangles';
+    for (const [control, value] of [[this.minimum, minimum], [this.frame, frame], [this.operator, skeleton.operator]]) {
+      if (value) control.value = value;
+    }
+    const which = sampling?.spacing ? 'spacing' : 'points';
+    this[which].value = String(sampling?.spacing || sampling?.target_points || kUsualPoints);
+    this.typed(which);
+    const usual = set === 'triangles' && [minimum, frame, skeleton.operator].every((word, i) =>
+      !word || word === [session.usual.minimum, session.usual.frame, session.usual.operator][i]);
+    this.element.querySelector('details').open = !usual;
+  }
+
   listen() {
     this.points.addEventListener('input', () => this.typed('points'));
     this.spacing.addEventListener('input', () => this.typed('spacing'));

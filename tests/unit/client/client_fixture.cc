@@ -49,6 +49,7 @@ ClientTest::ClientTest() : server_(service_) {
   service_.artifacts[v1::ARTIFACT_KIND_PARTS] = sample_parts().SerializeAsString();
   mesh_ = core::write_off(core::make_box(2000, 2000, 2000));
   service_.artifacts[v1::ARTIFACT_KIND_MESH] = mesh_;
+  service_.artifacts[v1::ARTIFACT_KIND_SOURCE] = mesh_;
   tests::write_file(dir_ / "cube.off", mesh_);
   tests::write_file(dir_ / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n");
   tests::write_file(dir_ / "open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");

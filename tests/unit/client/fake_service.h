@@ -40,7 +40,7 @@ class FakeService final : public v1::ErosionService::Service {
   std::map<std::string, v1::Caller> tokens;  ///< when there are any, questions need one of them, "Bearer ..."
 
   v1::SubmitJobHeader submitted;  ///< as it arrived
-  std::string mesh;
+  std::string mesh, source;
   std::vector<v1::FetchArtifactRequest> fetches;
   v1::ListJobsRequest listed;  ///< the last of these
   std::vector<v1::ListJobsRequest> lists;
@@ -59,6 +59,8 @@ class FakeService final : public v1::ErosionService::Service {
       }
       mesh += message.data();
     }
+    source = mesh.substr(std::min<std::size_t>(mesh.size(), submitted.mesh_bytes()));
+    mesh.resize(mesh.size() - source.size());
     *response->mutable_job() = job;
     response->set_existed(existed);
     return fails;

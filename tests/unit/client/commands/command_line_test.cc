@@ -238,7 +238,7 @@ TEST(Completions, WorkInBash) {
   EXPECT_EQ(completed_by_bash("affskel-client make torus --m"), "--major --minor ");
   EXPECT_EQ(completed_by_bash("affskel-client compare a.ply b.ply --ra"), "--radius --radii ");
   EXPECT_EQ(completed_by_bash("affskel-client transform --s"), "--scale --shear --server ");
-  EXPECT_EQ(completed_by_bash("affskel-client fetch @last s"), "skeleton surface ");
+  EXPECT_EQ(completed_by_bash("affskel-client fetch @last s"), "skeleton surface source ");
 }
 
 }  // namespace

@@ -131,6 +131,8 @@ TEST_F(ClientTest, SubmitRepairsWhatBoundsNoSolid) {
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_NE(done.err.find("repaired before it was sent: 1 hole filled"), std::string::npos) << done.err;
   EXPECT_EQ(json::parse(done.out).at("repaired")[0].at("code"), "filled-holes");
+  EXPECT_EQ(service_.source, core::write_off(cube));
+  EXPECT_EQ(service_.submitted.repair().steps(0).code(), "filled-holes");
   const core::OffMesh sent = core::read_off(service_.mesh);
   EXPECT_NEAR(core::make_solid(sent.mesh).volume, 8e9, 8e5);
   EXPECT_EQ(run({"submit", dir_ / "hole.off", "--repair", "none"}, "unix:/nowhere/s").exit_code, 3);

@@ -8,6 +8,7 @@
 #include "client_fixture.h"
 #include "test_environment.h"
 #include "tools/files.h"
+#include "wire/sha256.h"
 
 namespace affskel::client {
 namespace {
@@ -103,17 +104,35 @@ TEST_F(OperationsTest, PicturesAndPagesWarnAsFetchDoes) {
 TEST_F(OperationsTest, SubmitNamesTheUserToAServerThatDoesNotKnowWhoCalls) {
   service_.caller.clear_owner();
   const InputFile input = read_input(dir_ / "cube.off");
-  const Submitted submitted = submit(session_, environment_, input, {});
+  const Submitted submitted = submit(session_, environment_, input, nullptr, {});
   EXPECT_EQ(submitted.job.id(), service_.job.id());
   EXPECT_EQ(service_.submitted.owner(), user_name(environment_));
   EXPECT_EQ(service_.submitted.name(), "cube");
+}
+
+TEST_F(OperationsTest, ARepairedMeshIsSubmittedWithWhatItWas) {
+  InputFile input = read_input(dir_ / "cube.off");
+  const std::string before = input.bytes;
+  input.off.mesh.triangles.pop_back();
+  const MeshSource source = replace_mesh(input, repair(input.off.mesh, "cube.off", {RepairChoice::Kind::kFill, 1e9}));
+  EXPECT_EQ(source.bytes, before);
+  submit(session_, environment_, input, &source, {});
+  const v1::MeshRepair& sent = service_.submitted.repair();
+  EXPECT_EQ(sent.source_sha256(), wire::sha256_hex(before));
+  EXPECT_EQ(sent.source_bytes(), before.size());
+  ASSERT_EQ(sent.steps_size(), 1);
+  EXPECT_EQ(sent.steps(0).code(), "filled-holes");
+  EXPECT_EQ(service_.mesh, input.bytes);
+  EXPECT_EQ(service_.source, before);
+  service_.max_mesh_bytes = input.bytes.size() - 1;
+  EXPECT_THROW(submit(session_, environment_, input, &source, {}), ClientError);
 }
 
 TEST_F(OperationsTest, TextsThatTheProtocolHasNoRoomForAreRefused) {
   Submission submission;
   submission.name = std::string(201, 'n');
   try {
-    submit(session_, environment_, read_input(dir_ / "cube.off"), submission);
+    submit(session_, environment_, read_input(dir_ / "cube.off"), nullptr, submission);
     FAIL();
   } catch (const ClientError& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::kUsage);
