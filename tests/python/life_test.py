@@ -159,6 +159,8 @@ class Waiting(WithDirectory):
         with self.assertRaisesRegex(affskel.JobCancelledError, job.id):
             job.wait()
         self.assertEqual(job.resume().state, "queued")
+        with self.assertRaisesRegex(affskel.TimedOutError, "not at its end after 0.05 s; it goes on"):
+            job.wait(timeout=.05)
         job.cancel()
         self.assertEqual([event["event"] for event in job.events()],
                          ["submitted", *["cancel_requested", "cancelled", "resumed"] * 2][:-1])
@@ -172,6 +174,7 @@ class Waiting(WithDirectory):
         for timeout in (float("inf"), 1e300, 1e10):
             job.wait(timeout=timeout)
             self.assertEqual(len(job.directions(timeout=timeout)), 12)
+        self.assertRegex(repr(job.status()), "^<affskel.Status of .*, done, [0-9]+ points, skeleton of [0-9]+>$")
         for call in (job.wait, job.lattice):
             with self.assertRaises(affskel.UsageError):
                 call(timeout=float("nan"))
@@ -244,15 +247,25 @@ class Errors(WithDirectory):
         file.write_text(OPEN_CUBE)
         _, said = self.directory.client_error("--server", server.address, "submit", "--repair", "none", file)
         with self.assertRaises(affskel.BadInputError) as failure:
-            client.submit(file, spacing=.1)
+            client.submit(file, spacing=.1, repair="none")
         self.assertEqual(failure.exception.file, str(file))
         self.assertEqual(failure.exception.message.split(" (")[0], said["message"].split(" (")[0])
         cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
         faces = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
         with self.assertRaisesRegex(affskel.BadInputError, "4 open edges"):
+            client.submit((cube, faces[1:]), repair="none")
+        with self.assertRaisesRegex(affskel.BadInputError, "1 hole is left"):
             client.submit((cube, faces[1:]))
-        with self.assertRaisesRegex(affskel.BadInputError, "spacing 200 .* measures 1 x 1 x 1 units") as failure:
+        with self.assertRaisesRegex(affskel.BadInputError, "is empty"):
+            client.submit(b"")
+        wrong = "spacing 200 .* measures 1 x 1 x 1 units, a person in metres; a spacing of 0.022 gives 100000"
+        with self.assertRaisesRegex(affskel.BadInputError, wrong) as failure:
             client.submit((cube, faces), spacing=200)
+        # Nor do a few points make a lattice, and a comment hides no mesh.
+        commented = b"OFF # a cube\n# of ours\n" + CUBE.encode().split(b"\n", 1)[1]
+        for mesh in (CUBE.encode(), commented):
+            with self.assertRaisesRegex(affskel.BadInputError, "leaves no room"):
+                client.submit(mesh, spacing=.6)
         self.assertNotIsInstance(failure.exception, affskel.JobFailedError)
         for wrong in ("10mm", "10", None, True):
             with self.assertRaisesRegex(affskel.UsageError, "points is a number" if wrong is None else "spacing is a number"):

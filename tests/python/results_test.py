@@ -427,6 +427,26 @@ class SameMesh(unittest.TestCase):
         job = client.submit((points, faces), points=500, repair="fill=7").wait()
         self.assertAlmostEqual(job.status().volume, 8, places=9)
 
+    def test_a_small_hole_is_filled_unasked_and_the_mesh_kept_as_it_came(self):
+        rows = (directory / "body.off").read_text().rstrip("\n").split("\n")
+        head = next(n for n, row in enumerate(rows) if len(row.split()) == 3 and n > 0)
+        points, faces, edges = rows[head].split()
+        rows[head] = f"{points} {int(faces) - 1} {edges}"
+        text = ("\n".join(rows[:-1]) + "\n").encode()
+        (directory / "holed.off").write_bytes(text)
+        job = client.submit(directory / "holed.off", points=500).wait()
+        self.assertEqual(job.source(), text)
+        self.assertIn("filled-holes", [note.code for note in job.status().notes])
+        with self.assertRaises(affskel.NotFoundError):
+            body.source()
+
+    def test_lines_are_saved_as_graphs_and_everything_as_fetch_does(self):
+        for extension in ("json", "graphml", "swc", "glb"):
+            file = body.skeleton("curve").save(directory / f"limbs.{extension}")
+            self.assertGreater(file.stat().st_size, 100)
+        file = body.save("divergence", directory / "H.csv", "--operator=sobel")
+        self.assertEqual(file.read_text().splitlines()[0].split(",")[-1], "H")
+
     def test_the_same_again_is_the_same_job_and_options_arrive(self):
         again = client.submit(directory / "body.off", spacing=300)
         self.assertTrue(again.existed)

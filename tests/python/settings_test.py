@@ -30,6 +30,10 @@ class SameAsTheCommandLine(unittest.TestCase):
         self.assertEqual((said.get("file", ""), said.get("line", 0)), (error.file, error.line))
         return said["message"], error.message
 
+    def test_a_url_is_no_address(self):
+        with self.assertRaisesRegex(affskel.UsageError, "that is a URL"):
+            affskel.Client("http://localhost:7060").jobs()
+
     def test_malformed_addresses(self):
         refused = 0
         for text in filter(None, ADDRESSES):

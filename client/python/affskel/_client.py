@@ -45,14 +45,14 @@ def _number(value: object, what: str) -> float:
 
 
 def _needs_program(mesh: Mesh, spacing: Optional[float], repair: str) -> bool:
-    """Whether affskel-client, which is there, must look at the mesh: it is text of a kind that is not read here, or has
+    """Whether affskel-client, which is there, must look at the mesh: it is a file of a kind that is not read here, or has
     holes, which may be filled.
 
     Raises:
         BadInputError: what a worker would say of the mesh much later.
     """
     if mesh.polygons is None:
-        return find_program() is not None
+        return bool(mesh.file) and find_program() is not None
     try:
         require_closed(mesh.polygons)
     except BadInputError as error:
@@ -144,10 +144,10 @@ class Client:
         given = mesh_of(mesh)
         if given.text == b"":
             raise BadInputError(f"{given.file or 'the mesh'} is empty")
+        header = self._header(given, spacing, points, directions, minimum, frame, repair)
         by_program = given.text is None or isovalue is not None or repair not in ("auto", "none")
         if not by_program:
             by_program = _needs_program(given, spacing, repair)
-        header = self._header(given, spacing, points, directions, minimum, frame, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
         header.name = name if name is not None else _short(given.name, MAX_NAME)
         if priority not in range(10):
