@@ -29,8 +29,7 @@ constexpr const char* kJobColumns =
     " iif(EXISTS (SELECT 1 FROM tasks INDEXED BY tasks_in_need WHERE job_id = j.id AND state = 'pending'"
     " AND parked = 0 AND needs_memory > 0),"
     " (SELECT min(needs_memory) FROM tasks WHERE job_id = j.id AND state = 'pending' AND parked = 0), 0),"
-    " e.core_version, j.stance_up, j.stance_front, e.round, e.refined_points,"
-    " (SELECT report FROM repairs WHERE job_id = j.id)"
+    " e.core_version, j.stance_up, j.stance_front, e.round, e.refined_points"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id ";
 
 void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
@@ -109,7 +108,6 @@ ReadJob read_job(const Statement& row) {
   read_stance(columns, job);
   job.set_refine_round(static_cast<std::uint32_t>(columns.natural()));
   job.set_refined_points(columns.natural());
-  if (const auto repair = columns.blob_or_null()) parse(*job.mutable_repair(), *repair);
   return read;
 }
 
@@ -249,6 +247,8 @@ v1::Job job_message(Database& db, const std::string& id) {
     done->set_end(static_cast<std::uint64_t>(range.end));
   }
   job.set_waiting_reason(missing_core(db, id));
+  Statement repair = db.query("SELECT report FROM repairs WHERE job_id = ?", id);
+  if (repair.step()) parse(*job.mutable_repair(), repair.blob(0));
   return std::move(job);
 }
 

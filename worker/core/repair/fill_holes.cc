@@ -80,7 +80,7 @@ void fill(SurfaceMesh& surface, Loop& loop) {
   } else {
     std::vector<SurfaceMesh::Vertex_index> vertices;
     PMP::triangulate_refine_and_fair_hole(surface, loop.edge, std::back_inserter(faces),
-                                          std::back_inserter(vertices), how);
+                                          std::back_inserter(vertices), how.fairing_continuity(2));
   }
   loop.hole.filled = !faces.empty();
   loop.hole.area = area_of(surface, faces);

@@ -64,7 +64,7 @@ TEST_F(SourceTest, TheMeshBeforeItsRepairIsKeptWithTheReport) {
   EXPECT_EQ(fetched(job.id(), v1::ARTIFACT_KIND_SOURCE), kSource);
   const v1::MeshRepair repair = store_->job(job.id()).repair();
   EXPECT_EQ(repair.SerializeAsString(), repaired_header().repair().SerializeAsString());
-  EXPECT_EQ(store_->list({}).jobs.at(0).repair().steps(0).message(), "2 holes filled");
+  EXPECT_FALSE(store_->list({}).jobs.at(0).has_repair()) << "a list of a thousand would be too long";
   expect_sound();
 }
 
