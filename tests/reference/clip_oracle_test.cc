@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
@@ -17,10 +18,12 @@
 #include "core/erosion/erosion.h"
 #include "core/lattice/all_places.h"
 #include "core/lattice/lattice.h"
+#include "core/mesh/edges.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/test_solids.h"
+#include "fuzz/block_solid.h"
 #include "hard_solids.h"
 
 namespace affskel::reference {
@@ -281,6 +284,43 @@ TEST(ClipOracle, SaysWhenThePointIsNotInside) {
   ClipOracle box(core::make_box(1, 2, 3));
   EXPECT_THROW(box.chord({1.5, 0.5, 0.5}, {0, 0, 1}), std::runtime_error);
   EXPECT_THROW(ClipOracle(core::reversed(core::make_box(1, 1, 1))), std::invalid_argument);
+}
+
+// Cells of a grid, full or empty, with sides from 0.001 to 2; nothing if parts of it only touch.
+std::optional<Mesh> random_blocks(std::mt19937_64& random) {
+  fuzz::BlockSolid blocks;
+  for (std::vector<double>& planes : blocks.planes) {
+    planes = {0};
+    for (std::size_t cells = 1 + random() % 4; cells > 0; --cells)
+      planes.push_back(planes.back() + std::array{1.0, 0.5, 2.0, 1e-3}[random() % 4]);
+  }
+  for (std::size_t c = blocks.cells(0) * blocks.cells(1) * blocks.cells(2); c > 0; --c)
+    blocks.full.push_back(random() % 4 != 0);
+  if (blocks.volume() == 0) return {};
+  Mesh mesh = blocks.mesh();
+  bool touches = false;
+  core::Edges(mesh.points.size(), mesh.triangles)
+      .for_each([&](std::uint32_t, std::uint32_t, std::span<const core::EdgeSide> sides) {
+        touches = touches || sides.size() > 2;
+      });
+  if (touches) return {};
+  const core::Solid solid = core::make_solid(mesh);
+  touches = std::ranges::any_of(solid.notes,
+                                [](const core::MeshNote& note) { return note.code == "split-vertices"; });
+  return touches ? std::nullopt : std::optional(std::move(mesh));
+}
+
+TEST(ClipOracle, TwoHundredRandomSolidsOfBlocks) {
+  std::mt19937_64 random(33);
+  std::size_t solids = 0;
+  while (solids < 200) {
+    const std::optional<Mesh> mesh = random_blocks(random);
+    if (!mesh) continue;
+    Plan plan{"blocks " + std::to_string(solids++), *mesh, 0, 1, 1, {}, 2};
+    const core::Solid solid = core::make_solid(*mesh);
+    plan.spacing = std::cbrt(solid.volume / 200);
+    compare(plan);
+  }
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <optional>
 #include <span>
 #include <utility>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/mesh/edges.h"
-#include "core/mesh/touching_edges.h"
 
 namespace affskel::core {
 namespace {
@@ -74,8 +72,7 @@ class EdgeDefects {
     if (open_.count != 0 && crowded_.count != 0) message += "; ";
     if (crowded_.count != 0) message += tell(crowded_, "edge", " where more than two triangles meet");
     if (open_.count != 0)
-      message +=
-          "; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's Fill Holes";
+      message += "; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's Fill Holes";
     throw CoreError(CoreError::Code::kBadInput, message);
   }
 
@@ -126,20 +123,11 @@ void turn_over(Mesh& mesh, HalfEdges& mates, std::uint32_t t) {
 HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place, const EdgePlace& edge) {
   HalfEdges mates(3 * mesh.triangles.size(), kNone);
   EdgeDefects defects(mesh, place, edge);
-  const auto mate = [&](std::uint32_t a, std::uint32_t b) {
-    mates[a] = b;
-    mates[b] = a;
-  };
-  std::optional<bool> inside_out;
   Edges(mesh.points.size(), mesh.triangles).for_each([&](std::uint32_t, std::uint32_t, Sides sides) {
-    if (sides.size() > 2) {
-      if (!inside_out) inside_out = is_inside_out(mesh);
-      const MatedSides mated = mate_across_solid(mesh, sides, *inside_out);
-      for (const auto& [a, b] : mated) mate(a, b);
-      if (!mated.empty()) return;
-    }
     defects.see(sides);
-    if (sides.size() == 2) mate(sides[0].half_edge, sides[1].half_edge);
+    if (sides.size() != 2) return;
+    mates[sides[0].half_edge] = sides[1].half_edge;
+    mates[sides[1].half_edge] = sides[0].half_edge;
   });
   defects.throw_if_any();
   return mates;

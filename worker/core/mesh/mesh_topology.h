@@ -18,10 +18,9 @@ using TrianglePlace = std::function<std::string(std::uint32_t triangle)>;
 /// Which edge of the input, for people, by one of its half-edges: "vertices 3 and 7".
 using EdgePlace = std::function<std::string(std::uint32_t half_edge)>;
 
-/// The half-edge on the other side of every half-edge, whatever way it runs; where parts touch along an edge, see
-/// mate_across_solid.
-/// @throws CoreError kBadInput at the first edge with one triangle (a hole), with more than two that cannot be told apart,
-///   or with the same triangle twice; the message counts them and names the first place.
+/// The half-edge on the other side of every half-edge, whatever way it runs.
+/// @throws CoreError kBadInput at the first edge with one triangle (a hole), with more than two, or with
+///   the same triangle twice; the message counts them and names the first place.
 HalfEdges find_mates(const Mesh& mesh, const TrianglePlace& place, const EdgePlace& edge);
 
 /// The same into `mates`, without an error: false when some edge does not have two different triangles.  On
